@@ -1,0 +1,131 @@
+//! Coins that can be named: the two presets and real coins with their published figures.
+//!
+//! The real coins are taken as homogeneous cylinders. A relief, a rim or a second metal moves k by less than the
+//! difference between two denominations, but no published figure says by how much. Coins with notches (20 euro cent)
+//! or straight sides are left out.
+
+use crate::coin::Coin;
+use crate::error::{InputError, find_named};
+
+const US_MINT: &str = "United States Mint, Coin Specifications, \
+                       https://www.usmint.gov/learn/coins-and-medals/circulating-coins/coin-specifications";
+const EUROPEAN_COMMISSION: &str = "Council Regulation (EU) No 729/2014, Annex I (diameter, weight), \
+                                   https://eur-lex.europa.eu/eli/reg/2014/729/oj; thickness: European Central Bank, \
+                                   Euro coins, common sides, \
+                                   https://www.ecb.europa.eu/euro/coins/common/html/index.en.html";
+const PAPER: &str = "\"Modeling the unfair toss of an unbiased coin\": I1 = 5e-7, I3 = I1/2";
+const FLAT: &str = "the limit h = 0 of a cylinder, I3 = 2 I1, with the paper's I1";
+
+/// How an entry's moments come about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Body {
+    /// Moments given as they are.
+    Moments(Coin),
+    /// A real coin, taken as a homogeneous cylinder, in the units in which mints publish it.
+    Cylinder {
+        /// Mass [g].
+        mass_g: f64,
+        /// Diameter [mm].
+        diameter_mm: f64,
+        /// Thickness [mm].
+        thickness_mm: f64,
+    },
+}
+
+/// A coin with a name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CatalogueEntry {
+    /// The name by which it is asked for.
+    pub name: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    /// Its body.
+    pub body: Body,
+    /// Where each of its figures is published.
+    pub source: &'static str,
+}
+
+impl CatalogueEntry {
+    /// The coin.
+    ///
+    /// # Errors
+    /// Never for the entries of [`CATALOGUE`], which a test makes sure of.
+    pub fn coin(&self) -> Result<Coin, InputError> {
+        match self.body {
+            Body::Moments(coin) => Ok(coin),
+            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
+                Coin::from_cylinder(mass_g * 1e-3, diameter_mm * 0.5e-3, thickness_mm * 1e-3)
+            }
+        }
+    }
+}
+
+const fn preset(name: &'static str, description: &'static str, coin: Coin, source: &'static str) -> CatalogueEntry {
+    CatalogueEntry { name, description, body: Body::Moments(coin), source }
+}
+
+/// `figures`: mass [g], diameter [mm], thickness [mm].
+const fn real(
+    name: &'static str,
+    description: &'static str,
+    figures: (f64, f64, f64),
+    source: &'static str,
+) -> CatalogueEntry {
+    let (mass_g, diameter_mm, thickness_mm) = figures;
+    CatalogueEntry { name, description, body: Body::Cylinder { mass_g, diameter_mm, thickness_mm }, source }
+}
+
+/// All coins that can be named.
+pub const CATALOGUE: &[CatalogueEntry] = &[
+    preset("paper", "the paper's moments (a rod with h = 3 r)", Coin::PAPER, PAPER),
+    preset("disc", "a flat disc with the paper's I1", Coin::DISC, FLAT),
+    real("us-cent", "1 US cent", (2.500, 19.05, 1.52), US_MINT),
+    real("us-nickel", "5 US cents", (5.000, 21.21, 1.95), US_MINT),
+    real("us-dime", "10 US cents", (2.268, 17.91, 1.35), US_MINT),
+    real("us-quarter", "25 US cents", (5.670, 24.26, 1.75), US_MINT),
+    real("us-half", "50 US cents", (11.340, 30.61, 2.15), US_MINT),
+    real("us-dollar", "1 US dollar", (8.100, 26.49, 2.00), US_MINT),
+    real("euro-1c", "1 euro cent", (2.30, 16.25, 1.67), EUROPEAN_COMMISSION),
+    real("euro-2c", "2 euro cent", (3.06, 18.75, 1.67), EUROPEAN_COMMISSION),
+    real("euro-5c", "5 euro cent", (3.92, 21.25, 1.67), EUROPEAN_COMMISSION),
+    real("euro-10c", "10 euro cent", (4.10, 19.75, 1.93), EUROPEAN_COMMISSION),
+    real("euro-50c", "50 euro cent", (7.80, 24.25, 2.38), EUROPEAN_COMMISSION),
+    real("euro-1", "1 euro", (7.50, 23.25, 2.33), EUROPEAN_COMMISSION),
+    real("euro-2", "2 euro", (8.50, 25.75, 2.20), EUROPEAN_COMMISSION),
+];
+
+/// The coin called `name`.
+///
+/// # Errors
+/// [`InputError::UnknownName`] with the list of known names.
+pub fn named_coin(name: &str) -> Result<Coin, InputError> {
+    find_named("coin", name, CATALOGUE, |entry| entry.name)?.coin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_entry_is_a_coin_and_its_name_is_unique() {
+        for (index, entry) in CATALOGUE.iter().enumerate() {
+            assert!(entry.coin().is_ok(), "{}", entry.name);
+            assert!(CATALOGUE[..index].iter().all(|other| other.name != entry.name), "{}", entry.name);
+        }
+    }
+
+    #[test]
+    fn at_least_twelve_real_coins_with_the_inertia_ratio_of_a_thin_disc() {
+        let real = CATALOGUE.iter().filter(|entry| matches!(entry.body, Body::Cylinder { .. }));
+        let ratios: Vec<f64> = real.map(|entry| entry.coin().unwrap().inertia_ratio()).collect();
+        assert!(ratios.len() >= 12);
+        assert!(ratios.iter().all(|ratio| (1.95..2.0).contains(ratio)), "{ratios:?}");
+    }
+
+    #[test]
+    fn units_of_the_mints_are_converted() {
+        // 5.670 g, 24.26 mm: m r²/2 = 0.00567 · 0.01213² / 2 kg m²
+        let quarter = named_coin("us-quarter").unwrap();
+        approx::assert_relative_eq!(quarter.i3(), 4.171_331_115e-7, max_relative = 1e-9);
+    }
+}

@@ -1,0 +1,94 @@
+//! The coin: a rigid body of revolution, described by two principal moments of inertia.
+//!
+//! A cylinder of mass m, radius r and thickness h has, in the body frame,
+//! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
+//! For a free flight only the inertia ratio k = I3/I1 matters.
+
+use crate::error::{InputError, require};
+
+/// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coin {
+    i1: f64,
+    i3: f64,
+}
+
+impl Coin {
+    /// The coin of the paper's figures, with the paper's own moments: I1 = 5e-7, I3 = I1/2.
+    ///
+    /// By the paper's formulas for a cylinder these are the moments of a rod with h = 3 r, not of a disc.
+    pub const PAPER: Self = Self { i1: 5e-7, i3: 2.5e-7 };
+
+    /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
+    pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6 };
+
+    /// A homogeneous cylinder.
+    ///
+    /// `mass` [kg] > 0, `radius` [m] > 0, `thickness` [m] ≥ 0.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a value outside its range, and for moments that leave the range of f64.
+    pub fn from_cylinder(mass: f64, radius: f64, thickness: f64) -> Result<Self, InputError> {
+        require("mass [kg]", mass, "finite and > 0", mass > 0.0)?;
+        require("radius [m]", radius, "finite and > 0", radius > 0.0)?;
+        require("thickness [m]", thickness, "finite and >= 0", thickness >= 0.0)?;
+        let i1 = mass / 4.0 * (radius * radius + thickness * thickness / 3.0);
+        let i3 = mass / 2.0 * (radius * radius);
+        Self::from_moments(i1, i3)
+    }
+
+    /// A body of revolution with the principal moments `i1` = I1 = I2 and `i3` = I3 [kg m²].
+    ///
+    /// I3 = 0 is a rod, I3 = 2 I1 a flat disc; beyond it no mass distribution exists (triangle inequality).
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`]. I1 has to be a normal number of f64 (at least 2.3e-308), so that I3/I1 is exact
+    /// to rounding.
+    pub fn from_moments(i1: f64, i3: f64) -> Result<Self, InputError> {
+        require("I1 [kg m²]", i1, "finite and > 0 (at least 2.3e-308)", i1 >= f64::MIN_POSITIVE)?;
+        require("I3 [kg m²]", i3, "0 <= I3 <= 2 I1", (0.0..=2.0 * i1).contains(&i3))?;
+        Ok(Self { i1, i3 })
+    }
+
+    /// I1 = I2, the moment about any axis in the coin's middle plane [kg m²].
+    pub fn i1(&self) -> f64 {
+        self.i1
+    }
+
+    /// I3, the moment about the coin's normal [kg m²].
+    pub fn i3(&self) -> f64 {
+        self.i3
+    }
+
+    /// The inertia ratio k = I3/I1, from 0 (rod) to 2 (flat disc).
+    pub fn inertia_ratio(&self) -> f64 {
+        self.i3 / self.i1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cylinder_with_h_3r_has_the_papers_inertia_ratio() {
+        let rod = Coin::from_cylinder(0.002, 0.01, 0.03).unwrap();
+        approx::assert_relative_eq!(rod.inertia_ratio(), 0.5, max_relative = 1e-15);
+        approx::assert_relative_eq!(rod.i1(), 0.002 / 4.0 * (1e-4 + 9e-4 / 3.0), max_relative = 1e-15);
+        approx::assert_relative_eq!(rod.i3(), 1e-7, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn a_cylinder_without_thickness_is_a_flat_disc() {
+        for (mass, radius) in [(0.0057, 0.01213), (1.0, 0.1), (3e-5, 7e-3)] {
+            assert_eq!(Coin::from_cylinder(mass, radius, 0.0).unwrap().inertia_ratio(), 2.0);
+        }
+    }
+
+    #[test]
+    fn the_presets_are_valid() {
+        for coin in [Coin::PAPER, Coin::DISC] {
+            assert_eq!(Coin::from_moments(coin.i1(), coin.i3()), Ok(coin));
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What can go wrong: input outside the model, and a solver that cannot go on.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// A value that describes no toss. Nothing was computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InputError {
+    /// A number outside its valid range (or not a number at all).
+    #[error("{field} = {value:?} is outside its valid range: {valid}")]
+    OutOfRange {
+        /// The field, with its unit.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// The valid range, in words or as an inequality.
+        valid: &'static str,
+    },
+    /// A name that stands for nothing here.
+    #[error("{field} = '{value}' is unknown; known: {known}")]
+    UnknownName {
+        /// The field.
+        field: &'static str,
+        /// What was given.
+        value: String,
+        /// The names that would have been understood.
+        known: String,
+    },
+}
+
+/// Returns `value` if it is finite and `holds`, else the error that names the field and its range.
+///
+/// # Errors
+/// [`InputError::OutOfRange`].
+pub fn require(field: &'static str, value: f64, valid: &'static str, holds: bool) -> Result<f64, InputError> {
+    if value.is_finite() && holds { Ok(value) } else { Err(InputError::OutOfRange { field, value, valid }) }
+}
+
+/// Returns the item of `items` called `value`, or the error that lists the known names.
+///
+/// # Errors
+/// [`InputError::UnknownName`].
+pub fn find_named<'a, T>(
+    field: &'static str,
+    value: &str,
+    items: &'a [T],
+    name: impl Fn(&T) -> &str,
+) -> Result<&'a T, InputError> {
+    items.iter().find(|item| name(item) == value).ok_or_else(|| InputError::UnknownName {
+        field,
+        value: value.to_owned(),
+        known: items.iter().map(name).collect::<Vec<_>>().join(", "),
+    })
+}
+
+/// A point where a formulation of the kinematics has no derivative although the motion itself is regular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Singularity {
+    /// sin β = 0: the normal n is along the frame's z axis, where α and γ turn about the same axis.
+    NormalAlongAxis,
+    /// α' = 0 with sin β ≠ 0: the precession turns back, D = u = 0, and the γ-ODE (10) reads 0/0.
+    PrecessionStops,
+}
+
+impl fmt::Display for Singularity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NormalAlongAxis => "sin β = 0",
+            Self::PrecessionStops => "α' = 0",
+        })
+    }
+}
+
+/// Why a solver gave no answer. Times are seconds after launch.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SolveError {
+    /// The phase is so large that neighbouring f64 inputs differ by whole turns.
+    #[error("outcome not determined: the phase of the motion, {phase:e} rad, is above 2^53")]
+    PhaseTooLarge {
+        /// ωL T or q T [rad], the larger one.
+        phase: f64,
+    },
+    /// The formulation reached a point where its equations have no derivative.
+    #[error("the equations of motion are singular ({point}) at t = {time} s")]
+    Singular {
+        /// Which point.
+        point: Singularity,
+        /// When: the end of the step that met it [s].
+        time: f64,
+    },
+    /// More steps would have been needed than a flight is allowed.
+    #[error("more than {limit} steps needed, stopped at t = {time} s")]
+    StepLimit {
+        /// Where it stopped [s].
+        time: f64,
+        /// The allowed number of steps.
+        limit: u32,
+    },
+    /// The step fell below the resolution of the time.
+    #[error("the step size fell below the resolution of the time at t = {time} s")]
+    StepSizeUnderflow {
+        /// Where it stopped [s].
+        time: f64,
+    },
+    /// The method judged the problem to be stiff.
+    #[error("the equations became stiff at t = {time} s")]
+    Stiff {
+        /// Where it stopped [s].
+        time: f64,
+    },
+    /// The integrated state holds a NaN or an infinity.
+    #[error("the integrated state is not finite at t = {time} s")]
+    NotFinite {
+        /// The end of the integration [s].
+        time: f64,
+    },
+}
+
+impl SolveError {
+    /// A short name of the kind of error, for machine-readable output.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::PhaseTooLarge { .. } => "phase_too_large",
+            Self::Singular { .. } => "singular",
+            Self::StepLimit { .. } => "step_limit",
+            Self::StepSizeUnderflow { .. } => "step_size_underflow",
+            Self::Stiff { .. } => "stiff",
+            Self::NotFinite { .. } => "not_finite",
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Euler angles of the attitude.
+//!
+//! # Conventions
+//! - Sequence z-x-z about the body's own axes: `Q = z(α) x(β) z(γ)`; α precession, β nutation, γ spin [rad].
+//! - With the quaternion's halves p = w + iz and r = x + iy: `p = cos(β/2) e^{i(α+γ)/2}`,
+//!   `r = sin(β/2) e^{i(α-γ)/2}`.
+//! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude, which is what lets the angles
+//!   be continuous along a motion.
+//! - Singular set: sin β = 0, where only α + γ (β = 0) or α - γ (β = π) is defined.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+
+/// Euler angles z-x-z [rad]. See the conventions of [this module](self).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EulerAngles {
+    /// α, precession about TF's z axis.
+    pub alpha: f64,
+    /// β, nutation: the angle between n and TF's z axis, continued past 0 and π.
+    pub beta: f64,
+    /// γ, spin about n.
+    pub gamma: f64,
+}
+
+impl EulerAngles {
+    /// The attitude that these angles describe.
+    pub fn attitude(&self) -> Attitude {
+        Attitude::about_z(self.alpha)
+            * Attitude::about_unit_axis(&Vector3::x(), 0.5 * self.beta)
+            * Attitude::about_z(self.gamma)
+    }
+
+    /// The angles of `attitude` with 0 ≤ β ≤ π. Where sin β = 0 the undefined one of α ± γ is zero.
+    pub fn principal(attitude: &Attitude) -> Self {
+        let [w, x, y, z] = attitude.components();
+        let (half_sum, half_difference) = (z.atan2(w), y.atan2(x));
+        Self {
+            alpha: half_sum + half_difference,
+            beta: 2.0 * x.hypot(y).atan2(w.hypot(z)),
+            gamma: half_sum - half_difference,
+        }
+    }
+
+    /// The angles of `attitude` on the branch nearest to `reference`.
+    ///
+    /// At sin β = 0 exactly, where one of α ± γ is undefined, it is the reference's.
+    pub fn nearest(attitude: &Attitude, reference: &Self) -> Self {
+        let [w, x, y, z] = attitude.components();
+        let (half_sum, cos_half_beta) = nearest_polar(w, z, 0.5 * (reference.alpha + reference.gamma));
+        let (half_difference, sin_half_beta) = nearest_polar(x, y, 0.5 * (reference.alpha - reference.gamma));
+        let beta = 2.0 * sin_half_beta.atan2(cos_half_beta);
+        Self {
+            alpha: half_sum + half_difference,
+            beta: beta + TAU * ((reference.beta - beta) / TAU).round(),
+            gamma: half_sum - half_difference,
+        }
+    }
+}
+
+/// Polar form `radius · e^{i argument}` of (re, im) whose argument is within π/2 of `reference`: the radius is negative
+/// where the nearer argument belongs to the opposite point.
+fn nearest_polar(re: f64, im: f64, reference: f64) -> (f64, f64) {
+    let (sin, cos) = reference.sin_cos();
+    let (along, across) = (re * cos + im * sin, im * cos - re * sin);
+    let radius = along.hypot(across).copysign(along);
+    (reference + (across * along.signum()).atan2(along.abs()), radius)
+}
+
+/// The complex curve `a cos x + b sin x` in polar form, continuous in x: (argument, signed radius).
+///
+/// The curve is an ellipse about the origin, run through once in 2π: its argument gains ±π in each half turn. A flat
+/// ellipse is a line through the origin; there the argument stays and the radius changes sign.
+pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: f64) -> (f64, f64) {
+    let winding = a[0] * b[1] - a[1] * b[0];
+    let (start, turn) = if a == [0.0; 2] { (b[1].atan2(b[0]), 0.0) } else { (a[1].atan2(a[0]), winding) };
+    let (sin_start, cos_start) = start.sin_cos();
+    let (sin, cos) = x.sin_cos();
+    let (re, im) = (a[0] * cos + b[0] * sin, a[1] * cos + b[1] * sin);
+    let along = re * cos_start + im * sin_start;
+    if turn == 0.0 {
+        return (start, along);
+    }
+    // In the half turn from x = mπ to (m + 1)π the argument runs from start ± mπ to start ± (m + 1)π.
+    let half_turns = (x / PI).floor();
+    let parity = if half_turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+    let across = (im * cos_start - re * sin_start) * turn.signum();
+    let within = (across * parity).max(0.0).atan2(along * parity);
+    (start + turn.signum() * (half_turns * PI + within), re.hypot(im))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SAMPLES: [EulerAngles; 4] = [
+        EulerAngles { alpha: 0.3, beta: 1.1, gamma: -2.0 },
+        EulerAngles { alpha: -7.0, beta: -0.4, gamma: 9.5 },
+        EulerAngles { alpha: 2.0, beta: 5.0, gamma: 40.0 },
+        EulerAngles { alpha: 1.0, beta: 3.1, gamma: 1.0 },
+    ];
+
+    #[test]
+    fn principal_angles_describe_the_same_attitude() {
+        for angles in SAMPLES {
+            let attitude = angles.attitude();
+            let principal = EulerAngles::principal(&attitude);
+            assert!((0.0..=PI).contains(&principal.beta));
+            assert!(principal.attitude().angle_to(&attitude) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn nearest_angles_recover_any_branch() {
+        for angles in SAMPLES {
+            let off = EulerAngles { alpha: angles.alpha + 0.2, beta: angles.beta - 0.1, gamma: angles.gamma - 0.3 };
+            let found = EulerAngles::nearest(&angles.attitude(), &off);
+            for (a, b) in [(found.alpha, angles.alpha), (found.beta, angles.beta), (found.gamma, angles.gamma)] {
+                assert!((a - b).abs() < 1e-13, "{found:?} for {angles:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cos_beta_is_the_tilt() {
+        for angles in SAMPLES {
+            assert!((angles.attitude().cos_tilt() - angles.beta.cos()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_continuous_argument_never_jumps() {
+        // Ellipses of both senses, thin and wide, that start anywhere.
+        for (a, b) in [([1.0, 0.0], [0.2, 0.5]), ([0.3, -0.4], [0.1, -0.9]), ([0.5, 0.5], [-0.5, 1e-3])] {
+            let step = 1e-4;
+            let mut last = continuous_polar(a, b, 0.0).0;
+            let mut largest = 0.0_f64;
+            for i in 1..100_000 {
+                let (argument, radius) = continuous_polar(a, b, f64::from(i) * step);
+                largest = largest.max((argument - last).abs());
+                last = argument;
+                let (sin, cos) = (f64::from(i) * step).sin_cos();
+                assert!((radius * argument.cos() - (a[0] * cos + b[0] * sin)).abs() < 1e-12);
+            }
+            assert!(largest < 0.2, "jump of {largest} rad for {a:?}, {b:?}");
+        }
+    }
+}

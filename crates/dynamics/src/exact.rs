@@ -1,0 +1,322 @@
+//! The exact motion of a free coin.
+//!
+//! With k = I3/I1, ωL = |S|/I1 = √(ωx² + ωy² + (k ωz)²), ŝ = (ωx, ωy, k ωz)/ωL and q = (k - 1) ωz, all at launch:
+//!
+//! ```text
+//! Q(t)    = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)           precession about the fixed S, then spin in the body
+//! ω(t)    = (ωx, ωy) turned by q t, ωz                    (2)-(4)
+//! cos θ(t) = a + b cos(ωL t) + c sin(ωL t)
+//! ```
+//!
+//! where, with m the vertical seen from the body at launch, a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ). From
+//! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
+//!
+//! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
+//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit.
+//!
+//! Accuracy: the phase ωL t carries a relative error of a few ε, so cos θ is right to about [`resolution`].
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::body_rate::body_precession_rate;
+use crate::error::SolveError;
+use crate::euler_angles::{EulerAngles, continuous_polar};
+use crate::launch::Toss;
+use crate::solver::{Propagation, Settings, Solver, SolverEntry, State, Work, power_of_two_scale};
+
+/// 2^53: above it, neighbouring f64 phases are more than a radian apart.
+const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
+
+/// Error of cos θ that rounding can cause at a phase ωL T [rad]: 4 ε (2 + phase), with ε = 2^-52.
+///
+/// The phase is a product of some ten rounded operations; the bound counts 3 ε for them and is not a proof.
+pub fn resolution(phase: f64) -> f64 {
+    4.0 * f64::EPSILON * (2.0 + phase)
+}
+
+/// The closed-form motion that follows a launch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactMotion {
+    launch: State,
+    /// Power of two [rad/s] in which the rates below are measured.
+    scale: f64,
+    /// Direction of S at launch (BF).
+    momentum_direction: Vector3<f64>,
+    /// ωL / scale.
+    precession_rate: f64,
+    /// q / scale.
+    spin_rate: f64,
+    /// a, b, c of cos θ = a + b cos(ωL t) + c sin(ωL t).
+    tilt: [f64; 3],
+}
+
+impl ExactMotion {
+    /// The motion of a toss.
+    pub fn new(toss: &Toss) -> Self {
+        let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
+        let k = toss.coin.inertia_ratio();
+        let scale = power_of_two_scale(&rate);
+        let scaled = rate / scale;
+        let momentum = Vector3::new(scaled.x, scaled.y, k * scaled.z);
+        let precession_rate = momentum.norm();
+        let direction = if precession_rate > 0.0 { momentum / precession_rate } else { Vector3::z() };
+        let vertical = attitude.lab_to_body(&Vector3::z());
+        let along = vertical.dot(&direction) * direction.z;
+        Self {
+            launch: State { attitude, rate },
+            scale,
+            momentum_direction: direction,
+            precession_rate,
+            spin_rate: body_precession_rate(k, scaled.z),
+            tilt: [along, vertical.z - along, vertical.dot(&direction.cross(&Vector3::z()))],
+        }
+    }
+
+    /// ωL = |S|/I1, the rate of the precession about S [rad/s]; infinite if it leaves the range of f64.
+    pub fn precession_rate(&self) -> f64 {
+        self.precession_rate * self.scale
+    }
+
+    /// ψ, the half-angle of the cone that n describes about S [rad], from 0 to π.
+    pub fn cone_angle(&self) -> f64 {
+        let s = &self.momentum_direction;
+        s.x.hypot(s.y).atan2(s.z)
+    }
+
+    /// φ, the angle between S and the vertical [rad], from 0 to π.
+    pub fn momentum_tilt(&self) -> f64 {
+        let s = self.launch.attitude.body_to_lab(&self.momentum_direction);
+        s.x.hypot(s.y).atan2(s.z)
+    }
+
+    /// The phase ωL t [rad].
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`] if ωL t or q t is above 2^53.
+    pub fn phase(&self, time: f64) -> Result<f64, SolveError> {
+        let scaled_time = self.scale * time;
+        // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
+        let turned = |rate: f64| if rate == 0.0 { 0.0 } else { rate * scaled_time };
+        let phase = turned(self.precession_rate);
+        let largest = phase.max(turned(self.spin_rate.abs()));
+        if largest <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase: largest }) }
+    }
+
+    /// cos θ, `time` [s] after launch: one sine and cosine.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn cos_tilt(&self, time: f64) -> Result<f64, SolveError> {
+        let (sin, cos) = self.phase(time)?.sin_cos();
+        let [a, b, c] = self.tilt;
+        Ok(a + b * cos + c * sin)
+    }
+
+    /// Attitude and body rate, `time` [s] after launch.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn state(&self, time: f64) -> Result<State, SolveError> {
+        let phase = self.phase(time)?;
+        let spin = self.spin_rate * (self.scale * time);
+        let precession = Attitude::about_unit_axis(&self.momentum_direction, 0.5 * phase);
+        let (sin, cos) = spin.sin_cos();
+        let rate = self.launch.rate;
+        Ok(State {
+            attitude: self.launch.attitude * precession * Attitude::about_z(-spin),
+            rate: Vector3::new(rate.x * cos - rate.y * sin, rate.x * sin + rate.y * cos, rate.z),
+        })
+    }
+
+    /// Euler angles, `time` [s] after launch, continuous from launch on through every sin β = 0.
+    ///
+    /// A motion that passes sin β = 0 exactly, as from every horizontal launch, keeps α and γ continuous and carries
+    /// β on to negative values; α(0) = -γ(0) = atan2(ωy, ωx) at a horizontal launch is the limit of the motion.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn euler_angles(&self, time: f64) -> Result<EulerAngles, SolveError> {
+        let half_phase = 0.5 * self.phase(time)?;
+        let spin = self.spin_rate * (self.scale * time);
+        // Precession alone: cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin only lowers γ by q t.
+        let start = self.launch.attitude;
+        let [w0, x0, y0, z0] = start.components();
+        let [w1, x1, y1, z1] = (start * Attitude::half_turn(&self.momentum_direction)).components();
+        let (half_sum, cos_half_beta) = continuous_polar([w0, z0], [w1, z1], half_phase);
+        let (half_difference, sin_half_beta) = continuous_polar([x0, y0], [x1, y1], half_phase);
+        let mut half_beta = sin_half_beta.atan2(cos_half_beta);
+        if self.nutates_through_every_angle() {
+            // cos(β/2) and sin(β/2) both change sign and β/2 itself runs on; nearest branch to the phase.
+            half_beta += TAU * ((half_phase - half_beta) / TAU).round();
+        }
+        let beta = 2.0 * half_beta;
+        Ok(EulerAngles { alpha: half_sum + half_difference, beta, gamma: half_sum - half_difference - spin })
+    }
+
+    /// Whether n turns end over end through the vertical: from horizontal, without spin (Keller's coin).
+    fn nutates_through_every_angle(&self) -> bool {
+        let [a, b, _] = self.tilt;
+        a == 0.0 && b.abs() == 1.0
+    }
+
+    /// The first time after launch at which the outcome changes [s]; `None` if it never does.
+    ///
+    /// cos θ = a + r cos(ωL t - φ0) changes its sign first at ωL t = φ0 ± acos(-a/r). A motion that only touches
+    /// cos θ = 0 does not change its outcome.
+    pub fn first_flip(&self) -> Option<f64> {
+        let [a, b, c] = self.tilt;
+        let amplitude = b.hypot(c);
+        if amplitude <= a.abs() || self.precession_rate == 0.0 {
+            return None;
+        }
+        let (crest, half_width) = (c.atan2(b), (-a / amplitude).acos());
+        let phase = [crest - half_width, crest + half_width].map(|root| root.rem_euclid(TAU));
+        Some(phase[0].min(phase[1]) / self.precession_rate / self.scale)
+    }
+}
+
+/// The exact motion as a solver, beside the numerical ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ExactSolver;
+
+impl ExactSolver {
+    /// The registry's line.
+    pub const ENTRY: SolverEntry = SolverEntry {
+        name: "exact",
+        summary: "closed form of the motion: precession about S, spin about n",
+        integrates: false,
+        build: |_: &Settings| Box::new(Self),
+    };
+}
+
+impl Solver for ExactSolver {
+    fn name(&self) -> &'static str {
+        Self::ENTRY.name
+    }
+
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let state = ExactMotion::new(toss).state(toss.launch.flight_time())?;
+        Ok(Propagation { state, work: Work::default() })
+    }
+
+    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
+        ExactMotion::new(toss).cos_tilt(toss.launch.flight_time())
+    }
+
+    fn resolution(&self, phase: f64) -> f64 {
+        resolution(phase)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+    use super::*;
+    use crate::coin::Coin;
+    use crate::launch::{Launch, TimeOfFlight};
+
+    fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+        ExactMotion::new(&Toss { coin, launch })
+    }
+
+    fn samples() -> Vec<ExactMotion> {
+        let rates = [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 2.0, -9.0]];
+        let tilts = [0.0, 1e-9, 0.7, FRAC_PI_2, 2.8];
+        let coins = [Coin::PAPER, Coin::DISC, Coin::from_moments(1.0, 1.0).unwrap(), Coin::from_moments(1.0, 0.0).unwrap()];
+        let mut all = Vec::new();
+        for coin in coins {
+            for rate in rates {
+                all.extend(tilts.map(|tilt| motion(coin, rate, tilt)));
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn attitude_tilt_and_euler_angles_agree() {
+        for motion in samples() {
+            for step in 0..60 {
+                let time = 0.05 * f64::from(step);
+                let attitude = motion.state(time).unwrap().attitude;
+                let angles = motion.euler_angles(time).unwrap();
+                assert!((motion.cos_tilt(time).unwrap() - attitude.cos_tilt()).abs() < 1e-14);
+                assert!(angles.attitude().angle_to(&attitude) < 1e-13, "{motion:?} at {time}: {angles:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn euler_angles_are_continuous_from_a_horizontal_launch() {
+        for rate in [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]] {
+            let motion = motion(Coin::PAPER, rate, 0.0);
+            let mut last = motion.euler_angles(0.0).unwrap();
+            assert!((last.alpha - rate[1].atan2(rate[0])).abs() < 1e-15, "the limit at launch");
+            assert_eq!(last.gamma, -last.alpha);
+            for step in 1..20_000 {
+                let next = motion.euler_angles(1e-3 * f64::from(step)).unwrap();
+                for (a, b) in [(next.alpha, last.alpha), (next.beta, last.beta), (next.gamma, last.gamma)] {
+                    assert!((a - b).abs() < 0.05, "{rate:?} at step {step}: {last:?} → {next:?}");
+                }
+                last = next;
+            }
+        }
+    }
+
+    #[test]
+    fn the_flip_of_the_papers_tosses_is_where_the_paper_has_it() {
+        let cheated = motion(Coin::PAPER, [1.0, 1.0, 2.5], 0.0);
+        assert!((cheated.first_flip().unwrap() - 1.3073).abs() < 5e-5);
+        let tails = motion(Coin::PAPER, [2.0, 2.0, 0.5], 0.0);
+        assert!((tails.first_flip().unwrap() - 0.555_955).abs() < 5e-7);
+        assert_eq!(motion(Coin::DISC, [1.0, 1.0, 2.5], 0.0).first_flip(), None);
+    }
+
+    #[test]
+    fn the_first_flip_changes_the_outcome_and_none_comes_before() {
+        for motion in samples() {
+            let launch = motion.cos_tilt(0.0).unwrap();
+            if launch.abs() < 1e-9 {
+                continue;
+            }
+            let until = motion.first_flip().unwrap_or(50.0);
+            for part in 1..100 {
+                assert!(motion.cos_tilt(until * f64::from(part) / 100.0).unwrap() * launch > 0.0, "{motion:?}");
+            }
+            if motion.first_flip().is_some() {
+                assert!(motion.cos_tilt(until * (1.0 + 1e-9)).unwrap() * launch < 0.0, "{motion:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cone_and_momentum_tilt_are_the_angles_of_the_geometry() {
+        // Ω = k ωz: n and S enclose 45°.
+        let motion = motion(Coin::DISC, [2.0, 0.0, 1.0], 0.0);
+        assert!((motion.cone_angle() - FRAC_PI_4).abs() < 1e-15);
+        assert!((motion.momentum_tilt() - FRAC_PI_4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_phase_above_two_to_the_53_is_refused_and_a_coin_at_rest_never_is() {
+        let fast = motion(Coin::PAPER, [1e10, 0.0, 0.0], 0.0);
+        assert!(matches!(fast.cos_tilt(1e6), Err(SolveError::PhaseTooLarge { .. })));
+        let spinning_sphere = motion(Coin::from_moments(1.0, 0.0).unwrap(), [0.0, 0.0, 1e300], 0.0);
+        assert!(matches!(spinning_sphere.state(1.0), Err(SolveError::PhaseTooLarge { .. })));
+        assert_eq!(motion(Coin::PAPER, [0.0; 3], 0.0).cos_tilt(1e308), Ok(1.0));
+    }
+
+    #[test]
+    fn huge_and_subnormal_rates_stay_in_range() {
+        let slow = motion(Coin::PAPER, [5e-324, 0.0, 5e-324], 0.3);
+        assert!((slow.cos_tilt(1e300).unwrap() - 0.3f64.cos()).abs() < 1e-15);
+        let fast = motion(Coin::PAPER, [1e300, 1e300, 2.5e300], 0.0);
+        let paper = motion(Coin::PAPER, [1.0, 1.0, 2.5], 0.0);
+        let difference = fast.cos_tilt(1e-300).unwrap() - paper.cos_tilt(1.0).unwrap();
+        assert!(difference.abs() < 1e-15, "{difference:e}");
+    }
+}

@@ -1,0 +1,253 @@
+//! Runs a Runge-Kutta method of `ode_solvers` over an autonomous system: state in, state out.
+//!
+//! Three properties of `ode_solvers` 0.6.2 shape this file. Its DOP853 has wrong nodes for systems that depend on time,
+//! so a system here cannot. Its dense output can end in a wrong point, so only the accepted steps are recorded. Its
+//! RK4 runs past the end of the interval by part of a step and returns `Ok` with NaN, so steps divide the interval
+//! evenly and every result is checked to be finite.
+
+use std::cell::Cell;
+
+use nalgebra::SVector;
+use ode_solvers::dop_shared::{IntegrationError, OutputType, SolverResult, System};
+use ode_solvers::{Dop853, Dopri5, Rk4};
+
+use crate::error::{Singularity, SolveError};
+use crate::method::{Method, Scheme, StepControl};
+use crate::solver::Work;
+
+/// A flight may take this many steps; all of them are held in memory while it runs.
+pub const STEP_LIMIT: u32 = 1_000_000;
+
+/// An autonomous system of N first-order equations.
+pub trait OdeSystem<const N: usize> {
+    /// y' at y.
+    fn derivative(&self, y: &SVector<f64, N>) -> SVector<f64, N>;
+
+    /// The singular point that a step from `before` to `after` met, if any. The integration then stops with an error.
+    fn singularity(&self, _before: &SVector<f64, N>, _after: &SVector<f64, N>) -> Option<Singularity> {
+        None
+    }
+}
+
+/// Follows `system` from `start` over `duration` [s], which is ≥ 0.
+///
+/// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two [rad/s]; see
+/// [`power_of_two_scale`](crate::solver::power_of_two_scale).
+///
+/// # Errors
+/// [`SolveError`] with the time [s] at which the integration stopped.
+pub fn integrate<const N: usize>(
+    system: &impl OdeSystem<N>,
+    start: SVector<f64, N>,
+    duration: f64,
+    scale: f64,
+    method: &Method,
+) -> Result<(SVector<f64, N>, Work), SolveError> {
+    let end = duration * scale;
+    if end == 0.0 {
+        return Ok((start, Work::default()));
+    }
+    let steps = Steps::new(method.control(), duration, end)?;
+    let calls = Cell::new(0);
+    let met = Cell::new(None);
+    let counted = Counted { system, calls: &calls, met: &met, last: start };
+    let run = step_through(counted, start, end, method.scheme(), &steps).map_err(|error| in_seconds(&error, scale))?;
+    if let Some((point, time)) = met.get() {
+        return Err(SolveError::Singular { point, time: time / scale });
+    }
+    let (times, states) = run.get();
+    match states.last() {
+        Some(last) if last.iter().all(|part| part.is_finite()) => {
+            Ok((*last, work(calls.get(), times.len() as u64 - 1, method)))
+        }
+        _ => Err(SolveError::NotFinite { time: duration }),
+    }
+}
+
+/// Step sizes as the steppers take them, in dimensionless time.
+struct Steps {
+    tolerance: f64,
+    /// 0 lets the method choose.
+    first: f64,
+    largest: f64,
+}
+
+impl Steps {
+    fn new(control: StepControl, duration: f64, end: f64) -> Result<Self, SolveError> {
+        match control {
+            StepControl::Tolerance(tolerance) => Ok(Self { tolerance, first: 0.0, largest: end }),
+            StepControl::Step(step) => {
+                let count = (duration / step).ceil().max(1.0);
+                if count > f64::from(STEP_LIMIT) {
+                    return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
+                }
+                // A tolerance that no error exceeds makes an adaptive scheme keep its largest step.
+                Ok(Self { tolerance: f64::MAX.sqrt(), first: end / count, largest: end / count })
+            }
+        }
+    }
+}
+
+/// Runs the stepper with the controller settings of its own default constructor.
+fn step_through<const N: usize, S: OdeSystem<N>>(
+    system: Counted<'_, N, S>,
+    start: SVector<f64, N>,
+    end: f64,
+    scheme: Scheme,
+    steps: &Steps,
+) -> Result<SolverResult<f64, SVector<f64, N>>, IntegrationError> {
+    const SAFETY: f64 = 0.9;
+    const STIFFNESS_TEST_EVERY: u32 = 1000;
+    let &Steps { tolerance, first, largest } = steps;
+    macro_rules! adaptive {
+        ($stepper:ident, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
+            let mut stepper = $stepper::from_param(
+                system, 0.0, end, 0.0, start, tolerance, tolerance, SAFETY, $beta, $smallest, $largest, largest, first,
+                STEP_LIMIT, STIFFNESS_TEST_EVERY, OutputType::Sparse,
+            );
+            stepper.integrate()?;
+            Ok(stepper.into())
+        }};
+    }
+    match scheme {
+        Scheme::Dop853 => adaptive!(Dop853, beta: 0.0, factors: 0.333, 6.0),
+        Scheme::Dopri5 => adaptive!(Dopri5, beta: 0.04, factors: 0.2, 10.0),
+        Scheme::Rk4 => {
+            // It takes ⌈end/step⌉ steps: half a step less keeps rounding from adding one.
+            let mut stepper = Rk4::new(system, 0.0, start, end - 0.5 * first, first);
+            stepper.integrate()?;
+            Ok(stepper.into())
+        }
+    }
+}
+
+/// The system as `ode_solvers` wants it, with its calls counted and its singular points watched after each step.
+struct Counted<'a, const N: usize, S> {
+    system: &'a S,
+    calls: &'a Cell<u64>,
+    met: &'a Cell<Option<(Singularity, f64)>>,
+    last: SVector<f64, N>,
+}
+
+impl<const N: usize, S: OdeSystem<N>> System<f64, SVector<f64, N>> for Counted<'_, N, S> {
+    fn system(&self, _time: f64, y: &SVector<f64, N>, dy: &mut SVector<f64, N>) {
+        self.calls.set(self.calls.get() + 1);
+        *dy = self.system.derivative(y);
+    }
+
+    fn solout(&mut self, time: f64, y: &SVector<f64, N>, _dy: &SVector<f64, N>) -> bool {
+        self.met.set(self.system.singularity(&self.last, y).map(|point| (point, time)));
+        self.last = *y;
+        self.met.get().is_some()
+    }
+}
+
+/// Tried steps follow from the calls: `ode_solvers` itself misses the rejections before its first accepted step.
+fn work(rhs_calls: u64, accepted_steps: u64, method: &Method) -> Work {
+    let first_derivative = 1;
+    let choice_of_first_step = if matches!(method.control(), StepControl::Tolerance(_)) { 2 } else { 0 };
+    let setup = first_derivative + choice_of_first_step;
+    let tried_steps = match method.scheme() {
+        Scheme::Dop853 => (rhs_calls - setup - accepted_steps) / 11,
+        Scheme::Dopri5 => (rhs_calls - setup) / 6,
+        Scheme::Rk4 => rhs_calls / 4,
+    };
+    Work { rhs_calls, accepted_steps, rejected_steps: tried_steps - accepted_steps }
+}
+
+fn in_seconds(error: &IntegrationError, scale: f64) -> SolveError {
+    match *error {
+        IntegrationError::MaxNumStepReached { x, .. } => SolveError::StepLimit { time: x / scale, limit: STEP_LIMIT },
+        IntegrationError::StepSizeUnderflow { x } => SolveError::StepSizeUnderflow { time: x / scale },
+        IntegrationError::StiffnessDetected { x } => SolveError::Stiff { time: x / scale },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Vector1, Vector2};
+
+    use super::*;
+
+    /// y' = i y as a real system: after t, a turn by t.
+    struct Circle;
+    impl OdeSystem<2> for Circle {
+        fn derivative(&self, y: &Vector2<f64>) -> Vector2<f64> {
+            Vector2::new(-y.y, y.x)
+        }
+    }
+
+    /// y' = y², which leaves every bound at t = 1 from y = 1.
+    struct Explosion;
+    impl OdeSystem<1> for Explosion {
+        fn derivative(&self, y: &Vector1<f64>) -> Vector1<f64> {
+            Vector1::new(y.x * y.x)
+        }
+    }
+
+    fn methods() -> [Method; 5] {
+        [
+            Method::adaptive(Scheme::Dop853, 1e-12).unwrap(),
+            Method::adaptive(Scheme::Dopri5, 1e-12).unwrap(),
+            Method::fixed(Scheme::Rk4, 1e-3).unwrap(),
+            Method::fixed(Scheme::Dop853, 0.1).unwrap(),
+            Method::fixed(Scheme::Dopri5, 3e-3).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn every_method_reaches_the_end_exactly_once() {
+        // 2.0005 s is no multiple of any step.
+        for method in methods() {
+            let (end, work) = integrate(&Circle, Vector2::x(), 2.0005, 1.0, &method).unwrap();
+            let error = (end - Vector2::new(2.0005_f64.cos(), 2.0005_f64.sin())).norm();
+            assert!(error < 1e-11, "{method:?}: {error:e}");
+            assert!(work.accepted_steps > 0);
+        }
+    }
+
+    #[test]
+    fn calls_are_counted_exactly() {
+        let per_tried_step = [12, 6, 4, 12, 6];
+        for (method, per_step) in methods().iter().zip(per_tried_step) {
+            let (_, work) = integrate(&Circle, Vector2::x(), 2.0, 1.0, method).unwrap();
+            let tried = work.accepted_steps + work.rejected_steps;
+            let setup = work.rhs_calls + if per_step == 12 { work.rejected_steps } else { 0 } - per_step * tried;
+            let expected = match method.control() {
+                _ if method.scheme() == Scheme::Rk4 => 0,
+                StepControl::Tolerance(_) => 3,
+                StepControl::Step(_) => 1,
+            };
+            assert_eq!(setup, expected, "{method:?}: {work:?}");
+        }
+        assert_eq!(integrate(&Circle, Vector2::x(), 2.0, 1.0, &methods()[2]).unwrap().1.rhs_calls, 8000);
+    }
+
+    #[test]
+    fn a_system_that_explodes_is_an_error_for_every_method() {
+        for method in methods() {
+            let result = integrate(&Explosion, Vector1::new(1.0), 1.5, 1.0, &method);
+            assert!(
+                matches!(result, Err(SolveError::NotFinite { .. } | SolveError::StepSizeUnderflow { .. })),
+                "{method:?}: {result:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn too_many_steps_are_refused_before_any_work() {
+        let method = Method::fixed(Scheme::Rk4, 1e-9).unwrap();
+        assert_eq!(
+            integrate(&Circle, Vector2::x(), 1.0, 1.0, &method),
+            Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT })
+        );
+    }
+
+    #[test]
+    fn the_scale_only_changes_the_clock() {
+        let method = methods()[0];
+        let (slow, _) = integrate(&Circle, Vector2::x(), 2.0, 1.0, &method).unwrap();
+        let (fast, _) = integrate(&Circle, Vector2::x(), 0.5, 4.0, &method).unwrap();
+        assert_eq!(slow, fast);
+    }
+}

@@ -1,0 +1,134 @@
+//! The launch: body rate, attitude and time of flight when the coin leaves the hand.
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::coin::Coin;
+use crate::error::{InputError, require};
+
+/// Gravity used where none is given [m/s²]. The paper gives no value.
+pub const DEFAULT_GRAVITY: f64 = 9.81;
+
+/// How long the coin flies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeOfFlight {
+    /// Thrown up at `speed` [m/s] under `gravity` [m/s²] and caught at the height of the launch: T = 2 v0/g.
+    Ballistic {
+        /// v0 [m/s], ≥ 0.
+        speed: f64,
+        /// g [m/s²], > 0.
+        gravity: f64,
+    },
+    /// Given directly [s], ≥ 0.
+    Given(f64),
+}
+
+impl TimeOfFlight {
+    /// T [s].
+    pub fn seconds(&self) -> f64 {
+        match *self {
+            Self::Ballistic { speed, gravity } => 2.0 * speed / gravity,
+            Self::Given(time) => time,
+        }
+    }
+
+    fn validated(self) -> Result<Self, InputError> {
+        match self {
+            Self::Ballistic { speed, gravity } => {
+                require("speed [m/s]", speed, "finite and >= 0", speed >= 0.0)?;
+                require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
+                require("time of flight 2 v0/g [s]", self.seconds(), "finite", true)?;
+            }
+            Self::Given(time) => {
+                require("time [s]", time, "finite and >= 0", time >= 0.0)?;
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// What the hand gives the coin. Every component is finite; no other launch can be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Launch {
+    rate: Vector3<f64>,
+    attitude: Attitude,
+    time_of_flight: TimeOfFlight,
+}
+
+impl Launch {
+    /// A launch from horizontal, heads up (attitude = identity), with the body rate `rate` (BF) [rad/s].
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a component of the rate that is not finite or a time of flight that makes no
+    /// sense.
+    pub fn new(rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
+            require(field, value, "finite", true)?;
+        }
+        Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight: time_of_flight.validated()? })
+    }
+
+    /// The same launch from another attitude (body to LF).
+    #[must_use]
+    pub fn with_attitude(self, attitude: Attitude) -> Self {
+        Self { attitude, ..self }
+    }
+
+    /// The same launch from a coin turned by `tilt` [rad] about the lab's x axis (α = γ = 0, β = `tilt`).
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] if `tilt` is not finite.
+    pub fn with_tilt(self, tilt: f64) -> Result<Self, InputError> {
+        require("tilt [rad]", tilt, "finite", true)?;
+        Ok(self.with_attitude(Attitude::about_x(tilt)))
+    }
+
+    /// ω at launch (BF) [rad/s].
+    pub fn rate(&self) -> Vector3<f64> {
+        self.rate
+    }
+
+    /// Attitude at launch.
+    pub fn attitude(&self) -> Attitude {
+        self.attitude
+    }
+
+    /// How the time of flight was given.
+    pub fn time_of_flight(&self) -> TimeOfFlight {
+        self.time_of_flight
+    }
+
+    /// T [s].
+    pub fn flight_time(&self) -> f64 {
+        self.time_of_flight.seconds()
+    }
+}
+
+/// A coin and its launch: all that a flight depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Toss {
+    /// The coin.
+    pub coin: Coin,
+    /// Its launch.
+    pub launch: Launch,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ballistic_flight_lasts_two_v_over_g() {
+        let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+        assert_eq!(thrown.seconds(), 6.0 / 9.81);
+    }
+
+    #[test]
+    fn a_time_that_overflows_is_refused() {
+        let endless = TimeOfFlight::Ballistic { speed: 1e300, gravity: 1e-300 };
+        assert!(matches!(
+            Launch::new(Vector3::zeros(), endless),
+            Err(InputError::OutOfRange { field: "time of flight 2 v0/g [s]", .. })
+        ));
+    }
+}

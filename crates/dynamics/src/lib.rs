@@ -1,0 +1,46 @@
+//! The free flight of a tossed coin.
+//!
+//! A coin of principal moments I1 = I2 and I3 leaves a hand with the body rate ω and flies for the time T, free of
+//! torque and drag. The source of the equations is the paper "Modeling the unfair toss of an unbiased coin"; numbers
+//! in parentheses are the paper's.
+//!
+//! The data flows one way, a file for each step:
+//!
+//! | step | file |
+//! |---|---|
+//! | geometry → moments of inertia | [`coin`], [`catalogue`] |
+//! | coin + body rate + attitude + time of flight | [`launch`] |
+//! | Euler's equations and what they conserve | [`body_rate`] |
+//! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
+//! | the exact motion | [`exact`] |
+//! | what a numerical solver is, and how it steps | [`solver`], [`method`], [`integrate`] |
+//! | what can go wrong | [`error`] |
+//!
+//! # Frames
+//! - LF, the laboratory frame: z up.
+//! - TF, the transport frame: LF carried along with the centre of mass. A free coin turns in it as if at rest.
+//! - BF, the body frame: z along the coin's normal n, the head's side.
+//!
+//! All quantities are f64 in SI units. There is no random number, no clock and no input or output in this crate.
+
+pub mod attitude;
+pub mod body_rate;
+pub mod catalogue;
+pub mod coin;
+pub mod error;
+pub mod euler_angles;
+pub mod exact;
+pub mod integrate;
+pub mod launch;
+pub mod method;
+pub mod solver;
+
+pub use attitude::Attitude;
+pub use coin::Coin;
+pub use error::{InputError, Singularity, SolveError};
+pub use euler_angles::EulerAngles;
+pub use exact::{ExactMotion, ExactSolver};
+pub use launch::{Launch, TimeOfFlight, Toss};
+pub use method::{Method, Scheme, StepControl};
+pub use nalgebra::Vector3;
+pub use solver::{Frame, Outcome, Propagation, Settings, Solver, SolverEntry, State, Work};

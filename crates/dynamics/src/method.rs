@@ -1,0 +1,119 @@
+//! Runge-Kutta methods and their step control, as settings.
+
+use crate::error::{InputError, find_named, require};
+
+/// A Runge-Kutta scheme of `ode_solvers`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scheme {
+    /// Dormand and Prince's method of order 8(5,3) (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
+    Dop853,
+    /// Dormand and Prince's method of order 5(4) (J. Comput. Appl. Math. 6, 1980).
+    Dopri5,
+    /// The classical method of order 4, without an error estimate.
+    Rk4,
+}
+
+impl Scheme {
+    /// All schemes.
+    pub const ALL: [Self; 3] = [Self::Dop853, Self::Dopri5, Self::Rk4];
+
+    /// The scheme called `name`.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`].
+    pub fn named(name: &str) -> Result<Self, InputError> {
+        find_named("method", name, &Self::ALL, |scheme| scheme.name()).copied()
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dop853 => "dop853",
+            Self::Dopri5 => "dopri5",
+            Self::Rk4 => "rk4",
+        }
+    }
+
+    /// Order of the global error.
+    pub fn order(self) -> u32 {
+        match self {
+            Self::Dop853 => 8,
+            Self::Dopri5 => 5,
+            Self::Rk4 => 4,
+        }
+    }
+
+    /// Whether it estimates its local error, so that a tolerance can steer its steps.
+    pub fn is_adaptive(self) -> bool {
+        self != Self::Rk4
+    }
+}
+
+/// What sets the size of the steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepControl {
+    /// Local error per step below `tolerance × (1 + |y|)`, in every component of the dimensionless state.
+    Tolerance(f64),
+    /// Equal steps of at most this length [s].
+    Step(f64),
+}
+
+/// A scheme and its step control. Only combinations that make sense can be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Method {
+    scheme: Scheme,
+    control: StepControl,
+}
+
+impl Method {
+    /// The method used where none is asked for: DOP853 at 1e-10.
+    pub const DEFAULT: Self = Self { scheme: Scheme::Dop853, control: StepControl::Tolerance(1e-10) };
+
+    /// The step used for RK4 where none is asked for [s].
+    pub const DEFAULT_STEP: f64 = 1e-3;
+
+    /// `scheme` with steps that keep the local error below `tolerance`, absolute and relative.
+    ///
+    /// # Errors
+    /// [`InputError`] if the scheme has no error estimate, or the tolerance is below ε = 2^-52 or not below 1.
+    pub fn adaptive(scheme: Scheme, tolerance: f64) -> Result<Self, InputError> {
+        if !scheme.is_adaptive() {
+            return Err(InputError::UnknownName {
+                field: "method with a tolerance",
+                value: scheme.name().to_owned(),
+                known: "dop853, dopri5 (rk4 takes a step)".to_owned(),
+            });
+        }
+        let valid = (f64::EPSILON..1.0).contains(&tolerance);
+        require("tolerance", tolerance, "2.220446049250313e-16 <= tolerance < 1", valid)?;
+        Ok(Self { scheme, control: StepControl::Tolerance(tolerance) })
+    }
+
+    /// `scheme` with equal steps of at most `step` [s]; every scheme can do this, and its error is not estimated.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] if the step is not positive and finite.
+    pub fn fixed(scheme: Scheme, step: f64) -> Result<Self, InputError> {
+        require("step [s]", step, "finite and > 0", step > 0.0)?;
+        Ok(Self { scheme, control: StepControl::Step(step) })
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// Its step control.
+    pub fn control(&self) -> StepControl {
+        self.control
+    }
+
+    /// Error of cos θ at landing that a solver with this method answers for, at a phase ωL T [rad]:
+    /// 100 × tolerance × (1 + phase), or nothing (0) for fixed steps, which come without an estimate.
+    pub fn resolution(&self, phase: f64) -> f64 {
+        match self.control {
+            StepControl::Tolerance(tolerance) => 100.0 * tolerance * (1.0 + phase),
+            StepControl::Step(_) => 0.0,
+        }
+    }
+}

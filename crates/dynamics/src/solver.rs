@@ -1,0 +1,203 @@
+//! What a solver is: a pure map from a toss to the state at its landing.
+//!
+//! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
+//! has one entry; every test and every check runs over the registry of entries.
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::error::SolveError;
+use crate::exact::ExactMotion;
+use crate::launch::Toss;
+use crate::method::Method;
+
+/// Attitude and body rate at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// Attitude (body to LF).
+    pub attitude: Attitude,
+    /// Body rate ω (BF) [rad/s].
+    pub rate: Vector3<f64>,
+}
+
+/// What a propagation cost, as counts that repeat exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Evaluations of the right-hand side.
+    pub rhs_calls: u64,
+    /// Steps that were kept.
+    pub accepted_steps: u64,
+    /// Steps that were tried and thrown away.
+    pub rejected_steps: u64,
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.rhs_calls += other.rhs_calls;
+        self.accepted_steps += other.accepted_steps;
+        self.rejected_steps += other.rejected_steps;
+    }
+}
+
+/// The state at landing and what it cost to get there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Propagation {
+    /// State at landing.
+    pub state: State,
+    /// Its cost.
+    pub work: Work,
+}
+
+/// How the coin lands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// cos θ > 0.
+    Heads,
+    /// cos θ < 0.
+    Tails,
+    /// cos θ is nearer to 0 than the solver answers for; an exact tie, cos θ = 0, always.
+    Undecided,
+}
+
+impl Outcome {
+    /// The rule: heads or tails by the sign of `cos_tilt` where its size exceeds `resolution`, else undecided.
+    pub fn of(cos_tilt: f64, resolution: f64) -> Self {
+        if cos_tilt > resolution {
+            Self::Heads
+        } else if cos_tilt < -resolution {
+            Self::Tails
+        } else {
+            Self::Undecided
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Heads => "heads",
+            Self::Tails => "tails",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// Solves the flight of a toss.
+pub trait Solver: Send + Sync {
+    /// Its name in the registry.
+    fn name(&self) -> &'static str;
+
+    /// Its Runge-Kutta method; `None` for a closed form.
+    fn method(&self) -> Option<Method> {
+        None
+    }
+
+    /// State at landing, `toss.launch.flight_time()` seconds after launch.
+    ///
+    /// # Errors
+    /// [`SolveError`] where the solver cannot go on; never a partial result.
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError>;
+
+    /// cos θ at landing; cheaper than the attitude where the solver knows how.
+    ///
+    /// # Errors
+    /// As [`Solver::propagate`].
+    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
+        Ok(self.propagate(toss)?.state.attitude.cos_tilt())
+    }
+
+    /// Error of cos θ that this solver answers for, at a phase ωL T [rad]; 0 if it gives no estimate.
+    fn resolution(&self, phase: f64) -> f64;
+
+    /// Heads or tails, or undecided where cos θ is within [`Solver::resolution`] of 0.
+    ///
+    /// # Errors
+    /// As [`Solver::propagate`].
+    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
+        let phase = ExactMotion::new(toss).phase(toss.launch.flight_time())?;
+        Ok(Outcome::of(self.cos_tilt(toss)?, self.resolution(phase)))
+    }
+}
+
+/// The transport frame in which the γ-ODE and the Euler angles are taken. The motion is the same in each; what
+/// differs is where sin β = 0 lies. Other solvers have no use for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Frame {
+    /// z along the angular momentum S, which is fixed in TF: β is constant and no flight is singular.
+    #[default]
+    Momentum,
+    /// z up, as the paper has it: singular whenever n is vertical, as at every horizontal launch and at each return.
+    Vertical,
+}
+
+impl Frame {
+    /// All frames.
+    pub const ALL: [Self; 2] = [Self::Momentum, Self::Vertical];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Momentum => "momentum",
+            Self::Vertical => "vertical",
+        }
+    }
+}
+
+/// What a solver can be told at run time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Runge-Kutta method and step control.
+    pub method: Method,
+    /// Frame of the Euler angles.
+    pub frame: Frame,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { method: Method::DEFAULT, frame: Frame::default() }
+    }
+}
+
+/// One line of the registry: how a solver is named and made at run time.
+#[derive(Debug, Clone, Copy)]
+pub struct SolverEntry {
+    /// Name.
+    pub name: &'static str,
+    /// What it solves, in a line.
+    pub summary: &'static str,
+    /// Whether it steps through time with a Runge-Kutta method.
+    pub integrates: bool,
+    /// Makes the solver.
+    pub build: fn(&Settings) -> Box<dyn Solver>,
+}
+
+/// The power of two at or below the largest component of `rate` [rad/s]; 1 for a rate of zero.
+///
+/// Dividing by it is exact and leaves a dimensionless rate of the order of 1.
+pub fn power_of_two_scale(rate: &Vector3<f64>) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    let largest = rate.amax();
+    if largest == 0.0 { 1.0 } else { f64::from_bits(largest.to_bits() & EXPONENT).max(f64::MIN_POSITIVE) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_is_the_leading_power_of_two() {
+        for (largest, scale) in [(1.0, 1.0), (60.0, 32.0), (-0.3, 0.25), (1e300, 2f64.powi(996)), (0.0, 1.0)] {
+            assert_eq!(power_of_two_scale(&Vector3::new(0.0, largest, 0.0)), scale);
+        }
+        assert_eq!(power_of_two_scale(&Vector3::new(0.0, 5e-324, 0.0)), f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn a_tie_is_undecided_whatever_the_resolution() {
+        assert_eq!(Outcome::of(0.0, 0.0), Outcome::Undecided);
+        assert_eq!(Outcome::of(-0.0, 1e-16), Outcome::Undecided);
+        assert_eq!(Outcome::of(1e-300, 0.0), Outcome::Heads);
+        assert_eq!(Outcome::of(-1e-9, 1e-8), Outcome::Undecided);
+        assert_eq!(Outcome::of(-1e-7, 1e-8), Outcome::Tails);
+        assert_eq!(Outcome::of(f64::NAN, 0.0), Outcome::Undecided);
+    }
+}
