@@ -99,7 +99,8 @@ impl std::ops::Mul for Attitude {
     type Output = Self;
 
     fn mul(self, body_turn: Self) -> Self {
-        Self(self.0 * body_turn.0)
+        // Normalised again, so that a long chain of turns stays one.
+        Self(UnitQuaternion::new_normalize(self.0.quaternion() * body_turn.0.quaternion()))
     }
 }
 

@@ -17,6 +17,16 @@ pub enum InputError {
         /// The valid range, in words or as an inequality.
         valid: &'static str,
     },
+    /// Text that can't be read as what it should be, or a combination of settings that makes no sense.
+    #[error("{field} = '{value}' can't be used: expected {expected}")]
+    Malformed {
+        /// The field, with its unit.
+        field: &'static str,
+        /// What was given.
+        value: String,
+        /// What was expected.
+        expected: &'static str,
+    },
     /// A name that stands for nothing here.
     #[error("{field} = '{value}' is unknown; known: {known}")]
     UnknownName {
@@ -118,6 +128,20 @@ pub enum SolveError {
 }
 
 impl SolveError {
+    /// The same error of a propagation that began `seconds` after launch.
+    #[must_use]
+    pub fn later(mut self, seconds: f64) -> Self {
+        match &mut self {
+            Self::PhaseTooLarge { .. } => {}
+            Self::Singular { time, .. }
+            | Self::StepLimit { time, .. }
+            | Self::StepSizeUnderflow { time }
+            | Self::Stiff { time }
+            | Self::NotFinite { time } => *time += seconds,
+        }
+        self
+    }
+
     /// A short name of the kind of error, for machine-readable output.
     pub fn kind(&self) -> &'static str {
         match self {

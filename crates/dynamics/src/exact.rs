@@ -25,7 +25,7 @@ use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
 use crate::euler_angles::{EulerAngles, continuous_polar};
 use crate::launch::Toss;
-use crate::solver::{Propagation, Settings, Solver, SolverEntry, State, Work, power_of_two_scale};
+use crate::solver::{Outcome, Propagation, Settings, Solver, SolverEntry, State, Work, power_of_two_scale};
 
 /// 2^53: above it, neighbouring f64 phases are more than a radian apart.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -208,6 +208,11 @@ impl Solver for ExactSolver {
 
     fn resolution(&self, phase: f64) -> f64 {
         resolution(phase)
+    }
+
+    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
+        let (motion, time) = (ExactMotion::new(toss), toss.launch.flight_time());
+        Ok(Outcome::of(motion.cos_tilt(time)?, resolution(motion.phase(time)?)))
     }
 }
 

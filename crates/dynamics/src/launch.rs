@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::coin::Coin;
 use crate::error::{InputError, require};
+use crate::solver::State;
 
 /// Gravity used where none is given [m/s²]. The paper gives no value.
 pub const DEFAULT_GRAVITY: f64 = 9.81;
@@ -66,6 +67,14 @@ impl Launch {
             require(field, value, "finite", true)?;
         }
         Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight: time_of_flight.validated()? })
+    }
+
+    /// The launch that goes on from `state`.
+    ///
+    /// # Errors
+    /// As [`Launch::new`].
+    pub fn from_state(state: &State, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        Ok(Self::new(state.rate, time_of_flight)?.with_attitude(state.attitude))
     }
 
     /// The same launch from another attitude (body to LF).

@@ -78,10 +78,10 @@ impl Method {
     /// [`InputError`] if the scheme has no error estimate, or the tolerance is below ε = 2^-52 or not below 1.
     pub fn adaptive(scheme: Scheme, tolerance: f64) -> Result<Self, InputError> {
         if !scheme.is_adaptive() {
-            return Err(InputError::UnknownName {
+            return Err(InputError::Malformed {
                 field: "method with a tolerance",
                 value: scheme.name().to_owned(),
-                known: "dop853, dopri5 (rk4 takes a step)".to_owned(),
+                expected: "dop853 or dopri5; rk4 takes a step",
             });
         }
         let valid = (f64::EPSILON..1.0).contains(&tolerance);

@@ -1,0 +1,112 @@
+//! The three Euler angles (5), solved for their derivatives:
+//!
+//! ```text
+//! α' = D / sin β,   β' = ωx cos γ - ωy sin γ,   γ' = ωz - α' cos β,      D = ωx sin γ + ωy cos γ
+//! ```
+//!
+//! At sin β = 0 they read 0/0. A flight may start there (its limit is α' cos β = k ωz / 2) and may not come back: in the
+//! vertical frame that is a typed error, in the momentum frame β is constant.
+
+use std::f64::consts::PI;
+
+use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
+use dynamics::integrate::{OdeSystem, integrate};
+use dynamics::solver::power_of_two_scale;
+use dynamics::{
+    EulerAngles, ExactMotion, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry,
+    State, Toss, Vector3,
+};
+use nalgebra::SVector;
+
+use crate::start::Start;
+
+/// The Euler angles' solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EulerAnglesSolver {
+    method: Method,
+    frame: Frame,
+}
+
+impl EulerAnglesSolver {
+    /// The registry's line.
+    pub const ENTRY: SolverEntry = SolverEntry {
+        name: "euler",
+        summary: "the three Euler angles (5)",
+        integrates: true,
+        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.frame)),
+    };
+
+    /// A solver that steps by `method`, with angles taken in `frame`.
+    pub fn new(method: Method, frame: Frame) -> Self {
+        Self { method, frame }
+    }
+}
+
+impl Solver for EulerAnglesSolver {
+    fn name(&self) -> &'static str {
+        Self::ENTRY.name
+    }
+
+    fn method(&self) -> Option<Method> {
+        Some(self.method)
+    }
+
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let duration = toss.launch.flight_time();
+        ExactMotion::new(toss).phase(duration)?;
+        let scale = power_of_two_scale(&toss.launch.rate());
+        let rate = toss.launch.rate() / scale;
+        let start = Start::new(toss, &rate, self.frame);
+        let system = AnglesSystem::new(toss.coin.inertia_ratio(), rate.z);
+        let EulerAngles { alpha, beta, gamma } = start.angles;
+        let first = SVector::from([alpha, beta, gamma, rate.x, rate.y]);
+        let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
+        let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
+        let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
+        Ok(Propagation { state: State { attitude: start.frame * angles.attitude(), rate }, work })
+    }
+
+    fn resolution(&self, phase: f64) -> f64 {
+        self.method.resolution(phase)
+    }
+}
+
+/// The right-hand side over (α, β, γ, ωx, ωy).
+struct AnglesSystem {
+    rate_z: f64,
+    q: f64,
+    /// u = α' cos β where sin β = 0.
+    limit_of_u: f64,
+}
+
+impl AnglesSystem {
+    fn new(inertia_ratio: f64, rate_z: f64) -> Self {
+        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), limit_of_u: 0.5 * inertia_ratio * rate_z }
+    }
+}
+
+impl OdeSystem<5> for AnglesSystem {
+    fn derivative(&self, y: &SVector<f64, 5>) -> SVector<f64, 5> {
+        let &[_, beta, gamma, rate_x, rate_y] = &y.data.0[0];
+        let ((sin_beta, cos_beta), (sin_gamma, cos_gamma)) = (beta.sin_cos(), gamma.sin_cos());
+        let precession = if beta == 0.0 || beta.abs() == PI {
+            self.limit_of_u / cos_beta
+        } else {
+            (rate_x * sin_gamma + rate_y * cos_gamma) / sin_beta
+        };
+        let (rate_x_dot, rate_y_dot) = transverse_acceleration(self.q, rate_x, rate_y);
+        SVector::from([
+            precession,
+            rate_x * cos_gamma - rate_y * sin_gamma,
+            self.rate_z - precession * cos_beta,
+            rate_x_dot,
+            rate_y_dot,
+        ])
+    }
+
+    fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
+        let [was, is] = [before, after].map(|y| y[1].sin());
+        let started_there = was.abs() < f64::EPSILON;
+        (!started_there && was * is <= 0.0).then_some(Singularity::NormalAlongAxis)
+    }
+}

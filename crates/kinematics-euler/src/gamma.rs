@@ -1,0 +1,159 @@
+//! The γ-ODE (10), the paper's own equation: one of second order for the spin angle alone.
+//!
+//! ```text
+//! γ'' + A γ' + B γ'² + C = 0                                                                            (10)
+//! A = (3 ωz - q) β'/D,   B = -2 β'/D,   C = -(ωz (ωz - q) + D²) β'/D                                    (11)
+//! D = ωx sin γ + ωy cos γ = α' sin β,   u = ωz - γ' = α' cos β,   β' = ωx cos γ - ωy sin γ             (8)
+//! ```
+//!
+//! (11) stands here with ωx' = -q ωy and ωy' = q ωx put in. The other two angles follow without dividing by cos β:
+//! β = atan2(s D, s u) (9) and α' = s √(D² + u²), where s is the sign of α', which cannot change: a flight on which
+//! α' vanishes meets D = u = 0, where (10) reads 0/0, and is a typed error.
+
+use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
+use dynamics::integrate::{OdeSystem, integrate};
+use dynamics::solver::power_of_two_scale;
+use dynamics::{
+    EulerAngles, ExactMotion, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry,
+    State, Toss, Vector3,
+};
+use nalgebra::SVector;
+
+use crate::start::Start;
+
+/// Where |D| is smaller than this part of |β'|, rounding leaves (10) no digit: √ε.
+const NO_DIGIT: f64 = 1.5e-8;
+
+/// α' below this part of |ω|: D and u, from which β is recovered, have lost two digits against the rates that they are
+/// differences of.
+const SMALLEST_PRECESSION: f64 = 1e-2;
+
+/// The γ-ODE's solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GammaSolver {
+    method: Method,
+    frame: Frame,
+}
+
+impl GammaSolver {
+    /// The registry's line.
+    pub const ENTRY: SolverEntry = SolverEntry {
+        name: "gamma",
+        summary: "the γ-ODE (10), the paper's equation for the spin angle",
+        integrates: true,
+        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.frame)),
+    };
+
+    /// A solver that steps by `method`, with angles taken in `frame`.
+    pub fn new(method: Method, frame: Frame) -> Self {
+        Self { method, frame }
+    }
+}
+
+impl Solver for GammaSolver {
+    fn name(&self) -> &'static str {
+        Self::ENTRY.name
+    }
+
+    fn method(&self) -> Option<Method> {
+        Some(self.method)
+    }
+
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let duration = toss.launch.flight_time();
+        ExactMotion::new(toss).phase(duration)?;
+        let scale = power_of_two_scale(&toss.launch.rate());
+        let rate = toss.launch.rate() / scale;
+        let start = Start::new(toss, &rate, self.frame);
+        let system = GammaSystem::new(toss.coin.inertia_ratio(), rate.z, start.precession);
+        let first = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
+        if system.precession_stops(&first) && !start.rests_at_the_pole(&rate) {
+            return Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
+        }
+        let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
+        let attitude = start.frame * system.angles(&end).attitude();
+        let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
+        Ok(Propagation { state: State { attitude, rate }, work })
+    }
+
+    fn resolution(&self, phase: f64) -> f64 {
+        self.method.resolution(phase)
+    }
+}
+
+/// The right-hand side over (γ, γ', α, ωx, ωy).
+struct GammaSystem {
+    rate_z: f64,
+    q: f64,
+    /// s, the sign of α'.
+    sense: f64,
+}
+
+/// What (8)-(11) are made of, at one state.
+struct Terms {
+    d: f64,
+    u: f64,
+    beta_rate: f64,
+}
+
+impl GammaSystem {
+    fn new(inertia_ratio: f64, rate_z: f64, precession: f64) -> Self {
+        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), sense: precession.signum() }
+    }
+
+    fn terms(&self, y: &SVector<f64, 5>) -> Terms {
+        let &[gamma, gamma_rate, _, rate_x, rate_y] = &y.data.0[0];
+        let (sin, cos) = gamma.sin_cos();
+        Terms { d: rate_x * sin + rate_y * cos, u: self.rate_z - gamma_rate, beta_rate: rate_x * cos - rate_y * sin }
+    }
+
+    fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
+        let Terms { d, u, .. } = self.terms(y);
+        EulerAngles { alpha: y[2], beta: (self.sense * d).atan2(self.sense * u), gamma: y[0] }
+    }
+
+    /// γ'' by (10) and (11).
+    fn gamma_acceleration(&self, terms: &Terms, gamma_rate: f64) -> f64 {
+        let &Terms { d, beta_rate, .. } = terms;
+        let (rate_z, q) = (self.rate_z, self.q);
+        // Each of A, B and C is a factor times β'/D.
+        let (a, b, c) = (3.0 * rate_z - q, -2.0, -(rate_z * (rate_z - q) + d * d));
+        let sum = a * gamma_rate + b * gamma_rate * gamma_rate + c;
+        // On the regular solution through sin β = 0 the sum vanishes like D²: γ'' = O(D), and 0 is as near as rounding
+        // lets any evaluation come. Without transverse rate (pure spin) γ' is constant.
+        let regular = sum.abs() <= NO_DIGIT * (rate_z * rate_z + gamma_rate * gamma_rate);
+        if beta_rate == 0.0 || (d.abs() <= NO_DIGIT * beta_rate.abs() && regular) {
+            return 0.0;
+        }
+        -sum * (beta_rate / d)
+    }
+
+    fn precession_stops(&self, y: &SVector<f64, 5>) -> bool {
+        let Terms { d, u, .. } = self.terms(y);
+        d.hypot(u) < SMALLEST_PRECESSION * y[3].hypot(y[4]).max(self.rate_z.abs())
+    }
+}
+
+impl OdeSystem<5> for GammaSystem {
+    fn derivative(&self, y: &SVector<f64, 5>) -> SVector<f64, 5> {
+        let terms = self.terms(y);
+        let (rate_x_dot, rate_y_dot) = transverse_acceleration(self.q, y[3], y[4]);
+        SVector::from([
+            y[1],
+            self.gamma_acceleration(&terms, y[1]),
+            self.sense * terms.d.hypot(terms.u),
+            rate_x_dot,
+            rate_y_dot,
+        ])
+    }
+
+    fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
+        let (was, is) = (self.terms(before), self.terms(after));
+        let started_there = was.d.abs() <= NO_DIGIT * was.beta_rate.abs();
+        if self.precession_stops(after) && !self.precession_stops(before) || was.u * is.u < 0.0 && was.d * is.d < 0.0 {
+            Some(Singularity::PrecessionStops)
+        } else {
+            (!started_there && was.d * is.d < 0.0).then_some(Singularity::NormalAlongAxis)
+        }
+    }
+}

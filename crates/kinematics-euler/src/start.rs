@@ -1,0 +1,72 @@
+//! Where the angles start: the frame they are taken in, and their values at launch.
+//!
+//! In the kinematics (5) write D = ωx sin γ + ωy cos γ = α' sin β and u = ωz - γ' = α' cos β. Angles taken in the frame
+//! F describe the attitude `Q = F ⊗ z(α) x(β) z(γ)`.
+//!
+//! - [`Frame::Momentum`]: F's z axis is along S. Then β = ψ, α' = ωL and γ' = -q for the whole flight, with
+//!   γ(0) = atan2(ωx, ωy), α(0) = 0. S is known at launch; that it stays is conservation of angular momentum, and the
+//!   integration shows whether it does.
+//! - [`Frame::Vertical`]: F = 1. At sin β = 0 the motion has the regular limit u = k ωz / 2 and
+//!   γ(0) = atan2(-ωy, ωx), where D = 0.
+
+use std::f64::consts::PI;
+
+use dynamics::{Attitude, EulerAngles, Frame, Toss, Vector3};
+
+/// A launch whose sin β is below this is taken as vertical: the attitude differs by less than rounding.
+const VERTICAL: f64 = f64::EPSILON;
+
+/// The angles at launch and the frame they are taken in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Start {
+    /// The frame F: LF seen from it is `F`'s inverse.
+    pub(crate) frame: Attitude,
+    /// Angles at launch.
+    pub(crate) angles: EulerAngles,
+    /// α' at launch, in the unit of `rate`.
+    pub(crate) precession: f64,
+    /// u = α' cos β at launch, in the unit of `rate`.
+    pub(crate) u: f64,
+}
+
+impl Start {
+    /// `rate`: the body rate at launch (BF) in any unit.
+    pub(crate) fn new(toss: &Toss, rate: &Vector3<f64>, frame: Frame) -> Self {
+        let momentum_z = toss.coin.inertia_ratio() * rate.z;
+        match frame {
+            Frame::Momentum => Self::along_momentum(toss.launch.attitude(), rate, momentum_z),
+            Frame::Vertical => Self::vertical(toss.launch.attitude(), rate, momentum_z),
+        }
+    }
+
+    /// Whether n is along the frame's axis and stays there: a pure spin, or no motion.
+    pub(crate) fn rests_at_the_pole(&self, rate: &Vector3<f64>) -> bool {
+        self.angles.beta == 0.0 && rate.x == 0.0 && rate.y == 0.0
+    }
+
+    fn along_momentum(launch: Attitude, rate: &Vector3<f64>, momentum_z: f64) -> Self {
+        let transverse = rate.x.hypot(rate.y);
+        let angles = EulerAngles { alpha: 0.0, beta: transverse.atan2(momentum_z), gamma: rate.x.atan2(rate.y) };
+        let precession = transverse.hypot(momentum_z);
+        Self { frame: launch * angles.attitude().inverse(), angles, precession, u: momentum_z }
+    }
+
+    fn vertical(launch: Attitude, rate: &Vector3<f64>, momentum_z: f64) -> Self {
+        let angles = EulerAngles::principal(&launch);
+        let [w, x, y, z] = launch.components();
+        let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
+        if sin_half_beta.min(cos_half_beta) > VERTICAL {
+            let (sin_gamma, cos_gamma) = angles.gamma.sin_cos();
+            let precession = (rate.x * sin_gamma + rate.y * cos_gamma) / angles.beta.sin();
+            return Self { frame: Attitude::IDENTITY, angles, precession, u: precession * angles.beta.cos() };
+        }
+        let u = 0.5 * momentum_z;
+        let gamma = (-rate.y).atan2(rate.x);
+        let (angles, precession) = if cos_half_beta > sin_half_beta {
+            (EulerAngles { alpha: angles.alpha + angles.gamma - gamma, beta: 0.0, gamma }, u)
+        } else {
+            (EulerAngles { alpha: angles.alpha - angles.gamma + gamma, beta: PI, gamma }, -u)
+        };
+        Self { frame: Attitude::IDENTITY, angles, precession, u }
+    }
+}

@@ -1,0 +1,77 @@
+//! Confidence intervals of a share counted in independent random launches.
+//!
+//! They say nothing about a grid, whose error is of discretisation. Wilson's interval is for display; Clopper and
+//! Pearson's never covers less than its level and is for gates.
+
+use statrs::distribution::{Beta, ContinuousCDF, Normal};
+
+/// An interval of probabilities within [0, 1].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
+}
+
+/// Wilson's score interval for `heads` of `points` ≥ 1 at the confidence `level` (0.95 for 95 %).
+///
+/// Source: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927), 209.
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+pub fn wilson(heads: u64, points: u64, level: f64) -> Interval {
+    let (n, p) = (points as f64, heads as f64 / points as f64);
+    let z = Normal::standard().inverse_cdf(0.5 * (1.0 + level));
+    let centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    let half_width = z / (1.0 + z * z / n) * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
+    Interval { lo: (centre - half_width).max(0.0), hi: (centre + half_width).min(1.0) }
+}
+
+/// Clopper and Pearson's exact interval for `heads` of `points` ≥ 1 at the confidence `level`.
+///
+/// Source: C. J. Clopper and E. S. Pearson, Biometrika 26 (1934), 404; ends as quantiles of Beta distributions.
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+pub fn clopper_pearson(heads: u64, points: u64, level: f64) -> Interval {
+    let tail = 0.5 * (1.0 - level);
+    let (h, n) = (heads as f64, points as f64);
+    // Both shapes are at least 1 where the quantile is asked for.
+    let quantile = |a: f64, b: f64, p: f64| Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p));
+    Interval {
+        lo: if heads == 0 { 0.0 } else { quantile(h, n - h + 1.0, tail) },
+        hi: if heads == points { 1.0 } else { quantile(h + 1.0, n - h, 1.0 - tail) },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_interval(found: Interval, lo: f64, hi: f64, within: f64) {
+        assert!((found.lo - lo).abs() < within && (found.hi - hi).abs() < within, "{found:?}, not [{lo}, {hi}]");
+    }
+
+    #[test]
+    fn wilson_matches_newcombe() {
+        // R. G. Newcombe, Stat. Med. 17 (1998), 857, Table I, method 3.
+        assert_interval(wilson(81, 263, 0.95), 0.2553, 0.3662, 5e-5);
+        assert_interval(wilson(15, 148, 0.95), 0.0624, 0.1605, 5e-5);
+        assert_interval(wilson(0, 20, 0.95), 0.0, 0.1611, 5e-5);
+        assert_interval(wilson(1, 29, 0.95), 0.0061, 0.1718, 5e-5);
+    }
+
+    #[test]
+    fn clopper_pearson_matches_newcombe() {
+        // The same table, method 5.
+        assert_interval(clopper_pearson(81, 263, 0.95), 0.2527, 0.3676, 5e-5);
+        assert_interval(clopper_pearson(15, 148, 0.95), 0.0578, 0.1617, 5e-5);
+        assert_interval(clopper_pearson(0, 20, 0.95), 0.0, 0.1684, 5e-5);
+        assert_interval(clopper_pearson(1, 29, 0.95), 0.0009, 0.1776, 5e-5);
+    }
+
+    #[test]
+    fn all_heads_and_all_tails_have_closed_ends() {
+        // (tail)^(1/n) is the exact lower end for n of n.
+        assert_interval(clopper_pearson(50, 50, 0.95), 0.025_f64.powf(1.0 / 50.0), 1.0, 1e-12);
+        assert_eq!(wilson(50, 50, 0.95).hi, 1.0);
+        assert_eq!(wilson(0, 50, 0.95).lo, 0.0);
+    }
+}
