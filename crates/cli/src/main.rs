@@ -1,1 +1,77 @@
-fn main(){}
+//! The command `unfair-toss`: toss a coin, trace its flight, estimate a probability, list what can be named.
+//!
+//! Exit codes: 0 answered; 1 the solver failed; 2 bad usage or input.
+
+mod args;
+mod chart;
+mod commands;
+mod failure;
+mod output;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::commands::{list, probability, toss, trace};
+use crate::failure::Failure;
+use crate::output::Format;
+
+#[derive(Debug, Parser)]
+#[command(name = "unfair-toss", version, about = "Tosses of an unbiased coin, solved", propagate_version = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Toss a coin and say how it lands
+    Toss(toss::Args),
+    /// Follow the flight at equal steps of time
+    Trace(trace::Args),
+    /// Estimate the probability of heads over a space of launches
+    Probability(probability::Args),
+    /// List the coins that can be named
+    Coins(list::Args),
+    /// List the solvers
+    Solvers(list::Args),
+    /// List the spaces of launches that can be named
+    Spaces(list::Args),
+}
+
+impl Command {
+    fn run(&self) -> Result<String, Failure> {
+        match self {
+            Self::Toss(args) => args.run(),
+            Self::Trace(args) => args.run(),
+            Self::Probability(args) => args.run(),
+            Self::Coins(args) => list::coins(args),
+            Self::Solvers(args) => list::solvers(args),
+            Self::Spaces(args) => list::spaces(args),
+        }
+    }
+
+    fn wants_json(&self) -> bool {
+        match self {
+            Self::Toss(args) => args.format == Format::Json,
+            Self::Trace(args) => args.format == trace::TraceFormat::Json,
+            Self::Probability(args) => args.format == Format::Json,
+            Self::Coins(args) | Self::Solvers(args) | Self::Spaces(args) => args.format == Format::Json,
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let command = Cli::parse().command;
+    match command.run().and_then(|text| output::print(&text)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            if command.wants_json() {
+                // Standard output may be closed; the message above and the exit code still tell.
+                let _ = output::print(&failure.to_json());
+            }
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Options that several commands share: the coin, the launch, the solver.
+
+use clap::Args;
+use toss::catalogue::named_coin;
+use toss::launch::DEFAULT_GRAVITY;
+use toss::{
+    Coin, Frame, InputError, Launch, Method, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3, named_solver,
+};
+
+use crate::failure::Failure;
+
+/// Reads N numbers separated by commas.
+fn numbers<const N: usize>(field: &'static str, text: &str, expected: &'static str) -> Result<[f64; N], InputError> {
+    let malformed = || InputError::Malformed { field, value: text.to_owned(), expected };
+    let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    parts.map_err(|_| malformed())?.try_into().map_err(|_| malformed())
+}
+
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+pub(crate) struct CoinArgs {
+    /// A coin of the catalogue [default: paper]
+    #[arg(long, value_name = "NAME")]
+    coin: Option<String>,
+    /// A homogeneous cylinder [kg, m, m]
+    #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
+    cylinder: Option<String>,
+    /// Principal moments of inertia [kg m²]
+    #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
+    moments: Option<String>,
+}
+
+impl CoinArgs {
+    /// The coin, if one was asked for.
+    pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
+        if let Some(text) = &self.cylinder {
+            let [mass, radius, thickness] = numbers("cylinder", text, "MASS,RADIUS,THICKNESS [kg, m, m]")?;
+            return Coin::from_cylinder(mass, radius, thickness).map(Some);
+        }
+        if let Some(text) = &self.moments {
+            let [i1, i3] = numbers("moments", text, "I1,I3 [kg m²]")?;
+            return Coin::from_moments(i1, i3).map(Some);
+        }
+        self.coin.as_deref().map(named_coin).transpose()
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TossArgs {
+    #[command(flatten)]
+    coin: CoinArgs,
+    /// Body rate at launch, body frame [rad/s]
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
+    rate: String,
+    /// Launch speed v0 [m/s]
+    #[arg(long, value_name = "V0", allow_hyphen_values = true, required_unless_present = "time")]
+    speed: Option<f64>,
+    /// Time of flight, instead of a speed [s]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity"])]
+    time: Option<f64>,
+    /// Gravity [m/s²] [default: 9.81]
+    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    gravity: Option<f64>,
+    /// Attitude at launch: a turn about the lab's x axis [rad]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
+    tilt: f64,
+}
+
+impl TossArgs {
+    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
+        let time_of_flight = match (self.speed, self.time) {
+            (_, Some(time)) => TimeOfFlight::Given(time),
+            (Some(speed), None) => {
+                TimeOfFlight::Ballistic { speed, gravity: self.gravity.unwrap_or(DEFAULT_GRAVITY) }
+            }
+            (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
+        };
+        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
+        Ok(Toss { coin, launch })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SolverArgs {
+    /// The solver: exact, gamma, euler or quaternion
+    #[arg(long, value_name = "NAME", default_value = "exact")]
+    solver: String,
+    /// Local error per step, absolute and relative (dop853, dopri5) [default: 1e-10]
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Step of rk4 [s] [default: 0.001]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    step: Option<f64>,
+    /// Frame of the Euler angles (gamma, euler): along S, or vertical as the paper has it
+    #[arg(long, value_enum, default_value_t = FrameArg::Momentum)]
+    frame: FrameArg,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum FrameArg {
+    /// z along the angular momentum: no flight is singular
+    Momentum,
+    /// z up, as the paper has it: singular whenever n is vertical
+    Vertical,
+}
+
+impl SolverArgs {
+    /// The solver, with the Runge-Kutta scheme called `scheme`.
+    pub(crate) fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
+        let entry = named_solver(&self.solver)?;
+        let scheme = Scheme::named(scheme)?;
+        let frame = match self.frame {
+            FrameArg::Momentum => Frame::Momentum,
+            FrameArg::Vertical => Frame::Vertical,
+        };
+        Ok((entry.build)(&Settings { method: self.method(scheme)?, frame }))
+    }
+
+    fn method(&self, scheme: Scheme) -> Result<Method, Failure> {
+        let default_tolerance = 1e-10;
+        match (scheme.is_adaptive(), self.tolerance, self.step) {
+            (true, tolerance, None) => Ok(Method::adaptive(scheme, tolerance.unwrap_or(default_tolerance))?),
+            (false, None, step) => Ok(Method::fixed(scheme, step.unwrap_or(Method::DEFAULT_STEP))?),
+            (true, _, Some(_)) => Err(Failure::Usage(format!("--step is for rk4; {} takes --tolerance", scheme.name()))),
+            (false, Some(_), _) => Err(Failure::Usage(format!("--tolerance: {} takes --step", scheme.name()))),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! `unfair-toss coins`, `solvers` and `spaces`: what can be named.
+
+use sampling::NAMED_SPACES;
+use serde::Serialize;
+use toss::SOLVERS;
+use toss::catalogue::{Body, CATALOGUE};
+
+use crate::failure::Failure;
+use crate::output::{self, Format, table};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+#[derive(Serialize)]
+struct CoinLine {
+    name: &'static str,
+    description: &'static str,
+    mass_g: Option<f64>,
+    diameter_mm: Option<f64>,
+    thickness_mm: Option<f64>,
+    i1: f64,
+    i3: f64,
+    inertia_ratio: f64,
+    source: &'static str,
+}
+
+pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
+    let mut lines = Vec::new();
+    for entry in CATALOGUE {
+        let (mass_g, diameter_mm, thickness_mm) = match entry.body {
+            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
+                (Some(mass_g), Some(diameter_mm), Some(thickness_mm))
+            }
+            Body::Moments(_) => (None, None, None),
+        };
+        let coin = entry.coin()?;
+        lines.push(CoinLine {
+            name: entry.name,
+            description: entry.description,
+            mass_g,
+            diameter_mm,
+            thickness_mm,
+            i1: coin.i1(),
+            i3: coin.i3(),
+            inertia_ratio: coin.inertia_ratio(),
+            source: entry.source,
+        });
+    }
+    if args.format == Format::Json {
+        return Ok(output::json(&lines));
+    }
+    let optional = |value: Option<f64>, digits| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
+    let mut rows = vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
+    rows.extend(lines.iter().map(|line| {
+        vec![
+            line.name.to_owned(),
+            optional(line.mass_g, 3),
+            optional(line.diameter_mm, 2),
+            optional(line.thickness_mm, 2),
+            format!("{:.4e}", line.i1),
+            format!("{:.4e}", line.i3),
+            format!("{:.4}", line.inertia_ratio),
+            line.description.to_owned(),
+        ]
+    }));
+    let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
+    sources.dedup();
+    Ok(format!("{}\n\nsources:\n  {}", table(&rows), sources.join("\n  ")))
+}
+
+#[derive(Serialize)]
+struct SolverLine {
+    name: &'static str,
+    summary: &'static str,
+    integrates: bool,
+}
+
+pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
+    let lines: Vec<SolverLine> = SOLVERS
+        .iter()
+        .map(|entry| SolverLine { name: entry.name, summary: entry.summary, integrates: entry.integrates })
+        .collect();
+    if args.format == Format::Json {
+        return Ok(output::json(&lines));
+    }
+    let mut rows = vec![row(["name", "methods", "what"])];
+    rows.extend(lines.iter().map(|line| {
+        let methods = if line.integrates { "dop853, dopri5, rk4" } else { "-" };
+        row([line.name, methods, line.summary])
+    }));
+    Ok(table(&rows))
+}
+
+#[derive(Serialize)]
+struct SpaceLine {
+    name: &'static str,
+    description: &'static str,
+    rate_x: &'static str,
+    rate_y: &'static str,
+    rate_z: &'static str,
+    speed: &'static str,
+    grid_points: u64,
+}
+
+pub(crate) fn spaces(args: &Args) -> Result<String, Failure> {
+    let mut lines = Vec::new();
+    for named in NAMED_SPACES {
+        let [rate_x, rate_y, rate_z, speed] = named.axes;
+        let grid_points = named.space()?.grid_points()?;
+        let (name, description) = (named.name, named.description);
+        lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, grid_points });
+    }
+    if args.format == Format::Json {
+        return Ok(output::json(&lines));
+    }
+    let mut rows = vec![row(["name", "ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "launches", "what"])];
+    rows.extend(lines.iter().map(|line| {
+        let launches = line.grid_points.to_string();
+        row([line.name, line.rate_x, line.rate_y, line.rate_z, line.speed, &launches, line.description])
+    }));
+    Ok(table(&rows))
+}
+
+fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
+}

@@ -1,0 +1,140 @@
+//! `unfair-toss trace`: the flight at equal steps of time, as data and as a chart.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use toss::{TracePoint, trace};
+
+use crate::args::{SolverArgs, TossArgs};
+use crate::failure::Failure;
+use crate::{chart, output};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    toss: TossArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+    /// Runge-Kutta method: dop853, dopri5 or rk4
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    method: String,
+    /// Number of times, launch and landing included
+    #[arg(long, value_name = "N")]
+    points: usize,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = TraceFormat::Csv)]
+    pub(crate) format: TraceFormat,
+    /// Also draw the flight into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum TraceFormat {
+    /// A line a point, with a heading
+    Csv,
+    /// One JSON object
+    Json,
+}
+
+/// One line: time [s], attitude, Euler angles [rad], n and a vector fixed in the face (LF), cos θ.
+#[derive(Serialize)]
+struct Line {
+    time: f64,
+    w: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+    alpha: f64,
+    beta: f64,
+    gamma: f64,
+    normal_x: f64,
+    normal_y: f64,
+    normal_z: f64,
+    face_x: f64,
+    face_y: f64,
+    face_z: f64,
+    cos_tilt: f64,
+}
+
+#[derive(Serialize)]
+struct Point {
+    time: f64,
+    attitude: [f64; 4],
+    alpha: f64,
+    beta: f64,
+    gamma: f64,
+    normal: [f64; 3],
+    face: [f64; 3],
+    cos_tilt: f64,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    solver: &'static str,
+    points: Vec<Point>,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let toss = self.toss.toss()?;
+        let solver = self.solver.solver(&self.method)?;
+        let flight = trace(solver.as_ref(), &toss, self.points)?;
+        if let Some(path) = &self.svg {
+            output::write_file(path, &chart::flight(&flight)?)?;
+        }
+        Ok(match self.format {
+            TraceFormat::Csv => csv_text(&flight),
+            TraceFormat::Json => {
+                output::json(&Answer { solver: solver.name(), points: flight.iter().map(Point::from).collect() })
+            }
+        })
+    }
+}
+
+fn csv_text(flight: &[TracePoint]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for point in flight {
+        writer.serialize(Line::from(point)).expect("a line of numbers always fits into memory");
+    }
+    let bytes = writer.into_inner().expect("memory takes every byte");
+    String::from_utf8(bytes).expect("numbers are ASCII")
+}
+
+impl From<&TracePoint> for Line {
+    fn from(point: &TracePoint) -> Self {
+        let [w, x, y, z] = point.attitude.components();
+        Self {
+            time: point.time,
+            w,
+            x,
+            y,
+            z,
+            alpha: point.angles.alpha,
+            beta: point.angles.beta,
+            gamma: point.angles.gamma,
+            normal_x: point.normal.x,
+            normal_y: point.normal.y,
+            normal_z: point.normal.z,
+            face_x: point.face.x,
+            face_y: point.face.y,
+            face_z: point.face.z,
+            cos_tilt: point.cos_tilt,
+        }
+    }
+}
+
+impl From<&TracePoint> for Point {
+    fn from(point: &TracePoint) -> Self {
+        Self {
+            time: point.time,
+            attitude: point.attitude.components(),
+            alpha: point.angles.alpha,
+            beta: point.angles.beta,
+            gamma: point.angles.gamma,
+            normal: point.normal.into(),
+            face: point.face.into(),
+            cos_tilt: point.cos_tilt,
+        }
+    }
+}
