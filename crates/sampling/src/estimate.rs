@@ -115,8 +115,8 @@ pub fn estimate(
     }
 }
 
-/// Tosses `range` of the random sequence of `seed`.
-fn random_tosses(space: &Space, seed: u64, range: std::ops::Range<u64>) -> impl Iterator<Item = Toss> {
+/// Launches `range` of the random sequence of `seed`: each depends on the seed and its own index only.
+pub fn random_tosses(space: &Space, seed: u64, range: std::ops::Range<u64>) -> impl Iterator<Item = Toss> {
     const WORDS_PER_NUMBER: u128 = 2;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_word_pos(u128::from(range.start) * Space::DIMENSIONS as u128 * WORDS_PER_NUMBER);

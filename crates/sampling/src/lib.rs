@@ -11,7 +11,7 @@ pub mod long_flight;
 pub mod space;
 
 pub use axis::Axis;
-pub use estimate::{Counts, Plan, SampleError, estimate};
+pub use estimate::{Counts, Plan, SampleError, estimate, random_tosses};
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::long_flight_probability;
 pub use space::{NAMED_SPACES, NamedSpace, Space, YAxis, named_space};

@@ -1,1 +1,24 @@
+//! The verification suite: cases × solvers × checks → rows → one verdict.
+//!
+//! ```text
+//! subject (solver × method) ─┐
+//! survey (random launches) ──┼→ check → measurement ─┬→ judge → row → table, report.json, junit.xml
+//! reference (256 bits, files)┘                bound ─┘
+//! ```
+//!
+//! A check only measures. What is allowed stands in `validation/bounds.toml`, the judge compares, and the reports render
+//! rows; none of them knows the others.
 
+pub mod bounds;
+pub mod check;
+pub mod checks;
+pub mod judge;
+pub mod reference;
+pub mod reference_data;
+pub mod report;
+pub mod subject;
+pub mod survey;
+
+pub use check::{Basis, Check, Context, Effort, Measurement};
+pub use checks::CHECKS;
+pub use judge::{Row, Status, judge};

@@ -1,0 +1,255 @@
+//! What a check is: a claim, its basis, and a function that measures it for every subject.
+
+use std::cmp::Ordering;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use anyhow::Context as _;
+use serde::Serialize;
+use toss::{InputError, SolveError, SolverEntry, TimeOfFlight, Toss};
+
+use crate::reference_data::ReferenceData;
+use crate::subject::{Subject, subjects};
+use crate::survey::Survey;
+
+/// What a claim rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Basis {
+    /// The exact motion in more digits.
+    ClosedForm,
+    /// A conserved quantity.
+    Invariant,
+    /// A figure that somebody published.
+    PublishedFigure,
+    /// Solvers that share no formula agree.
+    CrossMethod,
+}
+
+impl Basis {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "closed form",
+            Self::Invariant => "invariant",
+            Self::PublishedFigure => "published figure",
+            Self::CrossMethod => "cross-method",
+        }
+    }
+}
+
+/// How much is tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Within a minute on two cores.
+    Quick,
+    /// Within five minutes.
+    Standard,
+    /// As long as it takes.
+    Deep,
+}
+
+impl Effort {
+    /// Number of random launches.
+    pub fn launches(self) -> u64 {
+        match self {
+            Self::Quick => 1000,
+            Self::Standard => 5000,
+            Self::Deep => 50_000,
+        }
+    }
+}
+
+/// A claim and how it is measured.
+pub struct Check {
+    /// Short name, unique.
+    pub id: &'static str,
+    /// The claim, in a sentence.
+    pub claim: &'static str,
+    /// What it rests on.
+    pub basis: Basis,
+    /// Unit of what is measured; "1" for a pure number.
+    pub unit: &'static str,
+    /// Measures the claim for every subject.
+    pub measure: fn(&Context) -> anyhow::Result<Vec<Measurement>>,
+}
+
+/// What one subject showed under one check.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// The subject's name.
+    pub subject: String,
+    /// The largest deviation found; infinite if the subject failed where it should not.
+    pub measured: f64,
+    /// How many cases were tried.
+    pub cases: u64,
+    /// The case with the largest deviation.
+    pub worst: Option<Worst>,
+}
+
+/// The worst case of a measurement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Worst {
+    /// Its input in words, or as hex floats.
+    pub input: String,
+    /// The error, if the subject failed.
+    pub failure: Option<String>,
+    /// A command that repeats it.
+    pub replay: String,
+}
+
+/// A toss from a coin turned about the lab's x axis, as the command line can repeat it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Case {
+    /// The toss.
+    pub toss: Toss,
+    /// The turn at launch [rad].
+    pub tilt: f64,
+}
+
+impl Case {
+    /// All inputs as hex floats.
+    pub fn hex(&self) -> String {
+        let Toss { coin, launch } = self.toss;
+        let rate = launch.rate();
+        let mut fields = vec![
+            ("i1", coin.i1()),
+            ("i3", coin.i3()),
+            ("rate_x", rate.x),
+            ("rate_y", rate.y),
+            ("rate_z", rate.z),
+            ("tilt", self.tilt),
+        ];
+        match launch.time_of_flight() {
+            TimeOfFlight::Given(time) => fields.push(("time", time)),
+            TimeOfFlight::Ballistic { speed, gravity } => {
+                fields.extend([("speed", speed), ("gravity", gravity)]);
+            }
+        }
+        fields.iter().map(|(name, value)| format!("{name}={}", hex_float(*value))).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The command that repeats this toss by `subject`.
+    pub fn replay(&self, subject: &Subject) -> String {
+        let Toss { coin, launch } = self.toss;
+        let rate = launch.rate();
+        let flight = match launch.time_of_flight() {
+            TimeOfFlight::Given(time) => format!("--time {time:?}"),
+            TimeOfFlight::Ballistic { speed, gravity } => format!("--speed {speed:?} --gravity {gravity:?}"),
+        };
+        format!(
+            "cargo run -q --release --bin unfair-toss -- toss --moments {:?},{:?} --rate {:?},{:?},{:?} {flight} \
+             --tilt {:?} {}",
+            coin.i1(),
+            coin.i3(),
+            rate.x,
+            rate.y,
+            rate.z,
+            self.tilt,
+            subject.options
+        )
+    }
+}
+
+/// `value` as a hexadecimal floating-point literal of C99, which holds every bit.
+fn hex_float(value: f64) -> String {
+    let bits = value.to_bits();
+    let (fraction, exponent) = (bits & 0x000f_ffff_ffff_ffff, (bits >> 52) & 0x7ff);
+    let sign = if value.is_sign_negative() { "-" } else { "" };
+    match (exponent, fraction) {
+        (0, 0) => format!("{sign}0x0p+0"),
+        (0, _) => format!("{sign}0x0.{fraction:013x}p-1022"),
+        _ => format!("{sign}0x1.{fraction:013x}p{:+}", exponent.cast_signed() - 1023),
+    }
+}
+
+impl Measurement {
+    /// The largest of the deviations of `subject`, which are in the order of their cases. A NaN is the largest of all.
+    pub fn largest(
+        subject: &Subject,
+        deviations: impl IntoIterator<Item = Result<f64, SolveError>>,
+        case: impl Fn(usize) -> Case,
+    ) -> Self {
+        let mut cases = 0;
+        let mut worst: Option<(usize, f64, Option<String>)> = None;
+        for (index, deviation) in deviations.into_iter().enumerate() {
+            cases += 1;
+            let (size, failure) = match deviation {
+                Ok(size) if size.is_nan() => (f64::INFINITY, Some("not a number".to_owned())),
+                Ok(size) => (size, None),
+                Err(error) => (f64::INFINITY, Some(error.to_string())),
+            };
+            if worst.as_ref().is_none_or(|(_, largest, _)| size.total_cmp(largest) == Ordering::Greater) {
+                worst = Some((index, size, failure));
+            }
+        }
+        let measured = worst.as_ref().map_or(f64::INFINITY, |(_, size, _)| *size);
+        let worst = worst.map(|(index, _, failure)| {
+            let case = case(index);
+            Worst { input: case.hex(), failure, replay: case.replay(subject) }
+        });
+        Self { subject: subject.name.clone(), measured, cases, worst }
+    }
+
+    /// A single figure without an input of its own.
+    pub fn figure(check: &str, subject: &str, measured: f64, cases: u64, input: String) -> Self {
+        let replay = format!("cargo xtask verify --only {check}");
+        let measured = if measured.is_nan() { f64::INFINITY } else { measured };
+        Self { subject: subject.to_owned(), measured, cases, worst: Some(Worst { input, failure: None, replay }) }
+    }
+}
+
+/// What checks share: the subjects, the data, and what is computed once for several of them.
+pub struct Context {
+    /// How much is tried.
+    pub effort: Effort,
+    /// The registry under verification.
+    pub registry: Vec<SolverEntry>,
+    /// Its subjects.
+    pub subjects: Vec<Subject>,
+    /// Numbers from outside.
+    pub data: ReferenceData,
+    survey: OnceLock<Survey>,
+}
+
+impl Context {
+    /// A context over `registry`, with the reference numbers under `validation`.
+    ///
+    /// # Errors
+    /// If the reference numbers can't be read.
+    pub fn new(registry: &[SolverEntry], effort: Effort, validation: &Path) -> anyhow::Result<Self> {
+        Ok(Self {
+            effort,
+            registry: registry.to_vec(),
+            subjects: subjects(registry).context("the registry's solvers can't be made")?,
+            data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
+            survey: OnceLock::new(),
+        })
+    }
+
+    /// The landings of every subject from random launches; computed when first asked for.
+    ///
+    /// # Errors
+    /// Never for the survey's own space.
+    pub fn survey(&self) -> Result<&Survey, InputError> {
+        if self.survey.get().is_none() {
+            let survey = Survey::new(&self.subjects, self.effort.launches())?;
+            let _ = self.survey.set(survey);
+        }
+        Ok(self.survey.get().expect("it was just set"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hex_floats_hold_every_bit() {
+        assert_eq!(hex_float(1.0), "0x1.0000000000000p+0");
+        assert_eq!(hex_float(-0.1), "-0x1.999999999999ap-4");
+        assert_eq!(hex_float(5e-324), "0x0.0000000000001p-1022");
+        assert_eq!(hex_float(-0.0), "-0x0p+0");
+        assert_eq!(hex_float(f64::MAX), "0x1.fffffffffffffp+1023");
+    }
+}

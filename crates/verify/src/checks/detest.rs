@@ -1,0 +1,39 @@
+//! DETEST B5, an asymmetric rigid body: the stepping itself, on equations that no solver of a coin contains.
+
+use nalgebra::SVector;
+use toss::integrate::{OdeSystem, integrate};
+use toss::{Method, Scheme};
+
+use crate::check::{Basis, Check, Context, Measurement};
+
+pub(super) const STATE: Check = Check {
+    id: "detest-b5",
+    claim: "DETEST B5 at t = 20 is (sn, cn, dn)(20 | 0.51)",
+    basis: Basis::PublishedFigure,
+    unit: "1",
+    measure,
+};
+
+struct AsymmetricBody;
+
+impl OdeSystem<3> for AsymmetricBody {
+    fn derivative(&self, y: &SVector<f64, 3>) -> SVector<f64, 3> {
+        SVector::from([y[1] * y[2], -y[0] * y[2], -0.51 * y[0] * y[1]])
+    }
+}
+
+fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let (time, exact) = context.data.detest_b5;
+    let methods = [
+        Method::adaptive(Scheme::Dop853, 1e-12)?,
+        Method::adaptive(Scheme::Dopri5, 1e-12)?,
+        Method::fixed(Scheme::Rk4, 1e-3)?,
+    ];
+    let measure = |method: &Method| {
+        let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, method)?;
+        let error = (end - SVector::from(exact)).amax();
+        let input = format!("y(0) = (0, 1, 1), t = {time}, {:?}", method.control());
+        Ok(Measurement::figure(STATE.id, method.scheme().name(), error, 1, input))
+    };
+    methods.iter().map(measure).collect()
+}

@@ -1,0 +1,58 @@
+//! The paper's own way: Euler angles and the γ-ODE in the vertical frame, from exactly horizontal, where both are
+//! singular, to just before n first comes back.
+
+use std::f64::consts::TAU;
+
+use toss::{ExactMotion, Frame, Launch, Scheme, TimeOfFlight, Toss};
+
+use crate::check::{Basis, Case, Check, Context, Measurement};
+use crate::reference::Reference;
+use crate::subject::Subject;
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "vertical-frame-to-first-return",
+    claim: "in the paper's vertical frame, from sin β = 0 at launch to 0.1 rad before the first return: the exact attitude",
+    basis: Basis::ClosedForm,
+    unit: "rad",
+    measure,
+};
+
+/// Distance to the return, in phase [rad].
+const DISTANCE: f64 = 0.1;
+
+/// The vertical frame's solvers divide by sin β: spin and cone keep this distance [rad] from the flights on which
+/// n stays near the vertical (ψ = 0) or turns end over end (ψ = π/2).
+const CLEARANCE: f64 = 0.1;
+
+fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let cases = returning_flights(context)?;
+    let mut measurements = Vec::new();
+    for entry in context.registry.iter().filter(|entry| ["gamma", "euler"].contains(&entry.name)) {
+        for scheme in [Scheme::Dop853, Scheme::Dopri5] {
+            let subject = Subject::new(*entry, Some(scheme), Frame::Vertical)?;
+            let deviations = cases.iter().map(|case| {
+                let landing = subject.solver.propagate(&case.toss)?;
+                Ok(Reference::new(&case.toss).attitude_error(&landing.state.attitude))
+            });
+            measurements.push(Measurement::largest(&subject, deviations, |index| cases[index]));
+        }
+    }
+    Ok(measurements)
+}
+
+/// The horizontal launches of the survey, each cut short before its first return.
+fn returning_flights(context: &Context) -> anyhow::Result<Vec<Case>> {
+    let mut cases = Vec::new();
+    for case in context.survey()?.cases.iter().filter(|case| case.tilt == 0.0) {
+        let motion = ExactMotion::new(&case.toss);
+        let cone = motion.cone_angle();
+        let from_right_angle = (cone - TAU / 4.0).abs();
+        if from_right_angle < CLEARANCE || TAU / 4.0 - from_right_angle < CLEARANCE {
+            continue;
+        }
+        let time = TimeOfFlight::Given((TAU - DISTANCE) / motion.precession_rate());
+        let toss = Toss { launch: Launch::new(case.toss.launch.rate(), time)?, ..case.toss };
+        cases.push(Case { toss, ..*case });
+    }
+    Ok(cases)
+}

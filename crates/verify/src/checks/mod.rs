@@ -1,0 +1,38 @@
+//! The checks, a line each; a file for each kind of claim.
+
+mod detest;
+mod first_return;
+mod invariants;
+mod numbers;
+mod order;
+mod paper;
+pub mod probability;
+mod random;
+
+use crate::check::Check;
+
+/// All checks, in the order in which they run.
+pub const CHECKS: &[Check] = &[
+    numbers::COS_TILT,
+    numbers::ATTITUDE,
+    detest::STATE,
+    random::COS_TILT,
+    random::ATTITUDE,
+    random::CROSS_METHOD,
+    first_return::ATTITUDE,
+    invariants::MOMENTUM,
+    invariants::ENERGY,
+    invariants::NORMAL_MOMENTUM_BODY,
+    invariants::NORMAL_MOMENTUM_TRANSPORT,
+    invariants::MOMENTUM_VECTOR,
+    order::ORDER,
+    paper::CHEATED_IN_FLIGHT,
+    paper::CHEATED_FOREVER,
+    paper::TAILS_IN_FLIGHT,
+    paper::FIRST_FLIP,
+    probability::LONG_FLIGHT,
+    probability::LONG_FLIGHT_SHARE,
+    probability::TABLES,
+    probability::FIG4_GRID_IN_RANDOM,
+    probability::FIG4_SAME_COUNTS,
+];

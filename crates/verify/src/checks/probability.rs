@@ -1,0 +1,161 @@
+//! Probabilities: the long-flight limit, and the tables of the named spaces by methods A and B.
+
+use sampling::{Counts, NAMED_SPACES, Plan, clopper_pearson, estimate, long_flight_probability, named_space};
+use serde::Serialize;
+use toss::{Coin, ExactMotion, ExactSolver, Launch, Settings, TimeOfFlight, Toss, Vector3};
+
+use crate::check::{Basis, Check, Context, Effort, Measurement};
+
+pub(super) const LONG_FLIGHT: Check = Check {
+    id: "long-flight-probability",
+    claim: "p(ψ) = ½ + asin(cot²ψ)/π has the reference digits at 45° to 90°",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: long_flight,
+};
+
+pub(super) const LONG_FLIGHT_SHARE: Check = Check {
+    id: "long-flight-share",
+    claim: "the share of heads over a million phases of one turn of the exact motion is p(ψ)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: long_flight_share,
+};
+
+pub(super) const TABLES: Check = Check {
+    id: "probability-tables",
+    claim: "P(heads) by methods A and B is the paper's: 0.66 (Fig. 4), 1 (cheated), 0 (tails)",
+    basis: Basis::PublishedFigure,
+    unit: "1",
+    measure: published,
+};
+
+pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
+    id: "fig4-grid-in-random",
+    claim: "method A lies in the exact interval of method B at a false-alarm rate of 1e-6 (measured: distance from it)",
+    basis: Basis::CrossMethod,
+    unit: "1",
+    measure: grid_in_random,
+};
+
+pub(super) const FIG4_SAME_COUNTS: Check = Check {
+    id: "fig4-same-counts",
+    claim: "every solver counts the heads of the exact motion in Fig. 4's space (measured: difference)",
+    basis: Basis::CrossMethod,
+    unit: "launches",
+    measure: same_counts,
+};
+
+/// Launches of method B.
+const RANDOM_LAUNCHES: u64 = 250_000;
+/// Seed of method B.
+const SEED: u64 = 1;
+
+/// One line of the probability tables.
+#[derive(Debug, Clone, Serialize)]
+pub struct TableLine {
+    /// Name of the space.
+    pub space: &'static str,
+    /// `grid` or `random`.
+    pub method: &'static str,
+    /// Launches that land heads.
+    pub heads: u64,
+    /// Launches that land tails.
+    pub tails: u64,
+    /// Launches too near to the edge.
+    pub undecided: u64,
+}
+
+/// Every named space by methods A and B, with the exact motion.
+///
+/// # Errors
+/// Never for the named spaces.
+pub fn tables() -> anyhow::Result<Vec<TableLine>> {
+    let mut lines = Vec::new();
+    for named in NAMED_SPACES {
+        for (method, plan) in [("grid", Plan::Grid), ("random", Plan::Random { points: RANDOM_LAUNCHES, seed: SEED })] {
+            let Counts { heads, tails, undecided } = estimate(&named.space()?, plan, &ExactSolver, &|_| {})?;
+            lines.push(TableLine { space: named.name, method, heads, tails, undecided });
+        }
+    }
+    Ok(lines)
+}
+
+fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |line: TableLine| {
+        let counts = Counts { heads: line.heads, tails: line.tails, undecided: line.undecided };
+        let expected = match line.space {
+            "cheated" => 1.0,
+            "tails" => 0.0,
+            _ => 0.66,
+        };
+        let subject = format!("{}/{}", line.space, line.method);
+        let input = format!("{} heads of {} launches", line.heads, counts.points());
+        Measurement::figure(TABLES.id, &subject, (counts.probability() - expected).abs(), counts.points(), input)
+    };
+    Ok(tables()?.into_iter().map(measure).collect())
+}
+
+fn grid_in_random(_: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let space = named_space("paper-fig4")?;
+    let grid = estimate(&space, Plan::Grid, &ExactSolver, &|_| {})?.probability();
+    let random = estimate(&space, Plan::Random { points: RANDOM_LAUNCHES, seed: SEED }, &ExactSolver, &|_| {})?;
+    let interval = clopper_pearson(random.heads, random.points(), 1.0 - 1e-6);
+    let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
+    let input = format!("A: {grid}; B: {:.6} to {:.6}", interval.lo, interval.hi);
+    Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, random.points(), input)])
+}
+
+fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let space = match context.effort {
+        Effort::Quick => sampling::space::parse_space(Coin::PAPER, ["0:50:100", "x", "30", "3:5:100"], 9.81)?,
+        Effort::Standard | Effort::Deep => named_space("paper-fig4")?,
+    };
+    let exact = estimate(&space, Plan::Grid, &ExactSolver, &|_| {})?;
+    let measure = |entry: &toss::SolverEntry| {
+        let solver = (entry.build)(&Settings::default());
+        let (difference, input) = match estimate(&space, Plan::Grid, solver.as_ref(), &|_| {}) {
+            Ok(counts) => {
+                let difference = counts.heads.abs_diff(exact.heads) + counts.tails.abs_diff(exact.tails);
+                (difference as f64, format!("{} heads, {} tails, {} undecided", counts.heads, counts.tails, counts.undecided))
+            }
+            Err(error) => (f64::INFINITY, error.to_string()),
+        };
+        Measurement::figure(FIG4_SAME_COUNTS.id, entry.name, difference, exact.points(), input)
+    };
+    Ok(context.registry.iter().filter(|entry| entry.integrates).map(measure).collect())
+}
+
+fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let deviation = |&(cone, probability): &(f64, f64)| (long_flight_probability(cone, cone) - probability).abs();
+    worst_cone(LONG_FLIGHT.id, &context.data.long_flights, 1, deviation)
+}
+
+/// Over one turn, at the middles of a million equal parts, from a horizontal launch with the cone angle ψ.
+fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    const PHASES: u32 = 1_000_000;
+    let deviation = |&(cone, _): &(f64, f64)| {
+        let rate = Vector3::new(cone.sin(), 0.0, cone.cos() / Coin::PAPER.inertia_ratio());
+        let launch = Launch::new(rate, TimeOfFlight::Given(0.0)).expect("sines and cosines are finite");
+        let motion = ExactMotion::new(&Toss { coin: Coin::PAPER, launch });
+        let turn = std::f64::consts::TAU / motion.precession_rate();
+        let heads = (0..PHASES)
+            .map(|part| turn * (f64::from(part) + 0.5) / f64::from(PHASES))
+            .filter(|time| motion.cos_tilt(*time).is_ok_and(|cos_tilt| cos_tilt > 0.0))
+            .count();
+        (heads as f64 / f64::from(PHASES) - long_flight_probability(cone, cone)).abs()
+    };
+    worst_cone(LONG_FLIGHT_SHARE.id, &context.data.long_flights, u64::from(PHASES), deviation)
+}
+
+fn worst_cone(
+    check: &str,
+    cones: &[(f64, f64)],
+    cases_each: u64,
+    deviation: impl Fn(&(f64, f64)) -> f64,
+) -> anyhow::Result<Vec<Measurement>> {
+    let worst = cones.iter().map(|cone| (deviation(cone), cone.0)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let (deviation, cone) = worst.ok_or_else(|| anyhow::anyhow!("no cone angle in the reference numbers"))?;
+    let input = format!("ψ = {}°", cone.to_degrees());
+    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * cones.len() as u64, input)])
+}

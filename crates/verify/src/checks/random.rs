@@ -1,0 +1,69 @@
+//! Random launches: every subject against the exact motion in 256 bits, and the solvers against each other.
+
+use toss::{SolveError, State};
+
+use crate::check::{Basis, Check, Context, Measurement};
+use crate::reference::Reference;
+use crate::subject::Subject;
+use crate::survey::Survey;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "random-cos-tilt",
+    claim: "cos θ at landing is the exact motion's, from random launches",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| {
+        against_reference(context, |reference, state| reference.cos_tilt_error(state.attitude.cos_tilt()))
+    },
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "random-attitude",
+    claim: "the attitude at landing is the exact motion's, from random launches",
+    basis: Basis::ClosedForm,
+    unit: "rad",
+    measure: |context| against_reference(context, |reference, state| reference.attitude_error(&state.attitude)),
+};
+
+pub(super) const CROSS_METHOD: Check = Check {
+    id: "cross-method-attitude",
+    claim: "each two solvers land in the same attitude, by the same method, from random launches",
+    basis: Basis::CrossMethod,
+    unit: "rad",
+    measure: cross_method,
+};
+
+fn against_reference(context: &Context, error: fn(&Reference, &State) -> f64) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey()?;
+    let measure = |(subject, landings): (&Subject, &Vec<Result<State, SolveError>>)| {
+        let deviations = landings
+            .iter()
+            .zip(&survey.references)
+            .map(|(landing, reference)| landing.as_ref().map(|state| error(reference, state)).map_err(Clone::clone));
+        Measurement::largest(subject, deviations, |index| survey.cases[index])
+    };
+    Ok(context.subjects.iter().zip(&survey.landings).map(measure).collect())
+}
+
+fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey()?;
+    let mut measurements = Vec::new();
+    for (index, one) in context.subjects.iter().enumerate() {
+        for (offset, other) in context.subjects[index + 1..].iter().enumerate() {
+            let comparable = one.scheme == other.scheme || one.scheme.is_none() || other.scheme.is_none();
+            if comparable {
+                measurements.push(pair(survey, (index, one), (index + 1 + offset, other)));
+            }
+        }
+    }
+    Ok(measurements)
+}
+
+fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): (usize, &Subject)) -> Measurement {
+    let deviations = survey.landings[index].iter().zip(&survey.landings[other_index]).map(|pair| match pair {
+        (Ok(a), Ok(b)) => Ok(a.attitude.angle_to(&b.attitude)),
+        (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+    });
+    let measurement = Measurement::largest(other, deviations, |index| survey.cases[index]);
+    Measurement { subject: format!("{} ~ {}", one.entry.name, other.name), ..measurement }
+}

@@ -1,0 +1,120 @@
+//! The exact motion in 256 bits: what every error is measured against.
+//!
+//! It takes the f64 inputs of a toss as exact numbers and evaluates
+//! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is some 2^-250 for the
+//! phases of a toss. It shares no code with the solvers, and its tests hold it against numbers from outside.
+
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use toss::{Attitude, TimeOfFlight, Toss};
+
+/// Binary digits.
+const PRECISION: usize = 256;
+
+type Big = FBig<HalfEven>;
+
+fn big(value: f64) -> Big {
+    Big::try_from(value).expect("a validated toss is finite").with_precision(PRECISION).value()
+}
+
+/// The exact landing of a toss.
+pub struct Reference {
+    attitude: [Big; 4],
+}
+
+impl Reference {
+    /// Solves `toss`.
+    pub fn new(toss: &Toss) -> Self {
+        let rate = toss.launch.rate();
+        let (x, y, z) = (big(rate.x), big(rate.y), big(rate.z));
+        let k = big(toss.coin.i3()) / big(toss.coin.i1());
+        let momentum_z = &k * &z;
+        let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
+        let time = match toss.launch.time_of_flight() {
+            TimeOfFlight::Given(time) => big(time),
+            TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+        };
+        let half_time = time / big(2.0);
+        let (sin, cos) = (&precession * &half_time).sin_cos();
+        // Without angular momentum there is no precession, and no direction to turn about.
+        let still = precession == big(0.0);
+        let along = |part: Big| if still { big(0.0) } else { part / &precession * &sin };
+        let turn = [cos, along(x), along(y), along(momentum_z)];
+        let (sin_spin, cos_spin) = ((k - big(1.0)) * z * half_time).sin_cos();
+        let spin = [cos_spin, big(0.0), big(0.0), -sin_spin];
+        let launch = normalised(toss.launch.attitude().components().map(big));
+        Self { attitude: product(&product(&launch, &turn), &spin) }
+    }
+
+    /// |Δ cos θ| of a computed value.
+    pub fn cos_tilt_error(&self, cos_tilt: f64) -> f64 {
+        to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
+    }
+
+    /// Angle between a computed attitude and the exact one [rad].
+    pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
+        let [w, x, y, z] = attitude.components().map(big);
+        let [w, x, y, z] = product(&[w, -x, -y, -z], &self.attitude);
+        let sine = to_f64(&(&x * &x + &y * &y + &z * &z).sqrt());
+        2.0 * sine.atan2(to_f64(&w).abs())
+    }
+
+    fn cos_tilt(&self) -> Big {
+        let [w, x, y, z] = &self.attitude;
+        w * w + z * z - x * x - y * y
+    }
+}
+
+fn to_f64(value: &Big) -> f64 {
+    value.to_f64().value()
+}
+
+fn product(a: &[Big; 4], b: &[Big; 4]) -> [Big; 4] {
+    [
+        &a[0] * &b[0] - &a[1] * &b[1] - &a[2] * &b[2] - &a[3] * &b[3],
+        &a[0] * &b[1] + &a[1] * &b[0] + &a[2] * &b[3] - &a[3] * &b[2],
+        &a[0] * &b[2] - &a[1] * &b[3] + &a[2] * &b[0] + &a[3] * &b[1],
+        &a[0] * &b[3] + &a[1] * &b[2] - &a[2] * &b[1] + &a[3] * &b[0],
+    ]
+}
+
+fn normalised(q: [Big; 4]) -> [Big; 4] {
+    let norm = q.iter().fold(big(0.0), |sum, part| sum + part * part).sqrt();
+    q.map(|part| part / &norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::str::FromStr;
+
+    use dashu_float::DBig;
+
+    use super::*;
+    use crate::reference_data::ReferenceData;
+
+    fn decimal(text: &str) -> Big {
+        let value = DBig::from_str(text).unwrap().with_precision(40).value();
+        value.with_base_and_precision::<2>(PRECISION).value().with_rounding()
+    }
+
+    /// Flights whose inputs are exact in f64 agree with the numbers from outside in every printed digit; the others
+    /// within the rounding of their inputs.
+    #[test]
+    fn it_agrees_with_the_numbers_from_outside() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/reference/motion.toml");
+        let mut exact_inputs = 0;
+        for flight in ReferenceData::read(&folder).unwrap().flights {
+            let reference = Reference::new(&flight.case.toss);
+            let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt_digits))).abs();
+            let exact = flight.case.tilt == 0.0
+                && matches!(flight.case.toss.launch.time_of_flight(), TimeOfFlight::Given(_));
+            exact_inputs += usize::from(exact);
+            let within = if exact { 1e-31 } else { 3e-16 };
+            assert!(error < within, "{}: {error:e}", flight.name);
+            let attitude_error = reference.attitude_error(&flight.attitude);
+            assert!(attitude_error < 3e-16, "{}: {attitude_error:e}", flight.name);
+        }
+        assert!(exact_inputs >= 3);
+    }
+}

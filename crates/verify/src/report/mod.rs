@@ -1,0 +1,54 @@
+//! Reports render rows; they measure and judge nothing.
+
+pub mod junit;
+pub mod table;
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::Context;
+use serde::Serialize;
+
+use crate::judge::Row;
+
+/// Everything that a run found.
+#[derive(Debug, Serialize)]
+pub struct Report<'a> {
+    /// Version of this layout.
+    pub schema: u32,
+    /// Whether every row passes.
+    pub passed: bool,
+    /// `quick`, `standard` or `deep`.
+    pub effort: &'a str,
+    /// The rows.
+    pub rows: &'a [Row],
+}
+
+impl<'a> Report<'a> {
+    /// The report of `rows`.
+    pub fn new(effort: &'a str, rows: &'a [Row]) -> Self {
+        Self { schema: 1, passed: rows.iter().all(|row| row.status.passes()), effort, rows }
+    }
+
+    /// As JSON.
+    ///
+    /// # Errors
+    /// Never for plain data.
+    pub fn json(&self) -> anyhow::Result<String> {
+        Ok(serde_json::to_string_pretty(self)?)
+    }
+}
+
+/// Writes a file whole or not at all: to a neighbour first, which then takes its name.
+///
+/// # Errors
+/// If the folder can't be made or the file not be written.
+pub fn write_file(path: &Path, content: &str) -> anyhow::Result<()> {
+    let failed = || format!("cannot write {}", path.display());
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).with_context(failed)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(failed)?;
+    file.write_all(content.as_bytes()).with_context(failed)?;
+    file.persist(path).with_context(failed)?;
+    Ok(())
+}
