@@ -199,7 +199,7 @@ impl Solver for ExactSolver {
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let state = ExactMotion::new(toss).state(toss.launch.flight_time())?;
-        Ok(Propagation { state, work: Work::default() })
+        Ok(Propagation { state, defect: 0.0, work: Work::default() })
     }
 
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {

@@ -44,6 +44,8 @@ impl std::ops::AddAssign for Work {
 pub struct Propagation {
     /// State at landing.
     pub state: State,
+    /// Loss of norm of an integrated quaternion, ||Q| - 1|, before it was normalised; 0 where attitudes need no norm.
+    pub defect: f64,
     /// Its cost.
     pub work: Work,
 }

@@ -63,7 +63,7 @@ impl Solver for EulerAnglesSolver {
         let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
         let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
-        Ok(Propagation { state: State { attitude: start.frame * angles.attitude(), rate }, work })
+        Ok(Propagation { state: State { attitude: start.frame * angles.attitude(), rate }, defect: 0.0, work })
     }
 
     fn resolution(&self, phase: f64) -> f64 {

@@ -73,7 +73,7 @@ impl Solver for GammaSolver {
         let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
         let attitude = start.frame * system.angles(&end).attitude();
         let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
-        Ok(Propagation { state: State { attitude, rate }, work })
+        Ok(Propagation { state: State { attitude, rate }, defect: 0.0, work })
     }
 
     fn resolution(&self, phase: f64) -> f64 {

@@ -55,8 +55,9 @@ impl Solver for QuaternionSolver {
         // Rounding and truncation change the norm; only the direction is the attitude.
         let turn = Attitude::from_components([end[0], end[1], end[2], end[3]])
             .map_err(|_| SolveError::NotFinite { time: duration })?;
+        let defect = (end.fixed_rows::<4>(0).norm() - 1.0).abs();
         let rate = Vector3::new(end[4] * scale, end[5] * scale, rate.z);
-        Ok(Propagation { state: State { attitude: toss.launch.attitude() * turn, rate }, work })
+        Ok(Propagation { state: State { attitude: toss.launch.attitude() * turn, rate }, defect, work })
     }
 
     fn resolution(&self, phase: f64) -> f64 {

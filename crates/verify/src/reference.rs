@@ -6,7 +6,7 @@
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use toss::{Attitude, TimeOfFlight, Toss};
+use toss::{Attitude, TimeOfFlight, Toss, Vector3};
 
 /// Binary digits.
 const PRECISION: usize = 256;
@@ -20,6 +20,7 @@ fn big(value: f64) -> Big {
 /// The exact landing of a toss.
 pub struct Reference {
     attitude: [Big; 4],
+    rate: [Big; 3],
 }
 
 impl Reference {
@@ -39,11 +40,14 @@ impl Reference {
         // Without angular momentum there is no precession, and no direction to turn about.
         let still = precession == big(0.0);
         let along = |part: Big| if still { big(0.0) } else { part / &precession * &sin };
-        let turn = [cos, along(x), along(y), along(momentum_z)];
-        let (sin_spin, cos_spin) = ((k - big(1.0)) * z * half_time).sin_cos();
-        let spin = [cos_spin, big(0.0), big(0.0), -sin_spin];
+        let turn = [cos, along(x.clone()), along(y.clone()), along(momentum_z)];
+        let half_spin = (k - big(1.0)) * &z * half_time;
+        let (sin_half, cos_half) = half_spin.sin_cos();
+        let spin = [cos_half, big(0.0), big(0.0), -sin_half];
         let launch = normalised(toss.launch.attitude().components().map(big));
-        Self { attitude: product(&product(&launch, &turn), &spin) }
+        let (sin_spin, cos_spin) = (half_spin * big(2.0)).sin_cos();
+        let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
+        Self { attitude: product(&product(&launch, &turn), &spin), rate }
     }
 
     /// |Δ cos θ| of a computed value.
@@ -57,6 +61,11 @@ impl Reference {
         let [w, x, y, z] = product(&[w, -x, -y, -z], &self.attitude);
         let sine = to_f64(&(&x * &x + &y * &y + &z * &z).sqrt());
         2.0 * sine.atan2(to_f64(&w).abs())
+    }
+
+    /// Largest |Δω| of a computed body rate [rad/s].
+    pub fn rate_error(&self, rate: &Vector3<f64>) -> f64 {
+        self.rate.iter().zip(rate).map(|(exact, found)| to_f64(&(exact - big(*found))).abs()).fold(0.0, f64::max)
     }
 
     fn cos_tilt(&self) -> Big {

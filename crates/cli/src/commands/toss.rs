@@ -61,7 +61,7 @@ impl Args {
 
 impl Answer {
     fn new(toss: &Toss, solver: &dyn Solver) -> Result<Self, Failure> {
-        let Propagation { state, work } = solver.propagate(toss)?;
+        let Propagation { state, work, .. } = solver.propagate(toss)?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
         Ok(Self {
             coin: Moments { i1: toss.coin.i1(), i3: toss.coin.i3() },
