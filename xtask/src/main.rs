@@ -1,1 +1,52 @@
-fn main(){}
+//! `cargo xtask TASK`: tasks of the workspace.
+//!
+//! Exit codes are those of the task; 2 for an unknown task, 4 if it could not be built or started.
+
+use std::env;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+const USAGE: &str = "\
+usage: cargo xtask TASK
+
+tasks:
+  verify [--quick | --deep] [--only ID] [--list] [--format text|json|junit]
+      run the verification suite; writes target/verify/report.json and junit.xml";
+
+fn main() -> ExitCode {
+    let mut args = env::args().skip(1);
+    match args.next().as_deref() {
+        Some("verify") => verify(args),
+        Some("help" | "--help" | "-h") => {
+            println!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        Some(task) => usage_error(&format!("unknown task '{task}'")),
+        None => usage_error("no task"),
+    }
+}
+
+fn usage_error(message: &str) -> ExitCode {
+    eprintln!("error: {message}\n\n{USAGE}");
+    ExitCode::from(2)
+}
+
+/// Builds the suite with optimisation and runs it in the root of the workspace.
+fn verify(args: impl Iterator<Item = String>) -> ExitCode {
+    const COULD_NOT_RUN: u8 = 4;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let status = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()))
+        .args(["run", "--quiet", "--release", "--package", "verify", "--"])
+        .args(args)
+        .current_dir(root)
+        .status();
+    match status.map(|status| status.code().and_then(|code| u8::try_from(code).ok())) {
+        // The suite's own codes; anything else is cargo failing to build it, a panic or a signal.
+        Ok(Some(code @ 0..=COULD_NOT_RUN)) => ExitCode::from(code),
+        Ok(_) => ExitCode::from(COULD_NOT_RUN),
+        Err(error) => {
+            eprintln!("error: cannot start cargo: {error}");
+            ExitCode::from(COULD_NOT_RUN)
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What the tests across crates share: tosses to try, and what a solver promises.
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use toss::{Coin, ExactMotion, Launch, Method, SOLVERS, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3};
+
+/// Tolerance of the adaptive methods under test.
+pub const TOLERANCE: f64 = 1e-11;
+
+/// The same cases in every run; `PROPTEST_CASES` asks for more of them.
+pub fn config() -> ProptestConfig {
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(96);
+    ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() }
+}
+
+/// Every solver of the registry, each integrator by both adaptive methods.
+pub fn solvers() -> Vec<Box<dyn Solver>> {
+    let methods = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, TOLERANCE).expect("valid"));
+    let mut solvers = Vec::new();
+    for entry in SOLVERS {
+        for method in methods.iter().take(if entry.integrates { 2 } else { 1 }) {
+            solvers.push((entry.build)(&Settings { method: *method, ..Settings::default() }));
+        }
+    }
+    solvers
+}
+
+/// Name and method of a solver, for messages.
+pub fn name(solver: &dyn Solver) -> String {
+    format!("{} {:?}", solver.name(), solver.method().map(|method| method.scheme()))
+}
+
+/// Error of cos θ that a solver may make on `toss`: what it answers for itself.
+pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
+    solver.resolution(phase(toss))
+}
+
+/// Error of an attitude [rad]: ten times that of cos θ, whose slope vanishes where the attitude's does not.
+pub fn attitude_error(solver: &dyn Solver, toss: &Toss) -> f64 {
+    10.0 * tilt_error(solver, toss)
+}
+
+/// ωL T [rad].
+pub fn phase(toss: &Toss) -> f64 {
+    ExactMotion::new(toss).phase(toss.launch.flight_time()).expect("the tosses of the tests are short")
+}
+
+/// A toss from its plain numbers.
+pub fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
+    Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.expect("valid") }
+}
+
+/// The same toss for another time [s].
+pub fn lasting(toss: &Toss, time: f64) -> Toss {
+    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).expect("valid");
+    Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }
+}
+
+prop_compose! {
+    /// Tosses of all bodies from rod to disc, from all tilts, with the corner values as likely as the rest together.
+    pub fn tosses()(
+        k in prop_oneof![Just(0.0), Just(0.5), Just(1.0), Just(2.0), 0.0..2.0],
+        rate_x in rates(), rate_y in rates(), rate_z in rates(),
+        tilt in prop_oneof![Just(0.0), Just(1e-300), Just(1e-16), Just(1e-8), Just(std::f64::consts::FRAC_PI_2),
+                            Just(std::f64::consts::PI), 0.0..std::f64::consts::PI],
+        time in 0.0..1.5,
+    ) -> Toss {
+        toss(k, [rate_x, rate_y, rate_z], tilt, time)
+    }
+}
+
+/// Rates of up to 60 rad/s, zero and tiny ones among them.
+pub fn rates() -> impl Strategy<Value = f64> {
+    prop_oneof![1 => Just(0.0), 1 => Just(1e-9), 6 => -60.0..60.0]
+}
