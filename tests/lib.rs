@@ -40,7 +40,7 @@ pub fn attitude_error(solver: &dyn Solver, toss: &Toss) -> f64 {
     10.0 * tilt_error(solver, toss)
 }
 
-/// ωL T [rad].
+/// How far the motion turns [rad].
 pub fn phase(toss: &Toss) -> f64 {
     ExactMotion::new(toss).phase(toss.launch.flight_time()).expect("the tosses of the tests are short")
 }

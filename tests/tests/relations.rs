@@ -162,7 +162,9 @@ proptest! {
     #[test]
     fn the_tilt_repeats_with_the_precession(toss in tosses()) {
         let rate = ExactMotion::new(&toss).precession_rate();
-        prop_assume!(rate > 0.5);
+        if rate < 0.5 {
+            return Ok(());
+        }
         let later = |t: &Toss| lasting(t, t.launch.flight_time() + std::f64::consts::TAU / rate);
         check_tilt(&toss, later, |cos_tilt| cos_tilt);
     }
@@ -195,7 +197,9 @@ proptest! {
 
     #[test]
     fn momentum_energy_and_spin_are_conserved(toss in tosses()) {
-        prop_assume!(toss.launch.rate().norm() > 0.0);
+        if toss.launch.rate().norm() == 0.0 {
+            return Ok(());
+        }
         let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
         for solver in solvers() {
             let solver = solver.as_ref();

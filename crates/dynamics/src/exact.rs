@@ -14,7 +14,7 @@
 //! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
 //! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit.
 //!
-//! Accuracy: the phase ωL t carries a relative error of a few ε, so cos θ is right to about [`resolution`].
+//! Accuracy: the phases ωL t and q t carry a relative error of a few ε, so cos θ is right to about [`resolution`].
 
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ use crate::solver::{Outcome, Propagation, Settings, Solver, SolverEntry, State, 
 /// 2^53: above it, neighbouring f64 phases are more than a radian apart.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
-/// Error of cos θ that rounding can cause at a phase ωL T [rad]: 4 ε (2 + phase), with ε = 2^-52.
+/// Error of cos θ that rounding can cause at a [`phase`](ExactMotion::phase) [rad]: 4 ε (2 + phase), with ε = 2^-52.
 ///
 /// The phase is a product of some ten rounded operations; the bound counts 3 ε for them and is not a proof.
 pub fn resolution(phase: f64) -> f64 {
@@ -92,17 +92,22 @@ impl ExactMotion {
         s.x.hypot(s.y).atan2(s.z)
     }
 
-    /// The phase ωL t [rad].
+    /// The larger of the phases ωL t and |q| t [rad]: how far the motion turns.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if ωL t or q t is above 2^53.
+    /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
     pub fn phase(&self, time: f64) -> Result<f64, SolveError> {
+        self.phases(time).map(|(precession, spin)| precession.max(spin.abs()))
+    }
+
+    /// ωL t and q t [rad].
+    fn phases(&self, time: f64) -> Result<(f64, f64), SolveError> {
         let scaled_time = self.scale * time;
         // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
         let turned = |rate: f64| if rate == 0.0 { 0.0 } else { rate * scaled_time };
-        let phase = turned(self.precession_rate);
-        let largest = phase.max(turned(self.spin_rate.abs()));
-        if largest <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase: largest }) }
+        let (precession, spin) = (turned(self.precession_rate), turned(self.spin_rate));
+        let largest = precession.max(spin.abs());
+        if largest <= LARGEST_PHASE { Ok((precession, spin)) } else { Err(SolveError::PhaseTooLarge { phase: largest }) }
     }
 
     /// cos θ, `time` [s] after launch: one sine and cosine.
@@ -110,7 +115,7 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn cos_tilt(&self, time: f64) -> Result<f64, SolveError> {
-        let (sin, cos) = self.phase(time)?.sin_cos();
+        let (sin, cos) = self.phases(time)?.0.sin_cos();
         let [a, b, c] = self.tilt;
         Ok(a + b * cos + c * sin)
     }
@@ -120,8 +125,7 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn state(&self, time: f64) -> Result<State, SolveError> {
-        let phase = self.phase(time)?;
-        let spin = self.spin_rate * (self.scale * time);
+        let (phase, spin) = self.phases(time)?;
         let precession = Attitude::about_unit_axis(&self.momentum_direction, 0.5 * phase);
         let (sin, cos) = spin.sin_cos();
         let rate = self.launch.rate;
@@ -139,8 +143,8 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn euler_angles(&self, time: f64) -> Result<EulerAngles, SolveError> {
-        let half_phase = 0.5 * self.phase(time)?;
-        let spin = self.spin_rate * (self.scale * time);
+        let (phase, spin) = self.phases(time)?;
+        let half_phase = 0.5 * phase;
         // Precession alone: cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin only lowers γ by q t.
         let start = self.launch.attitude;
         let [w0, x0, y0, z0] = start.components();

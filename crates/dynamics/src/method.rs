@@ -108,7 +108,8 @@ impl Method {
         self.control
     }
 
-    /// Error of cos θ at landing that a solver with this method answers for, at a phase ωL T [rad]:
+    /// Error of cos θ at landing that a solver with this method answers for, after a
+    /// [`phase`](crate::ExactMotion::phase) [rad]:
     /// 100 × tolerance × (1 + phase), or nothing (0) for fixed steps, which come without an estimate.
     pub fn resolution(&self, phase: f64) -> f64 {
         match self.control {

@@ -107,7 +107,8 @@ pub trait Solver: Send + Sync {
         Ok(self.propagate(toss)?.state.attitude.cos_tilt())
     }
 
-    /// Error of cos θ that this solver answers for, at a phase ωL T [rad]; 0 if it gives no estimate.
+    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) [rad]; 0 if it gives no
+    /// estimate.
     fn resolution(&self, phase: f64) -> f64;
 
     /// Heads or tails, or undecided where cos θ is within [`Solver::resolution`] of 0.

@@ -98,7 +98,7 @@ struct Terms {
 
 impl GammaSystem {
     fn new(inertia_ratio: f64, rate_z: f64, precession: f64) -> Self {
-        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), sense: precession.signum() }
+        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), sense: if precession < 0.0 { -1.0 } else { 1.0 } }
     }
 
     fn terms(&self, y: &SVector<f64, 5>) -> Terms {
@@ -109,7 +109,9 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        EulerAngles { alpha: y[2], beta: (self.sense * d).atan2(self.sense * u), gamma: y[0] }
+        // Without any precession D = u = 0, and the flight was let pass because n rests at β = 0.
+        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
+        EulerAngles { alpha: y[2], beta, gamma: y[0] }
     }
 
     /// γ'' by (10) and (11).

@@ -3,9 +3,10 @@
 //! In the kinematics (5) write D = ωx sin γ + ωy cos γ = α' sin β and u = ωz - γ' = α' cos β. Angles taken in the frame
 //! F describe the attitude `Q = F ⊗ z(α) x(β) z(γ)`.
 //!
-//! - [`Frame::Momentum`]: F's z axis is along S. Then β = ψ, α' = ωL and γ' = -q for the whole flight, with
-//!   γ(0) = atan2(ωx, ωy), α(0) = 0. S is known at launch; that it stays is conservation of angular momentum, and the
-//!   integration shows whether it does.
+//! - [`Frame::Momentum`]: F's z axis is along s S, where the sign s is that of k ωz, so that n is on its side:
+//!   β ≤ π/2, and a small sin β keeps its digits. Then β is constant, α' = s ωL and γ' = -q for the whole flight, with
+//!   γ(0) = atan2(s ωx, s ωy), α(0) = 0. S is known at launch; that it stays is conservation of angular momentum, and
+//!   the integration shows whether it does.
 //! - [`Frame::Vertical`]: F = 1. At sin β = 0 the motion has the regular limit u = k ωz / 2 and
 //!   γ(0) = atan2(-ωy, ωx), where D = 0.
 
@@ -45,9 +46,11 @@ impl Start {
     }
 
     fn along_momentum(launch: Attitude, rate: &Vector3<f64>, momentum_z: f64) -> Self {
+        let sense = if momentum_z < 0.0 { -1.0 } else { 1.0 };
         let transverse = rate.x.hypot(rate.y);
-        let angles = EulerAngles { alpha: 0.0, beta: transverse.atan2(momentum_z), gamma: rate.x.atan2(rate.y) };
-        let precession = transverse.hypot(momentum_z);
+        let (beta, gamma) = (transverse.atan2(momentum_z.abs()), (sense * rate.x).atan2(sense * rate.y));
+        let angles = EulerAngles { alpha: 0.0, beta, gamma };
+        let precession = sense * transverse.hypot(momentum_z);
         Self { frame: launch * angles.attitude().inverse(), angles, precession, u: momentum_z }
     }
 
