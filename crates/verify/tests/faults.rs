@@ -1,0 +1,233 @@
+//! The suite proves itself: known faults, each injected as a solver of its own, make the verdict fail.
+//!
+//! The γ-ODE and the quaternion are written out again here, with a place for the fault; without it they pass, so that it
+//! is the fault that is caught and nothing else.
+
+use std::path::Path;
+
+use nalgebra::SVector;
+use toss::integrate::{OdeSystem, integrate};
+use toss::solver::power_of_two_scale;
+use toss::{
+    Attitude, Coin, EulerAngles, ExactSolver, Method, Propagation, QuaternionSolver, SolveError, Solver, SolverEntry,
+    State, Toss, Vector3, Work,
+};
+use verify::bounds::Bounds;
+use verify::{CHECKS, Context, Effort, judge};
+
+/// The γ-ODE (10)-(11) with the frame's z axis along S; `sign_of_c` is 1 where it is right.
+struct GammaCopy {
+    method: Method,
+    sign_of_c: f64,
+}
+
+struct GammaCopySystem {
+    rate_z: f64,
+    q: f64,
+    sign_of_c: f64,
+}
+
+impl GammaCopySystem {
+    /// D, u and β'.
+    fn terms(&self, y: &SVector<f64, 5>) -> (f64, f64, f64) {
+        let (sin, cos) = y[0].sin_cos();
+        (y[3] * sin + y[4] * cos, self.rate_z - y[1], y[3] * cos - y[4] * sin)
+    }
+}
+
+impl OdeSystem<5> for GammaCopySystem {
+    fn derivative(&self, y: &SVector<f64, 5>) -> SVector<f64, 5> {
+        let (d, u, beta_rate) = self.terms(y);
+        let (a, b) = ((3.0 * self.rate_z - self.q) * beta_rate / d, -2.0 * beta_rate / d);
+        let c = -self.sign_of_c * (self.rate_z * (self.rate_z - self.q) + d * d) * beta_rate / d;
+        let acceleration = if beta_rate == 0.0 { 0.0 } else { -(a * y[1] + b * y[1] * y[1] + c) };
+        SVector::from([y[1], acceleration, d.hypot(u), -self.q * y[4], self.q * y[3]])
+    }
+}
+
+impl Solver for GammaCopy {
+    fn name(&self) -> &'static str {
+        "gamma"
+    }
+    fn method(&self) -> Option<Method> {
+        Some(self.method)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let scale = power_of_two_scale(&toss.launch.rate());
+        let rate = toss.launch.rate() / scale;
+        let k = toss.coin.inertia_ratio();
+        // Seen from the other face where S is against n, so that α' > 0.
+        if k * rate.z < 0.0 {
+            return self.from_the_other_face(toss);
+        }
+        let system = GammaCopySystem { rate_z: rate.z, q: (k - 1.0) * rate.z, sign_of_c: self.sign_of_c };
+        let start = EulerAngles {
+            alpha: 0.0,
+            beta: rate.x.hypot(rate.y).atan2(k * rate.z),
+            gamma: rate.x.atan2(rate.y),
+        };
+        let first = SVector::from([start.gamma, (1.0 - k) * rate.z, 0.0, rate.x, rate.y]);
+        let (end, work) = integrate(&system, first, toss.launch.flight_time(), scale, &self.method)?;
+        let (d, u, _) = system.terms(&end);
+        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { d.atan2(u) };
+        let angles = EulerAngles { alpha: end[2], beta, gamma: end[0] };
+        let attitude = toss.launch.attitude() * start.attitude().inverse() * angles.attitude();
+        let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
+        Ok(Propagation { state: State { attitude, rate }, defect: 0.0, work })
+    }
+    fn resolution(&self, phase: f64) -> f64 {
+        self.method.resolution(phase)
+    }
+}
+
+impl GammaCopy {
+    fn from_the_other_face(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let mirror = Vector3::new(1.0, -1.0, -1.0);
+        let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).unwrap();
+        let turned = State {
+            attitude: toss.launch.attitude() * half_turn,
+            rate: toss.launch.rate().component_mul(&mirror),
+        };
+        let launch = toss::Launch::from_state(&turned, toss.launch.time_of_flight()).unwrap();
+        let landing = self.propagate(&Toss { launch, ..*toss })?;
+        let state = State {
+            attitude: landing.state.attitude * half_turn,
+            rate: landing.state.rate.component_mul(&mirror),
+        };
+        Ok(Propagation { state, ..landing })
+    }
+}
+
+/// Q' = `half` Q ⊗ (0, ω); `half` is ½ where it is right.
+struct QuaternionCopy {
+    method: Method,
+    half: f64,
+}
+
+struct QuaternionCopySystem {
+    rate_z: f64,
+    q: f64,
+    half: f64,
+}
+
+impl OdeSystem<6> for QuaternionCopySystem {
+    fn derivative(&self, y: &SVector<f64, 6>) -> SVector<f64, 6> {
+        let (a, b, c) = (self.half * y[4], self.half * y[5], self.half * self.rate_z);
+        SVector::from([
+            -(y[1] * a + y[2] * b + y[3] * c),
+            y[0] * a + y[2] * c - y[3] * b,
+            y[0] * b + y[3] * a - y[1] * c,
+            y[0] * c + y[1] * b - y[2] * a,
+            -self.q * y[5],
+            self.q * y[4],
+        ])
+    }
+}
+
+impl Solver for QuaternionCopy {
+    fn name(&self) -> &'static str {
+        "quaternion"
+    }
+    fn method(&self) -> Option<Method> {
+        Some(self.method)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let scale = power_of_two_scale(&toss.launch.rate());
+        let rate = toss.launch.rate() / scale;
+        let q = (toss.coin.inertia_ratio() - 1.0) * rate.z;
+        let system = QuaternionCopySystem { rate_z: rate.z, q, half: self.half };
+        let first = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x, rate.y]);
+        let (end, work) = integrate(&system, first, toss.launch.flight_time(), scale, &self.method)?;
+        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).unwrap();
+        let rate = Vector3::new(end[4] * scale, end[5] * scale, toss.launch.rate().z);
+        let state = State { attitude: toss.launch.attitude() * turn, rate };
+        Ok(Propagation { state, defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), work })
+    }
+    fn resolution(&self, phase: f64) -> f64 {
+        self.method.resolution(phase)
+    }
+}
+
+/// A right solver of the coin with I1 and I3 swapped.
+struct Swapped<S>(S);
+
+impl<S: Solver> Solver for Swapped<S> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+    fn method(&self) -> Option<Method> {
+        self.0.method()
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        match Coin::from_moments(toss.coin.i3(), toss.coin.i1()) {
+            Ok(coin) => self.0.propagate(&Toss { coin, ..*toss }),
+            // A rod has no swapped twin; any answer will do.
+            Err(_) => {
+                let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+                Ok(Propagation { state, defect: 0.0, work: Work::default() })
+            }
+        }
+    }
+    fn resolution(&self, phase: f64) -> f64 {
+        self.0.resolution(phase)
+    }
+}
+
+const fn entry(name: &'static str, integrates: bool, build: fn(&toss::Settings) -> Box<dyn Solver>) -> SolverEntry {
+    SolverEntry { name, summary: "", integrates, build }
+}
+
+/// The checks that fail with `solver` beside the exact motion. Two checks need the vertical frame, which the copies lack.
+fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
+    const NEED_THE_VERTICAL_FRAME: [&str; 2] = ["vertical-frame-to-first-return", "convergence-order"];
+    let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+    let bounds = Bounds::read(&validation.join("bounds.toml")).unwrap();
+    let registry = if solver.integrates { vec![ExactSolver::ENTRY, solver] } else { vec![solver] };
+    let context = Context::new(&registry, Effort::Quick, &validation).unwrap();
+    CHECKS
+        .iter()
+        .filter(|check| !NEED_THE_VERTICAL_FRAME.contains(&check.id))
+        .filter(|check| {
+            let rows = judge(check, (check.measure)(&context).unwrap(), &bounds);
+            rows.iter().any(|row| !row.status.passes())
+        })
+        .map(|check| check.id)
+        .collect()
+}
+
+#[track_caller]
+fn assert_caught(solver: SolverEntry, by: &[&str]) {
+    let failing = failing_checks(solver);
+    for check in by {
+        assert!(failing.contains(check), "{check} missed it; caught by {failing:?}");
+    }
+}
+
+#[test]
+fn the_copies_pass_without_their_faults() {
+    let gamma = entry("gamma", true, |s| Box::new(GammaCopy { method: s.method, sign_of_c: 1.0 }));
+    assert_eq!(failing_checks(gamma), [""; 0]);
+    let quaternion = entry("quaternion", true, |s| Box::new(QuaternionCopy { method: s.method, half: 0.5 }));
+    assert_eq!(failing_checks(quaternion), [""; 0]);
+}
+
+#[test]
+fn a_wrong_sign_in_c_is_caught() {
+    let faulty = entry("gamma", true, |s| Box::new(GammaCopy { method: s.method, sign_of_c: -1.0 }));
+    assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "cross-method-attitude", "fig4-same-counts"]);
+}
+
+#[test]
+fn a_lost_half_is_caught() {
+    let faulty = entry("quaternion", true, |s| Box::new(QuaternionCopy { method: s.method, half: 1.0 }));
+    let invariant = "invariant-momentum-vector";
+    assert_caught(faulty, &["reference-cos-tilt", "random-attitude", invariant, "tails-in-flight", "first-flip"]);
+}
+
+#[test]
+fn swapped_moments_are_caught_in_an_integrator_and_in_the_exact_motion() {
+    let faulty = entry("quaternion", true, |s| Box::new(Swapped(QuaternionSolver::new(s.method))));
+    assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);
+    let exact = entry("exact", false, |_| Box::new(Swapped(ExactSolver)));
+    assert_caught(exact, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);
+}

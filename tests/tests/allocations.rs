@@ -1,0 +1,40 @@
+//! No integrator allocates memory per step: what it allocates grows with the logarithm of the number of steps.
+
+use allocation_counter::measure;
+use toss::{Method, SOLVERS, Scheme, Settings};
+
+/// The stages, and two vectors of results that double when full.
+fn allowed(steps: u64) -> u64 {
+    4 + 2 * u64::from(steps.next_power_of_two().ilog2())
+}
+
+#[test]
+fn the_exact_motion_allocates_nothing() {
+    let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 1.0);
+    let solver = (SOLVERS[0].build)(&Settings::default());
+    assert_eq!(solver.name(), "exact");
+    let count = measure(|| {
+        solver.propagate(&toss).unwrap();
+        solver.outcome(&toss).unwrap();
+    });
+    assert_eq!(count.count_total, 0);
+}
+
+#[test]
+fn integrators_allocate_with_the_logarithm_of_the_steps() {
+    let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0);
+    let adaptive = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, 1e-12).unwrap());
+    let methods = [adaptive[0], adaptive[1], Method::fixed(Scheme::Rk4, 1e-3).unwrap()];
+    for entry in SOLVERS.iter().filter(|entry| entry.integrates) {
+        for method in methods {
+            let solver = (entry.build)(&Settings { method, ..Settings::default() });
+            let mut steps = 0;
+            let count = measure(|| {
+                let work = solver.propagate(&toss).unwrap().work;
+                steps = work.accepted_steps;
+            });
+            assert!(steps > 10, "{} {method:?}", entry.name);
+            assert!(count.count_total <= allowed(steps), "{} {method:?}: {} for {steps}", entry.name, count.count_total);
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Bad and corner input through the library: right, or a typed error that names the field; never a panic or a NaN.
+
+use blackbox::{name, solvers, tilt_error, toss};
+use toss::{
+    Attitude, Coin, ExactMotion, ExactSolver, Frame, InputError, Launch, Method, Outcome, SOLVERS, Scheme, Settings,
+    SolveError, Solver, TimeOfFlight, Toss, Vector3,
+};
+
+const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+fn field(error: InputError) -> String {
+    match error {
+        InputError::OutOfRange { field, .. }
+        | InputError::Malformed { field, .. }
+        | InputError::UnknownName { field, .. } => field.to_owned(),
+    }
+}
+
+fn launch(rate: [f64; 3], time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
+    Launch::new(Vector3::from(rate), time_of_flight)
+}
+
+#[test]
+fn what_is_not_finite_is_refused_by_name() {
+    let thrown = |speed, gravity| TimeOfFlight::Ballistic { speed, gravity };
+    for bad in NOT_FINITE {
+        for (result, expected) in [
+            (Coin::from_cylinder(bad, 0.01, 0.001).err(), "mass"),
+            (Coin::from_cylinder(0.005, bad, 0.001).err(), "radius"),
+            (Coin::from_cylinder(0.005, 0.01, bad).err(), "thickness"),
+            (Coin::from_moments(bad, 1e-7).err(), "I1"),
+            (Coin::from_moments(1e-7, bad).err(), "I3"),
+            (launch([bad, 0.0, 0.0], TimeOfFlight::Given(1.0)).err(), "rate x"),
+            (launch([0.0, bad, 0.0], TimeOfFlight::Given(1.0)).err(), "rate y"),
+            (launch([0.0, 0.0, bad], TimeOfFlight::Given(1.0)).err(), "rate z"),
+            (launch([1.0; 3], TimeOfFlight::Given(bad)).err(), "time"),
+            (launch([1.0; 3], thrown(bad, 9.81)).err(), "speed"),
+            (launch([1.0; 3], thrown(3.0, bad)).err(), "gravity"),
+            (toss(0.5, [1.0; 3], 0.0, 1.0).launch.with_tilt(bad).err(), "tilt"),
+            (Attitude::from_components([bad, 0.0, 0.0, 1.0]).err(), "attitude"),
+            (Method::adaptive(Scheme::Dop853, bad).err(), "tolerance"),
+            (Method::fixed(Scheme::Rk4, bad).err(), "step"),
+        ] {
+            let found = field(result.unwrap_or_else(|| panic!("{expected} = {bad} was accepted")));
+            assert!(found.starts_with(expected), "{found} for {expected} = {bad}");
+        }
+    }
+}
+
+#[test]
+fn what_is_out_of_range_is_refused_with_the_range() {
+    let thrown = |speed, gravity| TimeOfFlight::Ballistic { speed, gravity };
+    for (result, message) in [
+        (Coin::from_cylinder(0.0, 0.01, 0.001).err(), "mass [kg] = 0.0 is outside its valid range: finite and > 0"),
+        (Coin::from_cylinder(-1.0, 0.01, 0.001).err(), "mass [kg] = -1.0 is outside"),
+        (Coin::from_cylinder(0.005, 0.0, 0.001).err(), "radius [m] = 0.0 is outside"),
+        (Coin::from_cylinder(0.005, 0.01, -1e-9).err(), "thickness [m] = -1e-9 is outside"),
+        (Coin::from_cylinder(1e300, 1e300, 1.0).err(), "I1 [kg m²] = inf is outside"),
+        (Coin::from_moments(0.0, 0.0).err(), "I1 [kg m²] = 0.0 is outside"),
+        (Coin::from_moments(-1.0, 1.0).err(), "I1 [kg m²] = -1.0 is outside"),
+        (Coin::from_moments(1.0, -1e-300).err(), "I3 [kg m²] = -1e-300 is outside its valid range: 0 <= I3 <= 2 I1"),
+        (Coin::from_moments(1.0, 2.000_000_000_000_001).err(), "I3 [kg m²] = 2.000000000000001 is outside"),
+        (launch([1.0; 3], thrown(-0.1, 9.81)).err(), "speed [m/s] = -0.1 is outside"),
+        (launch([1.0; 3], thrown(3.0, 0.0)).err(), "gravity [m/s²] = 0.0 is outside"),
+        (launch([1.0; 3], TimeOfFlight::Given(-1.0)).err(), "time [s] = -1.0 is outside"),
+        (Method::adaptive(Scheme::Dop853, 0.0).err(), "tolerance = 0.0 is outside"),
+        (Method::adaptive(Scheme::Dopri5, -1e-9).err(), "tolerance = -1e-9 is outside"),
+        (Method::adaptive(Scheme::Dopri5, 2e-16).err(), "tolerance = 2e-16 is outside"),
+        (Method::adaptive(Scheme::Rk4, 1e-9).err(), "method with a tolerance = 'rk4'"),
+        (Method::fixed(Scheme::Rk4, 0.0).err(), "step [s] = 0.0 is outside"),
+    ] {
+        let found = result.unwrap_or_else(|| panic!("accepted what should give: {message}")).to_string();
+        assert!(found.starts_with(message), "'{found}' for '{message}'");
+    }
+}
+
+#[test]
+fn the_edges_of_the_model_are_accepted() {
+    for (i1, i3) in [(1.0, 2.0), (1.0, 0.0), (1.0, 1.0), (f64::MIN_POSITIVE, 0.0), (1e300, 2e300)] {
+        assert!(Coin::from_moments(i1, i3).is_ok(), "{i1}, {i3}");
+    }
+    assert!(Method::adaptive(Scheme::Dop853, f64::EPSILON).is_ok());
+}
+
+#[test]
+fn a_coin_that_does_not_move_shows_heads_by_every_solver() {
+    for (rate, time) in [([1.0, 2.0, 3.0], 0.0), ([0.0; 3], 1.0), ([0.0; 3], 1e308), ([-0.0; 3], 0.0)] {
+        for k in [0.0, 0.5, 1.0, 2.0] {
+            for solver in solvers() {
+                let outcome = solver.outcome(&toss(k, rate, 0.0, time));
+                assert_eq!(outcome, Ok(Outcome::Heads), "{} at {rate:?}, {time}", name(solver.as_ref()));
+            }
+        }
+    }
+}
+
+/// In both frames, the paper's vertical one included, by both adaptive methods.
+fn every_formulation() -> Vec<Box<dyn Solver>> {
+    let mut all = Vec::new();
+    for entry in SOLVERS {
+        for scheme in [Scheme::Dop853, Scheme::Dopri5] {
+            let method = Method::adaptive(scheme, 1e-10).expect("valid");
+            all.extend(Frame::ALL.map(|frame| (entry.build)(&Settings { method, frame })));
+        }
+    }
+    all
+}
+
+#[test]
+fn keller_pure_spin_and_every_tilt_are_right_or_a_typed_error() {
+    let rates = [[0.0, 9.0, 0.0], [4.0, -3.0, 0.0], [0.0, 0.0, 20.0], [0.0, 0.0, -7.0], [3.0, 1.0, 5.0], [0.3, 0.3, 5.0]];
+    let tilts = [0.0, 1e-300, 1e-16, 1e-9, 1e-4, 1.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
+    for rate in rates {
+        for tilt in tilts {
+            for k in [0.0, 0.5, 1.0, 1.98, 2.0] {
+                let toss = toss(k, rate, tilt, 0.9);
+                let exact = ExactSolver.cos_tilt(&toss).unwrap();
+                for solver in every_formulation() {
+                    if let Ok(cos_tilt) = solver.cos_tilt(&toss) {
+                        let error = (cos_tilt - exact).abs();
+                        let allowed = tilt_error(solver.as_ref(), &toss);
+                        assert!(error <= allowed, "{}: {error:e} on {toss:?}", name(solver.as_ref()));
+                    } else {
+                        assert!(solver.name() != "quaternion" && solver.name() != "exact", "{toss:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
+    let build = |solver: &str| {
+        let entry = toss::named_solver(solver).unwrap();
+        (entry.build)(&Settings { method: Method::DEFAULT, frame: Frame::Vertical })
+    };
+    // F1: from horizontal, n comes back to the vertical at 2π/ωL.
+    let returning = toss(0.5, [9.0, 4.0, 3.0], 0.0, 1.0);
+    let first_return = std::f64::consts::TAU / ExactMotion::new(&returning).precession_rate();
+    match build("gamma").propagate(&returning) {
+        Err(SolveError::Singular { time, .. } | SolveError::StepSizeUnderflow { time } | SolveError::Stiff { time }) => {
+            assert!((time - first_return).abs() < 1e-3 * first_return, "{time}, not {first_return}");
+        }
+        other => panic!("{other:?}"),
+    }
+    // F2: tilted, and the cone does not enclose the vertical: α' changes its sign.
+    let message = build("gamma").propagate(&toss(0.5, [0.3, 0.3, 5.0], 1.0, 5.0)).unwrap_err().to_string();
+    assert!(message.contains("α' = 0") && message.contains("at t = "), "{message}");
+    // F4: Keller's coin has no precession at all.
+    let keller = build("gamma").propagate(&toss(1.98, [9.0, 0.0, 0.0], 0.0, 1.0));
+    assert!(matches!(keller, Err(SolveError::Singular { time: 0.0, .. })), "{keller:?}");
+}
+
+#[test]
+fn rk4_never_lets_a_nan_escape() {
+    for entry in SOLVERS {
+        for frame in Frame::ALL {
+            for step in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 1e300] {
+                let solver = (entry.build)(&Settings { method: Method::fixed(Scheme::Rk4, step).unwrap(), frame });
+                for tilt in [0.0, 1e-16, 1e-4, 1.0] {
+                    if let Ok(landing) = solver.propagate(&toss(0.5, [50.0, -20.0, 30.0], tilt, 1.0)) {
+                        let state = landing.state;
+                        assert!(state.attitude.components().iter().chain(&state.rate).all(|part| part.is_finite()));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn huge_and_subnormal_rates_are_solved_or_refused() {
+    let paper = ExactSolver.cos_tilt(&toss(0.5, [1.0, 1.0, 2.5], 0.0, 1.0)).unwrap();
+    for solver in solvers() {
+        let solver = solver.as_ref();
+        let fast = solver.cos_tilt(&toss(0.5, [1e300, 1e300, 2.5e300], 0.0, 1e-300)).unwrap();
+        assert!((fast - paper).abs() < 1e-8, "{}: {fast}", name(solver));
+        let slow = solver.cos_tilt(&toss(0.5, [5e-324, 0.0, 1e-310], 0.0, 1e3)).unwrap();
+        assert!((slow - 1.0).abs() < 1e-15, "{}: {slow}", name(solver));
+        for (rate, time) in [([1e300, 1e300, 1e300], 1.0), ([f64::MAX; 3], 1.0), ([1.0, 1.0, 1e10], 1e10)] {
+            let refused = solver.outcome(&toss(0.5, rate, 0.0, time));
+            assert!(matches!(refused, Err(SolveError::PhaseTooLarge { .. })), "{}: {refused:?}", name(solver));
+            assert!(refused.unwrap_err().to_string().starts_with("outcome not determined"));
+        }
+    }
+}
+
+#[test]
+fn an_outcome_at_the_edge_is_never_misjudged() {
+    // ψ = 45° within an ulp: cos θ only touches 0, at half a turn. ωL = √2 k ωz.
+    for ulps in -2..=2_i64 {
+        let transverse = f64::from_bits(1.0_f64.to_bits().wrapping_add_signed(ulps));
+        let half_turn = std::f64::consts::PI / 2f64.sqrt();
+        for nudge in -3..=3_i64 {
+            let time = f64::from_bits(half_turn.to_bits().wrapping_add_signed(nudge));
+            let edge = toss(2.0, [transverse, 0.0, 0.5], 0.0, time);
+            assert_eq!(ExactSolver.outcome(&edge), Ok(Outcome::Undecided), "{ulps}, {nudge}");
+            for solver in solvers() {
+                assert_eq!(solver.outcome(&edge), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
+            }
+        }
+        // A tenth of a turn away from it nothing is open.
+        assert_eq!(ExactSolver.outcome(&toss(2.0, [transverse, 0.0, 0.5], 0.0, 0.9 * half_turn)), Ok(Outcome::Heads));
+    }
+}
+
+#[test]
+fn a_step_limit_is_an_error_and_no_partial_result() {
+    let long = toss(1.98, [50.0, 0.0, 50.0], 0.0, 1e4);
+    let method = Method::fixed(Scheme::Rk4, 1e-3).unwrap();
+    for entry in SOLVERS.iter().filter(|entry| entry.integrates) {
+        let solver = (entry.build)(&Settings { method, ..Settings::default() });
+        assert!(matches!(solver.propagate(&long), Err(SolveError::StepLimit { .. })), "{}", entry.name);
+    }
+}
+
+#[test]
+fn unknown_names_are_answered_with_the_known_ones() {
+    for (error, known) in [
+        (toss::named_solver("newton").unwrap_err(), "exact, gamma, euler, quaternion"),
+        (toss::catalogue::named_coin("doubloon").unwrap_err(), "paper, disc, us-cent"),
+        (Scheme::named("euler").unwrap_err(), "dop853, dopri5, rk4"),
+        (sampling::named_space("moon").unwrap_err(), "paper-fig4, cheated, tails"),
+    ] {
+        assert!(error.to_string().contains(known), "{error}");
+    }
+}
