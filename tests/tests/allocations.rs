@@ -34,7 +34,12 @@ fn integrators_allocate_with_the_logarithm_of_the_steps() {
                 steps = work.accepted_steps;
             });
             assert!(steps > 10, "{} {method:?}", entry.name);
-            assert!(count.count_total <= allowed(steps), "{} {method:?}: {} for {steps}", entry.name, count.count_total);
+            assert!(
+                count.count_total <= allowed(steps),
+                "{} {method:?}: {} for {steps}",
+                entry.name,
+                count.count_total
+            );
         }
     }
 }

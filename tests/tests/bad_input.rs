@@ -108,7 +108,8 @@ fn every_formulation() -> Vec<Box<dyn Solver>> {
 
 #[test]
 fn keller_pure_spin_and_every_tilt_are_right_or_a_typed_error() {
-    let rates = [[0.0, 9.0, 0.0], [4.0, -3.0, 0.0], [0.0, 0.0, 20.0], [0.0, 0.0, -7.0], [3.0, 1.0, 5.0], [0.3, 0.3, 5.0]];
+    let rates =
+        [[0.0, 9.0, 0.0], [4.0, -3.0, 0.0], [0.0, 0.0, 20.0], [0.0, 0.0, -7.0], [3.0, 1.0, 5.0], [0.3, 0.3, 5.0]];
     let tilts = [0.0, 1e-300, 1e-16, 1e-9, 1e-4, 1.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
     for rate in rates {
         for tilt in tilts {
@@ -139,7 +140,9 @@ fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
     let returning = toss(0.5, [9.0, 4.0, 3.0], 0.0, 1.0);
     let first_return = std::f64::consts::TAU / ExactMotion::new(&returning).precession_rate();
     match build("gamma").propagate(&returning) {
-        Err(SolveError::Singular { time, .. } | SolveError::StepSizeUnderflow { time } | SolveError::Stiff { time }) => {
+        Err(
+            SolveError::Singular { time, .. } | SolveError::StepSizeUnderflow { time } | SolveError::Stiff { time },
+        ) => {
             assert!((time - first_return).abs() < 1e-3 * first_return, "{time}, not {first_return}");
         }
         other => panic!("{other:?}"),

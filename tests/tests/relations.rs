@@ -13,7 +13,8 @@ fn landing(solver: &dyn Solver, toss: &Toss) -> Option<State> {
     match solver.propagate(toss) {
         Ok(propagation) => Some(propagation.state),
         Err(SolveError::Singular { point: Singularity::PrecessionStops, .. })
-            if solver.name() == "gamma" && ExactMotion::new(toss).precession_rate() < 0.01 * toss.launch.rate().amax() =>
+            if solver.name() == "gamma"
+                && ExactMotion::new(toss).precession_rate() < 0.01 * toss.launch.rate().amax() =>
         {
             None
         }

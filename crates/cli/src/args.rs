@@ -72,9 +72,7 @@ impl TossArgs {
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
-            (Some(speed), None) => {
-                TimeOfFlight::Ballistic { speed, gravity: self.gravity.unwrap_or(DEFAULT_GRAVITY) }
-            }
+            (Some(speed), None) => TimeOfFlight::Ballistic { speed, gravity: self.gravity.unwrap_or(DEFAULT_GRAVITY) },
             (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
         };
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
@@ -123,7 +121,9 @@ impl SolverArgs {
         match (scheme.is_adaptive(), self.tolerance, self.step) {
             (true, tolerance, None) => Ok(Method::adaptive(scheme, tolerance.unwrap_or(default_tolerance))?),
             (false, None, step) => Ok(Method::fixed(scheme, step.unwrap_or(Method::DEFAULT_STEP))?),
-            (true, _, Some(_)) => Err(Failure::Usage(format!("--step is for rk4; {} takes --tolerance", scheme.name()))),
+            (true, _, Some(_)) => {
+                Err(Failure::Usage(format!("--step is for rk4; {} takes --tolerance", scheme.name())))
+            }
             (false, Some(_), _) => Err(Failure::Usage(format!("--tolerance: {} takes --step", scheme.name()))),
         }
     }

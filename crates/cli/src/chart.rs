@@ -48,9 +48,8 @@ fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
         .margin(12)
         .caption("on the sphere, seen from the lab", TEXT)
         .build_cartesian_2d(-1.15..1.15, -1.15..1.15)?;
-    let ring = |point: fn(f64) -> Vector3<f64>| {
-        (0..=180).map(move |i| point(f64::from(i) * std::f64::consts::TAU / 180.0))
-    };
+    let ring =
+        |point: fn(f64) -> Vector3<f64>| (0..=180).map(move |i| point(f64::from(i) * std::f64::consts::TAU / 180.0));
     let outline = (0..=180).map(|i| (f64::from(i) * std::f64::consts::TAU / 180.0).sin_cos());
     chart.draw_series(LineSeries::new(outline, FAINT))?;
     let equator = ring(|angle| Vector3::new(angle.cos(), angle.sin(), 0.0));

@@ -66,9 +66,7 @@ impl Failure {
                 error.insert("value".to_owned(), json!(value));
                 error.insert("valid".to_owned(), json!(valid));
             }
-            Self::Input(
-                InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. },
-            ) => {
+            Self::Input(InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. }) => {
                 error.insert("field".to_owned(), json!(field));
                 error.insert("value".to_owned(), json!(value));
             }
@@ -112,12 +110,9 @@ impl From<sampling::SampleError> for Failure {
     fn from(error: sampling::SampleError) -> Self {
         match error {
             sampling::SampleError::Input(error) => error.into(),
-            sampling::SampleError::Solve { index, toss, source } => Self::Launch {
-                index,
-                rate: toss.launch.rate().into(),
-                flight_time: toss.launch.flight_time(),
-                source,
-            },
+            sampling::SampleError::Solve { index, toss, source } => {
+                Self::Launch { index, rate: toss.launch.rate().into(), flight_time: toss.launch.flight_time(), source }
+            }
         }
     }
 }

@@ -54,7 +54,7 @@ impl CatalogueEntry {
         match self.body {
             Body::Moments(coin) => Ok(coin),
             Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
-                Coin::from_cylinder(mass_g * 1e-3, diameter_mm * 0.5e-3, thickness_mm * 1e-3)
+                Coin::from_cylinder(mass_g / 1e3, diameter_mm / 2e3, thickness_mm / 1e3)
             }
         }
     }

@@ -107,7 +107,11 @@ impl ExactMotion {
         let turned = |rate: f64| if rate == 0.0 { 0.0 } else { rate * scaled_time };
         let (precession, spin) = (turned(self.precession_rate), turned(self.spin_rate));
         let largest = precession.max(spin.abs());
-        if largest <= LARGEST_PHASE { Ok((precession, spin)) } else { Err(SolveError::PhaseTooLarge { phase: largest }) }
+        if largest <= LARGEST_PHASE {
+            Ok((precession, spin))
+        } else {
+            Err(SolveError::PhaseTooLarge { phase: largest })
+        }
     }
 
     /// cos θ, `time` [s] after launch: one sine and cosine.
@@ -236,7 +240,8 @@ mod tests {
     fn samples() -> Vec<ExactMotion> {
         let rates = [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 2.0, -9.0]];
         let tilts = [0.0, 1e-9, 0.7, FRAC_PI_2, 2.8];
-        let coins = [Coin::PAPER, Coin::DISC, Coin::from_moments(1.0, 1.0).unwrap(), Coin::from_moments(1.0, 0.0).unwrap()];
+        let coins =
+            [Coin::PAPER, Coin::DISC, Coin::from_moments(1.0, 1.0).unwrap(), Coin::from_moments(1.0, 0.0).unwrap()];
         let mut all = Vec::new();
         for coin in coins {
             for rate in rates {

@@ -104,8 +104,22 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     macro_rules! adaptive {
         ($stepper:ident, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
             let mut stepper = $stepper::from_param(
-                system, 0.0, end, 0.0, start, tolerance, tolerance, SAFETY, $beta, $smallest, $largest, largest, first,
-                STEP_LIMIT, STIFFNESS_TEST_EVERY, OutputType::Sparse,
+                system,
+                0.0,
+                end,
+                0.0,
+                start,
+                tolerance,
+                tolerance,
+                SAFETY,
+                $beta,
+                $smallest,
+                $largest,
+                largest,
+                first,
+                STEP_LIMIT,
+                STIFFNESS_TEST_EVERY,
+                OutputType::Sparse,
             );
             stepper.integrate()?;
             Ok(stepper.into())

@@ -98,7 +98,11 @@ struct Terms {
 
 impl GammaSystem {
     fn new(inertia_ratio: f64, rate_z: f64, precession: f64) -> Self {
-        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), sense: if precession < 0.0 { -1.0 } else { 1.0 } }
+        Self {
+            rate_z,
+            q: body_precession_rate(inertia_ratio, rate_z),
+            sense: if precession < 0.0 { -1.0 } else { 1.0 },
+        }
     }
 
     fn terms(&self, y: &SVector<f64, 5>) -> Terms {

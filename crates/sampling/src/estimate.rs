@@ -200,8 +200,7 @@ mod tests {
         let done = AtomicU64::new(0);
         let space = named_space("tails").unwrap();
         let plan = Plan::Random { points: 1234, seed: 1 };
-        let counts =
-            estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
+        let counts = estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
         assert_eq!((done.into_inner(), counts.points()), (1234, 1234));
     }
 

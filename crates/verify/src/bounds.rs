@@ -50,6 +50,8 @@ impl Bounds {
 
     /// All pairs of check and subject that have a bound.
     pub fn pairs(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.0.iter().flat_map(|(check, entry)| entry.allowed.keys().map(move |subject| (check.as_str(), subject.as_str())))
+        self.0
+            .iter()
+            .flat_map(|(check, entry)| entry.allowed.keys().map(move |subject| (check.as_str(), subject.as_str())))
     }
 }

@@ -131,8 +131,7 @@ pub fn unused_bounds(rows: &[Row], bounds: &Bounds) -> Vec<Row> {
 mod tests {
     use super::*;
 
-    const CHECK: Check =
-        Check { id: "c", claim: "", basis: Basis::Invariant, unit: "1", measure: |_| Ok(Vec::new()) };
+    const CHECK: Check = Check { id: "c", claim: "", basis: Basis::Invariant, unit: "1", measure: |_| Ok(Vec::new()) };
 
     fn status(measured: f64, bounds: &str) -> Status {
         let bounds = Bounds::parse(bounds).unwrap();

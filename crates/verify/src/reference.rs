@@ -116,8 +116,8 @@ mod tests {
         for flight in ReferenceData::read(&folder).unwrap().flights {
             let reference = Reference::new(&flight.case.toss);
             let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt_digits))).abs();
-            let exact = flight.case.tilt == 0.0
-                && matches!(flight.case.toss.launch.time_of_flight(), TimeOfFlight::Given(_));
+            let exact =
+                flight.case.tilt == 0.0 && matches!(flight.case.toss.launch.time_of_flight(), TimeOfFlight::Given(_));
             exact_inputs += usize::from(exact);
             let within = if exact { 1e-31 } else { 3e-16 };
             assert!(error < within, "{}: {error:e}", flight.name);

@@ -37,7 +37,8 @@ impl Subject {
                 } else {
                     format!("--step {TIGHT_STEP:?}")
                 };
-                let frame = if frame == Frame::default() { String::new() } else { format!(" --frame {}", frame.name()) };
+                let frame =
+                    if frame == Frame::default() { String::new() } else { format!(" --frame {}", frame.name()) };
                 format!("--solver {} --method {} {control}{frame}", entry.name, scheme.name())
             }
         };
@@ -52,11 +53,7 @@ impl Subject {
 }
 
 fn tight(scheme: Scheme) -> Result<Method, InputError> {
-    if scheme.is_adaptive() {
-        Method::adaptive(scheme, TIGHT_TOLERANCE)
-    } else {
-        Method::fixed(scheme, TIGHT_STEP)
-    }
+    if scheme.is_adaptive() { Method::adaptive(scheme, TIGHT_TOLERANCE) } else { Method::fixed(scheme, TIGHT_STEP) }
 }
 
 /// Every solver of `registry`, each integrator with every method.

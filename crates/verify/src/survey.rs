@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use sampling::space::parse_space;
 use sampling::random_tosses;
+use sampling::space::parse_space;
 use toss::{Coin, InputError, SolveError, State, Toss};
 
 use crate::check::Case;

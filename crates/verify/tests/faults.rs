@@ -61,11 +61,8 @@ impl Solver for GammaCopy {
             return self.from_the_other_face(toss);
         }
         let system = GammaCopySystem { rate_z: rate.z, q: (k - 1.0) * rate.z, sign_of_c: self.sign_of_c };
-        let start = EulerAngles {
-            alpha: 0.0,
-            beta: rate.x.hypot(rate.y).atan2(k * rate.z),
-            gamma: rate.x.atan2(rate.y),
-        };
+        let start =
+            EulerAngles { alpha: 0.0, beta: rate.x.hypot(rate.y).atan2(k * rate.z), gamma: rate.x.atan2(rate.y) };
         let first = SVector::from([start.gamma, (1.0 - k) * rate.z, 0.0, rate.x, rate.y]);
         let (end, work) = integrate(&system, first, toss.launch.flight_time(), scale, &self.method)?;
         let (d, u, _) = system.terms(&end);
@@ -84,16 +81,12 @@ impl GammaCopy {
     fn from_the_other_face(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let mirror = Vector3::new(1.0, -1.0, -1.0);
         let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).unwrap();
-        let turned = State {
-            attitude: toss.launch.attitude() * half_turn,
-            rate: toss.launch.rate().component_mul(&mirror),
-        };
+        let turned =
+            State { attitude: toss.launch.attitude() * half_turn, rate: toss.launch.rate().component_mul(&mirror) };
         let launch = toss::Launch::from_state(&turned, toss.launch.time_of_flight()).unwrap();
         let landing = self.propagate(&Toss { launch, ..*toss })?;
-        let state = State {
-            attitude: landing.state.attitude * half_turn,
-            rate: landing.state.rate.component_mul(&mirror),
-        };
+        let state =
+            State { attitude: landing.state.attitude * half_turn, rate: landing.state.rate.component_mul(&mirror) };
         Ok(Propagation { state, ..landing })
     }
 }

@@ -54,7 +54,8 @@ pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
         return Ok(output::json(&lines));
     }
     let optional = |value: Option<f64>, digits| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
-    let mut rows = vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
+    let mut rows =
+        vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
     rows.extend(lines.iter().map(|line| {
         vec![
             line.name.to_owned(),

@@ -63,11 +63,7 @@ fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     context.subjects.iter().map(measure).collect()
 }
 
-fn cases(
-    coin: Coin,
-    rate: Vector3<f64>,
-    flights: impl Iterator<Item = TimeOfFlight>,
-) -> anyhow::Result<Vec<Case>> {
+fn cases(coin: Coin, rate: Vector3<f64>, flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Case>> {
     flights.map(|flight| Ok(Case { toss: Toss { coin, launch: Launch::new(rate, flight)? }, tilt: 0.0 })).collect()
 }
 

@@ -117,7 +117,10 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let (difference, input) = match estimate(&space, Plan::Grid, solver.as_ref(), &|_| {}) {
             Ok(counts) => {
                 let difference = counts.heads.abs_diff(exact.heads) + counts.tails.abs_diff(exact.tails);
-                (difference as f64, format!("{} heads, {} tails, {} undecided", counts.heads, counts.tails, counts.undecided))
+                (
+                    difference as f64,
+                    format!("{} heads, {} tails, {} undecided", counts.heads, counts.tails, counts.undecided),
+                )
             }
             Err(error) => (f64::INFINITY, error.to_string()),
         };

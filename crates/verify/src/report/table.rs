@@ -32,7 +32,11 @@ pub fn text(rows: &[Row]) -> String {
         if failures.is_empty() { "PASS" } else { "FAIL" },
         rows.len() - failures.len(),
         rows.len(),
-        if loose > 0 { format!(", {loose} with a bound ten times above what was measured or more") } else { String::new() }
+        if loose > 0 {
+            format!(", {loose} with a bound ten times above what was measured or more")
+        } else {
+            String::new()
+        }
     );
     out
 }

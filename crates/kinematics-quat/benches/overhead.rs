@@ -1,0 +1,54 @@
+//! What the solver costs beside the bare stepper: the same right-hand side, start, tolerance and flight, once through
+//! [`QuaternionSolver`] and once through `ode_solvers`' DOP853 alone. Read the ratio of the two.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dynamics::integrate::OdeSystem;
+use dynamics::solver::power_of_two_scale;
+use dynamics::{Coin, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
+use kinematics_quat::{QuaternionSolver, QuaternionSystem};
+use nalgebra::SVector;
+use ode_solvers::Dop853;
+use ode_solvers::dop_shared::{OutputType, System};
+
+const TOLERANCE: f64 = 1e-9;
+
+#[derive(Clone, Copy)]
+struct Bare(QuaternionSystem);
+
+impl System<f64, SVector<f64, 6>> for Bare {
+    fn system(&self, _time: f64, y: &SVector<f64, 6>, dy: &mut SVector<f64, 6>) {
+        *dy = self.0.derivative(y);
+    }
+}
+
+fn toss() -> Toss {
+    let thrown = TimeOfFlight::Ballistic { speed: 4.0, gravity: 9.81 };
+    let launch = Launch::new(Vector3::new(23.0, -31.0, 17.0), thrown).expect("a valid launch");
+    Toss { coin: Coin::PAPER, launch }
+}
+
+/// The stepper with its own defaults, but sparse output as the solver has it.
+fn bare(toss: &Toss) -> SVector<f64, 6> {
+    let scale = power_of_two_scale(&toss.launch.rate());
+    let rate = toss.launch.rate() / scale;
+    let system = Bare(QuaternionSystem::new(toss.coin.inertia_ratio(), rate.z));
+    let start = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x, rate.y]);
+    let mut stepper = Dop853::new(system, 0.0, toss.launch.flight_time() * scale, 0.0, start, TOLERANCE, TOLERANCE);
+    stepper.set_output(OutputType::Sparse);
+    stepper.integrate().expect("a regular system");
+    *stepper.y_out().last().expect("the start at least")
+}
+
+fn overhead(criterion: &mut Criterion) {
+    let toss = toss();
+    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, TOLERANCE).expect("a valid tolerance"));
+    let mut group = criterion.benchmark_group("quaternion at 1e-9");
+    group.bench_function("solver", |bencher| bencher.iter(|| solver.propagate(black_box(&toss))));
+    group.bench_function("bare DOP853", |bencher| bencher.iter(|| bare(black_box(&toss))));
+    group.finish();
+}
+
+criterion_group!(benches, overhead);
+criterion_main!(benches);
