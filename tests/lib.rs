@@ -35,12 +35,12 @@ pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
     solver.resolution(phase(toss))
 }
 
-/// Error of an attitude [rad]: ten times that of cos θ, whose slope vanishes where the attitude's does not.
+/// Error of an attitude (rad): ten times that of cos θ, whose slope vanishes where the attitude's does not.
 pub fn attitude_error(solver: &dyn Solver, toss: &Toss) -> f64 {
     10.0 * tilt_error(solver, toss)
 }
 
-/// How far the motion turns [rad].
+/// How far the motion turns (rad).
 pub fn phase(toss: &Toss) -> f64 {
     ExactMotion::new(toss).phase(toss.launch.flight_time()).expect("the tosses of the tests are short")
 }
@@ -51,7 +51,7 @@ pub fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.expect("valid") }
 }
 
-/// The same toss for another time [s].
+/// The same toss for another time (s).
 pub fn lasting(toss: &Toss, time: f64) -> Toss {
     let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).expect("valid");
     Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }

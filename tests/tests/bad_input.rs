@@ -3,16 +3,16 @@
 use blackbox::{name, solvers, tilt_error, toss};
 use toss::{
     Attitude, Coin, ExactMotion, ExactSolver, Frame, InputError, Launch, Method, Outcome, SOLVERS, Scheme, Settings,
-    SolveError, Solver, TimeOfFlight, Toss, Vector3,
+    SolveError, Solver, TimeOfFlight, Vector3,
 };
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-fn field(error: InputError) -> String {
+fn field(error: &InputError) -> &'static str {
     match error {
         InputError::OutOfRange { field, .. }
         | InputError::Malformed { field, .. }
-        | InputError::UnknownName { field, .. } => field.to_owned(),
+        | InputError::UnknownName { field, .. } => field,
     }
 }
 
@@ -41,7 +41,8 @@ fn what_is_not_finite_is_refused_by_name() {
             (Method::adaptive(Scheme::Dop853, bad).err(), "tolerance"),
             (Method::fixed(Scheme::Rk4, bad).err(), "step"),
         ] {
-            let found = field(result.unwrap_or_else(|| panic!("{expected} = {bad} was accepted")));
+            let error = result.unwrap_or_else(|| panic!("{expected} = {bad} was accepted"));
+            let found = field(&error);
             assert!(found.starts_with(expected), "{found} for {expected} = {bad}");
         }
     }

@@ -22,10 +22,10 @@ pub(crate) struct CoinArgs {
     /// A coin of the catalogue [default: paper]
     #[arg(long, value_name = "NAME")]
     coin: Option<String>,
-    /// A homogeneous cylinder [kg, m, m]
+    /// A homogeneous cylinder (kg, m, m)
     #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
     cylinder: Option<String>,
-    /// Principal moments of inertia [kg m²]
+    /// Principal moments of inertia (kg m²)
     #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
     moments: Option<String>,
 }
@@ -49,19 +49,19 @@ impl CoinArgs {
 pub(crate) struct TossArgs {
     #[command(flatten)]
     coin: CoinArgs,
-    /// Body rate at launch, body frame [rad/s]
+    /// Body rate at launch, body frame (rad/s)
     #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
     rate: String,
-    /// Launch speed v0 [m/s]
+    /// Launch speed v0 (m/s)
     #[arg(long, value_name = "V0", allow_hyphen_values = true, required_unless_present = "time")]
     speed: Option<f64>,
-    /// Time of flight, instead of a speed [s]
+    /// Time of flight, instead of a speed (s)
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity"])]
     time: Option<f64>,
-    /// Gravity [m/s²] [default: 9.81]
+    /// Gravity (m/s²) [default: 9.81]
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     gravity: Option<f64>,
-    /// Attitude at launch: a turn about the lab's x axis [rad]
+    /// Attitude at launch: a turn about the lab's x axis (rad)
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
     tilt: f64,
 }
@@ -88,7 +88,7 @@ pub(crate) struct SolverArgs {
     /// Local error per step, absolute and relative (dop853, dopri5) [default: 1e-10]
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Step of rk4 [s] [default: 0.001]
+    /// Step of rk4 (s) [default: 0.001]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Frame of the Euler angles (gamma, euler): along S, or vertical as the paper has it

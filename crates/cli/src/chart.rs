@@ -33,7 +33,7 @@ fn draw(svg: &mut String, flight: &[TracePoint]) -> Drawn {
     Ok(())
 }
 
-/// Where the eye is: azimuth and elevation [rad].
+/// Where the eye is: azimuth and elevation (rad).
 const EYE: (f64, f64) = (-0.6, 0.45);
 
 /// Orthographic projection: (right, up, towards the eye).

@@ -31,9 +31,9 @@ pub(crate) enum Failure {
     Launch {
         /// Its index.
         index: u64,
-        /// Its body rate [rad/s].
+        /// Its body rate (rad/s).
         rate: [f64; 3],
-        /// Its time of flight [s].
+        /// Its time of flight (s).
         flight_time: f64,
         /// What the solver said.
         source: SolveError,

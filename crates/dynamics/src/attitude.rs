@@ -33,18 +33,18 @@ impl Attitude {
         Ok(Self(UnitQuaternion::new_normalize(Quaternion::new(w / size, x / size, y / size, z / size))))
     }
 
-    /// A turn by `angle` [rad] about the lab's x axis.
+    /// A turn by `angle` (rad) about the lab's x axis.
     pub fn about_x(angle: f64) -> Self {
         let (sin, cos) = (0.5 * angle).sin_cos();
         Self(UnitQuaternion::new_unchecked(Quaternion::new(cos, sin, 0.0, 0.0)))
     }
 
-    /// A turn by `angle` [rad] about z, which LF and BF share before it.
+    /// A turn by `angle` (rad) about z, which LF and BF share before it.
     pub fn about_z(angle: f64) -> Self {
         Self::about_unit_axis(&Vector3::z(), 0.5 * angle)
     }
 
-    /// A turn by twice `half_angle` [rad] about the unit vector `axis`.
+    /// A turn by twice `half_angle` (rad) about the unit vector `axis`.
     pub(crate) fn about_unit_axis(axis: &Vector3<f64>, half_angle: f64) -> Self {
         let (sin, cos) = half_angle.sin_cos();
         Self(UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, axis * sin)))
@@ -88,7 +88,7 @@ impl Attitude {
         Self(self.0.inverse())
     }
 
-    /// Angle of the turn that leads from `self` to `other` [rad], from 0 to π.
+    /// Angle of the turn that leads from `self` to `other` (rad), from 0 to π.
     pub fn angle_to(&self, other: &Self) -> f64 {
         let turn = (self.inverse() * *other).0;
         2.0 * turn.imag().norm().atan2(turn.w.abs())

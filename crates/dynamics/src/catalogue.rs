@@ -23,11 +23,11 @@ pub enum Body {
     Moments(Coin),
     /// A real coin, taken as a homogeneous cylinder, in the units in which mints publish it.
     Cylinder {
-        /// Mass [g].
+        /// Mass (g).
         mass_g: f64,
-        /// Diameter [mm].
+        /// Diameter (mm).
         diameter_mm: f64,
-        /// Thickness [mm].
+        /// Thickness (mm).
         thickness_mm: f64,
     },
 }
@@ -64,7 +64,7 @@ const fn preset(name: &'static str, description: &'static str, coin: Coin, sourc
     CatalogueEntry { name, description, body: Body::Moments(coin), source }
 }
 
-/// `figures`: mass [g], diameter [mm], thickness [mm].
+/// `figures`: mass (g), diameter (mm), thickness (mm).
 const fn real(
     name: &'static str,
     description: &'static str,

@@ -24,7 +24,7 @@ impl Coin {
 
     /// A homogeneous cylinder.
     ///
-    /// `mass` [kg] > 0, `radius` [m] > 0, `thickness` [m] ≥ 0.
+    /// `mass` (kg) > 0, `radius` (m) > 0, `thickness` (m) ≥ 0.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a value outside its range, and for moments that leave the range of f64.
@@ -37,7 +37,7 @@ impl Coin {
         Self::from_moments(i1, i3)
     }
 
-    /// A body of revolution with the principal moments `i1` = I1 = I2 and `i3` = I3 [kg m²].
+    /// A body of revolution with the principal moments `i1` = I1 = I2 and `i3` = I3 (kg m²).
     ///
     /// I3 = 0 is a rod, I3 = 2 I1 a flat disc; beyond it no mass distribution exists (triangle inequality).
     ///
@@ -50,12 +50,12 @@ impl Coin {
         Ok(Self { i1, i3 })
     }
 
-    /// I1 = I2, the moment about any axis in the coin's middle plane [kg m²].
+    /// I1 = I2, the moment about any axis in the coin's middle plane (kg m²).
     pub fn i1(&self) -> f64 {
         self.i1
     }
 
-    /// I3, the moment about the coin's normal [kg m²].
+    /// I3, the moment about the coin's normal (kg m²).
     pub fn i3(&self) -> f64 {
         self.i3
     }

@@ -88,7 +88,7 @@ pub enum SolveError {
     /// The phase is so large that neighbouring f64 inputs differ by whole turns.
     #[error("outcome not determined: the phase of the motion, {phase:e} rad, is above 2^53")]
     PhaseTooLarge {
-        /// ωL T or q T [rad], the larger one.
+        /// ωL T or q T (rad), the larger one.
         phase: f64,
     },
     /// The formulation reached a point where its equations have no derivative.
@@ -96,13 +96,13 @@ pub enum SolveError {
     Singular {
         /// Which point.
         point: Singularity,
-        /// When: the end of the step that met it [s].
+        /// When: the end of the step that met it (s).
         time: f64,
     },
     /// More steps would have been needed than a flight is allowed.
     #[error("more than {limit} steps needed, stopped at t = {time} s")]
     StepLimit {
-        /// Where it stopped [s].
+        /// Where it stopped (s).
         time: f64,
         /// The allowed number of steps.
         limit: u32,
@@ -110,19 +110,19 @@ pub enum SolveError {
     /// The step fell below the resolution of the time.
     #[error("the step size fell below the resolution of the time at t = {time} s")]
     StepSizeUnderflow {
-        /// Where it stopped [s].
+        /// Where it stopped (s).
         time: f64,
     },
     /// The method judged the problem to be stiff.
     #[error("the equations became stiff at t = {time} s")]
     Stiff {
-        /// Where it stopped [s].
+        /// Where it stopped (s).
         time: f64,
     },
     /// The integrated state holds a NaN or an infinity.
     #[error("the integrated state is not finite at t = {time} s")]
     NotFinite {
-        /// The end of the integration [s].
+        /// The end of the integration (s).
         time: f64,
     },
 }

@@ -1,7 +1,7 @@
 //! Euler angles of the attitude.
 //!
 //! # Conventions
-//! - Sequence z-x-z about the body's own axes: `Q = z(α) x(β) z(γ)`; α precession, β nutation, γ spin [rad].
+//! - Sequence z-x-z about the body's own axes: `Q = z(α) x(β) z(γ)`; α precession, β nutation, γ spin (rad).
 //! - With the quaternion's halves p = w + iz and r = x + iy: `p = cos(β/2) e^{i(α+γ)/2}`,
 //!   `r = sin(β/2) e^{i(α-γ)/2}`.
 //! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude, which is what lets the angles
@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
 
-/// Euler angles z-x-z [rad]. See the conventions of [this module](self).
+/// Euler angles z-x-z (rad). See the conventions of [this module](self).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAngles {
     /// α, precession about TF's z axis.

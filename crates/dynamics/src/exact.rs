@@ -30,7 +30,7 @@ use crate::solver::{Outcome, Propagation, Settings, Solver, SolverEntry, State, 
 /// 2^53: above it, neighbouring f64 phases are more than a radian apart.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
-/// Error of cos θ that rounding can cause at a [`phase`](ExactMotion::phase) [rad]: 4 ε (2 + phase), with ε = 2^-52.
+/// Error of cos θ that rounding can cause at a [`phase`](ExactMotion::phase) (rad): 4 ε (2 + phase), with ε = 2^-52.
 ///
 /// The phase is a product of some ten rounded operations; the bound counts 3 ε for them and is not a proof.
 pub fn resolution(phase: f64) -> f64 {
@@ -41,7 +41,7 @@ pub fn resolution(phase: f64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactMotion {
     launch: State,
-    /// Power of two [rad/s] in which the rates below are measured.
+    /// Power of two (rad/s) in which the rates below are measured.
     scale: f64,
     /// Direction of S at launch (BF).
     momentum_direction: Vector3<f64>,
@@ -75,24 +75,24 @@ impl ExactMotion {
         }
     }
 
-    /// ωL = |S|/I1, the rate of the precession about S [rad/s]; infinite if it leaves the range of f64.
+    /// ωL = |S|/I1, the rate of the precession about S (rad/s); infinite if it leaves the range of f64.
     pub fn precession_rate(&self) -> f64 {
         self.precession_rate * self.scale
     }
 
-    /// ψ, the half-angle of the cone that n describes about S [rad], from 0 to π.
+    /// ψ, the half-angle of the cone that n describes about S (rad), from 0 to π.
     pub fn cone_angle(&self) -> f64 {
         let s = &self.momentum_direction;
         s.x.hypot(s.y).atan2(s.z)
     }
 
-    /// φ, the angle between S and the vertical [rad], from 0 to π.
+    /// φ, the angle between S and the vertical (rad), from 0 to π.
     pub fn momentum_tilt(&self) -> f64 {
         let s = self.launch.attitude.body_to_lab(&self.momentum_direction);
         s.x.hypot(s.y).atan2(s.z)
     }
 
-    /// The larger of the phases ωL t and |q| t [rad]: how far the motion turns.
+    /// The larger of the phases ωL t and |q| t (rad): how far the motion turns.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
@@ -100,7 +100,7 @@ impl ExactMotion {
         self.phases(time).map(|(precession, spin)| precession.max(spin.abs()))
     }
 
-    /// ωL t and q t [rad].
+    /// ωL t and q t (rad).
     fn phases(&self, time: f64) -> Result<(f64, f64), SolveError> {
         let scaled_time = self.scale * time;
         // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
@@ -114,7 +114,7 @@ impl ExactMotion {
         }
     }
 
-    /// cos θ, `time` [s] after launch: one sine and cosine.
+    /// cos θ, `time` (s) after launch: one sine and cosine.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
@@ -124,7 +124,7 @@ impl ExactMotion {
         Ok(a + b * cos + c * sin)
     }
 
-    /// Attitude and body rate, `time` [s] after launch.
+    /// Attitude and body rate, `time` (s) after launch.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
@@ -139,7 +139,7 @@ impl ExactMotion {
         })
     }
 
-    /// Euler angles, `time` [s] after launch, continuous from launch on through every sin β = 0.
+    /// Euler angles, `time` (s) after launch, continuous from launch on through every sin β = 0.
     ///
     /// A motion that passes sin β = 0 exactly, as from every horizontal launch, keeps α and γ continuous and carries
     /// β on to negative values; α(0) = -γ(0) = atan2(ωy, ωx) at a horizontal launch is the limit of the motion.
@@ -170,7 +170,7 @@ impl ExactMotion {
         a == 0.0 && b.abs() == 1.0
     }
 
-    /// The first time after launch at which the outcome changes [s]; `None` if it never does.
+    /// The first time after launch at which the outcome changes (s); `None` if it never does.
     ///
     /// cos θ = a + r cos(ωL t - φ0) changes its sign first at ωL t = φ0 ± acos(-a/r). A motion that only touches
     /// cos θ = 0 does not change its outcome.

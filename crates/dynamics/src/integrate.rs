@@ -29,13 +29,13 @@ pub trait OdeSystem<const N: usize> {
     }
 }
 
-/// Follows `system` from `start` over `duration` [s], which is ≥ 0.
+/// Follows `system` from `start` over `duration` (s), which is ≥ 0.
 ///
-/// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two [rad/s]; see
+/// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two (rad/s); see
 /// [`power_of_two_scale`](crate::solver::power_of_two_scale).
 ///
 /// # Errors
-/// [`SolveError`] with the time [s] at which the integration stopped.
+/// [`SolveError`] with the time (s) at which the integration stopped.
 pub fn integrate<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,

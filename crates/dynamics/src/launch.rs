@@ -7,25 +7,25 @@ use crate::coin::Coin;
 use crate::error::{InputError, require};
 use crate::solver::State;
 
-/// Gravity used where none is given [m/s²]. The paper gives no value.
+/// Gravity used where none is given (m/s²). The paper gives no value.
 pub const DEFAULT_GRAVITY: f64 = 9.81;
 
 /// How long the coin flies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TimeOfFlight {
-    /// Thrown up at `speed` [m/s] under `gravity` [m/s²] and caught at the height of the launch: T = 2 v0/g.
+    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught at the height of the launch: T = 2 v0/g.
     Ballistic {
-        /// v0 [m/s], ≥ 0.
+        /// v0 (m/s), ≥ 0.
         speed: f64,
-        /// g [m/s²], > 0.
+        /// g (m/s²), > 0.
         gravity: f64,
     },
-    /// Given directly [s], ≥ 0.
+    /// Given directly (s), ≥ 0.
     Given(f64),
 }
 
 impl TimeOfFlight {
-    /// T [s].
+    /// T (s).
     pub fn seconds(&self) -> f64 {
         match *self {
             Self::Ballistic { speed, gravity } => 2.0 * speed / gravity,
@@ -57,7 +57,7 @@ pub struct Launch {
 }
 
 impl Launch {
-    /// A launch from horizontal, heads up (attitude = identity), with the body rate `rate` (BF) [rad/s].
+    /// A launch from horizontal, heads up (attitude = identity), with the body rate `rate` (BF, rad/s).
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a component of the rate that is not finite or a time of flight that makes no
@@ -83,7 +83,7 @@ impl Launch {
         Self { attitude, ..self }
     }
 
-    /// The same launch from a coin turned by `tilt` [rad] about the lab's x axis (α = γ = 0, β = `tilt`).
+    /// The same launch from a coin turned by `tilt` (rad) about the lab's x axis (α = γ = 0, β = `tilt`).
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if `tilt` is not finite.
@@ -92,7 +92,7 @@ impl Launch {
         Ok(self.with_attitude(Attitude::about_x(tilt)))
     }
 
-    /// ω at launch (BF) [rad/s].
+    /// ω at launch (BF, rad/s).
     pub fn rate(&self) -> Vector3<f64> {
         self.rate
     }
@@ -107,7 +107,7 @@ impl Launch {
         self.time_of_flight
     }
 
-    /// T [s].
+    /// T (s).
     pub fn flight_time(&self) -> f64 {
         self.time_of_flight.seconds()
     }

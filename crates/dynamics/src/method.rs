@@ -54,7 +54,7 @@ impl Scheme {
 pub enum StepControl {
     /// Local error per step below `tolerance × (1 + |y|)`, in every component of the dimensionless state.
     Tolerance(f64),
-    /// Equal steps of at most this length [s].
+    /// Equal steps of at most this length (s).
     Step(f64),
 }
 
@@ -69,7 +69,7 @@ impl Method {
     /// The method used where none is asked for: DOP853 at 1e-10.
     pub const DEFAULT: Self = Self { scheme: Scheme::Dop853, control: StepControl::Tolerance(1e-10) };
 
-    /// The step used for RK4 where none is asked for [s].
+    /// The step used for RK4 where none is asked for (s).
     pub const DEFAULT_STEP: f64 = 1e-3;
 
     /// `scheme` with steps that keep the local error below `tolerance`, absolute and relative.
@@ -89,7 +89,7 @@ impl Method {
         Ok(Self { scheme, control: StepControl::Tolerance(tolerance) })
     }
 
-    /// `scheme` with equal steps of at most `step` [s]; every scheme can do this, and its error is not estimated.
+    /// `scheme` with equal steps of at most `step` (s); every scheme can do this, and its error is not estimated.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the step is not positive and finite.
@@ -109,7 +109,7 @@ impl Method {
     }
 
     /// Error of cos θ at landing that a solver with this method answers for, after a
-    /// [`phase`](crate::ExactMotion::phase) [rad]:
+    /// [`phase`](crate::ExactMotion::phase) (rad):
     /// 100 × tolerance × (1 + phase), or nothing (0) for fixed steps, which come without an estimate.
     pub fn resolution(&self, phase: f64) -> f64 {
         match self.control {

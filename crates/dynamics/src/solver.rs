@@ -16,7 +16,7 @@ use crate::method::Method;
 pub struct State {
     /// Attitude (body to LF).
     pub attitude: Attitude,
-    /// Body rate ω (BF) [rad/s].
+    /// Body rate ω (BF, rad/s).
     pub rate: Vector3<f64>,
 }
 
@@ -107,7 +107,7 @@ pub trait Solver: Send + Sync {
         Ok(self.propagate(toss)?.state.attitude.cos_tilt())
     }
 
-    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) [rad]; 0 if it gives no
+    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) (rad); 0 if it gives no
     /// estimate.
     fn resolution(&self, phase: f64) -> f64;
 
@@ -173,7 +173,7 @@ pub struct SolverEntry {
     pub build: fn(&Settings) -> Box<dyn Solver>,
 }
 
-/// The power of two at or below the largest component of `rate` [rad/s]; 1 for a rate of zero.
+/// The power of two at or below the largest component of `rate` (rad/s); 1 for a rate of zero.
 ///
 /// Dividing by it is exact and leaves a dimensionless rate of the order of 1.
 pub fn power_of_two_scale(rate: &Vector3<f64>) -> f64 {

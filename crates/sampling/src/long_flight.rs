@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-/// p for the angles `cone` = ψ and `momentum_tilt` = φ [rad], each from 0 to π.
+/// p for the angles `cone` = ψ and `momentum_tilt` = φ (rad), each from 0 to π.
 pub fn long_flight_probability(cone: f64, momentum_tilt: f64) -> f64 {
     let along = cone.cos() * momentum_tilt.cos();
     let across = cone.sin() * momentum_tilt.sin();

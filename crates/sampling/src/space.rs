@@ -31,7 +31,7 @@ impl Space {
     /// the others' values as they are.
     pub const DIMENSIONS: usize = 4;
 
-    /// A space over the axes ωx, ωy, ωz [rad/s] and v0 [m/s], under `gravity` [m/s²].
+    /// A space over the axes ωx, ωy, ωz (rad/s) and v0 (m/s), under `gravity` (m/s²).
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a range that includes negative speeds, and for a gravity that is not positive.
@@ -136,7 +136,7 @@ pub struct NamedSpace {
     pub name: &'static str,
     /// What it is, and what of it is the paper's.
     pub description: &'static str,
-    /// ωx, ωy (`x` for ωy = ωx), ωz [rad/s] and v0 [m/s], as [`Axis::parse`] reads them.
+    /// ωx, ωy (`x` for ωy = ωx), ωz (rad/s) and v0 (m/s), as [`Axis::parse`] reads them.
     pub axes: [&'static str; 4],
 }
 
@@ -151,7 +151,7 @@ impl NamedSpace {
     }
 }
 
-/// A space from the texts of its axes ωx, ωy (`x` ties it to ωx), ωz [rad/s] and v0 [m/s].
+/// A space from the texts of its axes ωx, ωy (`x` ties it to ωx), ωz (rad/s) and v0 (m/s).
 ///
 /// # Errors
 /// [`InputError`] that names the axis.

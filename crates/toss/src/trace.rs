@@ -10,7 +10,7 @@ pub const MOST_POINTS: usize = 1_000_000;
 /// The coin at one time of its flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {
-    /// Time after launch [s].
+    /// Time after launch (s).
     pub time: f64,
     /// Attitude (body to LF).
     pub attitude: Attitude,

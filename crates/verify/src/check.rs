@@ -103,7 +103,7 @@ pub struct Worst {
 pub struct Case {
     /// The toss.
     pub toss: Toss,
-    /// The turn at launch [rad].
+    /// The turn at launch (rad).
     pub tilt: f64,
 }
 

@@ -55,7 +55,7 @@ impl Reference {
         to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
     }
 
-    /// Angle between a computed attitude and the exact one [rad].
+    /// Angle between a computed attitude and the exact one (rad).
     pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
         let [w, x, y, z] = attitude.components().map(big);
         let [w, x, y, z] = product(&[w, -x, -y, -z], &self.attitude);
@@ -63,7 +63,7 @@ impl Reference {
         2.0 * sine.atan2(to_f64(&w).abs())
     }
 
-    /// Largest |Δω| of a computed body rate [rad/s].
+    /// Largest |Δω| of a computed body rate (rad/s).
     pub fn rate_error(&self, rate: &Vector3<f64>) -> f64 {
         self.rate.iter().zip(rate).map(|(exact, found)| to_f64(&(exact - big(*found))).abs()).fold(0.0, f64::max)
     }

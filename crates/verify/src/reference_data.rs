@@ -14,7 +14,7 @@ pub struct ReferenceData {
     pub flights: Vec<ReferenceFlight>,
     /// First changes of the outcome.
     pub first_flips: Vec<FirstFlip>,
-    /// p(ψ): the cone angle ψ [rad] and the long-flight probability of heads.
+    /// p(ψ): the cone angle ψ (rad) and the long-flight probability of heads.
     pub long_flights: Vec<(f64, f64)>,
     /// DETEST B5: time, and the state then.
     pub detest_b5: (f64, [f64; 3]),
@@ -40,9 +40,9 @@ pub struct FirstFlip {
     pub name: String,
     /// The coin.
     pub coin: Coin,
-    /// ω at launch [rad/s].
+    /// ω at launch (rad/s).
     pub rate: Vector3<f64>,
-    /// Time of the change [s].
+    /// Time of the change (s).
     pub time: f64,
 }
 

@@ -5,7 +5,7 @@ use toss::{Frame, InputError, Method, Scheme, Settings, Solver, SolverEntry};
 /// Tolerance of the adaptive methods under verification.
 pub const TIGHT_TOLERANCE: f64 = 1e-12;
 
-/// Step of RK4 under verification [s].
+/// Step of RK4 under verification (s).
 pub const TIGHT_STEP: f64 = 1e-4;
 
 /// A solver with its settings.

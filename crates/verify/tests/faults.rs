@@ -58,7 +58,7 @@ impl Solver for GammaCopy {
         let k = toss.coin.inertia_ratio();
         // Seen from the other face where S is against n, so that α' > 0.
         if k * rate.z < 0.0 {
-            return self.from_the_other_face(toss);
+            return self.seen_from_the_other_face(toss);
         }
         let system = GammaCopySystem { rate_z: rate.z, q: (k - 1.0) * rate.z, sign_of_c: self.sign_of_c };
         let start =
@@ -78,12 +78,12 @@ impl Solver for GammaCopy {
 }
 
 impl GammaCopy {
-    fn from_the_other_face(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn seen_from_the_other_face(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let mirror = Vector3::new(1.0, -1.0, -1.0);
-        let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).unwrap();
+        let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).expect("a unit quaternion");
         let turned =
             State { attitude: toss.launch.attitude() * half_turn, rate: toss.launch.rate().component_mul(&mirror) };
-        let launch = toss::Launch::from_state(&turned, toss.launch.time_of_flight()).unwrap();
+        let launch = toss::Launch::from_state(&turned, toss.launch.time_of_flight()).expect("a launch");
         let landing = self.propagate(&Toss { launch, ..*toss })?;
         let state =
             State { attitude: landing.state.attitude * half_turn, rate: landing.state.rate.component_mul(&mirror) };
@@ -131,7 +131,7 @@ impl Solver for QuaternionCopy {
         let system = QuaternionCopySystem { rate_z: rate.z, q, half: self.half };
         let first = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x, rate.y]);
         let (end, work) = integrate(&system, first, toss.launch.flight_time(), scale, &self.method)?;
-        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).unwrap();
+        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
         let rate = Vector3::new(end[4] * scale, end[5] * scale, toss.launch.rate().z);
         let state = State { attitude: toss.launch.attitude() * turn, rate };
         Ok(Propagation { state, defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), work })
@@ -174,14 +174,14 @@ const fn entry(name: &'static str, integrates: bool, build: fn(&toss::Settings) 
 fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
     const NEED_THE_VERTICAL_FRAME: [&str; 2] = ["vertical-frame-to-first-return", "convergence-order"];
     let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
-    let bounds = Bounds::read(&validation.join("bounds.toml")).unwrap();
+    let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
     let registry = if solver.integrates { vec![ExactSolver::ENTRY, solver] } else { vec![solver] };
-    let context = Context::new(&registry, Effort::Quick, &validation).unwrap();
+    let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
     CHECKS
         .iter()
         .filter(|check| !NEED_THE_VERTICAL_FRAME.contains(&check.id))
         .filter(|check| {
-            let rows = judge(check, (check.measure)(&context).unwrap(), &bounds);
+            let rows = judge(check, (check.measure)(&context).expect("a measurement"), &bounds);
             rows.iter().any(|row| !row.status.passes())
         })
         .map(|check| check.id)

@@ -22,19 +22,19 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["rate_x", "rate_y", "rate_z", "speed", "gravity"],
           required_unless_present_all = ["rate_x", "rate_y", "rate_z", "speed"])]
     space: Option<String>,
-    /// ωx [rad/s]: VALUE, LO:HI or LO:HI:POINTS
+    /// ωx (rad/s): VALUE, LO:HI or LO:HI:POINTS
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_x: Option<String>,
-    /// ωy [rad/s]: VALUE, LO:HI or LO:HI:POINTS, or x for ωy = ωx
+    /// ωy (rad/s): VALUE, LO:HI or LO:HI:POINTS, or x for ωy = ωx
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_y: Option<String>,
-    /// ωz [rad/s]: VALUE, LO:HI or LO:HI:POINTS
+    /// ωz (rad/s): VALUE, LO:HI or LO:HI:POINTS
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_z: Option<String>,
-    /// v0 [m/s]: VALUE, LO:HI or LO:HI:POINTS
+    /// v0 (m/s): VALUE, LO:HI or LO:HI:POINTS
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     speed: Option<String>,
-    /// Gravity [m/s²] [default: 9.81]
+    /// Gravity (m/s²) [default: 9.81]
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     gravity: Option<f64>,
     /// How launches are chosen

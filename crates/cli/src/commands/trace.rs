@@ -37,7 +37,7 @@ pub(crate) enum TraceFormat {
     Json,
 }
 
-/// One line: time [s], attitude, Euler angles [rad], n and a vector fixed in the face (LF), cos θ.
+/// One line: time (s), attitude, Euler angles (rad), n and a vector fixed in the face (LF), cos θ.
 #[derive(Serialize)]
 struct Line {
     time: f64,

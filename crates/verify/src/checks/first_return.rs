@@ -17,10 +17,10 @@ pub(super) const ATTITUDE: Check = Check {
     measure,
 };
 
-/// Distance to the return, in phase [rad].
+/// Distance to the return, in phase (rad).
 const DISTANCE: f64 = 0.1;
 
-/// The vertical frame's solvers divide by sin β: spin and cone keep this distance [rad] from the flights on which
+/// The vertical frame's solvers divide by sin β: spin and cone keep this distance (rad) from the flights on which
 /// n stays near the vertical (ψ = 0) or turns end over end (ψ = π/2).
 const CLEARANCE: f64 = 0.1;
 

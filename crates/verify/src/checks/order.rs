@@ -28,7 +28,7 @@ const ASYMPTOTIC: std::ops::Range<f64> = 3e-12..1e-9;
 /// Flights whose errors are added up, so that no cancellation in a single one passes for a higher order.
 const FLIGHTS: usize = 12;
 
-/// Time of flight [s].
+/// Time of flight (s).
 const TIME: f64 = 2.0;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
