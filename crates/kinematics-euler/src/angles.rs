@@ -110,3 +110,56 @@ impl OdeSystem<5> for AnglesSystem {
         (!started_there && was * is <= 0.0).then_some(Singularity::NormalAlongAxis)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// (5) against central differences of the exact angles, where the vertical frame is regular.
+    #[test]
+    fn the_derivatives_are_those_of_the_exact_motion() {
+        for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)]
+        {
+            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+            let motion = ExactMotion::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch });
+            let h = 1e-4;
+            for step in 1..10 {
+                let time = 0.1 * f64::from(step);
+                let [before, now, after] = [time - h, time, time + h].map(|time| motion.euler_angles(time).unwrap());
+                let state = motion.state(time).unwrap();
+                let y = SVector::from([now.alpha, now.beta, now.gamma, state.rate.x, state.rate.y]);
+                let found = AnglesSystem::new(k, rate[2]).derivative(&y);
+                let difference = |a: f64, b: f64| (a - b) / (2.0 * h);
+                let alpha = difference(after.alpha, before.alpha);
+                let beta = difference(after.beta, before.beta);
+                let gamma = difference(after.gamma, before.gamma);
+                for (found, expected) in [(found[0], alpha), (found[1], beta), (found[2], gamma)] {
+                    assert!((found - expected).abs() < 1e-5, "k {k}: {found}, not {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn at_both_poles_the_limit_is_finite_and_keeps_the_spin() {
+        for beta in [0.0, PI] {
+            let system = AnglesSystem::new(0.5, 2.5);
+            let derivative = system.derivative(&SVector::from([0.0, beta, 0.0, 3.0, 0.0]));
+            assert_eq!(derivative[1], 3.0, "β' = Ω");
+            assert_eq!(derivative[2], 2.5 - 0.5 * 0.5 * 2.5, "γ' = ωz - k ωz / 2");
+        }
+    }
+
+    #[test]
+    fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
+        let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
+        let toss = Toss { coin: Coin::PAPER, launch };
+        let first_return = 2.0 * PI / ExactMotion::new(&toss).precession_rate();
+        let method = Method::fixed(dynamics::Scheme::Rk4, 1e-3).unwrap();
+        let error = EulerAnglesSolver::new(method, Frame::Vertical).propagate(&toss).unwrap_err();
+        let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
+        assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
+    }
+}

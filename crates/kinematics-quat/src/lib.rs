@@ -94,3 +94,56 @@ impl OdeSystem<6> for QuaternionSystem {
         ])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, Scheme, TimeOfFlight};
+
+    use super::*;
+
+    fn toss(tilt: f64) -> Toss {
+        let launch = Launch::new(Vector3::new(9.0, -4.0, 3.0), TimeOfFlight::Given(0.8)).unwrap();
+        Toss { coin: Coin::PAPER, launch: launch.with_tilt(tilt).unwrap() }
+    }
+
+    /// Q' = ½ Q ⊗ (0, ω) against central differences of the exact attitude.
+    #[test]
+    fn the_derivative_is_that_of_the_exact_motion() {
+        let motion = ExactMotion::new(&toss(0.4));
+        let h = 1e-5;
+        for step in 1..8 {
+            let time = 0.1 * f64::from(step);
+            let [before, now, after] = [time - h, time, time + h].map(|time| motion.state(time).unwrap());
+            let [w, x, y, z] = now.attitude.components();
+            let state = SVector::from([w, x, y, z, now.rate.x, now.rate.y]);
+            let found = QuaternionSystem::new(0.5, now.rate.z).derivative(&state);
+            let ends = after.attitude.components().into_iter().zip(before.attitude.components());
+            for (part, (a, b)) in ends.enumerate() {
+                assert!((found[part] - (a - b) / (2.0 * h)).abs() < 1e-7, "component {part} at {time}");
+            }
+            assert!((found[4] - (after.rate.x - before.rate.x) / (2.0 * h)).abs() < 1e-7);
+            assert!((found[5] - (after.rate.y - before.rate.y) / (2.0 * h)).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn neither_work_nor_error_depends_on_the_tilt() {
+        let solver = QuaternionSolver::new(Method::DEFAULT);
+        let horizontal = solver.propagate(&toss(0.0)).unwrap();
+        for tilt in [1e-300, 1e-16, 1e-4, 1.0, 3.0] {
+            let tilted = solver.propagate(&toss(tilt)).unwrap();
+            assert_eq!(tilted.work, horizontal.work);
+            assert_eq!(tilted.defect, horizontal.defect);
+        }
+    }
+
+    #[test]
+    fn the_defect_is_the_loss_of_norm_of_the_steps() {
+        // A turn by RK4 loses (ωh/2)⁶/144 of its norm in each step.
+        let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
+        let solver = QuaternionSolver::new(Method::fixed(Scheme::Rk4, 0.05).unwrap());
+        let landing = solver.propagate(&Toss { coin: Coin::DISC, launch }).unwrap();
+        let lost = 20.0 * (4.0 * 0.05 / 2.0_f64).powi(6) / 144.0;
+        assert!((landing.defect / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.defect);
+    }
+}
