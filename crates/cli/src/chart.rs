@@ -10,8 +10,9 @@ use crate::failure::Failure;
 const NORMAL: RGBColor = RGBColor(0, 114, 178);
 const FACE: RGBColor = RGBColor(213, 94, 0);
 const FAINT: RGBColor = RGBColor(150, 150, 150);
-const SIZE: (u32, u32) = (1000, 440);
-const TEXT: (&str, u32) = ("sans-serif", 15);
+/// Twice the size at which it is read: the backend draws on whole pixels, and lines turn out smoother for it.
+const SIZE: (u32, u32) = (2000, 880);
+const TEXT: (&str, u32) = ("sans-serif", 30);
 
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), Box<dyn std::error::Error>>;
@@ -45,26 +46,29 @@ fn project(v: &Vector3<f64>) -> (f64, f64, f64) {
 
 fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
     let mut chart = ChartBuilder::on(panel)
-        .margin(12)
+        .margin(24)
         .caption("on the sphere, seen from the lab", TEXT)
         .build_cartesian_2d(-1.15..1.15, -1.15..1.15)?;
     let ring =
         |point: fn(f64) -> Vector3<f64>| (0..=180).map(move |i| point(f64::from(i) * std::f64::consts::TAU / 180.0));
     let outline = (0..=180).map(|i| (f64::from(i) * std::f64::consts::TAU / 180.0).sin_cos());
-    chart.draw_series(LineSeries::new(outline, FAINT))?;
+    chart.draw_series(LineSeries::new(outline, FAINT.stroke_width(2)))?;
     let equator = ring(|angle| Vector3::new(angle.cos(), angle.sin(), 0.0));
-    chart.draw_series(LineSeries::new(equator.map(|v| (project(&v).0, project(&v).1)), FAINT.mix(0.6)))?;
+    chart.draw_series(LineSeries::new(
+        equator.map(|v| (project(&v).0, project(&v).1)),
+        FAINT.mix(0.6).stroke_width(2),
+    ))?;
     for (colour, of) in [(FACE, (|p| p.face) as fn(&TracePoint) -> Vector3<f64>), (NORMAL, |p| p.normal)] {
         let seen: Vec<_> = flight.iter().map(|point| project(&of(point))).collect();
         // The far side of the sphere is drawn faintly.
         for pair in seen.windows(2) {
             let near = pair[0].2 + pair[1].2 >= 0.0;
-            let style = if near { colour.mix(1.0).stroke_width(2) } else { colour.mix(0.3).stroke_width(1) };
+            let style = if near { colour.mix(1.0).stroke_width(4) } else { colour.mix(0.35).stroke_width(2) };
             chart.draw_series(LineSeries::new(pair.iter().map(|p| (p.0, p.1)), style))?;
         }
         if let (Some(first), Some(last)) = (seen.first(), seen.last()) {
-            chart.draw_series([Circle::new((first.0, first.1), 5, colour.stroke_width(2))])?;
-            chart.draw_series([Circle::new((last.0, last.1), 5, colour.filled())])?;
+            chart.draw_series([Circle::new((first.0, first.1), 10, colour.stroke_width(4))])?;
+            chart.draw_series([Circle::new((last.0, last.1), 10, colour.filled())])?;
         }
     }
     chart.draw_series([
@@ -78,23 +82,25 @@ fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
     let end = flight.last().map_or(0.0, |point| point.time);
     let mut chart = ChartBuilder::on(panel)
-        .margin(12)
-        .margin_right(24)
+        .margin(24)
+        .margin_right(48)
         .caption("cos θ during the flight", TEXT)
-        .x_label_area_size(42)
-        .y_label_area_size(56)
+        .x_label_area_size(84)
+        .y_label_area_size(112)
         .build_cartesian_2d(0.0..end.max(f64::MIN_POSITIVE), -1.05..1.05)?;
     chart
         .configure_mesh()
         .light_line_style(WHITE)
         .x_desc("time [s]")
         .y_desc("cos θ")
+        // Adding zero turns the label -0.0 into 0.0.
+        .y_label_formatter(&|cos_tilt: &f64| format!("{:.1}", (10.0 * cos_tilt).round() / 10.0 + 0.0))
         .label_style(TEXT)
         .axis_desc_style(TEXT)
         .draw()?;
-    chart.draw_series(LineSeries::new([(0.0, 0.0), (end, 0.0)], BLACK))?;
+    chart.draw_series(LineSeries::new([(0.0, 0.0), (end, 0.0)], BLACK.stroke_width(2)))?;
     let line = flight.iter().map(|point| (point.time, point.cos_tilt));
-    chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(2)))?;
+    chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(4)))?;
     chart.draw_series([
         Text::new("heads", (0.01 * end, 0.12), TEXT.into_font().color(&BLACK)),
         Text::new("tails", (0.01 * end, -0.04), TEXT.into_font().color(&BLACK)),
