@@ -23,3 +23,8 @@ pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::QuaternionSolver;
 pub use registry::{SOLVERS, named_solver};
 pub use trace::{TracePoint, trace};
+
+/// The README's Rust is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
