@@ -46,7 +46,7 @@ impl CoinArgs {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct TossArgs {
+struct TossArgs {
     #[command(flatten)]
     coin: CoinArgs,
     /// Body rate at launch, body frame (rad/s)
@@ -67,7 +67,7 @@ pub(crate) struct TossArgs {
 }
 
 impl TossArgs {
-    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
+    fn toss(&self) -> Result<Toss, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
@@ -77,6 +77,24 @@ impl TossArgs {
         };
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
         Ok(Toss { coin, launch })
+    }
+}
+
+/// One toss, and the solver with its Runge-Kutta method.
+#[derive(Debug, Args)]
+pub(crate) struct FlightArgs {
+    #[command(flatten)]
+    toss: TossArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+    /// Runge-Kutta method: dop853, dopri5 or rk4
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    method: String,
+}
+
+impl FlightArgs {
+    pub(crate) fn parts(&self) -> Result<(Toss, Box<dyn Solver>), Failure> {
+        Ok((self.toss.toss()?, self.solver.solver(&self.method)?))
     }
 }
 

@@ -12,7 +12,7 @@
 use nalgebra::Vector3;
 
 use crate::coin::Coin;
-use crate::solver::State;
+use crate::state::State;
 
 /// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame (rad/s), (2)-(4).
 pub fn body_precession_rate(inertia_ratio: f64, rate_z: f64) -> f64 {

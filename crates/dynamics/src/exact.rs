@@ -25,7 +25,8 @@ use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
 use crate::euler_angles::{EulerAngles, continuous_polar};
 use crate::launch::Toss;
-use crate::solver::{Outcome, Propagation, Settings, Solver, SolverEntry, State, Work, power_of_two_scale};
+use crate::scale::power_of_two_scale;
+use crate::state::State;
 
 /// 2^53: above it, neighbouring f64 phases are more than a radian apart.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -183,44 +184,6 @@ impl ExactMotion {
         let (crest, half_width) = (c.atan2(b), (-a / amplitude).acos());
         let phase = [crest - half_width, crest + half_width].map(|root| root.rem_euclid(TAU));
         Some(phase[0].min(phase[1]) / self.precession_rate / self.scale)
-    }
-}
-
-/// The exact motion as a solver, beside the numerical ones.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ExactSolver;
-
-impl ExactSolver {
-    /// The registry's line.
-    pub const ENTRY: SolverEntry = SolverEntry {
-        name: "exact",
-        summary: "closed form of the motion: precession about S, spin about n",
-        integrates: false,
-        build: |_: &Settings| Box::new(Self),
-    };
-}
-
-impl Solver for ExactSolver {
-    fn name(&self) -> &'static str {
-        Self::ENTRY.name
-    }
-
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let state = ExactMotion::new(toss).state(toss.launch.flight_time())?;
-        Ok(Propagation { state, defect: 0.0, work: Work::default() })
-    }
-
-    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        ExactMotion::new(toss).cos_tilt(toss.launch.flight_time())
-    }
-
-    fn resolution(&self, phase: f64) -> f64 {
-        resolution(phase)
-    }
-
-    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        let (motion, time) = (ExactMotion::new(toss), toss.launch.flight_time());
-        Ok(Outcome::of(motion.cos_tilt(time)?, resolution(motion.phase(time)?)))
     }
 }
 

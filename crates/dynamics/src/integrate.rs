@@ -32,7 +32,7 @@ pub trait OdeSystem<const N: usize> {
 /// Follows `system` from `start` over `duration` (s), which is ≥ 0.
 ///
 /// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two (rad/s); see
-/// [`power_of_two_scale`](crate::solver::power_of_two_scale).
+/// [`power_of_two_scale`](crate::scale::power_of_two_scale).
 ///
 /// # Errors
 /// [`SolveError`] with the time (s) at which the integration stopped.

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::coin::Coin;
 use crate::error::{InputError, require};
-use crate::solver::State;
+use crate::state::State;
 
 /// Gravity used where none is given (m/s²). The paper gives no value.
 pub const DEFAULT_GRAVITY: f64 = 9.81;

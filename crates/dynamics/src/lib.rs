@@ -9,11 +9,11 @@
 //! | step | file |
 //! |---|---|
 //! | geometry → moments of inertia | [`coin`], [`catalogue`] |
-//! | coin + body rate + attitude + time of flight | [`launch`] |
+//! | coin + body rate + attitude + time of flight | [`launch`], [`state`] |
 //! | Euler's equations and what they conserve | [`body_rate`] |
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
 //! | the exact motion | [`exact`] |
-//! | what a numerical solver is, and how it steps | [`solver`], [`method`], [`integrate`] |
+//! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`integrate`], [`scale`] |
 //! | what can go wrong | [`error`] |
 //!
 //! # Frames
@@ -30,17 +30,22 @@ pub mod coin;
 pub mod error;
 pub mod euler_angles;
 pub mod exact;
+pub mod exact_solver;
 pub mod integrate;
 pub mod launch;
 pub mod method;
+pub mod scale;
 pub mod solver;
+pub mod state;
 
 pub use attitude::Attitude;
 pub use coin::Coin;
 pub use error::{InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;
-pub use exact::{ExactMotion, ExactSolver};
+pub use exact::ExactMotion;
+pub use exact_solver::ExactSolver;
 pub use launch::{Launch, TimeOfFlight, Toss};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
-pub use solver::{Frame, Outcome, Propagation, Settings, Solver, SolverEntry, State, Work};
+pub use solver::{Frame, Outcome, Propagation, Settings, Solver, SolverEntry, Work};
+pub use state::State;

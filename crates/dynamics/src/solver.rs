@@ -3,22 +3,11 @@
 //! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
 //! has one entry; every test and every check runs over the registry of entries.
 
-use nalgebra::Vector3;
-
-use crate::attitude::Attitude;
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
 use crate::method::Method;
-
-/// Attitude and body rate at one time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
-    /// Attitude (body to LF).
-    pub attitude: Attitude,
-    /// Body rate ω (BF, rad/s).
-    pub rate: Vector3<f64>,
-}
+use crate::state::State;
 
 /// What a propagation cost, as counts that repeat exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -173,26 +162,9 @@ pub struct SolverEntry {
     pub build: fn(&Settings) -> Box<dyn Solver>,
 }
 
-/// The power of two at or below the largest component of `rate` (rad/s); 1 for a rate of zero.
-///
-/// Dividing by it is exact and leaves a dimensionless rate of the order of 1.
-pub fn power_of_two_scale(rate: &Vector3<f64>) -> f64 {
-    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
-    let largest = rate.amax();
-    if largest == 0.0 { 1.0 } else { f64::from_bits(largest.to_bits() & EXPONENT).max(f64::MIN_POSITIVE) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_scale_is_the_leading_power_of_two() {
-        for (largest, scale) in [(1.0, 1.0), (60.0, 32.0), (-0.3, 0.25), (1e300, 2f64.powi(996)), (0.0, 1.0)] {
-            assert_eq!(power_of_two_scale(&Vector3::new(0.0, largest, 0.0)), scale);
-        }
-        assert_eq!(power_of_two_scale(&Vector3::new(0.0, 5e-324, 0.0)), f64::MIN_POSITIVE);
-    }
 
     #[test]
     fn a_tie_is_undecided_whatever_the_resolution() {

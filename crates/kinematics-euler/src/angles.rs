@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::{OdeSystem, integrate};
-use dynamics::solver::power_of_two_scale;
+use dynamics::scale::power_of_two_scale;
 use dynamics::{
     EulerAngles, ExactMotion, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry,
     State, Toss, Vector3,

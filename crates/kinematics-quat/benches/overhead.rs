@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::integrate::OdeSystem;
-use dynamics::solver::power_of_two_scale;
+use dynamics::scale::power_of_two_scale;
 use dynamics::{Coin, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
 use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 use nalgebra::SVector;

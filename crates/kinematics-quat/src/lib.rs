@@ -8,7 +8,7 @@
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::{OdeSystem, integrate};
-use dynamics::solver::power_of_two_scale;
+use dynamics::scale::power_of_two_scale;
 use dynamics::{
     Attitude, ExactMotion, Method, Propagation, Settings, SolveError, Solver, SolverEntry, State, Toss, Vector3,
 };

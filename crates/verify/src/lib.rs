@@ -10,6 +10,7 @@
 //! rows; none of them knows the others.
 
 pub mod bounds;
+pub mod case;
 pub mod check;
 pub mod checks;
 pub mod judge;

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use serde::Deserialize;
 use toss::{Attitude, Coin, Launch, TimeOfFlight, Toss, Vector3};
 
-use crate::check::Case;
+use crate::case::Case;
 
 /// The numbers from outside.
 pub struct ReferenceData {

@@ -7,7 +7,7 @@ use sampling::random_tosses;
 use sampling::space::parse_space;
 use toss::{Coin, InputError, SolveError, State, Toss};
 
-use crate::check::Case;
+use crate::case::Case;
 use crate::reference::Reference;
 use crate::subject::Subject;
 

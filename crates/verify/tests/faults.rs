@@ -7,7 +7,7 @@ use std::path::Path;
 
 use nalgebra::SVector;
 use toss::integrate::{OdeSystem, integrate};
-use toss::solver::power_of_two_scale;
+use toss::scale::power_of_two_scale;
 use toss::{
     Attitude, Coin, EulerAngles, ExactSolver, Method, Propagation, QuaternionSolver, SolveError, Solver, SolverEntry,
     State, Toss, Vector3, Work,

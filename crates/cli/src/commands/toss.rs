@@ -3,19 +3,14 @@
 use serde::Serialize;
 use toss::{Propagation, Solver, Toss, Work};
 
-use crate::args::{SolverArgs, TossArgs};
+use crate::args::FlightArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    toss: TossArgs,
-    #[command(flatten)]
-    solver: SolverArgs,
-    /// Runge-Kutta method: dop853, dopri5 or rk4
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    method: String,
+    flight: FlightArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
@@ -49,8 +44,7 @@ struct WorkCounts {
 
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
-        let toss = self.toss.toss()?;
-        let solver = self.solver.solver(&self.method)?;
+        let (toss, solver) = self.flight.parts()?;
         let answer = Answer::new(&toss, solver.as_ref())?;
         Ok(match self.format {
             Format::Json => output::json(&answer),

@@ -5,19 +5,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toss::{TracePoint, trace};
 
-use crate::args::{SolverArgs, TossArgs};
+use crate::args::FlightArgs;
 use crate::failure::Failure;
 use crate::{chart, output};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    toss: TossArgs,
-    #[command(flatten)]
-    solver: SolverArgs,
-    /// Runge-Kutta method: dop853, dopri5 or rk4
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    method: String,
+    flight: FlightArgs,
     /// Number of times, launch and landing included
     #[arg(long, value_name = "N")]
     points: usize,
@@ -77,8 +72,7 @@ struct Answer {
 
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
-        let toss = self.toss.toss()?;
-        let solver = self.solver.solver(&self.method)?;
+        let (toss, solver) = self.flight.parts()?;
         let flight = trace(solver.as_ref(), &toss, self.points)?;
         if let Some(path) = &self.svg {
             output::write_file(path, &chart::flight(&flight)?)?;

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 
 use toss::{ExactMotion, Frame, Launch, Scheme, TimeOfFlight, Toss};
 
-use crate::check::{Basis, Case, Check, Context, Measurement};
+use crate::case::Case;
+use crate::check::{Basis, Check, Context, Measurement};
 use crate::reference::Reference;
 use crate::subject::Subject;
 

@@ -7,7 +7,8 @@
 use toss::launch::DEFAULT_GRAVITY;
 use toss::{Coin, ExactMotion, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss, Vector3};
 
-use crate::check::{Basis, Case, Check, Context, Measurement};
+use crate::case::Case;
+use crate::check::{Basis, Check, Context, Measurement};
 use crate::reference_data::FirstFlip;
 use crate::subject::Subject;
 
