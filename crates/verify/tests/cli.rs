@@ -1,0 +1,82 @@
+//! The suite's program from outside: exit codes, formats, reports.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const CHECK: &str = "reference-cos-tilt";
+
+fn validation() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation")
+}
+
+fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(arguments)
+        .args([Path::new("--validation"), validation, Path::new("--out"), out])
+        .output()
+        .expect("the program starts")
+}
+
+#[test]
+fn a_passing_run_ends_with_0_and_writes_both_reports() {
+    let out = tempfile::tempdir().unwrap();
+    let output = run(&["--only", CHECK, "--format", "json"], &validation(), out.path());
+    assert_eq!(output.status.code(), Some(0));
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let written: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.path().join("report.json")).unwrap()).unwrap();
+    assert_eq!(printed, written);
+    assert_eq!(printed["passed"], true);
+    let rows = printed["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 10, "the exact motion, and three integrators by three methods");
+    for row in rows {
+        for field in ["claim", "basis", "measured", "bound", "margin", "worst_input", "replay"] {
+            assert!(!row[field].is_null(), "{field} of {row}");
+        }
+        assert!(row["worst_input"].as_str().unwrap().contains("i1=0x1."), "{row}");
+    }
+    let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
+    assert!(junit.contains("tests=\"10\"") && junit.contains("failures=\"0\""));
+}
+
+#[test]
+fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
+    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    std::fs::create_dir(folder.path().join("reference")).unwrap();
+    std::fs::copy(validation().join("reference/motion.toml"), folder.path().join("reference/motion.toml")).unwrap();
+    let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();
+    let tightened = bounds.replacen("exact = ", "exact = 1e-20 #", 1);
+    std::fs::write(folder.path().join("bounds.toml"), tightened).unwrap();
+    let output = run(&["--only", CHECK], folder.path(), out.path());
+    assert_eq!(output.status.code(), Some(1));
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(table.contains("FAIL: reference-cos-tilt / exact") && table.contains("FAIL: 9 of 10 rows pass"), "{table}");
+    assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
+    let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
+    assert!(junit.contains("failures=\"1\""));
+}
+
+#[test]
+fn bad_usage_ends_with_2_and_missing_data_with_4() {
+    let out = tempfile::tempdir().unwrap();
+    for arguments in [vec!["--only", "nonsense"], vec!["--quick", "--deep"], vec!["--format", "yaml"]] {
+        let output = run(&arguments, &validation(), out.path());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+    }
+    let output = run(&["--only", CHECK], Path::new("/no/such/folder"), out.path());
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("cannot read /no/such/folder/bounds.toml"));
+    assert!(!out.path().join("report.json").exists());
+}
+
+#[test]
+fn every_check_is_listed() {
+    let output = run(&["--list"], &validation(), Path::new("unused"));
+    assert_eq!(output.status.code(), Some(0));
+    let list = String::from_utf8(output.stdout).unwrap();
+    assert!(verify::CHECKS.iter().all(|check| list.contains(check.id) && list.contains(check.claim)));
+    assert_eq!(list.lines().count(), verify::CHECKS.len());
+}
