@@ -245,4 +245,16 @@ mod tests {
             assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
         }
     }
+
+    #[test]
+    fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
+        let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
+        let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
+        for step in [1e-3, 3e-4, 1e-4] {
+            let method = Method::fixed(dynamics::Scheme::Rk4, step).unwrap();
+            let error = GammaSolver::new(method, Frame::Vertical).propagate(&toss).unwrap_err();
+            let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
+            assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
+        }
+    }
 }
