@@ -69,7 +69,8 @@ pub fn find_named<'a, T>(
 pub enum Singularity {
     /// sin β = 0: the normal n is along the frame's z axis, where α and γ turn about the same axis.
     NormalAlongAxis,
-    /// α' = 0 with sin β ≠ 0: the precession turns back, D = u = 0, and the γ-ODE (10) reads 0/0.
+    /// α' = 0 with sin β ≠ 0: the precession turns back, D = u = 0, and the γ-ODE (10) reads 0/0. Also where α' is so
+    /// small against the rates that D and u are lost in their rounding.
     PrecessionStops,
 }
 

@@ -74,21 +74,36 @@ fn nearest_polar(re: f64, im: f64, reference: f64) -> (f64, f64) {
 /// The curve is an ellipse about the origin, run through once in 2π: its argument gains ±π in each half turn. A flat
 /// ellipse is a line through the origin; there the argument stays and the radius changes sign.
 pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: f64) -> (f64, f64) {
-    let winding = a[0] * b[1] - a[1] * b[0];
-    let (start, turn) = if a == [0.0; 2] { (b[1].atan2(b[0]), 0.0) } else { (a[1].atan2(a[0]), winding) };
-    let (sin_start, cos_start) = start.sin_cos();
     let (sin, cos) = x.sin_cos();
-    let (re, im) = (a[0] * cos + b[0] * sin, a[1] * cos + b[1] * sin);
-    let along = re * cos_start + im * sin_start;
-    if turn == 0.0 {
-        return (start, along);
+    if let Some((argument, [along_a, along_b])) = flat(a, b) {
+        return (argument, along_a * cos + along_b * sin);
     }
+    let (re, im) = (a[0] * cos + b[0] * sin, a[1] * cos + b[1] * sin);
+    let start = a[1].atan2(a[0]);
+    let (sin_start, cos_start) = start.sin_cos();
+    let sense = winding(a, b).signum();
     // In the half turn from x = mπ to (m + 1)π the argument runs from start ± mπ to start ± (m + 1)π.
     let half_turns = (x / PI).floor();
     let parity = if half_turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
-    let across = (im * cos_start - re * sin_start) * turn.signum();
-    let within = (across * parity).max(0.0).atan2(along * parity);
-    (start + turn.signum() * (half_turns * PI + within), re.hypot(im))
+    let along = parity * (re * cos_start + im * sin_start);
+    let across = parity * sense * (im * cos_start - re * sin_start);
+    (start + sense * (half_turns * PI + across.max(0.0).atan2(along)), re.hypot(im))
+}
+
+/// The line that a flat curve `a cos x + b sin x` runs on: its argument, and the components of a and b along it.
+pub(crate) fn flat(a: [f64; 2], b: [f64; 2]) -> Option<(f64, [f64; 2])> {
+    if winding(a, b) != 0.0 {
+        return None;
+    }
+    let direction = if a == [0.0; 2] { b } else { a };
+    let argument = direction[1].atan2(direction[0]);
+    let (sin, cos) = argument.sin_cos();
+    Some((argument, [a, b].map(|end| end[0] * cos + end[1] * sin)))
+}
+
+/// Twice the area that a and b span; its sign is the sense in which the ellipse is run through.
+fn winding(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]

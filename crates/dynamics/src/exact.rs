@@ -23,7 +23,7 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
-use crate::euler_angles::{EulerAngles, continuous_polar};
+use crate::euler_angles::{EulerAngles, continuous_polar, flat};
 use crate::launch::Toss;
 use crate::scale::power_of_two_scale;
 use crate::state::State;
@@ -156,19 +156,13 @@ impl ExactMotion {
         let [w1, x1, y1, z1] = (start * Attitude::half_turn(&self.momentum_direction)).components();
         let (half_sum, cos_half_beta) = continuous_polar([w0, z0], [w1, z1], half_phase);
         let (half_difference, sin_half_beta) = continuous_polar([x0, y0], [x1, y1], half_phase);
-        let mut half_beta = sin_half_beta.atan2(cos_half_beta);
-        if self.nutates_through_every_angle() {
-            // cos(β/2) and sin(β/2) both change sign and β/2 itself runs on; nearest branch to the phase.
-            half_beta += TAU * ((half_phase - half_beta) / TAU).round();
-        }
+        let half_beta = match (flat([w0, z0], [w1, z1]), flat([x0, y0], [x1, y1])) {
+            // n turns end over end through the vertical: both change sign, and β runs on past π.
+            (Some((_, [c0, c1])), Some((_, [s0, s1]))) => continuous_polar([c0, s0], [c1, s1], half_phase).0,
+            _ => sin_half_beta.atan2(cos_half_beta),
+        };
         let beta = 2.0 * half_beta;
         Ok(EulerAngles { alpha: half_sum + half_difference, beta, gamma: half_sum - half_difference - spin })
-    }
-
-    /// Whether n turns end over end through the vertical: from horizontal, without spin (Keller's coin).
-    fn nutates_through_every_angle(&self) -> bool {
-        let [a, b, _] = self.tilt;
-        a == 0.0 && b.abs() == 1.0
     }
 
     /// The first time after launch at which the outcome changes (s); `None` if it never does.
@@ -228,17 +222,30 @@ mod tests {
     }
 
     #[test]
-    fn euler_angles_are_continuous_from_a_horizontal_launch() {
-        for rate in [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]] {
-            let motion = motion(Coin::PAPER, rate, 0.0);
+    fn euler_angles_start_at_the_limit_of_a_horizontal_launch() {
+        for rate in [[1.0, 1.0, 2.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]] {
+            let start = motion(Coin::PAPER, rate, 0.0).euler_angles(0.0).unwrap();
+            assert!((start.alpha - rate[1].atan2(rate[0])).abs() < 1e-15);
+            assert_eq!((start.beta, start.gamma), (0.0, -start.alpha));
+        }
+    }
+
+    #[test]
+    fn euler_angles_are_continuous_for_many_turns() {
+        let horizontal =
+            [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]].map(|rate| (rate, 0.0));
+        // End over end from a tilt in both senses, and cones that do and do not enclose the vertical.
+        let tilted = [([3.0, 0.0, 0.0], 0.7), ([-3.0, 0.0, 0.0], 0.7), ([0.8, 1.6, 0.9], 1.3), ([0.3, 0.3, 5.0], 1.0)];
+        for (rate, tilt) in horizontal.into_iter().chain(tilted) {
+            let motion = motion(Coin::PAPER, rate, tilt);
             let mut last = motion.euler_angles(0.0).unwrap();
-            assert!((last.alpha - rate[1].atan2(rate[0])).abs() < 1e-15, "the limit at launch");
-            assert_eq!(last.gamma, -last.alpha);
             for step in 1..20_000 {
-                let next = motion.euler_angles(1e-3 * f64::from(step)).unwrap();
+                let time = 1e-3 * f64::from(step);
+                let next = motion.euler_angles(time).unwrap();
                 for (a, b) in [(next.alpha, last.alpha), (next.beta, last.beta), (next.gamma, last.gamma)] {
-                    assert!((a - b).abs() < 0.05, "{rate:?} at step {step}: {last:?} → {next:?}");
+                    assert!((a - b).abs() < 0.05, "{rate:?}, {tilt} at step {step}: {last:?} → {next:?}");
                 }
+                assert!(next.attitude().angle_to(&motion.state(time).unwrap().attitude) < 1e-12);
                 last = next;
             }
         }

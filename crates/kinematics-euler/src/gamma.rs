@@ -155,12 +155,15 @@ impl OdeSystem<5> for GammaSystem {
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
         let (was, is) = (self.terms(before), self.terms(after));
-        let started_there = was.d.abs() <= NO_DIGIT * was.beta_rate.abs();
-        if self.precession_stops(after) && !self.precession_stops(before) || was.u * is.u < 0.0 && was.d * is.d < 0.0 {
-            Some(Singularity::PrecessionStops)
-        } else {
-            (!started_there && was.d * is.d < 0.0).then_some(Singularity::NormalAlongAxis)
+        let crossed = was.d * is.d < 0.0;
+        let stopped = self.precession_stops(after) && !self.precession_stops(before);
+        let turned_back = crossed && was.u * is.u < 0.0;
+        if stopped || turned_back {
+            return Some(Singularity::PrecessionStops);
         }
+        // At a launch from sin β = 0 the sign of D is a matter of rounding.
+        let started_there = was.d.abs() <= NO_DIGIT * was.beta_rate.abs();
+        (crossed && !started_there).then_some(Singularity::NormalAlongAxis)
     }
 }
 

@@ -20,7 +20,7 @@ const VERTICAL: f64 = f64::EPSILON;
 /// The angles at launch and the frame they are taken in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Start {
-    /// The frame F: LF seen from it is `F`'s inverse.
+    /// The frame F, as the turn from LF to it.
     pub(crate) frame: Attitude,
     /// Angles at launch.
     pub(crate) angles: EulerAngles,
