@@ -135,7 +135,7 @@ fn count<I: Iterator<Item = Toss>>(
 ) -> Result<Counts, SampleError> {
     let lowest_failure = AtomicU64::new(u64::MAX);
     let block = |number: u64| -> Result<Counts, Failure> {
-        let range = number * BLOCK..points.min((number + 1) * BLOCK);
+        let range = number * BLOCK..points.min((number + 1).saturating_mul(BLOCK));
         let mut counts = Counts::default();
         if range.start > lowest_failure.load(Ordering::Relaxed) {
             return Ok(counts);
