@@ -9,10 +9,7 @@ use crate::error::{InputError, find_named};
 
 const US_MINT: &str = "United States Mint, Coin Specifications, \
                        https://www.usmint.gov/learn/coins-and-medals/circulating-coins/coin-specifications";
-const EUROPEAN_COMMISSION: &str = "Council Regulation (EU) No 729/2014, Annex I (diameter, weight), \
-                                   https://eur-lex.europa.eu/eli/reg/2014/729/oj; thickness: European Central Bank, \
-                                   Euro coins, common sides, \
-                                   https://www.ecb.europa.eu/euro/coins/common/html/index.en.html";
+const EU_COUNCIL: &str = "Council Regulation (EU) No 729/2014, Annex I, Official Journal L 194, 2.7.2014, p. 1";
 const PAPER: &str = "\"Modeling the unfair toss of an unbiased coin\": I1 = 5e-7, I3 = I1/2";
 const FLAT: &str = "the limit h = 0 of a cylinder, I3 = 2 I1, with the paper's I1";
 
@@ -85,13 +82,13 @@ pub const CATALOGUE: &[CatalogueEntry] = &[
     real("us-quarter", "25 US cents", (5.670, 24.26, 1.75), US_MINT),
     real("us-half", "50 US cents", (11.340, 30.61, 2.15), US_MINT),
     real("us-dollar", "1 US dollar", (8.100, 26.49, 2.00), US_MINT),
-    real("euro-1c", "1 euro cent", (2.30, 16.25, 1.67), EUROPEAN_COMMISSION),
-    real("euro-2c", "2 euro cent", (3.06, 18.75, 1.67), EUROPEAN_COMMISSION),
-    real("euro-5c", "5 euro cent", (3.92, 21.25, 1.67), EUROPEAN_COMMISSION),
-    real("euro-10c", "10 euro cent", (4.10, 19.75, 1.93), EUROPEAN_COMMISSION),
-    real("euro-50c", "50 euro cent", (7.80, 24.25, 2.38), EUROPEAN_COMMISSION),
-    real("euro-1", "1 euro", (7.50, 23.25, 2.33), EUROPEAN_COMMISSION),
-    real("euro-2", "2 euro", (8.50, 25.75, 2.20), EUROPEAN_COMMISSION),
+    real("euro-1c", "1 euro cent", (2.30, 16.25, 1.67), EU_COUNCIL),
+    real("euro-2c", "2 euro cent", (3.06, 18.75, 1.67), EU_COUNCIL),
+    real("euro-5c", "5 euro cent", (3.92, 21.25, 1.67), EU_COUNCIL),
+    real("euro-10c", "10 euro cent", (4.10, 19.75, 1.93), EU_COUNCIL),
+    real("euro-50c", "50 euro cent", (7.80, 24.25, 2.38), EU_COUNCIL),
+    real("euro-1", "1 euro", (7.50, 23.25, 2.33), EU_COUNCIL),
+    real("euro-2", "2 euro", (8.50, 25.75, 2.20), EU_COUNCIL),
 ];
 
 /// The coin called `name`.
