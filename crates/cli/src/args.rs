@@ -109,17 +109,9 @@ pub(crate) struct SolverArgs {
     /// Step of rk4 (s) [default: 0.001]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Frame of the Euler angles (gamma, euler): along S, or vertical as the paper has it
-    #[arg(long, value_enum, default_value_t = FrameArg::Momentum)]
-    frame: FrameArg,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum FrameArg {
-    /// z along the angular momentum: no flight is singular
-    Momentum,
-    /// z up, as the paper has it: singular whenever n is vertical
-    Vertical,
+    /// Frame of the Euler angles (gamma, euler): momentum, where no flight is singular, or vertical, as the paper has it
+    #[arg(long, value_name = "NAME", default_value = "momentum")]
+    frame: String,
 }
 
 impl SolverArgs {
@@ -127,17 +119,13 @@ impl SolverArgs {
     pub(crate) fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
         let entry = named_solver(&self.solver)?;
         let scheme = Scheme::named(scheme)?;
-        let frame = match self.frame {
-            FrameArg::Momentum => Frame::Momentum,
-            FrameArg::Vertical => Frame::Vertical,
-        };
+        let frame = Frame::named(&self.frame)?;
         Ok((entry.build)(&Settings { method: self.method(scheme)?, frame }))
     }
 
     fn method(&self, scheme: Scheme) -> Result<Method, Failure> {
-        let default_tolerance = 1e-10;
         match (scheme.is_adaptive(), self.tolerance, self.step) {
-            (true, tolerance, None) => Ok(Method::adaptive(scheme, tolerance.unwrap_or(default_tolerance))?),
+            (true, tolerance, None) => Ok(Method::adaptive(scheme, tolerance.unwrap_or(Method::DEFAULT_TOLERANCE))?),
             (false, None, step) => Ok(Method::fixed(scheme, step.unwrap_or(Method::DEFAULT_STEP))?),
             (true, _, Some(_)) => {
                 Err(Failure::Usage(format!("--step is for rk4; {} takes --tolerance", scheme.name())))

@@ -102,6 +102,7 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
         ("toss --rate 1,1,1 --time 1 --coin groat", ["coin = 'groat'", "us-quarter"]),
         ("toss --rate 1,1,1 --time 1 --solver newton", ["solver = 'newton'", "quaternion"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --method euler", ["method = 'euler'", "dopri5"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --frame sideways", ["frame = 'sideways'", "momentum, vertical"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 0", ["tolerance = 0.0", "2.220446049250313e-16"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 1e-17", ["tolerance = 1e-17", "<= tolerance < 1"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --method rk4 --step 0", ["step [s] = 0.0", "> 0"]),

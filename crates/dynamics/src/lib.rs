@@ -13,7 +13,7 @@
 //! | Euler's equations and what they conserve | [`body_rate`] |
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
 //! | the exact motion | [`exact`] |
-//! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`integrate`], [`scale`] |
+//! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
 //!
 //! # Frames
@@ -31,6 +31,7 @@ pub mod error;
 pub mod euler_angles;
 pub mod exact;
 pub mod exact_solver;
+pub mod flight;
 pub mod integrate;
 pub mod launch;
 pub mod method;
@@ -44,6 +45,7 @@ pub use error::{InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;
 pub use exact::ExactMotion;
 pub use exact_solver::ExactSolver;
+pub use flight::Flight;
 pub use launch::{Launch, TimeOfFlight, Toss};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;

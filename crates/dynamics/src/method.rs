@@ -66,8 +66,11 @@ pub struct Method {
 }
 
 impl Method {
-    /// The method used where none is asked for: DOP853 at 1e-10.
-    pub const DEFAULT: Self = Self { scheme: Scheme::Dop853, control: StepControl::Tolerance(1e-10) };
+    /// The tolerance used where none is asked for.
+    pub const DEFAULT_TOLERANCE: f64 = 1e-10;
+
+    /// The method used where none is asked for.
+    pub const DEFAULT: Self = Self { scheme: Scheme::Dop853, control: StepControl::Tolerance(Self::DEFAULT_TOLERANCE) };
 
     /// The step used for RK4 where none is asked for (s).
     pub const DEFAULT_STEP: f64 = 1e-3;

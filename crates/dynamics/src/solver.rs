@@ -3,7 +3,7 @@
 //! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
 //! has one entry; every test and every check runs over the registry of entries.
 
-use crate::error::SolveError;
+use crate::error::{InputError, SolveError, find_named};
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
 use crate::method::Method;
@@ -18,14 +18,6 @@ pub struct Work {
     pub accepted_steps: u64,
     /// Steps that were tried and thrown away.
     pub rejected_steps: u64,
-}
-
-impl std::ops::AddAssign for Work {
-    fn add_assign(&mut self, other: Self) {
-        self.rhs_calls += other.rhs_calls;
-        self.accepted_steps += other.accepted_steps;
-        self.rejected_steps += other.rejected_steps;
-    }
 }
 
 /// The state at landing and what it cost to get there.
@@ -96,17 +88,27 @@ pub trait Solver: Send + Sync {
         Ok(self.propagate(toss)?.state.attitude.cos_tilt())
     }
 
-    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) (rad); 0 if it gives no
-    /// estimate.
-    fn resolution(&self, phase: f64) -> f64;
+    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) (rad), by its method; 0 if it
+    /// gives no estimate.
+    fn resolution(&self, phase: f64) -> f64 {
+        self.method().map_or(0.0, |method| method.resolution(phase))
+    }
 
-    /// Heads or tails, or undecided where cos θ is within [`Solver::resolution`] of 0.
+    /// Heads or tails by a `cos_tilt` of this solver, or undecided where it is within [`Solver::resolution`] of 0.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+        let phase = ExactMotion::new(toss).phase(toss.launch.flight_time())?;
+        Ok(Outcome::of(cos_tilt, self.resolution(phase)))
+    }
+
+    /// How the toss lands.
     ///
     /// # Errors
     /// As [`Solver::propagate`].
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        let phase = ExactMotion::new(toss).phase(toss.launch.flight_time())?;
-        Ok(Outcome::of(self.cos_tilt(toss)?, self.resolution(phase)))
+        self.outcome_at(toss, self.cos_tilt(toss)?)
     }
 }
 
@@ -114,7 +116,7 @@ pub trait Solver: Send + Sync {
 /// differs is where sin β = 0 lies. Other solvers have no use for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Frame {
-    /// z along the angular momentum S, which is fixed in TF: β is constant and no flight is singular.
+    /// z along ±S, the angular momentum, on the side of n: S is fixed in TF, so β is constant and at most π/2.
     #[default]
     Momentum,
     /// z up, as the paper has it: singular whenever n is vertical, as at every horizontal launch and at each return.
@@ -124,6 +126,14 @@ pub enum Frame {
 impl Frame {
     /// All frames.
     pub const ALL: [Self; 2] = [Self::Momentum, Self::Vertical];
+
+    /// The frame called `name`.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`].
+    pub fn named(name: &str) -> Result<Self, InputError> {
+        find_named("frame", name, &Self::ALL, |frame| frame.name()).copied()
+    }
 
     /// Its name.
     pub fn name(self) -> &'static str {

@@ -10,11 +10,10 @@
 use std::f64::consts::PI;
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
-use dynamics::integrate::{OdeSystem, integrate};
-use dynamics::scale::power_of_two_scale;
+use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, ExactMotion, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry,
-    State, Toss, Vector3,
+    EulerAngles, Flight, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, State,
+    Toss,
 };
 use nalgebra::SVector;
 
@@ -52,22 +51,15 @@ impl Solver for EulerAnglesSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let duration = toss.launch.flight_time();
-        ExactMotion::new(toss).phase(duration)?;
-        let scale = power_of_two_scale(&toss.launch.rate());
-        let rate = toss.launch.rate() / scale;
-        let start = Start::new(toss, &rate, self.frame);
-        let system = AnglesSystem::new(toss.coin.inertia_ratio(), rate.z);
+        let flight = Flight::new(toss)?;
+        let start = Start::new(toss, &flight.rate, self.frame);
+        let system = AnglesSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         let EulerAngles { alpha, beta, gamma } = start.angles;
-        let first = SVector::from([alpha, beta, gamma, rate.x, rate.y]);
-        let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
+        let first = SVector::from([alpha, beta, gamma, flight.rate.x, flight.rate.y]);
+        let (end, work) = flight.integrate(&system, first, &self.method)?;
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
-        let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
-        Ok(Propagation { state: State { attitude: start.frame * angles.attitude(), rate }, defect: 0.0, work })
-    }
-
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method.resolution(phase)
+        let state = State { attitude: start.frame * angles.attitude(), rate: flight.rate_at(end[3], end[4]) };
+        Ok(Propagation { state, defect: 0.0, work })
     }
 }
 
@@ -113,7 +105,7 @@ impl OdeSystem<5> for AnglesSystem {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, TimeOfFlight};
+    use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
 
     use super::*;
 

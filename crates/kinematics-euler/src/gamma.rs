@@ -11,11 +11,10 @@
 //! α' vanishes meets D = u = 0, where (10) reads 0/0, and is a typed error.
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
-use dynamics::integrate::{OdeSystem, integrate};
-use dynamics::scale::power_of_two_scale;
+use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, ExactMotion, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry,
-    State, Toss, Vector3,
+    EulerAngles, Flight, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, State,
+    Toss,
 };
 use nalgebra::SVector;
 
@@ -60,24 +59,17 @@ impl Solver for GammaSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let duration = toss.launch.flight_time();
-        ExactMotion::new(toss).phase(duration)?;
-        let scale = power_of_two_scale(&toss.launch.rate());
-        let rate = toss.launch.rate() / scale;
+        let flight = Flight::new(toss)?;
+        let rate = flight.rate;
         let start = Start::new(toss, &rate, self.frame);
         let system = GammaSystem::new(toss.coin.inertia_ratio(), rate.z, start.precession);
         let first = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
         if system.precession_stops(&first) && !start.rests_at_the_pole(&rate) {
             return Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
         }
-        let (end, work) = integrate(&system, first, duration, scale, &self.method)?;
+        let (end, work) = flight.integrate(&system, first, &self.method)?;
         let attitude = start.frame * system.angles(&end).attitude();
-        let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
-        Ok(Propagation { state: State { attitude, rate }, defect: 0.0, work })
-    }
-
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method.resolution(phase)
+        Ok(Propagation { state: State { attitude, rate: flight.rate_at(end[3], end[4]) }, defect: 0.0, work })
     }
 }
 
@@ -169,7 +161,7 @@ impl OdeSystem<5> for GammaSystem {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, TimeOfFlight};
+    use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
 
     use super::*;
 

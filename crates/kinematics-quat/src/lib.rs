@@ -4,14 +4,12 @@
 //! neither error nor work depends on how the coin is held at launch. No attitude is singular.
 //!
 //! The state is (P, ωx, ωy): the body rate comes from Euler's equations (1), integrated along with the attitude, never
-//! from their closed-form solution. Rates are divided by a power of two, as [`dynamics::integrate`] wants them.
+//! from their closed-form solution. Rates are dimensionless, as a
+//! [`Flight`] has them.
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
-use dynamics::integrate::{OdeSystem, integrate};
-use dynamics::scale::power_of_two_scale;
-use dynamics::{
-    Attitude, ExactMotion, Method, Propagation, Settings, SolveError, Solver, SolverEntry, State, Toss, Vector3,
-};
+use dynamics::integrate::OdeSystem;
+use dynamics::{Attitude, Flight, Method, Propagation, Settings, SolveError, Solver, SolverEntry, State, Toss};
 use nalgebra::SVector;
 
 /// The quaternion's solver.
@@ -45,23 +43,15 @@ impl Solver for QuaternionSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let duration = toss.launch.flight_time();
-        ExactMotion::new(toss).phase(duration)?;
-        let rate = toss.launch.rate();
-        let scale = power_of_two_scale(&rate);
-        let system = QuaternionSystem::new(toss.coin.inertia_ratio(), rate.z / scale);
-        let start = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x / scale, rate.y / scale]);
-        let (end, work) = integrate(&system, start, duration, scale, &self.method)?;
+        let flight = Flight::new(toss)?;
+        let system = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
+        let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
+        let (end, work) = flight.integrate(&system, start, &self.method)?;
         // Rounding and truncation change the norm; only the direction is the attitude.
-        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]])
-            .map_err(|_| SolveError::NotFinite { time: duration })?;
+        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).map_err(|_| flight.not_finite())?;
         let defect = (end.fixed_rows::<4>(0).norm() - 1.0).abs();
-        let rate = Vector3::new(end[4] * scale, end[5] * scale, rate.z);
-        Ok(Propagation { state: State { attitude: toss.launch.attitude() * turn, rate }, defect, work })
-    }
-
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method.resolution(phase)
+        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
+        Ok(Propagation { state, defect, work })
     }
 }
 
@@ -97,7 +87,7 @@ impl OdeSystem<6> for QuaternionSystem {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, Scheme, TimeOfFlight};
+    use dynamics::{Coin, ExactMotion, Launch, Scheme, TimeOfFlight, Vector3};
 
     use super::*;
 

@@ -221,9 +221,6 @@ mod tests {
             let time = toss.launch.flight_time();
             if time > 8.0 / 9.81 { Err(SolveError::NotFinite { time }) } else { ExactSolver.propagate(toss) }
         }
-        fn resolution(&self, _phase: f64) -> f64 {
-            0.0
-        }
     }
 
     #[test]

@@ -116,9 +116,6 @@ mod tests {
             }
             Err(SolveError::NotFinite { time: toss.launch.flight_time() / 2.0 })
         }
-        fn resolution(&self, _phase: f64) -> f64 {
-            0.0
-        }
     }
 
     #[test]

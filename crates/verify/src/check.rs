@@ -23,7 +23,7 @@ pub enum Basis {
     Invariant,
     /// A figure that somebody published.
     PublishedFigure,
-    /// Solvers that share no formula agree.
+    /// Different ways to the same answer agree.
     CrossMethod,
 }
 

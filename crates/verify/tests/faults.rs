@@ -72,9 +72,6 @@ impl Solver for GammaCopy {
         let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
         Ok(Propagation { state: State { attitude, rate }, defect: 0.0, work })
     }
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method.resolution(phase)
-    }
 }
 
 impl GammaCopy {
@@ -135,9 +132,6 @@ impl Solver for QuaternionCopy {
         let rate = Vector3::new(end[4] * scale, end[5] * scale, toss.launch.rate().z);
         let state = State { attitude: toss.launch.attitude() * turn, rate };
         Ok(Propagation { state, defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), work })
-    }
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method.resolution(phase)
     }
 }
 

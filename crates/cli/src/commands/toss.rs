@@ -1,7 +1,7 @@
 //! `unfair-toss toss`: one toss, one answer.
 
 use serde::Serialize;
-use toss::{ExactMotion, Outcome, Propagation, Solver, Toss, Work};
+use toss::{Propagation, Solver, Toss, Work};
 
 use crate::args::FlightArgs;
 use crate::failure::Failure;
@@ -58,13 +58,12 @@ impl Answer {
         let Propagation { state, work, .. } = solver.propagate(toss)?;
         // A closed form knows cos θ better than through the attitude; an integrator need not fly twice.
         let cos_tilt = if solver.method().is_some() { state.attitude.cos_tilt() } else { solver.cos_tilt(toss)? };
-        let phase = ExactMotion::new(toss).phase(toss.launch.flight_time())?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
         Ok(Self {
             coin: Moments { i1: toss.coin.i1(), i3: toss.coin.i3() },
             flight_time: toss.launch.flight_time(),
             cos_tilt,
-            outcome: Outcome::of(cos_tilt, solver.resolution(phase)).name(),
+            outcome: solver.outcome_at(toss, cos_tilt)?.name(),
             // No solver proves its outcome.
             certified: false,
             attitude: state.attitude.components(),

@@ -9,7 +9,7 @@ use crate::check::{Basis, Check, Context, Measurement};
 pub(super) const STATE: Check = Check {
     id: "detest-b5",
     claim: "DETEST B5 at t = 20 is (sn, cn, dn)(20 | 0.51)",
-    basis: Basis::PublishedFigure,
+    basis: Basis::ClosedForm,
     unit: "1",
     measure,
 };

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
 use toss::{ExactMotion, Frame, Launch, Scheme, TimeOfFlight, Toss};
 
 use crate::case::Case;
@@ -27,14 +28,16 @@ const CLEARANCE: f64 = 0.1;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let cases = returning_flights(context)?;
+    let references: Vec<Reference> = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();
     let mut measurements = Vec::new();
     for entry in context.registry.iter().filter(|entry| ["gamma", "euler"].contains(&entry.name)) {
         for scheme in [Scheme::Dop853, Scheme::Dopri5] {
             let subject = Subject::new(*entry, Some(scheme), Frame::Vertical)?;
-            let deviations = cases.iter().map(|case| {
+            let deviation = |(case, reference): (&Case, &Reference)| {
                 let landing = subject.solver.propagate(&case.toss)?;
-                Ok(Reference::new(&case.toss).attitude_error(&landing.state.attitude))
-            });
+                Ok(reference.attitude_error(&landing.state.attitude))
+            };
+            let deviations: Vec<_> = cases.par_iter().zip(&references).map(deviation).collect();
             measurements.push(Measurement::largest(&subject, deviations, |index| cases[index]));
         }
     }

@@ -1,8 +1,8 @@
 //! What a free coin conserves, from launch to landing of the random launches, computed from the integrated state.
 //!
-//! (a) |S|, (b) the kinetic energy and (c) n·S are the paper's checks; (c) is the observation on which P. Diaconis built
-//! "The search for randomness". For (c), S at launch, fixed in TF, is carried into the landed body by its attitude: n·S
-//! as I3 ωz would hold by definition.
+//! (a) |S|, (b) the kinetic energy and (c) n·S are the paper's checks. For (c), S at launch, fixed in TF, is carried into
+//! the landed body by its attitude, because n·S as I3 ωz would hold by definition. Both frames then see the same number,
+//! by two ways through the attitude; S as a vector is the stronger check.
 
 use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use toss::{State, Toss, Vector3};
