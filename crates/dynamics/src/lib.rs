@@ -12,7 +12,7 @@
 //! | coin + body rate + attitude + time of flight | [`launch`], [`state`] |
 //! | Euler's equations and what they conserve | [`body_rate`] |
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
-//! | the exact motion | [`exact`] |
+//! | the exact motion, and when it shows heads | [`exact`], [`heads`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
 //!
@@ -32,6 +32,7 @@ pub mod euler_angles;
 pub mod exact;
 pub mod exact_solver;
 pub mod flight;
+pub mod heads;
 pub mod integrate;
 pub mod launch;
 pub mod method;
@@ -46,6 +47,7 @@ pub use euler_angles::EulerAngles;
 pub use exact::ExactMotion;
 pub use exact_solver::ExactSolver;
 pub use flight::Flight;
+pub use heads::HeadsPhases;
 pub use launch::{Launch, TimeOfFlight, Toss};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;

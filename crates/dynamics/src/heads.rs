@@ -1,0 +1,109 @@
+//! When a motion shows heads.
+//!
+//! cos θ = a + b cos(ωL t) + c sin(ωL t) = a + r cos(ωL t - crest), r = √(b² + c²), is positive exactly while the phase
+//! ωL t is within `half_width` = acos(-a/r) of a crest. From horizontal the crest is at 0 and a/r = cot²ψ.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::exact::resolution;
+
+/// The phases ωL t at which a motion shows heads: those nearer than `half_width` to `crest` + 2π n.
+///
+/// The errors count rounding as [`resolution`] does, and are no proof.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeadsPhases {
+    /// Phase at which cos θ is greatest (rad), from -π to π.
+    pub crest: f64,
+    /// 0 if the motion never shows heads, π if it always does (rad).
+    pub half_width: f64,
+    /// Error of `crest` (rad).
+    pub crest_error: f64,
+    /// Error of `half_width` (rad); large where the motion grazes cos θ = 0.
+    pub half_width_error: f64,
+}
+
+impl HeadsPhases {
+    /// The phases of cos θ = `mean` + `cosine` cos(ωL t) + `sine` sin(ωL t).
+    pub(crate) fn new([mean, cosine, sine]: [f64; 3]) -> Self {
+        let amplitude = cosine.hypot(sine);
+        let error = resolution(0.0);
+        if amplitude <= error {
+            // As good as constant: the crest is anywhere, and only the sign of the mean matters.
+            let half_width_error = if mean.abs() > 2.0 * error { 0.0 } else { PI };
+            return Self { crest: 0.0, half_width: always(mean), crest_error: PI, half_width_error };
+        }
+        // √(r² - a²) keeps the digits where the motion grazes cos θ = 0.
+        let grazing = ((amplitude - mean) * (amplitude + mean)).max(0.0).sqrt();
+        let half_width = if amplitude <= mean.abs() { always(mean) } else { grazing.atan2(-mean) };
+        Self {
+            crest: sine.atan2(cosine),
+            half_width,
+            crest_error: FRAC_PI_2 * error / amplitude,
+            half_width_error: half_width_error(mean, amplitude, 2.0 * error / amplitude),
+        }
+    }
+
+    /// The first phase after launch at which the outcome changes (rad); `None` if it never does. A motion that only
+    /// touches cos θ = 0 does not change its outcome.
+    pub fn first_flip(&self) -> Option<f64> {
+        if self.half_width <= 0.0 || self.half_width >= PI {
+            return None;
+        }
+        let [sets, rises] = [self.crest + self.half_width, self.crest - self.half_width];
+        Some(sets.rem_euclid(TAU).min(rises.rem_euclid(TAU)))
+    }
+}
+
+/// The half-width of a motion that keeps the outcome of its mean.
+fn always(mean: f64) -> f64 {
+    if mean > 0.0 { PI } else { 0.0 }
+}
+
+/// Error of acos(-mean/amplitude) for an `error` of the ratio: |acos'| = 1/√(1 - x²) while the ratio stays away from
+/// ±1, and acos(1 - x) ≤ 1.6 √x where it does not.
+fn half_width_error(mean: f64, amplitude: f64, error: f64) -> f64 {
+    let ratio = mean.abs() / amplitude;
+    let from_edge = 1.0 - ratio;
+    if from_edge > 4.0 * error {
+        // 1 - x² is at least half of its value over the whole interval of the error.
+        return error * (2.0 / (from_edge * (1.0 + ratio))).sqrt();
+    }
+    if -from_edge > error { 0.0 } else { (1.6 * (error + from_edge.abs()).sqrt()).min(PI) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_horizontal_launch_shows_heads_about_phase_0() {
+        // ψ = 60°: cot²ψ = 1/3.
+        let heads = HeadsPhases::new([0.25, 0.75, 0.0]);
+        assert_eq!(heads.crest, 0.0);
+        assert!((heads.half_width - (-1.0_f64 / 3.0).acos()).abs() < 1e-15);
+        assert!(heads.half_width_error < 1e-14);
+    }
+
+    #[test]
+    fn certain_and_constant_motions_have_no_edge() {
+        for (tilt, half_width) in [([0.6, 0.4, 0.0], PI), ([0.5, 0.5, 0.0], PI), ([-0.6, 0.3, 0.2], 0.0)] {
+            let heads = HeadsPhases::new(tilt);
+            assert_eq!((heads.half_width, heads.first_flip()), (half_width, None), "{tilt:?}");
+        }
+        assert_eq!(HeadsPhases::new([0.8, 0.0, 0.0]).half_width_error, 0.0);
+        assert_eq!(HeadsPhases::new([0.0, 0.0, 0.0]).half_width_error, PI);
+    }
+
+    #[test]
+    fn the_error_covers_the_grazing_motion() {
+        // Moving the mean by what rounding may do to it moves the edge by no more than the error says.
+        for from_edge in [0.0, 1e-16, 1e-15, 3e-15, 1e-14, 1e-12, 1e-9, 1e-5, 0.1, 0.9] {
+            let mean = 0.5 * (1.0 - from_edge);
+            let heads = HeadsPhases::new([mean, 0.5, 0.0]);
+            for moved in [mean - resolution(0.0), mean + resolution(0.0)] {
+                let change = (HeadsPhases::new([moved, 0.5, 0.0]).half_width - heads.half_width).abs();
+                assert!(change <= heads.half_width_error, "{from_edge:e}: {change:e} > {:e}", heads.half_width_error);
+            }
+        }
+    }
+}
