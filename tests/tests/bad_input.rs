@@ -8,14 +8,6 @@ use toss::{
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-fn field(error: &InputError) -> &'static str {
-    match error {
-        InputError::OutOfRange { field, .. }
-        | InputError::Malformed { field, .. }
-        | InputError::UnknownName { field, .. } => field,
-    }
-}
-
 fn launch(rate: [f64; 3], time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
     Launch::new(Vector3::from(rate), time_of_flight)
 }
@@ -42,7 +34,7 @@ fn what_is_not_finite_is_refused_by_name() {
             (Method::fixed(Scheme::Rk4, bad).err(), "step"),
         ] {
             let error = result.unwrap_or_else(|| panic!("{expected} = {bad} was accepted"));
-            let found = field(&error);
+            let found = error.field();
             assert!(found.starts_with(expected), "{found} for {expected} = {bad}");
         }
     }

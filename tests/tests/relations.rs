@@ -238,21 +238,6 @@ fn a_flat_disc_with_a_small_tilt_wobbles_twice_as_fast_as_it_spins() {
 }
 
 #[test]
-fn the_probability_of_two_cells_is_the_weighted_mean_of_theirs() {
-    use sampling::space::parse_space;
-    use sampling::{Plan, estimate};
-    let count = |axis: &str| {
-        let space = parse_space(Coin::PAPER, [axis, "x", "30", "3:5:50"], 9.81).unwrap();
-        estimate(&space, Plan::Grid, &ExactSolver, &|_| {}).unwrap()
-    };
-    // Steps of 0.5 rad/s: 61 + 40 grid points make the 101 of the union.
-    let (lower, upper, union) = (count("0:30:61"), count("30.5:50:40"), count("0:50:101"));
-    assert_eq!(lower.heads + upper.heads, union.heads);
-    let mean = (lower.probability() * 61.0 + upper.probability() * 40.0) / 101.0;
-    assert!((mean - union.probability()).abs() < 1e-15);
-}
-
-#[test]
 fn long_phases_stay_within_what_the_solvers_answer_for() {
     let toss = toss(1.98, [31.0, -17.0, 42.0], 0.6, 60.0);
     assert!(phase(&toss) > 4000.0);

@@ -103,7 +103,8 @@ def detest_b5():
     print(f'[detest_b5]\ntime = 20.0\nstate = [{", ".join(chr(34) + show(c) + chr(34) for c in elliptic)}]')
 
 
-flights()
-flips()
-long_flights()
-detest_b5()
+if __name__ == "__main__":
+    flights()
+    flips()
+    long_flights()
+    detest_b5()

@@ -1,5 +1,6 @@
 //! Why a command gave no answer, and the exit code that says so.
 
+use sampling::SpaceFileError;
 use serde_json::{Map, Value, json};
 use toss::{InputError, SolveError};
 
@@ -12,6 +13,22 @@ pub(crate) enum Failure {
     /// Options that do not go together.
     #[error("{0}")]
     Usage(String),
+    /// A file that can't be read.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// The file.
+        path: String,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// A file that holds no space.
+    #[error("{path}, {source}")]
+    SpaceFile {
+        /// The file.
+        path: String,
+        /// Where and why.
+        source: SpaceFileError,
+    },
     /// A file or standard output that can't be written.
     #[error("cannot write {target}: {source}")]
     Write {
@@ -44,55 +61,65 @@ impl Failure {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Solve(_) | Self::Launch { .. } => 1,
-            Self::Input(_) | Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => 2,
+            Self::Input(_)
+            | Self::Usage(_)
+            | Self::Read { .. }
+            | Self::SpaceFile { .. }
+            | Self::Write { .. }
+            | Self::Chart(_) => 2,
+        }
+    }
+
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::Input(_) | Self::Usage(_) | Self::SpaceFile { .. } => "input",
+            Self::Read { .. } => "read",
+            Self::Write { .. } => "write",
+            Self::Chart(_) => "chart",
+            Self::Solve(source) | Self::Launch { source, .. } => source.kind(),
         }
     }
 
     /// `{"error":{"kind":..,"message":..,..}}` with what else is known of it.
     pub(crate) fn to_json(&self) -> String {
         let mut error = Map::new();
-        let kind = match self {
-            Self::Input(_) | Self::Usage(_) => "input",
-            Self::Write { .. } => "write",
-            Self::Chart(_) => "chart",
-            Self::Solve(source) | Self::Launch { source, .. } => source.kind(),
-        };
-        error.insert("kind".to_owned(), json!(kind));
+        error.insert("kind".to_owned(), json!(self.kind()));
         error.insert("message".to_owned(), json!(self.to_string()));
+        if let Value::Object(details) = self.details() {
+            error.extend(details);
+        }
+        json!({ "error": error }).to_string()
+    }
+
+    fn details(&self) -> Value {
         match self {
-            Self::Solve(source) | Self::Launch { source, .. } => insert_details(&mut error, source),
+            Self::Solve(source) => solve_details(source),
+            Self::Launch { index, rate, flight_time, source } => {
+                let mut details = solve_details(source);
+                details["launch"] = json!({"index": index, "rate": rate, "flight_time": flight_time});
+                details
+            }
             Self::Input(InputError::OutOfRange { field, value, valid }) => {
-                error.insert("field".to_owned(), json!(field));
-                error.insert("value".to_owned(), json!(value));
-                error.insert("valid".to_owned(), json!(valid));
+                json!({"field": field, "value": value, "valid": valid})
             }
             Self::Input(InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. }) => {
-                error.insert("field".to_owned(), json!(field));
-                error.insert("value".to_owned(), json!(value));
+                json!({"field": field, "value": value})
             }
-            Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => {}
+            Self::Input(InputError::Missing { field, .. }) => json!({"field": field}),
+            Self::SpaceFile { path, source } => json!({"path": path, "line": source.line, "column": source.column}),
+            Self::Read { path, .. } => json!({"path": path}),
+            Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => json!({}),
         }
-        if let Self::Launch { index, rate, flight_time, .. } = self {
-            error.insert("launch".to_owned(), json!({"index": index, "rate": rate, "flight_time": flight_time}));
-        }
-        Value::Object(Map::from_iter([("error".to_owned(), Value::Object(error))])).to_string()
     }
 }
 
-fn insert_details(error: &mut Map<String, Value>, source: &SolveError) {
-    let mut insert = |key: &str, value: Value| _ = error.insert(key.to_owned(), value);
+fn solve_details(source: &SolveError) -> Value {
     match source {
-        SolveError::PhaseTooLarge { phase } => insert("phase", json!(phase)),
-        SolveError::Singular { point, time } => {
-            insert("point", json!(point.to_string()));
-            insert("time", json!(time));
-        }
-        SolveError::StepLimit { time, limit } => {
-            insert("time", json!(time));
-            insert("limit", json!(limit));
-        }
+        SolveError::PhaseTooLarge { phase } => json!({"phase": phase}),
+        SolveError::Singular { point, time } => json!({"point": point.to_string(), "time": time}),
+        SolveError::StepLimit { time, limit } => json!({"time": time, "limit": limit}),
         SolveError::StepSizeUnderflow { time } | SolveError::Stiff { time } | SolveError::NotFinite { time } => {
-            insert("time", json!(time));
+            json!({"time": time})
         }
     }
 }

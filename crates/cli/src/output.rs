@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -42,6 +43,13 @@ pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
     file.write_all(content.as_bytes()).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
+}
+
+/// A bar over `launches` with rate and time left, on standard error; hidden unless that is a terminal.
+pub(crate) fn progress_bar(launches: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} launches, {per_sec}, {eta} left")
+        .expect("the template is valid");
+    ProgressBar::new(launches).with_style(style)
 }
 
 /// A table with aligned columns; the first row is the heading.

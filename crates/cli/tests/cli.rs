@@ -118,7 +118,21 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
         ),
         ("probability --space moon --method grid", ["space = 'moon'", "paper-fig4"]),
         ("probability --space tails --method random --points 0", ["points = 0.0", "at least 1"]),
-        ("probability --space tails --method grid --points 9", ["--points is for random", "axes"]),
+        ("probability --space tails --method grid --points 9", ["--points: a grid", "axes"]),
+        ("probability --space tails --method sobol --points 9", ["points = '9'", "a multiple of"]),
+        ("probability --space tails --method exact-speed --solver gamma", ["exact-speed", "leave --solver out"]),
+        ("probability --space tails.toml --method grid", ["cannot read tails.toml", "No such file"]),
+        ("probability --rate-x 1 --rate-y 1 --rate-z 1 --method grid", ["speed [m/s] is missing", "a range"]),
+        ("probability --rate-y x --rate-z 1 --speed 3:5:9 --method grid", ["rate y [rad/s] = 'x'", "a tie"]),
+        (
+            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed normal:4:1 --method random",
+            ["speed [m/s] = -4.3", ">= 0"],
+        ),
+        (
+            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed 4 --gravity 0:9 --method random",
+            ["gravity [m/s²] = 0.0", "> 0"],
+        ),
+        ("probability --method grid", ["--space", "--rate-x"]),
         ("probability --space tails --method grid --threads 0", ["threads = 0", "1 to 1024"]),
         (
             "probability --rate-x 5:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
@@ -158,7 +172,6 @@ fn missing_and_conflicting_options_end_with_2() {
         "toss --rate 1,1,1 --speed 3 --time 1",
         "toss --rate 1,1,1 --time 1 --gravity 9.8",
         "toss --rate 1,1,1 --time 1 --coin disc --moments 1,1",
-        "probability --method grid",
         "probability --space tails --rate-x 1 --method grid",
         "probability --space tails",
     ] {
@@ -242,6 +255,47 @@ fn probabilities_are_counts_that_do_not_depend_on_threads() {
     assert_eq!(json(box_of_axes, 0)["points"], 400);
     // A disc with Ω ≤ 56.6 rad/s < k ωz = 60 rad/s never flips.
     assert_eq!(json(&format!("{box_of_axes} --coin disc"), 0)["heads"], 400);
+}
+
+#[test]
+fn exact_speed_reports_a_probability_and_an_error_bound() {
+    let exact = json("probability --space tails --method exact-speed", 0);
+    assert_eq!((&exact["probability"], &exact["heads"], &exact["seed"]), (&0.0.into(), &Value::Null, &Value::Null));
+    assert!(exact["error_bound"].as_f64() < Some(1e-15) && exact["interval_kind"] == "rounding error");
+    // A flip within the range: the first at t = 0.555955 s, v0 = 2.726959 m/s (and the next after 5 m/s).
+    let flips = json("probability --rate-x 2 --rate-y 2 --rate-z 0.5 --speed 2:4 --method exact-speed", 0);
+    assert_near(&flips["probability"], (9.81 * 0.555_955 / 2.0 - 2.0) / 2.0, 2e-6);
+
+    let sampled = json("probability --space paper-fig4 --method exact-speed --points 16384 --threads 2", 0);
+    assert_eq!((&sampled["points"], &sampled["seed"]), (&16_384.into(), &1.into()));
+    let (p, bound) = (sampled["probability"].as_f64().unwrap(), sampled["error_bound"].as_f64().unwrap());
+    assert!((p - 0.661_452_1).abs() < bound && bound < 1e-4, "{sampled}");
+    let grid = json("probability --space paper-fig4 --method exact-speed", 0);
+    assert_eq!((&grid["points"], &grid["interval"], &grid["error_bound"]), (&500.into(), &Value::Null, &Value::Null));
+}
+
+#[test]
+fn sobol_points_are_counted_with_an_interval_from_scrambles() {
+    let answer = json("probability --space paper-fig4 --method sobol --points 65536 --seed 4", 0);
+    let [heads, tails] = ["heads", "tails"].map(|key| answer[key].as_u64().unwrap());
+    assert_eq!((heads + tails, &answer["seed"]), (65_536, &4.into()));
+    assert_eq!(answer["interval_kind"], "student 95 % of 8 scrambles");
+    assert!(answer["interval"][1].as_f64().unwrap() - answer["interval"][0].as_f64().unwrap() < 5e-3);
+}
+
+#[test]
+fn a_space_is_read_from_a_file_and_its_faults_are_found_by_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let command = format!("probability --space {} --method grid", path.display());
+    std::fs::write(&path, "coin = 'disc'\nrate_x = '0:40:20'\nrate_y = 'x'\nrate_z = 30\nspeed = '3:5:20'\n").unwrap();
+    assert_eq!(json(&command, 0)["heads"], 400);
+    assert!(json(&format!("{command} --coin paper"), 0)["tails"].as_u64() > Some(0));
+    std::fs::write(&path, "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'\n").unwrap();
+    let error = json(&command, 2);
+    assert_eq!((&error["error"]["line"], &error["error"]["column"]), (&4.into(), &9.into()));
+    let message = stderr(&run(&command));
+    assert!(message.contains("mine.toml, line 4, column 9: speed [m/s] = 3.0 is outside"), "{message}");
 }
 
 #[test]

@@ -27,6 +27,14 @@ pub enum InputError {
         /// What was expected.
         expected: &'static str,
     },
+    /// Something that was not given and has no default.
+    #[error("{field} is missing: expected {expected}")]
+    Missing {
+        /// The field, with its unit.
+        field: &'static str,
+        /// What was expected.
+        expected: &'static str,
+    },
     /// A name that stands for nothing here.
     #[error("{field} = '{value}' is unknown; known: {known}")]
     UnknownName {
@@ -37,6 +45,18 @@ pub enum InputError {
         /// The names that would have been understood.
         known: String,
     },
+}
+
+impl InputError {
+    /// The field that is at fault.
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::OutOfRange { field, .. }
+            | Self::Malformed { field, .. }
+            | Self::Missing { field, .. }
+            | Self::UnknownName { field, .. } => field,
+        }
+    }
 }
 
 /// Returns `value` if it is finite and `holds`, else the error that names the field and its range.

@@ -1,92 +1,170 @@
-//! One coordinate of a configuration space.
+//! How one coordinate of a configuration space is distributed.
+
+use std::fmt;
 
 use dynamics::InputError;
 use dynamics::error::require;
+use statrs::distribution::{ContinuousCDF, Normal};
 
-/// A coordinate that is fixed or runs uniformly over a range. Bounds are finite and in order.
+use crate::coordinate::Coordinate;
+
+/// How many standard deviations from its mean a normal coordinate reaches: the quantile of 2^-53, the smallest
+/// number that a draw can give, is 8.21.
+pub const NORMAL_REACH: f64 = 8.3;
+
+/// A fixed value, a range or a normal distribution, with the number of points that a grid lays over it. Its numbers
+/// are finite and in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
-    lo: f64,
-    hi: f64,
+    distribution: Distribution,
     points: Option<u64>,
+}
+
+/// A distribution of one coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Distribution {
+    /// Uniform from `lo` to `hi`; one value if they are equal.
+    Uniform {
+        /// Lower bound.
+        lo: f64,
+        /// Upper bound.
+        hi: f64,
+    },
+    /// Normal.
+    Normal {
+        /// Mean.
+        mean: f64,
+        /// Standard deviation, > 0.
+        sd: f64,
+    },
 }
 
 impl Axis {
     /// One value.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] that names `field` if it is not finite.
-    pub fn fixed(field: &'static str, value: f64) -> Result<Self, InputError> {
-        Self::range(field, value, value)
+    /// [`InputError::OutOfRange`] that names `of` if it is not finite.
+    pub fn fixed(of: Coordinate, value: f64) -> Result<Self, InputError> {
+        Self::range(of, value, value)
     }
 
     /// The range from `lo` to `hi`, both included.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] that names `field` if a bound is not finite or they are reversed.
-    pub fn range(field: &'static str, lo: f64, hi: f64) -> Result<Self, InputError> {
-        require(field, lo, "finite", true)?;
-        require(field, hi, "finite and at or above the lower bound", lo <= hi)?;
-        require(field, hi - lo, "a range of finite length", true)?;
-        Ok(Self { lo, hi, points: None })
+    /// [`InputError::OutOfRange`] that names `of` if a bound is not finite or they are reversed.
+    pub fn range(of: Coordinate, lo: f64, hi: f64) -> Result<Self, InputError> {
+        require(of.field(), lo, "finite", true)?;
+        require(of.field(), hi, "finite and at or above the lower bound", lo <= hi)?;
+        require(of.field(), hi - lo, "a range of finite length", true)?;
+        Ok(Self { distribution: Distribution::Uniform { lo, hi }, points: None })
     }
 
-    /// The same axis with `points` grid points, both ends included; a range of one value is one point.
+    /// The normal distribution with mean `mean` and standard deviation `sd`.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] that names `field` for 0 points, and for 1 point on a range of more than one value.
-    pub fn with_points(self, field: &'static str, points: u64) -> Result<Self, InputError> {
-        let fewest = if self.lo == self.hi { 1 } else { 2 };
+    /// [`InputError::OutOfRange`] that names `of` for a mean that is not finite, and for a deviation that is not
+    /// positive or so large that the distribution leaves the range of f64.
+    pub fn normal(of: Coordinate, mean: f64, sd: f64) -> Result<Self, InputError> {
+        require(of.field(), mean, "a finite mean", true)?;
+        require(of.field(), sd, "a standard deviation > 0", sd > 0.0)?;
+        let widest = 2.0 * (mean.abs() + NORMAL_REACH * sd);
+        require(of.field(), widest, "a normal distribution within the range of f64", true)?;
+        Ok(Self { distribution: Distribution::Normal { mean, sd }, points: None })
+    }
+
+    /// The same axis with `points` grid points. On a range both ends are points; a range of one value is one point; on
+    /// a normal distribution they are the medians of `points` parts of equal probability.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] that names `of` for 0 points, and for 1 point on a range of more than one value.
+    pub fn with_points(self, of: Coordinate, points: u64) -> Result<Self, InputError> {
+        let fewest = match self.distribution {
+            Distribution::Uniform { lo, hi } if lo < hi => 2,
+            _ => 1,
+        };
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         let shown = points as f64;
-        require(field, shown, "at least 2 grid points on a range, 1 on a single value", points >= fewest)?;
-        Ok(Self { points: Some(if fewest == 1 { 1 } else { points }), ..self })
+        let valid = "at least 2 grid points on a range, 1 on a single value or a normal distribution";
+        require(of.field(), shown, valid, points >= fewest)?;
+        Ok(Self { points: Some(points), ..self })
     }
 
-    /// Reads `VALUE`, `LO:HI` or `LO:HI:POINTS`.
+    /// Reads `VALUE`, `LO:HI`, `LO:HI:POINTS`, `normal:MEAN:SD` or `normal:MEAN:SD:POINTS`.
     ///
     /// # Errors
-    /// [`InputError`] that names `field`.
-    pub fn parse(field: &'static str, text: &str) -> Result<Self, InputError> {
-        let malformed =
-            || InputError::Malformed { field, value: text.to_owned(), expected: "VALUE, LO:HI or LO:HI:POINTS" };
-        let number = |part: &str| part.trim().parse::<f64>().map_err(|_| malformed());
-        let parts: Vec<&str> = text.split(':').collect();
+    /// [`InputError`] that names `of`.
+    pub fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
+        const EXPECTED: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS";
+        let malformed = || InputError::Malformed { field: of.field(), value: text.to_owned(), expected: EXPECTED };
+        let number = |part: &str| part.parse::<f64>().map_err(|_| malformed());
+        let count = |part: &str| part.parse::<u64>().map_err(|_| malformed());
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
         match parts[..] {
-            [value] => Self::fixed(field, number(value)?),
-            [lo, hi] => Self::range(field, number(lo)?, number(hi)?),
-            [lo, hi, points] => {
-                let points = points.trim().parse().map_err(|_| malformed())?;
-                Self::range(field, number(lo)?, number(hi)?)?.with_points(field, points)
+            ["normal", mean, sd] => Self::normal(of, number(mean)?, number(sd)?),
+            ["normal", mean, sd, points] => {
+                Self::normal(of, number(mean)?, number(sd)?)?.with_points(of, count(points)?)
             }
+            [value] => Self::fixed(of, number(value)?),
+            [lo, hi] => Self::range(of, number(lo)?, number(hi)?),
+            [lo, hi, points] => Self::range(of, number(lo)?, number(hi)?)?.with_points(of, count(points)?),
             _ => Err(malformed()),
         }
     }
 
-    /// Lower bound.
-    pub fn lo(&self) -> f64 {
-        self.lo
+    /// How the coordinate is distributed.
+    pub fn distribution(&self) -> Distribution {
+        self.distribution
     }
 
-    /// Upper bound.
-    pub fn hi(&self) -> f64 {
-        self.hi
+    /// The one value, if there is only one.
+    pub fn value(&self) -> Option<f64> {
+        match self.distribution {
+            Distribution::Uniform { lo, hi } if lo == hi => Some(lo),
+            _ => None,
+        }
     }
 
-    /// Number of grid points: 1 for a single value, `None` for a range without a number of them.
+    /// The smallest and the largest value that a launch can get.
+    pub fn bounds(&self) -> [f64; 2] {
+        match self.distribution {
+            Distribution::Uniform { lo, hi } => [lo, hi],
+            Distribution::Normal { mean, sd } => [mean - NORMAL_REACH * sd, mean + NORMAL_REACH * sd],
+        }
+    }
+
+    /// Number of grid points: 1 for a single value, `None` where none was given.
     pub fn points(&self) -> Option<u64> {
-        if self.lo == self.hi { Some(1) } else { self.points }
+        if self.value().is_some() { Some(1) } else { self.points }
     }
 
-    /// The value at `part` of the way, from 0 to 1.
-    pub(crate) fn at(&self, part: f64) -> f64 {
-        self.lo + part * (self.hi - self.lo)
+    /// The value below which the share `part` of the distribution lies, 0 < `part` < 1.
+    pub(crate) fn quantile(&self, part: f64) -> f64 {
+        match self.distribution {
+            Distribution::Uniform { lo, hi } => lo + part * (hi - lo),
+            Distribution::Normal { mean, sd } => mean + sd * Normal::standard().inverse_cdf(part),
+        }
     }
 
-    /// Grid point `index` of `points`; the last is the upper bound exactly.
+    /// Grid point `index` of `points`; the last of a range is its upper bound exactly.
     #[expect(clippy::cast_precision_loss, reason = "indices stay far below 2^53")]
     pub(crate) fn grid_point(&self, index: u64, points: u64) -> f64 {
-        if index + 1 == points { self.hi } else { self.at(index as f64 / (points - 1) as f64) }
+        match self.distribution {
+            Distribution::Uniform { hi, .. } if index + 1 == points => hi,
+            Distribution::Uniform { lo, hi } => lo + index as f64 / (points - 1) as f64 * (hi - lo),
+            Distribution::Normal { .. } => self.quantile((index as f64 + 0.5) / points as f64),
+        }
+    }
+}
+
+/// As [`Axis::parse`] reads it.
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.distribution, self.value()) {
+            (_, Some(value)) => return write!(f, "{value}"),
+            (Distribution::Uniform { lo, hi }, None) => write!(f, "{lo}:{hi}")?,
+            (Distribution::Normal { mean, sd }, None) => write!(f, "normal:{mean}:{sd}")?,
+        }
+        self.points.map_or(Ok(()), |points| write!(f, ":{points}"))
     }
 }
 
@@ -94,26 +172,84 @@ impl Axis {
 mod tests {
     use super::*;
 
+    const SPEED: Coordinate = Coordinate::Speed;
+
     #[test]
     fn a_grid_includes_both_ends() {
-        let axis = Axis::parse("speed [m/s]", "3:5:5").unwrap();
+        let axis = Axis::parse(SPEED, "3:5:5").unwrap();
         let points: Vec<f64> = (0..5).map(|index| axis.grid_point(index, 5)).collect();
         assert_eq!(points, [3.0, 3.5, 4.0, 4.5, 5.0]);
     }
 
     #[test]
+    fn a_grid_over_a_normal_distribution_has_parts_of_equal_probability() {
+        let axis = Axis::parse(SPEED, "normal:4:0.5:3").unwrap();
+        // Φ(±0.967421566101701) = 1/6 and 5/6.
+        let expected = [4.0 - 0.5 * 0.967_421_566_101_701, 4.0, 4.0 + 0.5 * 0.967_421_566_101_701];
+        for (index, value) in expected.into_iter().enumerate() {
+            assert!((axis.grid_point(index as u64, 3) - value).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_normal_quantile_is_where_its_share_lies_below() {
+        let axis = Axis::parse(SPEED, "normal:0:1").unwrap();
+        for part in [2f64.powi(-53), 1e-12, 1e-6, 0.01, 0.3, 0.5, 0.77, 0.999] {
+            let below = 0.5 * libm::erfc(-axis.quantile(part) / std::f64::consts::SQRT_2);
+            assert!((below - part).abs() < 1e-10 * part, "{part:e}: {below:e}");
+        }
+    }
+
+    #[test]
+    fn draws_reach_no_farther_than_the_bounds() {
+        let axis = Axis::parse(SPEED, "normal:4:0.5").unwrap();
+        let [lo, hi] = axis.bounds();
+        let farthest = [2f64.powi(-53), 1.0 - 2f64.powi(-53)].map(|part| axis.quantile(part));
+        assert!(lo < farthest[0] && farthest[1] < hi, "{farthest:?} in [{lo}, {hi}]");
+        assert!(farthest[0] < lo + 0.06, "the bounds are no wider than need be");
+    }
+
+    #[test]
     fn a_range_of_one_value_is_one_point() {
         for text in ["4", "4:4", "4:4:500"] {
-            let axis = Axis::parse("speed [m/s]", text).unwrap();
+            let axis = Axis::parse(SPEED, text).unwrap();
             assert_eq!(axis.points(), Some(1));
             assert_eq!(axis.grid_point(0, 1), 4.0);
+            assert_eq!(axis.to_string(), "4");
+        }
+    }
+
+    #[test]
+    fn what_is_shown_reads_back_as_the_same_axis() {
+        for text in ["0.1", "3:5", "-1.5:1e-300:7", "normal:0:2.5", "normal:-1:0.1:12"] {
+            let axis = Axis::parse(SPEED, text).unwrap();
+            assert_eq!(Axis::parse(SPEED, &axis.to_string()), Ok(axis));
         }
     }
 
     #[test]
     fn what_is_no_axis_is_refused_by_name() {
-        for text in ["", "a", "1:2:3:4", "5:3", "nan", "1:inf", "1:2:0", "1:2:1", "1:2:-3", "1:2:2.5", "-1e308:1e308"] {
-            let error = Axis::parse("speed [m/s]", text).unwrap_err().to_string();
+        for text in [
+            "",
+            "a",
+            "1:2:3:4",
+            "5:3",
+            "nan",
+            "1:inf",
+            "1:2:0",
+            "1:2:1",
+            "1:2:-3",
+            "1:2:2.5",
+            "-1e308:1e308",
+            "normal:1",
+            "normal:1:0",
+            "normal:1:-1",
+            "normal:nan:1",
+            "normal:1:1:0",
+            "normal:0:1e308",
+            "uniform:0:1",
+        ] {
+            let error = Axis::parse(SPEED, text).unwrap_err().to_string();
             assert!(error.starts_with("speed [m/s] = "), "{text}: {error}");
         }
     }

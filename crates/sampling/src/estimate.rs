@@ -1,95 +1,90 @@
-//! Methods A and B: counts of outcomes over a grid, or over random launches.
+//! From a space to a probability, by any of the four methods.
 //!
-//! Launch i of method B depends on the seed and on i only (a block cipher as random number generator, read at a
-//! position that follows from i), so no count depends on the number of threads.
+//! | plan | launches | what the interval is |
+//! |---|---|---|
+//! | [`Plan::Grid`] (A) | a grid | none: a grid has an error of discretisation |
+//! | [`Plan::Random`] (B) | independent | Wilson's |
+//! | [`Plan::Sobol`] | scrambled Sobol points | from the spread of independent scrambles |
+//! | [`Plan::ExactSpeed`] | the speed in closed form, the rest by grid or Sobol | from the scrambles; of rounding alone if nothing but the speed is free |
+//!
+//! Sums are integers, so no result depends on the number of threads.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::fmt;
 
-use dynamics::error::require;
-use dynamics::{InputError, Outcome, SolveError, Solver, Toss};
-use rand::rngs::ChaCha8Rng;
-use rand::{RngExt, SeedableRng};
-use rayon::prelude::*;
+use dynamics::Solver;
 
-use crate::space::Space;
+use crate::counts::{Counts, count};
+use crate::exact_speed::{Share, Shares, add_shares};
+use crate::fold::SampleError;
+use crate::grid::Grid;
+use crate::interval::{Interval, from_scrambles, wilson};
+use crate::launches::Launches;
+use crate::plan::{Plan, Rest, Scrambled, cube_of_the_rest};
+use crate::space::{Cube, Space};
 
-/// Launches that one thread takes at a time.
-const BLOCK: u64 = 512;
+/// Confidence level of the intervals.
+pub const LEVEL: f64 = 0.95;
 
-/// Which launches of a space are tried.
+/// What an interval means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plan {
-    /// Method A: the space's grid.
+pub enum IntervalKind {
+    /// There is none: the points are a grid.
     Grid,
-    /// Method B: `points` launches at random, uniform over the space.
-    Random {
-        /// Number of launches.
-        points: u64,
-        /// Seed of the random numbers.
-        seed: u64,
-    },
+    /// There is none: the points are those of a single scramble.
+    OneScramble,
+    /// Wilson's interval for independent launches.
+    Wilson,
+    /// Student's interval from the means of this many independent scrambles.
+    Scrambles(u64),
+    /// Every point of every scramble agrees, so that their spread says nothing: Wilson's interval, as if the points
+    /// were independent.
+    Unanimous,
+    /// A bound on rounding: nothing was sampled.
+    Rounding,
 }
 
-/// Outcomes, counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
-    /// Launches that land heads.
-    pub heads: u64,
-    /// Launches that land tails.
-    pub tails: u64,
-    /// Launches nearer to the edge than the solver answers for.
-    pub undecided: u64,
-}
-
-impl Counts {
-    /// Number of launches.
-    pub fn points(&self) -> u64 {
-        self.heads + self.tails + self.undecided
-    }
-
-    /// Share of heads among all launches, from 0 to 1.
-    #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
-    pub fn probability(&self) -> f64 {
-        self.heads as f64 / self.points() as f64
-    }
-
-    fn add(&mut self, outcome: Outcome) {
-        match outcome {
-            Outcome::Heads => self.heads += 1,
-            Outcome::Tails => self.tails += 1,
-            Outcome::Undecided => self.undecided += 1,
-        }
-    }
-
-    fn merge(self, other: Self) -> Self {
-        Self {
-            heads: self.heads + other.heads,
-            tails: self.tails + other.tails,
-            undecided: self.undecided + other.undecided,
+impl fmt::Display for IntervalKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Grid => f.write_str("none: a grid has a discretisation error, not a confidence interval"),
+            Self::OneScramble => f.write_str("none: one scramble tells no error"),
+            Self::Wilson => f.write_str("wilson 95 %"),
+            Self::Scrambles(number) => write!(f, "student 95 % of {number} scrambles"),
+            Self::Unanimous => f.write_str("wilson 95 %, all points agree"),
+            Self::Rounding => f.write_str("rounding error"),
         }
     }
 }
 
-/// Why a probability could not be estimated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SampleError {
-    /// The space or the plan makes no sense; no launch was tried.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The solver failed; the first failing launch is named, and no count is given.
-    #[error("launch {index} (rate {}, {}, {} rad/s, {} s): {source}",
-        toss.launch.rate().x, toss.launch.rate().y, toss.launch.rate().z, toss.launch.flight_time())]
-    Solve {
-        /// Index of the launch in the plan.
-        index: u64,
-        /// The toss.
-        toss: Box<Toss>,
-        /// What the solver said.
-        source: SolveError,
+/// A probability of heads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Share of heads, from 0 to 1.
+    pub probability: f64,
+    /// Where the probability lies, at the confidence [`LEVEL`]. A launch that is undecided may be heads or not.
+    pub interval: Option<Interval>,
+    /// What the interval means.
+    pub interval_kind: IntervalKind,
+    /// Number of launches, or of launches without their speeds where those were integrated.
+    pub points: u64,
+    /// What was found.
+    pub found: Found,
+}
+
+/// What an estimate is made from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Found {
+    /// Outcomes.
+    Counts(Counts),
+    /// Shares over all speeds, with a bound on the rounding error of their mean.
+    Shares {
+        /// The bound.
+        rounding_error: f64,
     },
 }
 
-/// Counts the outcomes of all launches of `plan` in `space`, by `solver`, on the threads of the current pool.
+/// Estimates the probability of heads in `space` by `plan`, on the threads of the current pool. `solver` decides the
+/// outcomes; [`Plan::ExactSpeed`] uses the exact motion instead.
 ///
 /// `progress` is told the number of launches done since it was last called.
 ///
@@ -100,136 +95,137 @@ pub fn estimate(
     plan: Plan,
     solver: &dyn Solver,
     progress: &(dyn Fn(u64) + Sync),
-) -> Result<Counts, SampleError> {
+) -> Result<Estimate, SampleError> {
+    let points = plan.points(space)?;
+    let count = |launches: &Launches, each| count(space, launches, 0..each, solver, progress);
+    let add = |launches: &Launches, each| add_shares(space, launches, 0..each, progress);
     match plan {
-        Plan::Grid => {
-            let points = space.grid_points()?;
-            let toss_at = space.grid()?;
-            count(points, solver, progress, |range| range.map(&toss_at))
+        Plan::Grid => Ok(Estimate::of_grid_counts(count(&Launches::Grid(Grid::new(space)?), points)?)),
+        Plan::Random { seed, .. } => {
+            let cube = Cube::new(space, space.free());
+            Ok(Estimate::of_independent_counts(count(&Launches::Random { cube, seed }, points)?))
         }
-        Plan::Random { points, seed } => {
-            #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-            require("points", points as f64, "at least 1", points >= 1)?;
-            count(points, solver, progress, |range| random_tosses(space, seed, range))
+        Plan::Sobol(scrambled) => {
+            let cube = Cube::new(space, space.free());
+            Ok(Estimate::of_scrambled_counts(&each_scramble(&cube, scrambled, count)?))
+        }
+        Plan::ExactSpeed(rest) => {
+            let cube = cube_of_the_rest(space);
+            match rest {
+                Rest::Sobol(scrambled) if cube.dimensions() > 0 => {
+                    let shares = each_scramble(&cube, scrambled, add)?;
+                    Ok(Estimate::of_scrambled_shares(&shares.iter().map(Shares::mean).collect::<Vec<_>>(), points))
+                }
+                _ => {
+                    let share = add(&Launches::Grid(Grid::without_speed(space)?), points)?.mean();
+                    Ok(Estimate::of_grid_share(share, points, cube.dimensions() == 0))
+                }
+            }
         }
     }
 }
 
-/// Launches `range` of the random sequence of `seed`: each depends on the seed and its own index only.
-pub fn random_tosses(space: &Space, seed: u64, range: std::ops::Range<u64>) -> impl Iterator<Item = Toss> {
-    const WORDS_PER_NUMBER: u128 = 2;
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_word_pos(u128::from(range.start) * Space::DIMENSIONS as u128 * WORDS_PER_NUMBER);
-    range.map(move |_| space.at(std::array::from_fn(|_| rng.random::<f64>())))
+/// What `tally` finds in each scramble.
+fn each_scramble<T>(
+    cube: &Cube,
+    scrambled: Scrambled,
+    tally: impl Fn(&Launches, u64) -> Result<T, SampleError>,
+) -> Result<Vec<T>, SampleError> {
+    let each = scrambled.points_each()?;
+    let one = |scramble| tally(&Launches::sobol(cube.clone(), scrambled.seed, scramble)?, each);
+    (0..scrambled.scrambles).map(one).collect()
 }
 
-/// Index and toss of a launch that could not be solved, and why.
-type Failure = (u64, Toss, SolveError);
+impl Estimate {
+    fn of_counts(counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
+        Self {
+            probability: counts.probability(),
+            interval,
+            interval_kind,
+            points: counts.points(),
+            found: Found::Counts(counts),
+        }
+    }
 
-/// Counts outcomes block by block. Blocks above the lowest failing launch so far are skipped: they can't be first.
-fn count<I: Iterator<Item = Toss>>(
-    points: u64,
-    solver: &dyn Solver,
-    progress: &(dyn Fn(u64) + Sync),
-    tosses: impl Fn(std::ops::Range<u64>) -> I + Sync,
-) -> Result<Counts, SampleError> {
-    let lowest_failure = AtomicU64::new(u64::MAX);
-    let block = |number: u64| -> Result<Counts, Failure> {
-        let range = number * BLOCK..points.min((number + 1).saturating_mul(BLOCK));
-        let mut counts = Counts::default();
-        if range.start > lowest_failure.load(Ordering::Relaxed) {
-            return Ok(counts);
+    fn of_grid_counts(counts: Counts) -> Self {
+        Self::of_counts(counts, None, IntervalKind::Grid)
+    }
+
+    fn of_independent_counts(counts: Counts) -> Self {
+        Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Wilson)
+    }
+
+    fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
+        let counts: Counts = scrambles.iter().copied().sum();
+        if counts.heads == counts.points() || counts.heads == 0 {
+            return Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Unanimous);
         }
-        for (index, toss) in range.clone().zip(tosses(range.clone())) {
-            let outcome = solver.outcome(&toss).map_err(|error| {
-                lowest_failure.fetch_min(index, Ordering::Relaxed);
-                (index, toss, error)
-            })?;
-            counts.add(outcome);
+        let means: Vec<f64> = scrambles.iter().map(Counts::probability).collect();
+        #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
+        let undecided = counts.undecided as f64 / counts.points() as f64;
+        match from_scrambles(&means, LEVEL) {
+            None => Self::of_counts(counts, None, IntervalKind::OneScramble),
+            Some(Interval { lo, hi }) => {
+                let interval = Interval { lo, hi: (hi + undecided).min(1.0) };
+                Self::of_counts(counts, Some(interval), IntervalKind::Scrambles(means.len() as u64))
+            }
         }
-        progress(range.end - range.start);
-        Ok(counts)
-    };
-    let first_failure_or_sum = |a: Result<Counts, Failure>, b: Result<Counts, Failure>| match (a, b) {
-        (Ok(a), Ok(b)) => Ok(Counts::merge(a, b)),
-        (Err(a), Ok(_)) => Err(a),
-        (Ok(_), Err(b)) => Err(b),
-        (Err(a), Err(b)) => Err(if a.0 < b.0 { a } else { b }),
-    };
-    (0..points.div_ceil(BLOCK))
-        .into_par_iter()
-        .map(block)
-        .reduce(|| Ok(Counts::default()), first_failure_or_sum)
-        .map_err(|(index, toss, source)| SampleError::Solve { index, toss: Box::new(toss), source })
+    }
+
+    fn of_share(share: Share, points: u64, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
+        let found = Found::Shares { rounding_error: share.error };
+        Self { probability: share.probability, interval, interval_kind, points, found }
+    }
+
+    /// The mean share over a grid; exact if nothing but the speed was free.
+    fn of_grid_share(share: Share, points: u64, exact: bool) -> Self {
+        if !exact {
+            return Self::of_share(share, points, None, IntervalKind::Grid);
+        }
+        let interval = Interval { lo: share.probability, hi: share.probability }.widened(share.error);
+        Self::of_share(share, points, Some(interval), IntervalKind::Rounding)
+    }
+
+    fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "a handful of scrambles")]
+        let mean = |part: fn(&Share) -> f64| scrambles.iter().map(part).sum::<f64>() / scrambles.len() as f64;
+        let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
+        let means: Vec<f64> = scrambles.iter().map(|share| share.probability).collect();
+        if means.iter().all(|mean| *mean == 0.0) || means.iter().all(|mean| *mean == 1.0) {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 or 1")]
+            let interval = wilson(share.probability as u64 * points, points, LEVEL).widened(share.error);
+            return Self::of_share(share, points, Some(interval), IntervalKind::Unanimous);
+        }
+        match from_scrambles(&means, LEVEL) {
+            None => Self::of_share(share, points, None, IntervalKind::OneScramble),
+            Some(interval) => {
+                let kind = IntervalKind::Scrambles(means.len() as u64);
+                Self::of_share(share, points, Some(interval.widened(share.error)), kind)
+            }
+        }
+    }
+}
+
+/// Wilson's interval, which holds for any outcome of the undecided launches.
+fn wilson_of(counts: Counts) -> Interval {
+    let points = counts.points();
+    Interval {
+        lo: wilson(counts.heads, points, LEVEL).lo,
+        hi: wilson(counts.heads + counts.undecided, points, LEVEL).hi,
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactSolver, Propagation};
-
     use super::*;
-    use crate::space::{named_space, parse_space};
-
-    fn silent(_: u64) {}
 
     #[test]
-    fn launch_i_depends_on_seed_and_i_only() {
-        let space = parse_space(Coin::PAPER, ["0:50", "0:50", "0:50", "3:5"], 9.81).unwrap();
-        let all: Vec<Toss> = random_tosses(&space, 7, 0..1000).collect();
-        for (start, end) in [(0, 1), (1, 4), (511, 513), (999, 1000)] {
-            let part: Vec<Toss> = random_tosses(&space, 7, start..end).collect();
-            assert_eq!(part, all[start as usize..end as usize]);
-        }
-        assert_ne!(random_tosses(&space, 8, 0..1).next(), Some(all[0]));
-    }
-
-    #[test]
-    fn counts_are_the_same_for_any_number_of_threads() {
-        let space = named_space("paper-fig4").unwrap();
-        for plan in [Plan::Grid, Plan::Random { points: 30_001, seed: 3 }] {
-            let counts = [1, 2, 8].map(|threads| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                pool.install(|| estimate(&space, plan, &ExactSolver, &silent)).unwrap()
-            });
-            assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
-        }
-    }
-
-    #[test]
-    fn progress_adds_up_to_the_number_of_launches() {
-        let done = AtomicU64::new(0);
-        let space = named_space("tails").unwrap();
-        let plan = Plan::Random { points: 1234, seed: 1 };
-        let counts = estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
-        assert_eq!((done.into_inner(), counts.points()), (1234, 1234));
-    }
-
-    #[test]
-    fn no_points_are_refused() {
-        let space = named_space("tails").unwrap();
-        let plan = Plan::Random { points: 0, seed: 1 };
-        assert!(matches!(estimate(&space, plan, &ExactSolver, &silent), Err(SampleError::Input(_))));
-    }
-
-    /// Fails on every speed above 4 m/s.
-    struct Fragile;
-    impl Solver for Fragile {
-        fn name(&self) -> &'static str {
-            "fragile"
-        }
-        fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-            let time = toss.launch.flight_time();
-            if time > 8.0 / 9.81 { Err(SolveError::NotFinite { time }) } else { ExactSolver.propagate(toss) }
-        }
-    }
-
-    #[test]
-    fn the_first_failing_launch_is_named_and_no_count_given() {
-        let space = parse_space(Coin::PAPER, ["1", "1", "1", "3:5:20001"], 9.81).unwrap();
-        for threads in [1, 8] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let error = pool.install(|| estimate(&space, Plan::Grid, &Fragile, &silent)).unwrap_err();
-            assert!(matches!(error, SampleError::Solve { index: 10_001, .. }), "{error}");
-        }
+    fn undecided_launches_widen_the_interval() {
+        let counts = Counts { heads: 500, tails: 300, undecided: 200 };
+        let interval = Estimate::of_independent_counts(counts).interval.unwrap();
+        assert!(interval.lo < 0.5 && interval.hi > 0.7);
+        let scrambles = [Counts { heads: 5, tails: 3, undecided: 2 }, Counts { heads: 6, tails: 3, undecided: 1 }];
+        assert!(Estimate::of_scrambled_counts(&scrambles).interval.unwrap().hi > 0.7);
+        assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
     }
 }

@@ -1,9 +1,9 @@
-//! Confidence intervals of a share counted in independent random launches.
+//! Confidence intervals of a share: counted in independent random launches, or told from independent scrambles.
 //!
 //! They say nothing about a grid, whose error is of discretisation. Wilson's interval is for display; Clopper and
 //! Pearson's never covers less than its level and is for gates.
 
-use statrs::distribution::{Beta, ContinuousCDF, Normal};
+use statrs::distribution::{Beta, ContinuousCDF, Normal, StudentsT};
 
 /// An interval of probabilities within [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +12,31 @@ pub struct Interval {
     pub lo: f64,
     /// Upper end.
     pub hi: f64,
+}
+
+impl Interval {
+    /// The interval with `error` added at both ends, within [0, 1].
+    #[must_use]
+    pub fn widened(self, error: f64) -> Self {
+        Self { lo: (self.lo - error).max(0.0), hi: (self.hi + error).min(1.0) }
+    }
+
+    /// Whether `probability` lies in it.
+    pub fn contains(&self, probability: f64) -> bool {
+        (self.lo..=self.hi).contains(&probability)
+    }
+}
+
+/// Student's interval for the expectation of `means`, which are independent and have the same distribution; `None`
+/// for fewer than two.
+#[expect(clippy::cast_precision_loss, reason = "a handful of means")]
+pub fn from_scrambles(means: &[f64], level: f64) -> Option<Interval> {
+    let number = means.len() as f64;
+    let student = StudentsT::new(0.0, 1.0, number - 1.0).ok()?;
+    let mean = means.iter().sum::<f64>() / number;
+    let variance = means.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (number - 1.0);
+    let half_width = student.inverse_cdf(0.5 * (1.0 + level)) * (variance / number).sqrt();
+    Some(Interval { lo: mean, hi: mean }.widened(half_width))
 }
 
 /// Wilson's score interval for `heads` of `points` ≥ 1 at the confidence `level` (0.95 for 95 %).
@@ -65,6 +90,16 @@ mod tests {
         assert_interval(clopper_pearson(15, 148, 0.95), 0.0578, 0.1617, 5e-5);
         assert_interval(clopper_pearson(0, 20, 0.95), 0.0, 0.1684, 5e-5);
         assert_interval(clopper_pearson(1, 29, 0.95), 0.0009, 0.1776, 5e-5);
+    }
+
+    #[test]
+    fn students_interval_has_the_tables_quantile() {
+        // t(0.975) with 7 degrees of freedom is 2.3646; the deviation of these means is 0.01 √(8/7).
+        let means: Vec<f64> = (0..8).map(|i| if i % 2 == 0 { 0.49 } else { 0.51 }).collect();
+        let half_width = 2.364_624 * 0.01 / 7.0_f64.sqrt();
+        assert_interval(from_scrambles(&means, 0.95).unwrap(), 0.5 - half_width, 0.5 + half_width, 1e-8);
+        assert_eq!(from_scrambles(&[0.5], 0.95), None);
+        assert_eq!(from_scrambles(&[], 0.95), None);
     }
 
     #[test]

@@ -1,17 +1,40 @@
 //! From launches to probabilities.
 //!
-//! A [`Space`] says which launches are meant; method A lays a grid over it, method B draws from it at random
-//! ([`estimate()`]). Counts are integers and do not depend on the number of threads. This is the only crate that knows a
-//! random number generator.
+//! ```text
+//! axes → space → launches (grid, random, Sobol) → outcomes or shares → counts or means → estimate with its interval
+//! ```
+//!
+//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; [`estimate()`] answers. Sums are
+//! integers and do not depend on the number of threads. This is the only crate that knows a random number generator.
 
 pub mod axis;
+pub mod coordinate;
+pub mod counts;
 pub mod estimate;
+pub mod exact_speed;
+mod fold;
+mod grid;
 pub mod interval;
+mod launches;
 pub mod long_flight;
+pub mod map;
+pub mod plan;
+pub mod random;
+pub mod series;
+pub mod sobol;
 pub mod space;
+pub mod space_file;
 
-pub use axis::Axis;
-pub use estimate::{Counts, Plan, SampleError, estimate, random_tosses};
+pub use axis::{Axis, Distribution};
+pub use coordinate::Coordinate;
+pub use counts::Counts;
+pub use estimate::{Estimate, Found, IntervalKind, estimate};
+pub use fold::SampleError;
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::long_flight_probability;
-pub use space::{NAMED_SPACES, NamedSpace, Space, YAxis, named_space};
+pub use map::{Map, Node, map};
+pub use plan::{Plan, Rest, Scrambled};
+pub use random::random_tosses;
+pub use series::{ESTIMATORS, Estimator, rms_error, running_grid, running_random};
+pub use space::{AxisOrTie, Space};
+pub use space_file::{DescribedSpace, SpaceFileError, named_space, named_spaces};

@@ -1,53 +1,87 @@
 //! Configuration spaces as data: which launches a probability is about.
 
-use dynamics::error::{find_named, require};
+use std::fmt;
+
+use dynamics::error::require;
 use dynamics::launch::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
+use crate::coordinate::Coordinate;
 
-/// The y component of the rate: free, or tied to x.
+/// The values of one launch, in the order of [`Coordinate::ALL`].
+pub(crate) type Values = [f64; Coordinate::COUNT];
+
+/// A coordinate that has an axis of its own, or equals another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum YAxis {
-    /// ωy has an axis of its own.
-    Own(Axis),
-    /// ωy = ωx.
-    SameAsX,
+pub enum AxisOrTie {
+    /// Its own axis.
+    Axis(Axis),
+    /// The same value as another rate, which is not tied itself.
+    SameAs(Coordinate),
 }
 
-/// Horizontal launches of one coin over a box of body rates and speeds.
+/// As [`Space::parse`] reads it.
+impl fmt::Display for AxisOrTie {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Axis(axis) => axis.fmt(f),
+            Self::SameAs(other) => f.write_str(other.letter()),
+        }
+    }
+}
+
+/// Launches of one coin over a box of coordinates, independent of each other but for ties.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space {
     coin: Coin,
-    rate_x: Axis,
-    rate_y: YAxis,
-    rate_z: Axis,
-    speed: Axis,
-    gravity: f64,
+    axes: [AxisOrTie; Coordinate::COUNT],
 }
 
 impl Space {
-    /// Number of coordinates that a random launch draws; a fixed one draws too, so that fixing a coordinate leaves
-    /// the others' values as they are.
-    pub const DIMENSIONS: usize = 4;
-
-    /// A space over the axes ωx, ωy, ωz (rad/s) and v0 (m/s), under `gravity` (m/s²).
+    /// A space over the axes in the order of [`Coordinate::ALL`].
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a range that includes negative speeds, and for a gravity that is not positive.
-    pub fn new(
-        coin: Coin,
-        rate_x: Axis,
-        rate_y: YAxis,
-        rate_z: Axis,
-        speed: Axis,
-        gravity: f64,
-    ) -> Result<Self, InputError> {
-        require("speed [m/s]", speed.lo(), "a range of finite speeds >= 0", speed.lo() >= 0.0)?;
-        require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
+    /// [`InputError`] for a range that includes negative speeds or a gravity that is not positive, for a flight that
+    /// may last for ever, and for a tie to anything but a rate with an axis of its own.
+    pub fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
+        let space = Self { coin, axes };
+        for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
+            if let AxisOrTie::SameAs(other) = axis {
+                require_tie(of, other, matches!(axes[other as usize], AxisOrTie::Axis(_)))?;
+            }
+        }
+        let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
+        let valid = "speeds >= 0 only; a normal distribution reaches 8.3 standard deviations";
+        require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
+        let [weakest, _] = space.axis(Coordinate::Gravity).bounds();
+        let valid = "gravities > 0 only; a normal distribution reaches 8.3 standard deviations";
+        require(Coordinate::Gravity.field(), weakest, valid, weakest > 0.0)?;
         // The longest flight is the first to overflow.
-        Launch::new(Vector3::zeros(), TimeOfFlight::Ballistic { speed: speed.hi(), gravity })?;
-        Ok(Self { coin, rate_x, rate_y, rate_z, speed, gravity })
+        Launch::new(Vector3::zeros(), TimeOfFlight::Ballistic { speed: fastest, gravity: weakest })?;
+        Ok(space)
+    }
+
+    /// A space from texts: `x`, `y` or `z` for a tie to that rate, else as [`Axis::parse`] reads them. The rates and
+    /// the speed are needed; gravity is 9.81 m/s² and the tilt 0 where they are not given.
+    ///
+    /// # Errors
+    /// [`InputError`] that names the coordinate.
+    pub fn parse(coin: Coin, texts: &[(Coordinate, &str)]) -> Result<Self, InputError> {
+        let text_of = |of| texts.iter().find(|(given, _)| *given == of).map(|(_, text)| text.trim());
+        let axis = |of: Coordinate| match (text_of(of), of) {
+            (Some(text), _) => match Coordinate::tied_to(text) {
+                Some(other) => require_tie(of, other, text_of(other).is_some()).map(|()| AxisOrTie::SameAs(other)),
+                None => Axis::parse(of, text).map(AxisOrTie::Axis),
+            },
+            (None, Coordinate::Gravity) => Axis::fixed(of, DEFAULT_GRAVITY).map(AxisOrTie::Axis),
+            (None, Coordinate::Tilt) => Axis::fixed(of, 0.0).map(AxisOrTie::Axis),
+            (None, _) => Err(InputError::Missing { field: of.field(), expected: "a value, a range or a tie" }),
+        };
+        let [x, y, z, speed, gravity, tilt] = Coordinate::ALL.map(axis);
+        // A tie without its partner is a clearer complaint than the missing partner.
+        let (y, z) = (y?, z?);
+        Self::new(coin, [x?, y, z, speed?, gravity?, tilt?])
     }
 
     /// The same space for another coin.
@@ -56,190 +90,175 @@ impl Space {
         Self { coin, ..self }
     }
 
-    /// Number of grid points.
+    /// The same space with another axis for one coordinate.
     ///
     /// # Errors
-    /// [`InputError`] that names an axis without a number of points, or says that the grid is too large to count.
-    pub fn grid_points(&self) -> Result<u64, InputError> {
-        let counts = self.grid_shape()?;
-        counts.iter().try_fold(1_u64, |product, &count| product.checked_mul(count)).ok_or(InputError::Malformed {
-            field: "grid",
-            value: format!("{counts:?}"),
-            expected: "fewer than 2^64 points in all",
-        })
+    /// As [`Space::new`].
+    pub fn with_axis(self, of: Coordinate, axis: Axis) -> Result<Self, InputError> {
+        let mut axes = self.axes;
+        axes[of as usize] = AxisOrTie::Axis(axis);
+        Self::new(self.coin, axes)
     }
 
-    fn grid_shape(&self) -> Result<[u64; 4], InputError> {
-        let points = |field, axis: Axis| {
-            axis.points().ok_or_else(|| InputError::Malformed {
-                field,
-                value: format!("{}:{}", axis.lo(), axis.hi()),
-                expected: "LO:HI:POINTS for a grid",
-            })
+    /// The coin.
+    pub fn coin(&self) -> Coin {
+        self.coin
+    }
+
+    /// The axis of a coordinate or its tie.
+    pub fn axis_or_tie(&self, of: Coordinate) -> AxisOrTie {
+        self.axes[of as usize]
+    }
+
+    /// The axis that gives a coordinate its values; for a tied one its partner's.
+    pub fn axis(&self, of: Coordinate) -> Axis {
+        match self.axes[of as usize] {
+            AxisOrTie::Axis(axis) => axis,
+            AxisOrTie::SameAs(other) => self.axis(other),
+        }
+    }
+
+    /// The coordinates with more than one value of their own.
+    pub fn free(&self) -> impl Iterator<Item = Coordinate> {
+        let own = |of: &Coordinate| matches!(self.axes[*of as usize], AxisOrTie::Axis(axis) if axis.value().is_none());
+        Coordinate::ALL.into_iter().filter(own)
+    }
+
+    /// The fixed values; a coordinate that is not fixed has the lower end of what it may be.
+    pub(crate) fn fixed_values(&self) -> Values {
+        Coordinate::ALL.map(|of| self.axis(of).bounds()[0])
+    }
+
+    /// The toss with these values; those of tied coordinates are taken from their partners.
+    pub(crate) fn toss(&self, values: &Values) -> Toss {
+        let value = |of: Coordinate| match self.axes[of as usize] {
+            AxisOrTie::Axis(_) => values[of as usize],
+            AxisOrTie::SameAs(other) => values[other as usize],
         };
-        let own_y = match self.rate_y {
-            YAxis::Own(axis) => points("rate y [rad/s]", axis)?,
-            YAxis::SameAsX => 1,
-        };
-        Ok([
-            points("rate x [rad/s]", self.rate_x)?,
-            own_y,
-            points("rate z [rad/s]", self.rate_z)?,
-            points("speed [m/s]", self.speed)?,
-        ])
-    }
-
-    /// The grid as a map from the index of a launch to the toss; the speed runs fastest.
-    ///
-    /// # Errors
-    /// As [`Space::grid_points`].
-    pub(crate) fn grid(&self) -> Result<impl Fn(u64) -> Toss + Sync, InputError> {
-        let [count_x, count_y, count_z, count_speed] = self.grid_shape()?;
-        let space = *self;
-        Ok(move |index: u64| {
-            let (rest, speed) = (index / count_speed, index % count_speed);
-            let (rest, z) = (rest / count_z, rest % count_z);
-            let (x, y) = (rest / count_y, rest % count_y);
-            let rate_x = space.rate_x.grid_point(x, count_x);
-            let rate_y = match space.rate_y {
-                YAxis::Own(axis) => axis.grid_point(y, count_y),
-                YAxis::SameAsX => rate_x,
-            };
-            space.toss(
-                Vector3::new(rate_x, rate_y, space.rate_z.grid_point(z, count_z)),
-                space.speed.grid_point(speed, count_speed),
-            )
-        })
-    }
-
-    /// The toss at the point `unit` of the unit cube: coordinates ωx, ωy, ωz, v0.
-    pub(crate) fn at(&self, unit: [f64; Self::DIMENSIONS]) -> Toss {
-        let rate_x = self.rate_x.at(unit[0]);
-        let rate_y = match self.rate_y {
-            YAxis::Own(axis) => axis.at(unit[1]),
-            YAxis::SameAsX => rate_x,
-        };
-        self.toss(Vector3::new(rate_x, rate_y, self.rate_z.at(unit[2])), self.speed.at(unit[3]))
-    }
-
-    fn toss(&self, rate: Vector3<f64>, speed: f64) -> Toss {
-        let time = TimeOfFlight::Ballistic { speed, gravity: self.gravity };
+        let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
+        let time = TimeOfFlight::Ballistic { speed: value(Coordinate::Speed), gravity: value(Coordinate::Gravity) };
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
-        Toss { coin: self.coin, launch }
+        let tilt = value(Coordinate::Tilt);
+        let tilted = if tilt == 0.0 { Ok(launch) } else { launch.with_tilt(tilt) };
+        Toss { coin: self.coin, launch: tilted.expect("every axis was checked when the space was made") }
     }
 }
 
-/// A space with a name.
-#[derive(Debug, Clone, Copy)]
-pub struct NamedSpace {
-    /// Its name.
-    pub name: &'static str,
-    /// What it is, and what of it is the paper's.
-    pub description: &'static str,
-    /// ωx, ωy (`x` for ωy = ωx), ωz (rad/s) and v0 (m/s), as [`Axis::parse`] reads them.
-    pub axes: [&'static str; 4],
-}
-
-impl NamedSpace {
-    /// The space, for the coin `paper` under standard gravity.
-    ///
-    /// # Errors
-    /// Never for the entries of [`NAMED_SPACES`], which a test makes sure of.
-    pub fn space(&self) -> Result<Space, InputError> {
-        let [x, y, z, speed] = self.axes;
-        parse_space(Coin::PAPER, [x, y, z, speed], DEFAULT_GRAVITY)
+fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Result<(), InputError> {
+    let is_rate = |of| of <= Coordinate::RateZ;
+    if is_rate(of) && is_rate(to) && of != to && partner_has_an_axis {
+        return Ok(());
     }
+    Err(InputError::Malformed {
+        field: of.field(),
+        value: to.letter().to_owned(),
+        expected: "a tie of one rate to another, which is given and not tied itself",
+    })
 }
 
-/// A space from the texts of its axes ωx, ωy (`x` ties it to ωx), ωz (rad/s) and v0 (m/s).
-///
-/// # Errors
-/// [`InputError`] that names the axis.
-pub fn parse_space(coin: Coin, axes: [&str; 4], gravity: f64) -> Result<Space, InputError> {
-    let [x, y, z, speed] = axes;
-    let rate_x = Axis::parse("rate x [rad/s]", x)?;
-    let rate_y = if y.trim() == "x" { YAxis::SameAsX } else { YAxis::Own(Axis::parse("rate y [rad/s]", y)?) };
-    let rate_z = Axis::parse("rate z [rad/s]", z)?;
-    Space::new(coin, rate_x, rate_y, rate_z, Axis::parse("speed [m/s]", speed)?, gravity)
+/// The unit cube over some coordinates of a space: each point of it is a launch.
+#[derive(Debug, Clone)]
+pub(crate) struct Cube {
+    fixed: Values,
+    axes: Vec<(Coordinate, Axis)>,
 }
 
-/// All spaces that can be named.
-pub const NAMED_SPACES: &[NamedSpace] = &[
-    // The paper's: the coin, 250 000 configurations by a grid (A) and at random (B), about 66 % heads, v0 of 3 to
-    // 5 m/s. Ours: which axes run over what; the paper gives no range of ω, and many ranges give its figure.
-    NamedSpace {
-        name: "paper-fig4",
-        description: "the paper's Fig. 4, reconstructed: 250 000 launches, about 66 % heads",
-        axes: ["0:50:500", "x", "30", "3:5:500"],
-    },
-    // The paper's: ω, and speeds of 3 to 5 m/s. Ours: the number of speeds.
-    NamedSpace {
-        name: "cheated",
-        description: "the paper's toss that always lands heads, ω = (1, 1, 2.5)",
-        axes: ["1", "1", "2.5", "3:5:500"],
-    },
-    // The paper's: ω of its Fig. 3, and speeds of 3 to 5 m/s. Ours: the number of speeds.
-    NamedSpace {
-        name: "tails",
-        description: "the paper's Fig. 3, ω = (2, 2, 0.5): tails at every speed of the range",
-        axes: ["2", "2", "0.5", "3:5:500"],
-    },
-];
+impl Cube {
+    /// The cube over the coordinates `free` of `space`.
+    pub(crate) fn new(space: &Space, free: impl Iterator<Item = Coordinate>) -> Self {
+        Self { fixed: space.fixed_values(), axes: free.map(|of| (of, space.axis(of))).collect() }
+    }
 
-/// The space called `name`.
-///
-/// # Errors
-/// [`InputError::UnknownName`] with the list of known names.
-pub fn named_space(name: &str) -> Result<Space, InputError> {
-    find_named("space", name, NAMED_SPACES, |space| space.name)?.space()
+    pub(crate) fn dimensions(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// The launch at a point, whose coordinates lie between 0 and 1, exclusively; only the first
+    /// [`Cube::dimensions`] of them are asked for.
+    pub(crate) fn values(&self, mut coordinate: impl FnMut(usize) -> f64) -> Values {
+        let mut values = self.fixed;
+        for (dimension, (of, axis)) in self.axes.iter().enumerate() {
+            values[*of as usize] = axis.quantile(coordinate(dimension));
+        }
+        values
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 
-    #[test]
-    fn the_named_spaces_exist_with_the_launches_they_promise() {
-        let sizes: Vec<u64> = NAMED_SPACES.iter().map(|named| named.space().unwrap().grid_points().unwrap()).collect();
-        assert_eq!(sizes, [250_000, 500, 500]);
+    fn parse(texts: &[(Coordinate, &str)]) -> Result<Space, InputError> {
+        Space::parse(Coin::PAPER, texts)
+    }
+
+    const BOX: [(Coordinate, &str); 4] = [(RateX, "0:50"), (RateY, "x"), (RateZ, "30"), (Speed, "3:5")];
+
+    fn with(of: Coordinate, text: &'static str) -> Vec<(Coordinate, &'static str)> {
+        BOX.into_iter().filter(|(given, _)| *given != of).chain([(of, text)]).collect()
     }
 
     #[test]
-    fn the_grid_covers_the_box_corner_to_corner_with_the_speed_fastest() {
-        let space = parse_space(Coin::PAPER, ["0:1:2", "5:6:2", "7:8:2", "3:5:3"], 9.81).unwrap();
-        let grid = space.grid().unwrap();
-        assert_eq!(space.grid_points(), Ok(24));
-        assert_eq!(grid(0), space.toss(Vector3::new(0.0, 5.0, 7.0), 3.0));
-        assert_eq!(grid(1), space.toss(Vector3::new(0.0, 5.0, 7.0), 4.0));
-        assert_eq!(grid(3), space.toss(Vector3::new(0.0, 5.0, 8.0), 3.0));
-        assert_eq!(grid(6), space.toss(Vector3::new(0.0, 6.0, 7.0), 3.0));
-        assert_eq!(grid(23), space.toss(Vector3::new(1.0, 6.0, 8.0), 5.0));
-    }
-
-    #[test]
-    fn a_tied_axis_follows_its_partner() {
-        let space = named_space("paper-fig4").unwrap();
-        let rate = space.at([0.25, 0.9, 0.0, 0.5]).launch.rate();
+    fn a_tied_rate_follows_its_partner() {
+        let space = parse(&BOX).unwrap();
+        let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0]).launch.rate();
         assert_eq!((rate.x, rate.y, rate.z), (12.5, 12.5, 30.0));
+        assert_eq!(space.free().collect::<Vec<_>>(), [RateX, Speed]);
+        let all_alike = parse(&[(RateX, "z"), (RateY, "z"), (RateZ, "1:2"), (Speed, "3")]).unwrap();
+        assert_eq!(all_alike.free().collect::<Vec<_>>(), [RateZ]);
     }
 
     #[test]
-    fn a_range_without_points_is_no_grid() {
-        let space = parse_space(Coin::PAPER, ["0:1", "x", "7", "3"], 9.81).unwrap();
-        let error = space.grid_points().unwrap_err().to_string();
-        assert!(error.starts_with("rate x [rad/s] = '0:1'"), "{error}");
+    fn gravity_and_tilt_reach_the_launch() {
+        let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
+        let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
+        assert_eq!(toss.launch.flight_time(), 4.0);
+        assert_eq!(toss.launch.attitude(), dynamics::Attitude::about_x(0.5));
     }
 
     #[test]
-    fn invalid_physics_is_refused_by_axis() {
-        for (axes, gravity, field) in [
-            (["0", "0", "0", "-1:5"], 9.81, "speed"),
-            (["0", "0", "0", "1:5"], 0.0, "gravity"),
-            (["0", "0", "0", "1e300"], 1e-300, "time of flight"),
-            (["0", "y", "0", "1"], 9.81, "rate y"),
+    fn a_cube_spans_the_space_from_corner_to_corner() {
+        let space = parse(&with(Gravity, "9:10")).unwrap();
+        let cube = Cube::new(&space, space.free());
+        assert_eq!(cube.dimensions(), 3);
+        assert_eq!(cube.values(|_| 0.5), [25.0, 0.0, 30.0, 4.0, 9.5, 0.0]);
+        assert_eq!(cube.values(|dimension| [0.0, 1.0, 0.25][dimension]), [0.0, 0.0, 30.0, 5.0, 9.25, 0.0]);
+    }
+
+    #[test]
+    fn invalid_physics_is_refused_by_coordinate() {
+        for (texts, message) in [
+            (with(Speed, "-1:5"), "speed [m/s] = -1.0"),
+            (with(Speed, "normal:4:0.5"), "speed [m/s] = -0.15"),
+            (with(Gravity, "0"), "gravity [m/s²] = 0.0"),
+            (with(Gravity, "-9:9"), "gravity [m/s²] = -9.0"),
+            (with(Gravity, "1e-308"), "time of flight"),
+            (with(RateX, "0:inf"), "rate x [rad/s] = inf"),
+            (with(Tilt, "nan"), "tilt [rad] = NaN"),
         ] {
-            let error = parse_space(Coin::PAPER, axes, gravity).unwrap_err().to_string();
-            assert!(error.starts_with(field), "{error}");
+            let error = parse(&texts).unwrap_err().to_string();
+            assert!(error.starts_with(message), "'{error}' for '{message}'");
         }
+    }
+
+    #[test]
+    fn a_tie_needs_a_partner_with_an_axis_of_its_own() {
+        for (texts, field) in [
+            (vec![(RateY, "x"), (RateZ, "30"), (Speed, "3:5")], "rate y"),
+            (with(RateX, "x"), "rate x"),
+            (with(RateX, "y"), "rate x"),
+            (with(RateX, "0:1").into_iter().chain([(Gravity, "x")]).collect(), "gravity"),
+            (with(Speed, "x"), "speed"),
+        ] {
+            let error = parse(&texts).unwrap_err().to_string();
+            assert!(error.starts_with(field) && error.contains("tie"), "'{error}' for {field}");
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let error = parse(&BOX[..3]).unwrap_err().to_string();
+        assert!(error.starts_with("speed [m/s] is missing"), "{error}");
     }
 }

@@ -10,6 +10,7 @@ use toss::{InputError, SolveError, SolverEntry};
 
 use crate::case::Case;
 use crate::reference_data::ReferenceData;
+use crate::reference_probability::ReferenceProbabilities;
 use crate::subject::{Subject, subjects};
 use crate::survey::Survey;
 
@@ -143,8 +144,10 @@ pub struct Context {
     pub registry: Vec<SolverEntry>,
     /// Its subjects.
     pub subjects: Vec<Subject>,
-    /// Numbers from outside.
+    /// Motions from outside.
     pub data: ReferenceData,
+    /// Probabilities from outside.
+    pub probabilities: ReferenceProbabilities,
     survey: OnceLock<Survey>,
 }
 
@@ -159,6 +162,7 @@ impl Context {
             registry: registry.to_vec(),
             subjects: subjects(registry).context("the registry's solvers can't be made")?,
             data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
+            probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
             survey: OnceLock::new(),
         })
     }

@@ -16,6 +16,7 @@ pub mod checks;
 pub mod judge;
 pub mod reference;
 pub mod reference_data;
+pub mod reference_probability;
 pub mod report;
 pub mod subject;
 pub mod survey;

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use sampling::random_tosses;
-use sampling::space::parse_space;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
+use sampling::{Space, random_tosses};
 use toss::{Coin, InputError, SolveError, State, Toss};
 
 use crate::case::Case;
@@ -44,9 +44,11 @@ impl Survey {
 /// from horizontal and two are tilted by an angle between 0 and π, spread evenly by the golden section.
 fn launches_of_the_survey(launches: u64) -> Result<Vec<Case>, InputError> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let space = parse_space(Coin::PAPER, ["-60:60", "-60:60", "-60:60", "3:5"], 9.81)?;
+    let axes = [(RateX, "-60:60"), (RateY, "-60:60"), (RateZ, "-60:60"), (Speed, "3:5")];
+    let space = Space::parse(Coin::PAPER, &axes)?;
     let coins = [Coin::from_moments(5e-7, 2.5e-7)?, Coin::from_moments(5e-7, 9.9e-7)?];
     random_tosses(&space, SEED, 0..launches)
+        .into_iter()
         .enumerate()
         .map(|(index, toss)| {
             let tilted = index % 4 >= 2;

@@ -45,7 +45,9 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
     let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     std::fs::create_dir(folder.path().join("reference")).unwrap();
-    std::fs::copy(validation().join("reference/motion.toml"), folder.path().join("reference/motion.toml")).unwrap();
+    for file in ["reference/motion.toml", "reference/probability.toml"] {
+        std::fs::copy(validation().join(file), folder.path().join(file)).unwrap();
+    }
     let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();
     let tightened = bounds.replacen("exact = ", "exact = 1e-20 #", 1);
     std::fs::write(folder.path().join("bounds.toml"), tightened).unwrap();

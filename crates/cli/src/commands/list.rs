@@ -1,6 +1,6 @@
 //! `unfair-toss coins`, `solvers` and `spaces`: what can be named.
 
-use sampling::NAMED_SPACES;
+use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::SOLVERS;
 use toss::catalogue::{Body, CATALOGUE};
@@ -99,29 +99,32 @@ pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
 #[derive(Serialize)]
 struct SpaceLine {
     name: &'static str,
-    description: &'static str,
-    rate_x: &'static str,
-    rate_y: &'static str,
-    rate_z: &'static str,
-    speed: &'static str,
+    description: String,
+    rate_x: String,
+    rate_y: String,
+    rate_z: String,
+    speed: String,
+    gravity: String,
+    tilt: String,
     grid_points: u64,
 }
 
 pub(crate) fn spaces(args: &Args) -> Result<String, Failure> {
     let mut lines = Vec::new();
-    for named in NAMED_SPACES {
-        let [rate_x, rate_y, rate_z, speed] = named.axes;
-        let grid_points = named.space()?.grid_points()?;
-        let (name, description) = (named.name, named.description);
-        lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, grid_points });
+    for (name, DescribedSpace { description, space }) in named_spaces() {
+        let [rate_x, rate_y, rate_z, speed, gravity, tilt] =
+            Coordinate::ALL.map(|of| space.axis_or_tie(of).to_string());
+        let grid_points = space.grid_points()?;
+        lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points });
     }
     if args.format == Format::Json {
         return Ok(output::json(&lines));
     }
-    let mut rows = vec![row(["name", "ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "launches", "what"])];
+    let [x, y, z, v, g, t] = Coordinate::ALL.map(Coordinate::symbol);
+    let mut rows = vec![row(["name", x, y, z, v, g, t, "launches", "what"])];
     rows.extend(lines.iter().map(|line| {
-        let launches = line.grid_points.to_string();
-        row([line.name, line.rate_x, line.rate_y, line.rate_z, line.speed, &launches, line.description])
+        let SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points } = line;
+        row([name, rate_x, rate_y, rate_z, speed, gravity, tilt, &grid_points.to_string(), description])
     }));
     Ok(table(&rows))
 }

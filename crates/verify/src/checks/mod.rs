@@ -1,8 +1,10 @@
 //! The checks, a line each; a file for each kind of claim.
 
 mod detest;
+mod figures;
 mod first_return;
 mod invariants;
+mod methods;
 mod numbers;
 mod order;
 mod paper;
@@ -35,4 +37,11 @@ pub const CHECKS: &[Check] = &[
     probability::TABLES,
     probability::FIG4_GRID_IN_RANDOM,
     probability::FIG4_SAME_COUNTS,
+    figures::SHARES,
+    figures::SHARE_BOUNDS,
+    figures::ISOTROPIC,
+    figures::FIGURES,
+    methods::ERRORS,
+    methods::COVERAGE,
+    methods::EXACT_COVERAGE,
 ];

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
-use sampling::random_tosses;
-use sampling::space::parse_space;
+use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use sampling::{Space, random_tosses};
 use toss::{Coin, ExactMotion, Frame, Method, Propagation, Scheme, Settings, SolveError, SolverEntry, State, Toss};
 
 use crate::check::{Basis, Check, Context, Measurement};
@@ -52,10 +52,12 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// work, is regular.
 fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     const CLEARANCE: f64 = 0.8;
-    let space = parse_space(Coin::DISC, ["-3:3", "-3:3", "0:3", "1"], 2.0 / TIME)?;
+    // Flights of TIME s.
+    let gravity = (2.0 / TIME).to_string();
+    let axes = [(RateX, "-3:3"), (RateY, "-3:3"), (RateZ, "0:3"), (Speed, "1"), (Gravity, &gravity), (Tilt, "1.2:1.4")];
+    let space = Space::parse(Coin::DISC, &axes)?;
     let mut tosses = Vec::new();
     for toss in random_tosses(&space, 1, 0..10_000) {
-        let toss = Toss { launch: toss.launch.with_tilt(1.3)?, ..toss };
         let motion = ExactMotion::new(&toss);
         let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
         if cone - axis > CLEARANCE && cone + axis < PI - CLEARANCE {

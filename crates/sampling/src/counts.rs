@@ -1,0 +1,75 @@
+//! Outcomes, counted.
+
+use std::ops::Range;
+
+use dynamics::{Outcome, Solver};
+
+use crate::fold::{SampleError, Tally, fold};
+use crate::launches::Launches;
+use crate::space::Space;
+
+/// Outcomes, counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Launches that land heads.
+    pub heads: u64,
+    /// Launches that land tails.
+    pub tails: u64,
+    /// Launches nearer to the edge than the solver answers for.
+    pub undecided: u64,
+}
+
+impl Counts {
+    /// Number of launches.
+    pub fn points(&self) -> u64 {
+        self.heads + self.tails + self.undecided
+    }
+
+    /// Share of heads among all launches, from 0 to 1.
+    #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
+    pub fn probability(&self) -> f64 {
+        self.heads as f64 / self.points() as f64
+    }
+
+    fn add(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Heads => self.heads += 1,
+            Outcome::Tails => self.tails += 1,
+            Outcome::Undecided => self.undecided += 1,
+        }
+    }
+}
+
+impl Tally for Counts {
+    fn merge(self, other: Self) -> Self {
+        Self {
+            heads: self.heads + other.heads,
+            tails: self.tails + other.tails,
+            undecided: self.undecided + other.undecided,
+        }
+    }
+}
+
+impl std::iter::Sum for Counts {
+    fn sum<I: Iterator<Item = Self>>(counts: I) -> Self {
+        counts.fold(Self::default(), Self::merge)
+    }
+}
+
+/// Counts the outcomes of the launches `range`, by `solver`.
+pub(crate) fn count(
+    space: &Space,
+    launches: &Launches,
+    range: Range<u64>,
+    solver: &dyn Solver,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Counts, SampleError> {
+    fold(range, progress, |block| {
+        let mut counts = Counts::default();
+        for (index, values) in block.clone().zip(launches.values(block)) {
+            let toss = space.toss(&values);
+            counts.add(solver.outcome(&toss).map_err(|error| (index, toss, error))?);
+        }
+        Ok(counts)
+    })
+}

@@ -1,0 +1,288 @@
+//! The speed integrated in closed form.
+//!
+//! With everything but the speed fixed, the phase at landing ωL T = 2 ωL v0/g is proportional to v0, and the coin lands
+//! heads while it is within w of a crest c + 2π n ([`HeadsPhases`]). So the probability is the measure of these
+//! intervals under the distribution of the phase, without any sampling:
+//!
+//! ```text
+//! v0 uniform, phase from a to b:    P = (H(b) - H(a))/(b - a),   H(x) = 2 w n + clamp(x - c - 2π n, -w, w)
+//! v0 normal, phase with μ and σ:    P = Σ Φ((c + 2π n + w - μ)/σ) - Φ((c + 2π n - w - μ)/σ)
+//! ```
+//!
+//! where n is the turn whose crest is nearest to x. For σ ≥ 9 the phase is uniform on the circle to within
+//! (2/π) exp(-σ²/2) < 2e-18, and P = w/π.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+use std::ops::Range;
+
+use dynamics::{ExactMotion, ExactSolver, HeadsPhases, Outcome, SolveError, Solver, Toss};
+
+use crate::axis::{Distribution, NORMAL_REACH};
+use crate::coordinate::Coordinate;
+use crate::fold::{SampleError, Tally, fold};
+use crate::launches::Launches;
+use crate::space::{Space, Values};
+
+/// Relative error of a phase, and of a sum of a few rounded terms: as [`dynamics::exact::resolution`] counts it.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A probability with a bound on its rounding error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// From 0 to 1.
+    pub probability: f64,
+    /// Error bound, from 0 to 1; it counts rounding and is no proof.
+    pub error: f64,
+}
+
+impl Share {
+    fn new(probability: f64, error: f64) -> Self {
+        Self { probability: probability.clamp(0.0, 1.0), error: error.min(1.0) }
+    }
+
+    /// The share of a single toss: all or nothing, and no idea where the outcome is undecided.
+    fn of_one(toss: &Toss) -> Result<Self, SolveError> {
+        Ok(match ExactSolver.outcome(toss)? {
+            Outcome::Heads => Self::new(1.0, 0.0),
+            Outcome::Tails => Self::new(0.0, 0.0),
+            Outcome::Undecided => Self::new(0.5, 0.5),
+        })
+    }
+}
+
+/// The share of heads over the speeds of `space`, for the launch with `values` but for its speed.
+fn share(space: &Space, values: &Values) -> Result<Share, (Toss, SolveError)> {
+    let speeds = space.axis(Coordinate::Speed);
+    let toss = |speed: f64| {
+        let mut values = *values;
+        values[Coordinate::Speed as usize] = speed;
+        space.toss(&values)
+    };
+    let [slowest, fastest] = speeds.bounds().map(toss);
+    let failed = |error| (fastest, error);
+    let motion = ExactMotion::new(&fastest);
+    let phase_of = |toss: &Toss| motion.phases(toss.launch.flight_time()).map(|(phase, _)| phase);
+    let [from, to] = [phase_of(&slowest).map_err(failed)?, phase_of(&fastest).map_err(failed)?];
+    if from == to {
+        return Share::of_one(&fastest).map_err(failed);
+    }
+    let heads = motion.heads();
+    if heads.half_width_error == 0.0 && (heads.half_width <= 0.0 || heads.half_width >= PI) {
+        return Ok(Share::new(heads.half_width / PI, 0.0));
+    }
+    Ok(match speeds.distribution() {
+        Distribution::Uniform { .. } => uniform_share(&heads, from, to),
+        Distribution::Normal { .. } => {
+            let sd = (to - from) / (2.0 * NORMAL_REACH);
+            normal_share(&heads, 0.5 * (from + to), sd)
+        }
+    })
+}
+
+/// The share of the phases `from` to `to` > `from` (rad) that show heads.
+fn uniform_share(heads: &HeadsPhases, from: f64, to: f64) -> Share {
+    let (begin, end) = (Place::of(heads, from), Place::of(heads, to));
+    let turns = end.turn - begin.turn;
+    // Rounding of the phase at both ends, and of the places of the edges.
+    let end_error = ROUNDING * (1.0 + to);
+    let edge_error = heads.half_width_error + heads.crest_error + end_error;
+    if begin.interval == end.interval && begin.to_edge.min(end.to_edge) > edge_error {
+        return Share::new(if begin.interval % 2.0 == 0.0 { 1.0 } else { 0.0 }, 0.0);
+    }
+    let measure = 2.0 * heads.half_width * turns + (end.within - begin.within);
+    let edges = 2.0 * (turns + 1.0) * heads.half_width_error + 2.0 * heads.crest_error.min(PI);
+    Share::new(measure / (to - from), (edges + 3.0 * end_error) / (to - from) + ROUNDING)
+}
+
+/// Where a phase lies among the intervals of heads and tails.
+struct Place {
+    /// Number of the nearest crest.
+    turn: f64,
+    /// Phase from the nearest crest, clamped to the heads about it (rad).
+    within: f64,
+    /// Number of the interval: even for heads, odd for tails.
+    interval: f64,
+    /// Distance to the nearest edge about this crest (rad).
+    to_edge: f64,
+}
+
+impl Place {
+    fn of(heads: &HeadsPhases, phase: f64) -> Self {
+        let turn = ((phase - heads.crest) / TAU).round();
+        let from_crest = phase - heads.crest - TAU * turn;
+        let within = from_crest.clamp(-heads.half_width, heads.half_width);
+        let beyond = if from_crest == within { 0.0 } else { from_crest.signum() };
+        let to_edge = (from_crest.abs() - heads.half_width).abs();
+        Self { turn, within, interval: 2.0 * turn + beyond, to_edge }
+    }
+}
+
+/// The share of heads of a normal phase with `mean` and `sd` > 0 (rad).
+fn normal_share(heads: &HeadsPhases, mean: f64, sd: f64) -> Share {
+    let width = heads.half_width;
+    if sd >= 9.0 {
+        return Share::new(width / PI, heads.half_width_error / PI);
+    }
+    let turn_of = |phase: f64| ((phase - heads.crest) / TAU).round();
+    let [first, last] = [turn_of(mean - NORMAL_REACH * sd), turn_of(mean + NORMAL_REACH * sd)];
+    let below = |phase: f64| 0.5 * libm::erfc((mean - phase) / (sd * SQRT_2));
+    let (mut probability, mut turn) = (0.0, first);
+    while turn <= last {
+        let crest = heads.crest + TAU * turn;
+        probability += below(crest + width) - below(crest - width);
+        turn += 1.0;
+    }
+    let highest_density = 0.4 / sd;
+    let edge = heads.half_width_error + heads.crest_error + ROUNDING * (1.0 + mean.abs() + NORMAL_REACH * sd);
+    Share::new(probability, 2.0 * (last - first + 1.0) * (edge * highest_density + ROUNDING))
+}
+
+/// Shares added up. The sums are integers, in units of 2^-53, so that their order is free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Shares {
+    launches: u64,
+    probability: u128,
+    error: u128,
+}
+
+const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
+
+impl Shares {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "shares lie between 0 and 1")]
+    fn add(&mut self, share: Share) {
+        self.launches += 1;
+        self.probability += (share.probability / UNIT).round() as u128;
+        self.error += (share.error / UNIT).ceil() as u128 + 1;
+    }
+
+    /// The mean share.
+    #[expect(clippy::cast_precision_loss, reason = "rounded once")]
+    pub(crate) fn mean(&self) -> Share {
+        let mean = |sum: u128| sum as f64 * UNIT / self.launches as f64;
+        Share::new(mean(self.probability), mean(self.error))
+    }
+}
+
+impl Tally for Shares {
+    fn merge(self, other: Self) -> Self {
+        Self {
+            launches: self.launches + other.launches,
+            probability: self.probability + other.probability,
+            error: self.error + other.error,
+        }
+    }
+}
+
+/// Adds up the shares of the launches `range`, whose speeds are not looked at.
+pub(crate) fn add_shares(
+    space: &Space,
+    launches: &Launches,
+    range: Range<u64>,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Shares, SampleError> {
+    fold(range, progress, |block| {
+        let mut shares = Shares::default();
+        for (index, values) in block.clone().zip(launches.values(block)) {
+            shares.add(share(space, &values).map_err(|(toss, error)| (index, toss, error))?);
+        }
+        Ok(shares)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Outcome};
+
+    use super::*;
+    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+
+    fn share_of(coin: Coin, rate: [&str; 3], tilt: &str, speed: &str) -> Share {
+        let [x, y, z] = rate;
+        let space = Space::parse(coin, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed), (Tilt, tilt)]).unwrap();
+        share(&space, &space.fixed_values()).unwrap()
+    }
+
+    /// The same share by counting the exact motion's outcomes at the middles of parts of equal probability.
+    fn counted(coin: Coin, rate: [&str; 3], tilt: &str, speed: &str) -> f64 {
+        const PARTS: u32 = 40_000;
+        let [x, y, z] = rate;
+        let space = Space::parse(coin, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed), (Tilt, tilt)]).unwrap();
+        let heads = (0..PARTS).filter(|part| {
+            let mut values = space.fixed_values();
+            values[Speed as usize] = space.axis(Speed).quantile((f64::from(*part) + 0.5) / f64::from(PARTS));
+            ExactSolver.outcome(&space.toss(&values)) == Ok(Outcome::Heads)
+        });
+        heads.count() as f64 / f64::from(PARTS)
+    }
+
+    #[test]
+    fn the_share_is_what_counting_outcomes_tends_to() {
+        let rates = [["1", "1", "2.5"], ["20", "-31", "7"], ["0", "9", "0"], ["-3", "40", "-60"], ["2", "2", "0.5"]];
+        let mut certain = 0;
+        for coin in [Coin::PAPER, Coin::DISC, Coin::from_moments(1.0, 1.0).unwrap()] {
+            for rate in rates {
+                for tilt in ["0", "0.4", "1.5707963", "2.9", "-0.7"] {
+                    for speed in ["3:5", "0:0.2", "0:300", "4:4.0001", "normal:4:0.1", "normal:4:0.4", "normal:90:9"] {
+                        let share = share_of(coin, rate, tilt, speed);
+                        let counted = counted(coin, rate, tilt, speed);
+                        // Each edge of a heads interval may cost one part; 300 m/s are at most 800 turns.
+                        let within = if speed.ends_with("00") || speed.ends_with(":9") { 5e-2 } else { 5e-4 };
+                        let error = (share.probability - counted).abs();
+                        assert!(error < within, "{rate:?} {tilt} {speed}: {share:?}, {counted}");
+                        // The largest is that of a motion end over end at a tilt of nearly 90°, where cos θ stays below 1e-7.
+                        assert!(share.error < 2e-6, "{rate:?} {tilt} {speed}: {share:?}");
+                        certain += u32::from(share.error == 0.0);
+                    }
+                }
+            }
+        }
+        assert!(certain > 20, "{certain}");
+    }
+
+    #[test]
+    fn a_single_speed_is_all_or_nothing() {
+        for (speed, probability) in [("0", 1.0), ("3", 0.0), ("3:3", 0.0)] {
+            let share = share_of(Coin::PAPER, ["2", "2", "0.5"], "0", speed);
+            assert_eq!(share, Share { probability, error: 0.0 });
+        }
+        assert_eq!(share_of(Coin::PAPER, ["0", "0", "0"], "0.3", "3:5").probability, 1.0);
+    }
+
+    #[test]
+    fn a_wide_normal_speed_is_the_long_flight() {
+        let wide = share_of(Coin::PAPER, ["20", "0", "3"], "0", "normal:1000:20");
+        let cone = 20_f64.atan2(1.5);
+        let limit = crate::long_flight_probability(cone, cone);
+        assert!((wide.probability - limit).abs() < 1e-15);
+        // At the change of formula, σ = 9 rad, both agree.
+        let heads = ExactMotion::new(
+            &Space::parse(Coin::PAPER, &[(RateX, "20"), (RateY, "0"), (RateZ, "3"), (Speed, "3")])
+                .unwrap()
+                .toss(&[20.0, 0.0, 3.0, 3.0, 9.81, 0.0]),
+        )
+        .heads();
+        let [below, above] = [9.0_f64.next_down(), 9.0].map(|sd| normal_share(&heads, 100.0, sd).probability);
+        assert!((below - above).abs() < 1e-14, "{below} {above}");
+    }
+
+    #[test]
+    fn a_phase_above_two_to_the_53_is_an_error() {
+        let texts = [(RateX, "1e9"), (RateY, "0"), (RateZ, "0"), (Speed, "0:1e9")];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        let (_, error) = share(&space, &space.fixed_values()).unwrap_err();
+        assert!(matches!(error, SolveError::PhaseTooLarge { .. }));
+    }
+
+    #[test]
+    fn the_order_of_a_sum_is_free() {
+        let shares: Vec<Share> =
+            (0..1000).map(|i| Share::new(f64::from(i * 7919 % 1000) / 999.0, 1e-16 * f64::from(i))).collect();
+        let sum = |order: &mut dyn Iterator<Item = &Share>| {
+            let mut sum = Shares::default();
+            order.for_each(|share| sum.add(*share));
+            sum
+        };
+        assert_eq!(sum(&mut shares.iter()), sum(&mut shares.iter().rev()));
+        assert!((sum(&mut shares.iter()).mean().probability - 0.5).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,77 @@
+//! Launches by blocks on many threads, with a result that does not depend on how many.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use dynamics::{InputError, SolveError, Toss};
+use rayon::prelude::*;
+
+/// Launches that one thread takes at a time: their values stay in the first-level cache.
+const BLOCK: u64 = 512;
+
+/// Why a probability could not be estimated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SampleError {
+    /// The space or the plan makes no sense; no launch was tried.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The solver failed; the first failing launch is named, and no count is given.
+    #[error("launch {index} (rate {}, {}, {} rad/s, {} s): {source}",
+        toss.launch.rate().x, toss.launch.rate().y, toss.launch.rate().z, toss.launch.flight_time())]
+    Solve {
+        /// Index of the launch in the plan.
+        index: u64,
+        /// The toss.
+        toss: Box<Toss>,
+        /// What the solver said.
+        source: SolveError,
+    },
+}
+
+/// What launches add up to. Merging is associative and commutative to the last bit, which is why the tallies of this
+/// crate are integers.
+pub(crate) trait Tally: Default + Send {
+    fn merge(self, other: Self) -> Self;
+}
+
+/// The index of a launch in its sequence, the toss, and why it could not be solved.
+pub(crate) type Failure = (u64, Toss, SolveError);
+
+/// Merges what `block` makes of all blocks of the launches `range`, on the threads of the current pool. `progress` is
+/// told the number of launches done since it was last called.
+///
+/// # Errors
+/// [`SampleError::Solve`]; of several failing launches always the first.
+pub(crate) fn fold<T: Tally>(
+    range: Range<u64>,
+    progress: &(dyn Fn(u64) + Sync),
+    block: impl Fn(Range<u64>) -> Result<T, Failure> + Sync,
+) -> Result<T, SampleError> {
+    let lowest_failure = AtomicU64::new(u64::MAX);
+    let run = |number: u64| -> Result<T, Failure> {
+        let start = range.start + number * BLOCK;
+        // A block above the lowest failing launch so far can't hold the first.
+        if start > lowest_failure.load(Ordering::Relaxed) {
+            return Ok(T::default());
+        }
+        let launches = start..range.end.min(start.saturating_add(BLOCK));
+        let done = launches.end - launches.start;
+        let tally = block(launches).inspect_err(|(index, ..)| {
+            lowest_failure.fetch_min(*index, Ordering::Relaxed);
+        })?;
+        progress(done);
+        Ok(tally)
+    };
+    (0..(range.end - range.start).div_ceil(BLOCK))
+        .into_par_iter()
+        .map(run)
+        .reduce(
+            || Ok(T::default()),
+            |a, b| match (a, b) {
+                (Ok(a), Ok(b)) => Ok(a.merge(b)),
+                (Err(a), Err(b)) => Err(if a.0 < b.0 { a } else { b }),
+                (Err(first), Ok(_)) | (Ok(_), Err(first)) => Err(first),
+            },
+        )
+        .map_err(|(index, toss, source)| SampleError::Solve { index, toss: Box::new(toss), source })
+}

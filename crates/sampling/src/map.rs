@@ -1,0 +1,147 @@
+//! The probability of heads over two coordinates of a space.
+
+use std::f64::consts::FRAC_PI_2;
+
+use dynamics::{ExactMotion, InputError, Solver};
+use rayon::prelude::*;
+
+use crate::axis::Axis;
+use crate::coordinate::Coordinate;
+use crate::estimate::estimate;
+use crate::fold::SampleError;
+use crate::plan::Plan;
+use crate::space::{AxisOrTie, Space};
+
+/// P(heads) at the nodes of a grid over two coordinates, the others being what the space says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// The coordinate that varies along a row, and its values.
+    pub across: (Coordinate, Vec<f64>),
+    /// The coordinate that varies from row to row, and its values.
+    pub up: (Coordinate, Vec<f64>),
+    /// The nodes, row by row.
+    pub nodes: Vec<Node>,
+}
+
+/// A node of a [`Map`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// P(heads), from 0 to 1.
+    pub probability: f64,
+    /// φ + ψ - 90° (rad): where it is at most 0 the coin shows heads at every time, as cos φ cos ψ ≥ sin φ sin ψ. From
+    /// horizontal φ = ψ, and this is ψ ≤ 45°. `None` where rates or tilt vary within the node.
+    pub beyond_certainty: Option<f64>,
+}
+
+/// Maps P(heads) of `space` over the grid of the coordinates `across` and `up`, estimating each node by `plan`.
+///
+/// `progress` is told the number of nodes done since it was last called.
+///
+/// # Errors
+/// [`SampleError`]; an [`InputError`] names the coordinate that is tied or has no range with a number of points.
+pub fn map(
+    space: &Space,
+    [across, up]: [Coordinate; 2],
+    plan: Plan,
+    solver: &dyn Solver,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Map, SampleError> {
+    if across == up {
+        let (field, value) = (up.field(), up.name().to_owned());
+        return Err(InputError::Malformed { field, value, expected: "two different coordinates" }.into());
+    }
+    let (columns, rows) = (values(space, across)?, values(space, up)?);
+    let node = |index: usize| {
+        let (column, row) = (columns[index % columns.len()], rows[index / columns.len()]);
+        let here = space.with_axis(across, Axis::fixed(across, column)?)?.with_axis(up, Axis::fixed(up, row)?)?;
+        let probability = estimate(&here, plan, solver, &|_| {})?.probability;
+        progress(1);
+        Ok(Node { probability, beyond_certainty: beyond_certainty(&here) })
+    };
+    let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, SampleError>>>();
+    // In order, so that of several errors it is always the first.
+    let nodes = nodes.into_iter().collect::<Result<_, _>>()?;
+    Ok(Map { across: (across, columns), up: (up, rows), nodes })
+}
+
+/// The grid's values of a coordinate.
+fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
+    const MOST: u64 = 10_000;
+    let refused = |value: String| InputError::Malformed {
+        field: of.field(),
+        value,
+        expected: "for a map: LO:HI:POINTS with 2 to 10000 points, not tied",
+    };
+    match space.axis_or_tie(of) {
+        AxisOrTie::Axis(axis) => match axis.points() {
+            Some(points @ 2..=MOST) => Ok((0..points).map(|index| axis.grid_point(index, points)).collect()),
+            _ => Err(refused(axis.to_string())),
+        },
+        tie @ AxisOrTie::SameAs(_) => Err(refused(tie.to_string())),
+    }
+}
+
+fn beyond_certainty(space: &Space) -> Option<f64> {
+    let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
+    let motion = ExactMotion::new(&space.toss(&space.fixed_values()));
+    (!motion_varies).then(|| motion.momentum_tilt() + motion.cone_angle() - FRAC_PI_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, ExactSolver};
+
+    use super::*;
+    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+    use crate::plan::Rest;
+
+    const EXACT: Plan = Plan::ExactSpeed(Rest::Grid);
+
+    fn space(texts: &[(Coordinate, &str)]) -> Space {
+        Space::parse(Coin::PAPER, texts).unwrap()
+    }
+
+    #[test]
+    fn a_map_has_the_probability_of_each_node_and_heads_for_sure_up_to_45_degrees() {
+        let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "10:50:5"), (Speed, "3:5")]);
+        let map = map(&space, [RateX, RateZ], EXACT, &ExactSolver, &|_| {}).unwrap();
+        assert_eq!((map.across.1.len(), map.up.1.len(), map.nodes.len()), (21, 5, 105));
+        for (index, node) in map.nodes.iter().enumerate() {
+            let (rate_x, rate_z) = (map.across.1[index % 21], map.up.1[index / 21]);
+            let cone = rate_x.atan2(0.5 * rate_z);
+            let beyond = node.beyond_certainty.unwrap();
+            assert!((beyond - (2.0 * cone - FRAC_PI_2)).abs() < 1e-14);
+            assert!(node.probability > 1.0 - 1e-7 || beyond > 1e-15, "{rate_x}, {rate_z}: {node:?}");
+            let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
+            let heads = speeds.filter(|speed| {
+                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]);
+                ExactMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
+            });
+            assert!((node.probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {node:?}");
+        }
+        assert!(map.nodes.iter().any(|node| node.probability < 0.6));
+    }
+
+    #[test]
+    fn a_tied_rate_follows_and_a_varying_one_blurs_the_line() {
+        let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
+        let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
+        let map = map(&space(&texts), [RateX, Tilt], plan, &ExactSolver, &|_| {}).unwrap();
+        assert!(map.nodes.iter().all(|node| node.beyond_certainty.is_none()));
+        assert_eq!(map.nodes[0].probability, 1.0, "no rate but spin");
+    }
+
+    #[test]
+    fn what_cannot_be_mapped_is_refused_by_name() {
+        let space = space(&[(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "4")]);
+        for (axes, field) in [
+            ([RateX, RateX], "rate x"),
+            ([RateX, RateY], "rate y"),
+            ([RateX, RateZ], "rate z"),
+            ([Speed, RateX], "speed"),
+        ] {
+            let error = map(&space, axes, EXACT, &ExactSolver, &|_| {}).unwrap_err().to_string();
+            assert!(error.starts_with(field), "{error}");
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! How estimates converge as launches are added.
+
+use dynamics::Solver;
+use dynamics::error::require;
+
+use crate::counts::{Counts, count};
+use crate::estimate::estimate;
+use crate::fold::SampleError;
+use crate::grid::Grid;
+use crate::launches::Launches;
+use crate::plan::{Plan, Rest, Scrambled};
+use crate::space::{Cube, Space};
+
+/// The outcomes of the first launches of a sequence.
+pub type Running = Vec<Counts>;
+
+/// The running counts of method A, whose launches come in the grid's order: the speed fastest, ωx slowest of the four.
+/// `steps` equal steps, the last of them the whole grid.
+///
+/// # Errors
+/// [`SampleError`].
+pub fn running_grid(space: &Space, steps: u64, solver: &dyn Solver) -> Result<Running, SampleError> {
+    let grid = Grid::new(space)?;
+    let points = grid.points();
+    running(space, &Launches::Grid(grid), points, steps, solver)
+}
+
+/// The running counts of method B over `points` launches, in `steps` equal steps.
+///
+/// # Errors
+/// [`SampleError`].
+pub fn running_random(
+    space: &Space,
+    points: u64,
+    seed: u64,
+    steps: u64,
+    solver: &dyn Solver,
+) -> Result<Running, SampleError> {
+    let cube = Cube::new(space, space.free());
+    running(space, &Launches::Random { cube, seed }, points, steps, solver)
+}
+
+fn running(
+    space: &Space,
+    launches: &Launches,
+    points: u64,
+    steps: u64,
+    solver: &dyn Solver,
+) -> Result<Running, SampleError> {
+    #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
+    require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
+    // The step's end in whole launches, without overflow.
+    let end = |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);
+    let mut counts = Counts::default();
+    (0..steps)
+        .map(|step| {
+            let more = count(space, launches, end(step)..end(step + 1), solver, &|_| {})?;
+            counts = [counts, more].into_iter().sum();
+            Ok(counts)
+        })
+        .collect()
+}
+
+/// A way to estimate a probability from a given number of launches.
+#[derive(Debug, Clone, Copy)]
+pub struct Estimator {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it draws random numbers.
+    pub is_random: bool,
+    plan: fn(points: u64, seed: u64) -> Plan,
+}
+
+/// The four methods. Those that use Sobol's sequence give all points to one scramble, which is the most accurate
+/// that they can do, except the last, which is exact-speed as it is used to tell its error.
+pub const ESTIMATORS: [Estimator; 5] = [
+    Estimator { name: "grid", is_random: false, plan: |_, _| Plan::Grid },
+    Estimator { name: "random", is_random: true, plan: |points, seed| Plan::Random { points, seed } },
+    Estimator {
+        name: "sobol",
+        is_random: true,
+        plan: |points, seed| Plan::Sobol(Scrambled { points, scrambles: 1, seed }),
+    },
+    Estimator {
+        name: "exact-speed",
+        is_random: true,
+        plan: |points, seed| Plan::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles: 1, seed })),
+    },
+    Estimator {
+        name: "exact-speed, 8 scrambles",
+        is_random: true,
+        plan: |points, seed| Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, seed))),
+    },
+];
+
+impl Estimator {
+    /// The estimates from `points` launches by the seeds 1 to `replicates`; a method without random numbers has one,
+    /// from the largest even grid of at most so many launches.
+    ///
+    /// # Errors
+    /// [`SampleError`].
+    pub fn estimates(
+        &self,
+        space: &Space,
+        points: u64,
+        replicates: u64,
+        solver: &dyn Solver,
+    ) -> Result<Vec<f64>, SampleError> {
+        let space = if self.is_random { *space } else { space.with_grid_of(points)? };
+        let seeds = if self.is_random { 1..=replicates } else { 1..=1 };
+        seeds.map(|seed| Ok(estimate(&space, (self.plan)(points, seed), solver, &|_| {})?.probability)).collect()
+    }
+}
+
+/// Root of the mean square of what `estimates` are off `probability`.
+#[expect(clippy::cast_precision_loss, reason = "a handful of estimates")]
+pub fn rms_error(estimates: &[f64], probability: f64) -> f64 {
+    let sum: f64 = estimates.iter().map(|estimate| (estimate - probability).powi(2)).sum();
+    (sum / estimates.len() as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, ExactSolver};
+
+    use super::*;
+    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
+    use crate::estimate::Found;
+    use crate::space_file::named_space;
+
+    #[test]
+    fn a_running_count_ends_with_the_whole() {
+        let space = named_space("paper-fig4").unwrap();
+        let counts_of = |plan| match estimate(&space, plan, &ExactSolver, &|_| {}).unwrap().found {
+            Found::Counts(counts) => counts,
+            Found::Shares { .. } => panic!("counts were asked for"),
+        };
+        let grid = running_grid(&space, 7, &ExactSolver).unwrap();
+        assert_eq!((grid.len(), grid[6]), (7, counts_of(Plan::Grid)));
+        let random = running_random(&space, 1000, 5, 1000, &ExactSolver).unwrap();
+        assert_eq!(random[999], counts_of(Plan::Random { points: 1000, seed: 5 }));
+        assert_eq!(random[99], counts_of(Plan::Random { points: 100, seed: 5 }));
+        assert!(random.iter().zip(1..).all(|(counts, points)| counts.points() == points));
+        for steps in [0, 1001] {
+            let refused = running_random(&space, 1000, 5, steps, &ExactSolver);
+            assert!(matches!(refused, Err(SampleError::Input(error)) if error.field() == "steps"));
+        }
+    }
+
+    #[test]
+    fn each_method_converges_faster_than_the_one_before() {
+        let texts = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        let probability = 0.580_665_055_2;
+        let errors = ESTIMATORS
+            .map(|estimator| rms_error(&estimator.estimates(&space, 1 << 14, 16, &ExactSolver).unwrap(), probability));
+        let [_, random, sobol, exact_speed, scrambled] = errors;
+        assert!(sobol < random && 10.0 * exact_speed < sobol && 5.0 * scrambled < sobol, "{errors:?}");
+        // Independent launches: √(p (1 - p)/n) = 3.9e-3, and the mean of 16 squares varies by 35 %.
+        assert!((2e-3..6e-3).contains(&random), "{random}");
+    }
+}

@@ -1,0 +1,249 @@
+//! Sobol's low-discrepancy sequence, scrambled as Owen has it, in all 52 digits of an f64 between 0 and 1.
+//!
+//! Every run of 2^m points that starts at a multiple of 2^m is a (t, m, s)-net in base 2: each elementary interval of
+//! volume 2^(t-m) holds exactly 2^t of the points. In s dimensions t = Σ (degree of the dimension's polynomial - 1),
+//! that is 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 to 8.
+//!
+//! Owen's nested uniform scrambling flips digit d of a coordinate by a random bit that belongs to the d - 1 digits
+//! before it. Each point is then uniform over the cube, the net property stays, and independent scrambles give
+//! independent estimates, from whose spread the error is told. The bits of six digits' levels are 63 nodes of a
+//! binary tree, and one 64-bit hash of the digits before them gives them all. From digit 37 on every prefix is met
+//! once at most, and one hash gives the remaining digits.
+//!
+//! Sources: I. M. Sobol', USSR Comput. Math. Math. Phys. 7 (1967), 86 (the sequence, t); S. Joe and F. Y. Kuo, SIAM J.
+//! Sci. Comput. 30 (2008), 2635 (direction numbers); A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in
+//! Scientific Computing (1995), 299 (scrambling); D. Stafford, "Better bit mixing" (2011), variant 13 (the hash).
+
+use std::ops::Range;
+
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng, SeedableRng};
+
+/// Number of dimensions.
+pub const DIMENSIONS: usize = 8;
+
+/// Digits of a coordinate that come from the sequence, so that 2^36 points differ in each.
+const DEPTH: u32 = 36;
+/// Digits of a coordinate in all.
+const DIGITS: u32 = 52;
+/// Digits whose flips one hash gives.
+const GROUP: u32 = 6;
+const GROUPS: usize = (DEPTH / GROUP) as usize;
+
+/// Number of points of the sequence.
+pub const MOST_POINTS: u64 = 1 << DEPTH;
+
+/// Primitive polynomial x^s + a_1 x^(s-1) + … + 1 of each dimension after the first, as its degree s, the coefficients
+/// a_1 … a_(s-1) as a binary number, and the first s direction numbers: the set new-joe-kuo-6.21201 of Joe and Kuo.
+const POLYNOMIALS: [(usize, u64, &[u64]); DIMENSIONS - 1] = [
+    (1, 0, &[1]),
+    (2, 1, &[1, 3]),
+    (3, 1, &[1, 3, 1]),
+    (3, 2, &[1, 1, 1]),
+    (4, 1, &[1, 1, 3, 3]),
+    (4, 4, &[1, 3, 5, 13]),
+    (5, 2, &[1, 1, 5, 5, 17]),
+];
+
+/// Column j of a generator matrix holds what bit j of the index adds; the highest of its DEPTH bits is the first digit.
+type Directions = [u64; DEPTH as usize];
+
+fn directions(dimension: usize) -> Directions {
+    let mut numbers = [1_u64; DEPTH as usize];
+    if let Some(&(degree, coefficients, first)) = dimension.checked_sub(1).and_then(|index| POLYNOMIALS.get(index)) {
+        numbers[..degree].copy_from_slice(first);
+        for j in degree..DEPTH as usize {
+            numbers[j] = numbers[j - degree] ^ (numbers[j - degree] << degree);
+            for i in 1..degree {
+                numbers[j] ^= ((coefficients >> (degree - 1 - i)) & 1) * (numbers[j - i] << i);
+            }
+        }
+    }
+    std::array::from_fn(|j| numbers[j] << (DEPTH as usize - 1 - j))
+}
+
+/// The random bits of one coordinate's scrambling, as keys of the hash: one for each group of digits, one for the rest.
+type Keys = [u64; GROUPS + 1];
+
+/// A scrambled sequence.
+#[derive(Debug, Clone)]
+pub struct ScrambledSobol {
+    coordinates: Vec<(Directions, Keys)>,
+}
+
+impl ScrambledSobol {
+    /// The sequence in `dimensions` dimensions, scrambled by scramble number `scramble` of `seed`. `None` for more
+    /// than [`DIMENSIONS`].
+    pub fn new(dimensions: usize, seed: u64, scramble: u64) -> Option<Self> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(scramble);
+        let coordinate = |dimension| (directions(dimension), std::array::from_fn(|_| rng.next_u64()));
+        (dimensions <= DIMENSIONS).then(|| Self { coordinates: (0..dimensions).map(coordinate).collect() })
+    }
+
+    /// Calls `each` with the points `range` of the sequence, whose coordinates lie strictly between 0 and 1; the range
+    /// ends at [`MOST_POINTS`] or before. Inside of each aligned run of 2^m points the order is Gray's.
+    pub fn for_each(&self, range: Range<u64>, mut each: impl FnMut(&[f64])) {
+        let gray = range.start ^ (range.start >> 1);
+        let start = |directions: &Directions| {
+            (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |digits, j| digits ^ directions[j])
+        };
+        let mut digits: Vec<u64> = self.coordinates.iter().map(|(directions, _)| start(directions)).collect();
+        let mut point = vec![0.0; digits.len()];
+        for index in range {
+            for ((digits, coordinate), (directions, keys)) in digits.iter_mut().zip(&mut point).zip(&self.coordinates) {
+                *coordinate = scrambled(*digits, keys);
+                // The last point of all has no next one, whose bit would lie outside.
+                *digits ^= directions.get((index + 1).trailing_zeros() as usize).copied().unwrap_or(0);
+            }
+            each(&point);
+        }
+    }
+}
+
+/// The middle of the interval of 2^-52 to which Owen's scrambling moves `digits`.
+#[expect(clippy::cast_precision_loss, reason = "both numbers have at most 53 bits")]
+fn scrambled(digits: u64, keys: &Keys) -> f64 {
+    let mut scrambled = 0;
+    for (group, key) in (0..GROUPS as u32).zip(keys) {
+        let below = DEPTH - GROUP * (group + 1);
+        // A leading 1 tells prefixes of different lengths apart.
+        let flips = hash(key, (1 << (GROUP * group)) | (digits >> (below + GROUP)));
+        let path = (1 << GROUP) | (digits >> below & ((1 << GROUP) - 1));
+        // Node 1 is the root; the node that a digit's flip belongs to is the path up to the digit.
+        let flipped =
+            (1..=GROUP).rev().fold(path, |flipped, level| flipped ^ ((flips >> (path >> level) & 1) << (level - 1)));
+        scrambled = scrambled << GROUP | (flipped & ((1 << GROUP) - 1));
+    }
+    let rest = hash(&keys[GROUPS], digits) >> (64 - (DIGITS - DEPTH));
+    let numerator = (scrambled << (DIGITS - DEPTH) | rest) as f64 + 0.5;
+    numerator / (1_u64 << DIGITS) as f64
+}
+
+/// 64 random bits that belong to `prefix` under `key`.
+fn hash(key: &u64, prefix: u64) -> u64 {
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mut z = key.wrapping_add(prefix.wrapping_mul(GOLDEN));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(sequence: &ScrambledSobol, range: Range<u64>) -> Vec<Vec<f64>> {
+        let mut points = Vec::new();
+        sequence.for_each(range, |point| points.push(point.to_vec()));
+        points
+    }
+
+    /// The first eight points before scrambling, in the order of the Gray code, are those that Sobol's sequence is
+    /// commonly shown with (P. Bratley and B. L. Fox, ACM Trans. Math. Softw. 14 (1988), 88, Algorithm 659).
+    #[test]
+    fn the_sequence_begins_as_published() {
+        let expected = [
+            [0.0, 0.0, 0.0],
+            [0.5, 0.5, 0.5],
+            [0.75, 0.25, 0.25],
+            [0.25, 0.75, 0.75],
+            [0.375, 0.375, 0.625],
+            [0.875, 0.875, 0.125],
+            [0.625, 0.125, 0.875],
+            [0.125, 0.625, 0.375],
+        ];
+        for (index, point) in (0_u64..).zip(expected) {
+            let gray = index ^ (index >> 1);
+            for (dimension, coordinate) in point.into_iter().enumerate() {
+                let columns = directions(dimension);
+                let digits = (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |sum, j| sum ^ columns[j]);
+                assert_eq!(digits as f64 / MOST_POINTS as f64, coordinate, "point {index}, dimension {dimension}");
+            }
+        }
+    }
+
+    /// All ways to cut `digits` digits into `parts` parts.
+    fn compositions(digits: u32, parts: usize) -> Vec<Vec<u32>> {
+        if parts == 1 {
+            return vec![vec![digits]];
+        }
+        (0..=digits)
+            .flat_map(|first| {
+                compositions(digits - first, parts - 1).into_iter().map(move |rest| [vec![first], rest].concat())
+            })
+            .collect()
+    }
+
+    /// How many points lie in each elementary interval with 2^cut parts along each dimension.
+    fn occupancy(points: &[Vec<f64>], cut: &[u32]) -> Vec<u32> {
+        let mut counts = vec![0; 1 << cut.iter().sum::<u32>()];
+        for point in points {
+            let cell = point.iter().zip(cut).fold(0, |cell, (coordinate, digits)| {
+                (cell << digits) | (coordinate * f64::from(1 << digits)) as usize
+            });
+            counts[cell] += 1;
+        }
+        counts
+    }
+
+    #[test]
+    fn every_aligned_run_is_a_net_of_the_published_quality() {
+        const QUALITY: [u32; DIMENSIONS] = [0, 0, 1, 3, 5, 8, 11, 15];
+        for (dimensions, t) in (1..=DIMENSIONS).zip(QUALITY) {
+            let m = t + if dimensions <= 4 { 7 } else { 3 };
+            let sequence = ScrambledSobol::new(dimensions, 5, dimensions as u64).unwrap();
+            for run in [0, 1, 6] {
+                let points = points(&sequence, run << m..(run + 1) << m);
+                for cut in compositions(m - t, dimensions) {
+                    let counts = occupancy(&points, &cut);
+                    assert!(counts.iter().all(|count| *count == 1 << t), "s = {dimensions}, run {run}, {cut:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_published_quality_is_no_better_than_it_is_said_to_be() {
+        // t = 1 in three dimensions: some interval of the volume of one point holds two.
+        let points = points(&ScrambledSobol::new(3, 5, 0).unwrap(), 0..1 << 6);
+        assert!(compositions(6, 3).iter().any(|cut| occupancy(&points, cut).iter().any(|count| *count != 1)));
+    }
+
+    #[test]
+    fn far_points_are_reached_directly_and_the_last_one_exists() {
+        let sequence = ScrambledSobol::new(DIMENSIONS, 1, 0).unwrap();
+        let all = points(&sequence, 1_000_000..1_000_100);
+        assert_eq!(points(&sequence, 1_000_050..1_000_060), all[50..60]);
+        let last = points(&sequence, MOST_POINTS - 3..MOST_POINTS);
+        assert!(last.iter().flatten().all(|coordinate| 0.0 < *coordinate && *coordinate < 1.0));
+        assert!(ScrambledSobol::new(DIMENSIONS + 1, 1, 0).is_none());
+    }
+
+    /// Over many scrambles one point is uniform, and two points that share d digits part at the next one for sure
+    /// and are independent from there on.
+    #[test]
+    fn scrambles_are_uniform_and_nested() {
+        const SCRAMBLES: u64 = 4096;
+        let (mut bits, mut parted) = ([[0_u32; DIGITS as usize]; 2], 0);
+        for scramble in 0..SCRAMBLES {
+            let sequence = ScrambledSobol::new(1, 9, scramble).unwrap();
+            // Points 1 and 2 in Gray's order: 0.5 and 0.75, which share the first digit.
+            let point = points(&sequence, 1..3);
+            let digits = [point[0][0], point[1][0]].map(|coordinate| (coordinate * 2f64.powi(52)) as u64);
+            assert_eq!((digits[0] ^ digits[1]) >> 50, 1, "one digit in common, the next one different");
+            for (bits, digits) in bits.iter_mut().zip(digits) {
+                for (place, count) in bits.iter_mut().enumerate() {
+                    *count += (digits >> place & 1) as u32;
+                }
+            }
+            parted += ((digits[0] ^ digits[1]) & ((1 << 50) - 1)).count_ones();
+        }
+        // Five standard deviations of a binomial count.
+        let half = SCRAMBLES as f64 / 2.0;
+        let within = 5.0 * (SCRAMBLES as f64 / 4.0).sqrt();
+        assert!(bits.iter().flatten().all(|count| (f64::from(*count) - half).abs() < within), "{bits:?}");
+        let within = 5.0 * (50.0 * SCRAMBLES as f64 / 4.0).sqrt();
+        assert!((f64::from(parted) - 50.0 * half).abs() < within, "{parted}");
+    }
+}

@@ -1,0 +1,207 @@
+//! Spaces as TOML, and those that have a name.
+//!
+//! ```toml
+//! description = "a hand that spins the coin at 20 ± 2 rad/s"
+//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }
+//! rate_x = "normal:20:2"           # mean and standard deviation
+//! rate_y = "x"                     # the same value as rate_x
+//! rate_z = 5                       # fixed
+//! speed = "3:5:500"                # a range, with 500 points where a grid is laid over it
+//! gravity = 9.81                   # this and the next are the defaults
+//! tilt = 0
+//! ```
+
+use std::ops::Range;
+
+use dynamics::catalogue::named_coin;
+use dynamics::error::find_named;
+use dynamics::{Coin, InputError};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::coordinate::Coordinate;
+use crate::space::Space;
+
+/// A space and what is said of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DescribedSpace {
+    /// What it is, in a line; empty if nothing was said.
+    pub description: String,
+    /// The space.
+    pub space: Space,
+}
+
+/// Why a TOML text is no space.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}, column {column}: {message}")]
+pub struct SpaceFileError {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong there; names the coordinate, where it is one.
+    pub message: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    description: String,
+    coin: Option<Spanned<CoinEntry>>,
+    rate_x: Option<Spanned<Entry>>,
+    rate_y: Option<Spanned<Entry>>,
+    rate_z: Option<Spanned<Entry>>,
+    speed: Option<Spanned<Entry>>,
+    gravity: Option<Spanned<Entry>>,
+    tilt: Option<Spanned<Entry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, or a text like \"3:5:500\"")]
+enum Entry {
+    Number(f64),
+    Text(String),
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
+enum CoinEntry {
+    Named(String),
+    Moments { moments: [f64; 2] },
+    Cylinder { cylinder: [f64; 3] },
+}
+
+impl CoinEntry {
+    fn coin(&self) -> Result<Coin, InputError> {
+        match self {
+            Self::Named(name) => named_coin(name),
+            Self::Moments { moments: [i1, i3] } => Coin::from_moments(*i1, *i3),
+            Self::Cylinder { cylinder: [mass, radius, thickness] } => Coin::from_cylinder(*mass, *radius, *thickness),
+        }
+    }
+}
+
+impl DescribedSpace {
+    /// Reads a space from TOML, as [this module](self) shows it. Without a coin it is the paper's.
+    ///
+    /// # Errors
+    /// [`SpaceFileError`] with line and column.
+    pub fn from_toml(text: &str) -> Result<Self, SpaceFileError> {
+        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = toml::from_str(text)
+            .map_err(|error: toml::de::Error| SpaceFileError::at(text, error.span(), error.message().to_owned()))?;
+        let located = |span, error: InputError| SpaceFileError::at(text, span, error.to_string());
+        let coin = match coin {
+            Some(entry) => entry.get_ref().coin().map_err(|error| located(Some(entry.span()), error))?,
+            None => Coin::PAPER,
+        };
+        let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
+        let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
+            .into_iter()
+            .zip(entries)
+            .filter_map(|(of, entry)| entry.map(|entry| (of, entry.span(), entry.into_inner().text())))
+            .collect();
+        let texts: Vec<(Coordinate, &str)> = given.iter().map(|(of, _, text)| (*of, text.as_str())).collect();
+        let space = Space::parse(coin, &texts).map_err(|error| {
+            let blamed = given.iter().find(|(of, ..)| of.field() == error.field());
+            located(blamed.map(|(_, span, _)| span.clone()), error)
+        })?;
+        Ok(Self { description, space })
+    }
+}
+
+impl Entry {
+    fn text(self) -> String {
+        match self {
+            // The shortest digits that read back as the same number.
+            Self::Number(number) => number.to_string(),
+            Self::Text(text) => text,
+        }
+    }
+}
+
+impl SpaceFileError {
+    /// At the start of `span` in `text`; what is missing is missed at the end.
+    fn at(text: &str, span: Option<Range<usize>>, message: String) -> Self {
+        let before = text.get(..span.map_or(text.len(), |span| span.start)).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        Self { line, column, message }
+    }
+}
+
+/// Names and texts of the spaces that can be named.
+const NAMED: &[(&str, &str)] = &[
+    ("paper-fig4", include_str!("../spaces/paper-fig4.toml")),
+    ("cheated", include_str!("../spaces/cheated.toml")),
+    ("tails", include_str!("../spaces/tails.toml")),
+];
+
+/// All spaces that can be named, with their names.
+///
+/// # Panics
+/// Never: a test reads them all.
+pub fn named_spaces() -> impl Iterator<Item = (&'static str, DescribedSpace)> {
+    NAMED.iter().map(|(name, text)| (*name, DescribedSpace::from_toml(text).expect("a test reads them all")))
+}
+
+/// The space called `name`.
+///
+/// # Errors
+/// [`InputError::UnknownName`] with the list of known names.
+pub fn named_space(name: &str) -> Result<Space, InputError> {
+    let (_, text) = find_named("space", name, NAMED, |(name, _)| name)?;
+    Ok(DescribedSpace::from_toml(text).expect("a test reads them all").space)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_named_spaces_exist_with_the_launches_they_promise() {
+        let sizes: Vec<u64> = named_spaces().map(|(_, named)| named.space.grid_points().unwrap()).collect();
+        assert_eq!(sizes, [250_000, 500, 500]);
+        assert!(named_spaces().all(|(name, named)| {
+            !named.description.is_empty() && named.space.coin() == Coin::PAPER && named_space(name) == Ok(named.space)
+        }));
+    }
+
+    #[test]
+    fn a_file_says_all_that_a_space_can_hold() {
+        let text = "description = 'd'\ncoin = { cylinder = [0.00567, 0.01213, 0.00175] }\nrate_x = 'normal:20:2'\n\
+                    rate_y = 'x'\nrate_z = -5e0\nspeed = '3:5:7'\ngravity = '9.78:9.83'\ntilt = 0.1";
+        let described = DescribedSpace::from_toml(text).unwrap();
+        let texts = ["normal:20:2", "x", "-5", "3:5:7", "9.78:9.83", "0.1"];
+        let texts: Vec<_> = Coordinate::ALL.into_iter().zip(texts).collect();
+        let coin = Coin::from_cylinder(0.00567, 0.01213, 0.00175).unwrap();
+        assert_eq!(described.space, Space::parse(coin, &texts).unwrap());
+        assert_eq!(described.description, "d");
+    }
+
+    #[test]
+    fn what_is_wrong_is_found_by_line_and_column() {
+        let valid = "rate_x = '0:1'\nrate_y = 'x'\nrate_z = 0\nspeed = 3\n";
+        for (text, line, column, words) in [
+            (valid.replace("'0:1'", "'1:0'"), 1, 10, "rate x [rad/s] = 0.0"),
+            (valid.replace("= 3", "=   '-1:5'"), 4, 11, "speed [m/s] = -1.0"),
+            (valid.replace("= 3", "= 'normal:4:1'"), 4, 9, "speed [m/s] = -4.3"),
+            (valid.replace("rate_x = '0:1'\n", ""), 1, 10, "rate y [rad/s] = 'x'"),
+            (valid.replace("speed = 3\n", ""), 4, 1, "speed [m/s] is missing"),
+            (valid.replace("= 0", "= [0, 1]"), 3, 10, "expected a number, or a text like"),
+            (valid.replace("= 0", "= "), 3, 10, ""),
+            (format!("{valid}ω = 3"), 5, 1, ""),
+            (format!("{valid}spin = 3"), 5, 1, "unknown field `spin`"),
+            (format!("{valid}gravity = 0"), 5, 11, "gravity [m/s²] = 0.0"),
+            (format!("{valid}coin = 'groat'"), 5, 8, "coin = 'groat' is unknown"),
+            (format!("{valid}coin = {{ moments = [1, 3] }}"), 5, 8, "I3 [kg m²] = 3.0"),
+            (format!("{valid}coin = {{ mass = 1 }}"), 5, 8, "expected a name, { moments"),
+            (format!("{valid}tilt = nan"), 5, 8, "tilt [rad] = NaN"),
+            (String::new(), 1, 1, "rate y [rad/s] is missing"),
+        ] {
+            let error = DescribedSpace::from_toml(&text).unwrap_err();
+            assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+            assert!(error.message.contains(words), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The four methods from outside.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use dynamics::{Coin, ExactSolver, Propagation, SolveError, Solver, Toss};
+
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
+use sampling::{Found, IntervalKind, Plan, Rest, SampleError, Scrambled, Space, estimate, named_space};
+
+fn silent(_: u64) {}
+
+fn space(texts: [&str; 4]) -> Space {
+    let [x, y, z, speed] = texts;
+    Space::parse(Coin::PAPER, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed)]).expect("a valid space")
+}
+
+const PLANS: [Plan; 5] = [
+    Plan::Grid,
+    Plan::Random { points: 30_001, seed: 3 },
+    Plan::Sobol(Scrambled { points: 40_000, scrambles: 8, seed: 3 }),
+    Plan::ExactSpeed(Rest::Grid),
+    Plan::ExactSpeed(Rest::Sobol(Scrambled { points: 40_000, scrambles: 8, seed: 3 })),
+];
+
+#[test]
+fn estimates_are_the_same_to_the_bit_for_any_number_of_threads() {
+    let space = named_space("paper-fig4").unwrap();
+    for plan in PLANS {
+        let estimates = [1, 2, 8].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| estimate(&space, plan, &ExactSolver, &silent)).unwrap()
+        });
+        assert!(estimates.iter().all(|estimate| *estimate == estimates[0]), "{estimates:?}");
+    }
+}
+
+#[test]
+fn progress_adds_up_to_the_number_of_launches() {
+    let space = named_space("paper-fig4").unwrap();
+    for plan in PLANS {
+        let done = AtomicU64::new(0);
+        let found = estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
+        assert_eq!((done.into_inner(), found.points), (found.points, plan.points(&space).unwrap()));
+    }
+}
+
+#[test]
+fn all_methods_agree_on_the_same_space() {
+    let space = named_space("paper-fig4").unwrap();
+    // The grid's ends weigh as much as its inner points, which shifts its share by some 1e-3.
+    for (plan, within) in PLANS.into_iter().zip([2e-3, 1e-2, 1e-3, 1e-3, 1e-4]) {
+        let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+        assert!((found.probability - 0.661_452).abs() < within, "{plan:?}: {found:?}");
+        assert!(found.interval.is_none_or(|interval| interval.contains(found.probability)));
+    }
+}
+
+#[test]
+fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampled() {
+    for (name, probability) in [("cheated", 1.0), ("tails", 0.0)] {
+        let space = named_space(name).unwrap();
+        for plan in PLANS {
+            let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+            assert_eq!(found.probability, probability, "{name} {plan:?}");
+            let width = found.interval.map(|interval| interval.hi - interval.lo);
+            match plan {
+                Plan::Grid => assert_eq!(width, None),
+                Plan::ExactSpeed(_) => {
+                    assert!(width.unwrap() < 1e-13 && found.interval_kind == IntervalKind::Rounding);
+                }
+                _ => assert!(width.unwrap() > 5e-5 && width.unwrap() < 2e-4, "{width:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_union_of_cells_has_the_weighted_mean_of_their_probabilities() {
+    let probability = |speeds: &str| {
+        let found = estimate(&space(["3", "2", "1", speeds]), PLANS[3], &ExactSolver, &silent).unwrap();
+        found.probability
+    };
+    let parts = 0.25 * probability("3:3.5") + 0.75 * probability("3.5:5");
+    assert!((probability("3:5") - parts).abs() < 1e-14);
+    let heads = |speeds: &str| {
+        let grid = estimate(&space(["3", "2", "1", speeds]), Plan::Grid, &ExactSolver, &silent).unwrap();
+        let Found::Counts(counts) = grid.found else { panic!("a grid counts") };
+        counts.heads
+    };
+    assert_eq!(heads("3:5:201"), heads("3:4:101") + heads("4.01:5:100"));
+}
+
+#[test]
+fn plans_that_make_no_sense_are_refused_before_any_work() {
+    let fig4 = named_space("paper-fig4").unwrap();
+    let scrambled = |points, scrambles| Scrambled { points, scrambles, seed: 1 };
+    for plan in [
+        Plan::Random { points: 0, seed: 1 },
+        Plan::Sobol(scrambled(0, 8)),
+        Plan::Sobol(scrambled(1001, 8)),
+        Plan::Sobol(scrambled(1000, 0)),
+        Plan::Sobol(scrambled(1 << 40, 8)),
+        Plan::ExactSpeed(Rest::Sobol(scrambled(7, 8))),
+    ] {
+        let refused = estimate(&fig4, plan, &ExactSolver, &|_| panic!("nothing was to be done"));
+        assert!(matches!(&refused, Err(SampleError::Input(error)) if error.field() == "points"), "{refused:?}");
+    }
+    let no_grid = space(["0:1", "x", "7", "3:5"]);
+    for plan in [Plan::Grid, Plan::ExactSpeed(Rest::Grid)] {
+        let refused = estimate(&no_grid, plan, &ExactSolver, &silent);
+        assert!(matches!(&refused, Err(SampleError::Input(error)) if error.field() == "rate x [rad/s]"));
+    }
+}
+
+/// Fails on every speed above 4 m/s.
+struct Fragile;
+impl Solver for Fragile {
+    fn name(&self) -> &'static str {
+        "fragile"
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let time = toss.launch.flight_time();
+        if time > 8.0 / 9.81 { Err(SolveError::NotFinite { time }) } else { ExactSolver.propagate(toss) }
+    }
+}
+
+#[test]
+fn the_first_failing_launch_is_named_and_no_count_given() {
+    let space = space(["1", "1", "1", "3:5:20001"]);
+    for threads in [1, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let error = pool.install(|| estimate(&space, Plan::Grid, &Fragile, &silent)).unwrap_err();
+        assert!(matches!(error, SampleError::Solve { index: 10_001, .. }), "{error}");
+    }
+}
