@@ -61,6 +61,7 @@ impl Coin {
     }
 
     /// The inertia ratio k = I3/I1, from 0 (rod) to 2 (flat disc).
+    #[inline]
     pub fn inertia_ratio(&self) -> f64 {
         self.i3 / self.i1
     }

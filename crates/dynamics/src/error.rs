@@ -63,6 +63,7 @@ impl InputError {
 ///
 /// # Errors
 /// [`InputError::OutOfRange`].
+#[inline]
 pub fn require(field: &'static str, value: f64, valid: &'static str, holds: bool) -> Result<f64, InputError> {
     if value.is_finite() && holds { Ok(value) } else { Err(InputError::OutOfRange { field, value, valid }) }
 }

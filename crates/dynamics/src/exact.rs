@@ -33,6 +33,7 @@ const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 /// Error of cos θ that rounding can cause at a [`phase`](ExactMotion::phase) (rad): 4 ε (2 + phase), with ε = 2^-52.
 ///
 /// The phase is a product of some ten rounded operations; the bound counts 3 ε for them and is not a proof.
+#[inline]
 pub fn resolution(phase: f64) -> f64 {
     4.0 * f64::EPSILON * (2.0 + phase)
 }
@@ -55,6 +56,7 @@ pub struct ExactMotion {
 
 impl ExactMotion {
     /// The motion of a toss.
+    #[inline]
     pub fn new(toss: &Toss) -> Self {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
         let k = toss.coin.inertia_ratio();
@@ -96,6 +98,7 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
+    #[inline]
     pub fn phase(&self, time: f64) -> Result<f64, SolveError> {
         self.phases(time).map(|(precession, spin)| precession.max(spin.abs()))
     }
@@ -104,6 +107,7 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if either is above 2^53.
+    #[inline]
     pub fn phases(&self, time: f64) -> Result<(f64, f64), SolveError> {
         let scaled_time = self.scale * time;
         // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
@@ -121,6 +125,7 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
+    #[inline]
     pub fn cos_tilt(&self, time: f64) -> Result<f64, SolveError> {
         let (sin, cos) = self.phases(time)?.0.sin_cos();
         let [a, b, c] = self.tilt;

@@ -26,6 +26,7 @@ pub enum TimeOfFlight {
 
 impl TimeOfFlight {
     /// T (s).
+    #[inline]
     pub fn seconds(&self) -> f64 {
         match *self {
             Self::Ballistic { speed, gravity } => 2.0 * speed / gravity,
@@ -33,6 +34,7 @@ impl TimeOfFlight {
         }
     }
 
+    #[inline]
     fn validated(self) -> Result<Self, InputError> {
         match self {
             Self::Ballistic { speed, gravity } => {
@@ -62,6 +64,7 @@ impl Launch {
     /// # Errors
     /// [`InputError::OutOfRange`] for a component of the rate that is not finite or a time of flight that makes no
     /// sense.
+    #[inline]
     pub fn new(rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
             require(field, value, "finite", true)?;
@@ -108,6 +111,7 @@ impl Launch {
     }
 
     /// T (s).
+    #[inline]
     pub fn flight_time(&self) -> f64 {
         self.time_of_flight.seconds()
     }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 /// The power of two at or below the largest component of `rate` (rad/s); 1 for a rate of zero.
 ///
 /// Dividing by it is exact and leaves a dimensionless rate of the order of 1.
+#[inline]
 pub fn power_of_two_scale(rate: &Vector3<f64>) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     let largest = rate.amax();

@@ -44,6 +44,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// The rule: heads or tails by the sign of `cos_tilt` where its size exceeds `resolution`, else undecided.
+    #[inline]
     pub fn of(cos_tilt: f64, resolution: f64) -> Self {
         if cos_tilt > resolution {
             Self::Heads

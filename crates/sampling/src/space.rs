@@ -36,6 +36,8 @@ impl fmt::Display for AxisOrTie {
 pub struct Space {
     coin: Coin,
     axes: [AxisOrTie; Coordinate::COUNT],
+    /// Where each coordinate has its value: in its own place, or in that of the one it is tied to.
+    places: [usize; Coordinate::COUNT],
 }
 
 impl Space {
@@ -45,7 +47,11 @@ impl Space {
     /// [`InputError`] for a range that includes negative speeds or a gravity that is not positive, for a flight that
     /// may last for ever, and for a tie to anything but a rate with an axis of its own.
     pub fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
-        let space = Self { coin, axes };
+        let places = Coordinate::ALL.map(|of| match axes[of as usize] {
+            AxisOrTie::Axis(_) => of as usize,
+            AxisOrTie::SameAs(other) => other as usize,
+        });
+        let space = Self { coin, axes, places };
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
             if let AxisOrTie::SameAs(other) = axis {
                 require_tie(of, other, matches!(axes[other as usize], AxisOrTie::Axis(_)))?;
@@ -131,10 +137,7 @@ impl Space {
 
     /// The toss with these values; those of tied coordinates are taken from their partners.
     pub(crate) fn toss(&self, values: &Values) -> Toss {
-        let value = |of: Coordinate| match self.axes[of as usize] {
-            AxisOrTie::Axis(_) => values[of as usize],
-            AxisOrTie::SameAs(other) => values[other as usize],
-        };
+        let value = |of: Coordinate| values[self.places[of as usize]];
         let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
         let time = TimeOfFlight::Ballistic { speed: value(Coordinate::Speed), gravity: value(Coordinate::Gravity) };
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");

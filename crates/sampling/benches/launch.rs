@@ -1,0 +1,57 @@
+//! What sampling costs on top of what it needs, on one thread. Read the ratios:
+//! - `fig4 grid / exact` to `fig4 grid / sine and cosine`: a launch through the exact motion, for the price of its sine
+//!   and cosine;
+//! - `quaternion / estimate` to `quaternion / bare loop`: launches through an integrator, with and without sampling.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dynamics::{ExactSolver, Method, Scheme, Solver, Toss};
+use kinematics_quat::QuaternionSolver;
+use sampling::{Counts, Found, Plan, Space, estimate, named_space, random_tosses};
+
+fn heads(space: &Space, plan: Plan, solver: &dyn Solver) -> u64 {
+    match estimate(space, plan, solver, &|_| {}).expect("valid launches").found {
+        Found::Counts(Counts { heads, .. }) => heads,
+        Found::Shares { .. } => 0,
+    }
+}
+
+fn fig4(criterion: &mut Criterion) {
+    let space = named_space("paper-fig4").expect("it exists");
+    // The phases of the same launches; their range matters to the cost of a sine.
+    let phase = |toss: &Toss| dynamics::ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0;
+    let phases: Vec<f64> = random_tosses(&space, 1, 0..250_000).iter().map(phase).collect();
+    let mut group = criterion.benchmark_group("fig4 grid");
+    group.sample_size(20);
+    group.bench_function("exact", |bencher| bencher.iter(|| heads(black_box(&space), Plan::Grid, &ExactSolver)));
+    group.bench_function("sine and cosine", |bencher| {
+        bencher.iter(|| phases.iter().map(|phase| black_box(*phase).sin_cos()).fold(0.0, |sum, (s, c)| sum + s + c));
+    });
+    group.finish();
+}
+
+fn quaternion(criterion: &mut Criterion) {
+    let space = named_space("paper-fig4").and_then(|space| space.with_grid_of(400)).expect("it exists");
+    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, 1e-10).expect("a valid tolerance"));
+    let plan = Plan::Random { points: 400, seed: 1 };
+    let tosses = random_tosses(&space, 1, 0..400);
+    let mut group = criterion.benchmark_group("quaternion");
+    group.sample_size(50);
+    group.bench_function("estimate", |bencher| bencher.iter(|| heads(black_box(&space), plan, &solver)));
+    group.bench_function("bare loop", |bencher| {
+        bencher.iter(|| tosses.iter().filter(|toss| solver.outcome(black_box(toss)).is_ok()).count());
+    });
+    group.finish();
+}
+
+/// One thread, so that the ratios are those of the work.
+fn on_one_thread(criterion: &mut Criterion) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    pool.expect("nothing has started a pool yet");
+    fig4(criterion);
+    quaternion(criterion);
+}
+
+criterion_group!(benches, on_one_thread);
+criterion_main!(benches);
