@@ -1,9 +1,6 @@
-//! Options that several commands share: the coin, the launch, the solver.
-
-use std::path::Path;
+//! Options that several commands share: the coin, the toss, the solver.
 
 use clap::Args;
-use sampling::{Coordinate, DescribedSpace, Space, named_space};
 use toss::catalogue::named_coin;
 use toss::launch::DEFAULT_GRAVITY;
 use toss::{
@@ -45,83 +42,6 @@ impl CoinArgs {
             return Coin::from_moments(i1, i3).map(Some);
         }
         self.coin.as_deref().map(named_coin).transpose()
-    }
-}
-
-/// A space of launches: by name, from a file, or by its axes.
-#[derive(Debug, Args)]
-pub(crate) struct SpaceArgs {
-    #[command(flatten)]
-    coin: CoinArgs,
-    /// A named space of launches (`spaces` lists them), or a file that ends in .toml
-    #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"])]
-    space: Option<String>,
-    /// ωx (rad/s): VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; or y or z for that rate's value
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    rate_x: Option<String>,
-    /// ωy (rad/s), likewise; x for ωy = ωx
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    rate_y: Option<String>,
-    /// ωz (rad/s), likewise
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    rate_z: Option<String>,
-    /// v0 (m/s), likewise
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    speed: Option<String>,
-    /// Gravity (m/s²), likewise [default: 9.81]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    gravity: Option<String>,
-    /// Turn about the lab's x axis at launch (rad), likewise [default: 0]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    tilt: Option<String>,
-}
-
-impl SpaceArgs {
-    pub(crate) fn space(&self) -> Result<Space, Failure> {
-        let coin = self.coin.given()?;
-        if let Some(name) = &self.space {
-            let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
-            return Ok(coin.map_or(space, |coin| space.with_coin(coin)));
-        }
-        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
-        let given: Vec<(Coordinate, &str)> =
-            Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
-        if given.is_empty() {
-            return Err(Failure::Usage(
-                "one of --space and the axes --rate-x, --rate-y, --rate-z, --speed is needed".to_owned(),
-            ));
-        }
-        Ok(Space::parse(coin.unwrap_or(Coin::PAPER), &given)?)
-    }
-}
-
-fn space_file(path: &Path) -> Result<Space, Failure> {
-    let text =
-        std::fs::read_to_string(path).map_err(|source| Failure::Read { path: path.display().to_string(), source })?;
-    let described = DescribedSpace::from_toml(&text)
-        .map_err(|source| Failure::SpaceFile { path: path.display().to_string(), source })?;
-    Ok(described.space)
-}
-
-/// Threads that share the work.
-#[derive(Debug, Args)]
-pub(crate) struct ThreadArgs {
-    /// Number of threads [default: one a core]
-    #[arg(long, value_name = "K")]
-    threads: Option<usize>,
-}
-
-impl ThreadArgs {
-    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
-        const MOST_THREADS: usize = 1024;
-        let threads = match self.threads {
-            None => 0,
-            Some(threads @ 1..=MOST_THREADS) => threads,
-            Some(threads) => return Err(Failure::Usage(format!("threads = {threads}: valid are 1 to {MOST_THREADS}"))),
-        };
-        let build = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        build.map_err(|error| Failure::Usage(format!("threads = {threads}: {error}")))
     }
 }
 

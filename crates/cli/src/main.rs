@@ -7,14 +7,15 @@ mod chart;
 mod commands;
 mod failure;
 mod output;
+mod space_args;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{list, probability, toss, trace};
+use crate::commands::{convergence, errors, list, map, probability, toss, trace};
 use crate::failure::Failure;
-use crate::output::Format;
+use crate::output::{DataFormat, Format};
 
 #[derive(Debug, Parser)]
 #[command(name = "unfair-toss", version, about = "Tosses of an unbiased coin, solved", propagate_version = true)]
@@ -31,6 +32,12 @@ enum Command {
     Trace(trace::Args),
     /// Estimate the probability of heads over a space of launches
     Probability(probability::Args),
+    /// Follow the probability of heads as launches are added, by a grid and at random
+    Convergence(convergence::Args),
+    /// Measure the error of every method of sampling against the number of launches
+    Errors(errors::Args),
+    /// Map the probability of heads over two coordinates of a space
+    Map(map::Args),
     /// List the coins that can be named
     Coins(list::Args),
     /// List the solvers
@@ -45,6 +52,9 @@ impl Command {
             Self::Toss(args) => args.run(),
             Self::Trace(args) => args.run(),
             Self::Probability(args) => args.run(),
+            Self::Convergence(args) => args.run(),
+            Self::Errors(args) => args.run(),
+            Self::Map(args) => args.run(),
             Self::Coins(args) => list::coins(args),
             Self::Solvers(args) => list::solvers(args),
             Self::Spaces(args) => list::spaces(args),
@@ -54,7 +64,10 @@ impl Command {
     fn wants_json(&self) -> bool {
         match self {
             Self::Toss(args) => args.format == Format::Json,
-            Self::Trace(args) => args.format == trace::TraceFormat::Json,
+            Self::Trace(args) => args.format == DataFormat::Json,
+            Self::Convergence(args) => args.format == DataFormat::Json,
+            Self::Errors(args) => args.format == DataFormat::Json,
+            Self::Map(args) => args.format == DataFormat::Json,
             Self::Probability(args) => args.format == Format::Json,
             Self::Coins(args) | Self::Solvers(args) | Self::Spaces(args) => args.format == Format::Json,
         }

@@ -17,6 +17,15 @@ pub(crate) enum Format {
     Json,
 }
 
+/// Series of data for programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum DataFormat {
+    /// A line a point, with a heading
+    Csv,
+    /// JSON
+    Json,
+}
+
 /// Prints an answer as one piece; a reader that has gone away (a closed pipe) is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
@@ -35,6 +44,23 @@ pub(crate) fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain data with string keys is always JSON")
 }
 
+/// Lines of plain data as CSV, with a heading.
+pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for line in lines {
+        writer.serialize(line).expect("a line of plain data always fits into memory");
+    }
+    String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
+}
+
+/// Lines of plain data in the format asked for.
+pub(crate) fn data(format: DataFormat, lines: &[impl Serialize]) -> String {
+    match format {
+        DataFormat::Csv => csv(lines),
+        DataFormat::Json => json(&lines),
+    }
+}
+
 /// Writes a file whole or not at all: to a neighbour first, which then takes its name.
 pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
     let failed = |source| Failure::Write { target: path.display().to_string(), source };
@@ -45,11 +71,11 @@ pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A bar over `launches` with rate and time left, on standard error; hidden unless that is a terminal.
-pub(crate) fn progress_bar(launches: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} launches, {per_sec}, {eta} left")
+/// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.
+pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {per_sec}, {eta} left")
         .expect("the template is valid");
-    ProgressBar::new(launches).with_style(style)
+    ProgressBar::new(number).with_style(style).with_message(things)
 }
 
 /// A table with aligned columns; the first row is the heading.

@@ -1,35 +1,11 @@
 //! The command line from outside: answers, exit codes, and what goes to standard output.
 
-use std::process::{Command, Output};
+mod common;
 
+use std::process::Command;
+
+use common::{assert_near, assert_refused, json, run, stderr, stdout};
 use serde_json::Value;
-
-fn run(arguments: &str) -> Output {
-    let arguments: Vec<&str> = arguments.split_whitespace().collect();
-    Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().expect("the program starts")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("UTF-8")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("UTF-8")
-}
-
-/// The one JSON value on standard output of a command that ends with `code`.
-#[track_caller]
-fn json(arguments: &str, code: i32) -> Value {
-    let output = run(&format!("{arguments} --format json"));
-    assert_eq!(output.status.code(), Some(code), "{arguments}: {}", stderr(&output));
-    serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{arguments}: {error}: {}", stdout(&output)))
-}
-
-#[track_caller]
-fn assert_near(value: &Value, expected: f64, within: f64) {
-    let found = value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
-    assert!((found - expected).abs() <= within, "{found}, not {expected}");
-}
 
 #[test]
 fn a_toss_by_every_solver_has_the_reference_digits() {
@@ -83,7 +59,7 @@ fn coins_launches_and_tilts_reach_the_solver() {
 
 #[test]
 fn bad_input_ends_with_2_and_names_field_value_and_range() {
-    for (arguments, words) in [
+    assert_refused(&[
         ("toss --rate 1,nan,2 --speed 3", ["rate y [rad/s] = NaN", "finite"]),
         ("toss --rate 1,1,inf --speed 3", ["rate z [rad/s] = inf", "finite"]),
         ("toss --rate 1,1 --speed 3", ["rate = '1,1'", "WX,WY,WZ"]),
@@ -116,50 +92,7 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
             "trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg",
             ["/no/such/folder/x.svg", "cannot write"],
         ),
-        ("probability --space moon --method grid", ["space = 'moon'", "paper-fig4"]),
-        ("probability --space tails --method random --points 0", ["points = 0.0", "at least 1"]),
-        ("probability --space tails --method grid --points 9", ["--points: a grid", "axes"]),
-        ("probability --space tails --method sobol --points 9", ["points = '9'", "a multiple of"]),
-        ("probability --space tails --method exact-speed --solver gamma", ["exact-speed", "leave --solver out"]),
-        ("probability --space tails.toml --method grid", ["cannot read tails.toml", "No such file"]),
-        ("probability --rate-x 1 --rate-y 1 --rate-z 1 --method grid", ["speed [m/s] is missing", "a range"]),
-        ("probability --rate-y x --rate-z 1 --speed 3:5:9 --method grid", ["rate y [rad/s] = 'x'", "a tie"]),
-        (
-            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed normal:4:1 --method random",
-            ["speed [m/s] = -4.3", ">= 0"],
-        ),
-        (
-            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed 4 --gravity 0:9 --method random",
-            ["gravity [m/s²] = 0.0", "> 0"],
-        ),
-        ("probability --method grid", ["--space", "--rate-x"]),
-        ("probability --space tails --method grid --threads 0", ["threads = 0", "1 to 1024"]),
-        (
-            "probability --rate-x 5:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
-            ["rate x [rad/s] = 3.0", "at or above the lower bound"],
-        ),
-        (
-            "probability --rate-x 0:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
-            ["rate x [rad/s] = '0:3'", "LO:HI:POINTS"],
-        ),
-        (
-            "probability --rate-x 0:3:0 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
-            ["rate x [rad/s] = 0.0", "at least 2 grid points"],
-        ),
-        ("probability --rate-x 1 --rate-y x --rate-z 1 --speed -1:5:9 --method grid", ["speed [m/s] = -1.0", ">= 0"]),
-    ] {
-        let output = run(arguments);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
-        assert!(output.stdout.is_empty(), "{arguments} printed {}", stdout(&output));
-        for word in words {
-            assert!(message.contains(word), "{arguments}: '{message}' lacks '{word}'");
-        }
-        if !arguments.starts_with("trace") {
-            let error = json(arguments, 2);
-            assert!(error["error"]["message"].as_str().unwrap().contains(words[0]), "{arguments}: {error}");
-        }
-    }
+    ]);
 }
 
 #[test]
@@ -233,69 +166,6 @@ fn a_chart_is_written_whole() {
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     assert!(svg.contains("cos θ") && svg.contains("time [s]"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no half-written neighbour stays behind");
-}
-
-#[test]
-fn probabilities_are_counts_that_do_not_depend_on_threads() {
-    let answers = [1, 2, 8].map(|threads| {
-        json(&format!("probability --space paper-fig4 --method random --points 20000 --seed 7 --threads {threads}"), 0)
-    });
-    assert!(answers.iter().all(|answer| *answer == answers[0]));
-    let answer = &answers[0];
-    let [heads, tails, undecided] = ["heads", "tails", "undecided"].map(|key| answer[key].as_u64().unwrap());
-    assert_eq!((heads + tails + undecided, answer["points"].as_u64()), (20_000, Some(20_000)));
-    assert_near(&answer["probability"], heads as f64 / 20_000.0, 0.0);
-    let [lo, hi] = [0, 1].map(|end| answer["interval"][end].as_f64().unwrap());
-    assert!(lo < 0.66 && 0.66 < hi && hi - lo < 0.014);
-    assert_eq!((&answer["interval_kind"], &answer["seed"]), (&Value::from("wilson 95 %"), &Value::from(7)));
-
-    let grid = json("probability --space cheated --method grid --solver quaternion", 0);
-    assert_eq!((&grid["heads"], &grid["points"], &grid["interval"]), (&500.into(), &500.into(), &Value::Null));
-    let box_of_axes = "probability --rate-x 0:40:20 --rate-y x --rate-z 30 --speed 3:5:20 --method grid";
-    assert_eq!(json(box_of_axes, 0)["points"], 400);
-    // A disc with Ω ≤ 56.6 rad/s < k ωz = 60 rad/s never flips.
-    assert_eq!(json(&format!("{box_of_axes} --coin disc"), 0)["heads"], 400);
-}
-
-#[test]
-fn exact_speed_reports_a_probability_and_an_error_bound() {
-    let exact = json("probability --space tails --method exact-speed", 0);
-    assert_eq!((&exact["probability"], &exact["heads"], &exact["seed"]), (&0.0.into(), &Value::Null, &Value::Null));
-    assert!(exact["error_bound"].as_f64() < Some(1e-15) && exact["interval_kind"] == "rounding error");
-    // A flip within the range: the first at t = 0.555955 s, v0 = 2.726959 m/s (and the next after 5 m/s).
-    let flips = json("probability --rate-x 2 --rate-y 2 --rate-z 0.5 --speed 2:4 --method exact-speed", 0);
-    assert_near(&flips["probability"], (9.81 * 0.555_955 / 2.0 - 2.0) / 2.0, 2e-6);
-
-    let sampled = json("probability --space paper-fig4 --method exact-speed --points 16384 --threads 2", 0);
-    assert_eq!((&sampled["points"], &sampled["seed"]), (&16_384.into(), &1.into()));
-    let (p, bound) = (sampled["probability"].as_f64().unwrap(), sampled["error_bound"].as_f64().unwrap());
-    assert!((p - 0.661_452_1).abs() < bound && bound < 1e-4, "{sampled}");
-    let grid = json("probability --space paper-fig4 --method exact-speed", 0);
-    assert_eq!((&grid["points"], &grid["interval"], &grid["error_bound"]), (&500.into(), &Value::Null, &Value::Null));
-}
-
-#[test]
-fn sobol_points_are_counted_with_an_interval_from_scrambles() {
-    let answer = json("probability --space paper-fig4 --method sobol --points 65536 --seed 4", 0);
-    let [heads, tails] = ["heads", "tails"].map(|key| answer[key].as_u64().unwrap());
-    assert_eq!((heads + tails, &answer["seed"]), (65_536, &4.into()));
-    assert_eq!(answer["interval_kind"], "student 95 % of 8 scrambles");
-    assert!(answer["interval"][1].as_f64().unwrap() - answer["interval"][0].as_f64().unwrap() < 5e-3);
-}
-
-#[test]
-fn a_space_is_read_from_a_file_and_its_faults_are_found_by_line_and_column() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let command = format!("probability --space {} --method grid", path.display());
-    std::fs::write(&path, "coin = 'disc'\nrate_x = '0:40:20'\nrate_y = 'x'\nrate_z = 30\nspeed = '3:5:20'\n").unwrap();
-    assert_eq!(json(&command, 0)["heads"], 400);
-    assert!(json(&format!("{command} --coin paper"), 0)["tails"].as_u64() > Some(0));
-    std::fs::write(&path, "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'\n").unwrap();
-    let error = json(&command, 2);
-    assert_eq!((&error["error"]["line"], &error["error"]["column"]), (&4.into(), &9.into()));
-    let message = stderr(&run(&command));
-    assert!(message.contains("mine.toml, line 4, column 9: speed [m/s] = 3.0 is outside"), "{message}");
 }
 
 #[test]

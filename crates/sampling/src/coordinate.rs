@@ -1,5 +1,8 @@
 //! What can vary from launch to launch.
 
+use dynamics::InputError;
+use dynamics::error::find_named;
+
 /// A coordinate of a configuration space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
@@ -28,6 +31,14 @@ impl Coordinate {
     /// Its name in files, as `rate_x`.
     pub fn name(self) -> &'static str {
         ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"][self as usize]
+    }
+
+    /// The coordinate called `name`.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`] with the list of known names.
+    pub fn named(name: &str) -> Result<Self, InputError> {
+        find_named("coordinate", name, &Self::ALL, |of| of.name()).copied()
     }
 
     /// Its name and unit in messages, as `rate x [rad/s]`.

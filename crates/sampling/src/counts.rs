@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use dynamics::{Outcome, Solver};
 
-use crate::fold::{SampleError, Tally, fold};
+use crate::fold::{Progress, SampleError, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -62,7 +62,7 @@ pub(crate) fn count(
     launches: &Launches,
     range: Range<u64>,
     solver: &dyn Solver,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: Progress<'_>,
 ) -> Result<Counts, SampleError> {
     fold(range, progress, |block| {
         let mut counts = Counts::default();

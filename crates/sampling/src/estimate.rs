@@ -15,7 +15,7 @@ use dynamics::Solver;
 
 use crate::counts::{Counts, count};
 use crate::exact_speed::{Share, Shares, add_shares};
-use crate::fold::SampleError;
+use crate::fold::{Progress, SampleError};
 use crate::grid::Grid;
 use crate::interval::{Interval, from_scrambles, wilson};
 use crate::launches::Launches;
@@ -86,15 +86,13 @@ pub enum Found {
 /// Estimates the probability of heads in `space` by `plan`, on the threads of the current pool. `solver` decides the
 /// outcomes; [`Plan::ExactSpeed`] uses the exact motion instead.
 ///
-/// `progress` is told the number of launches done since it was last called.
-///
 /// # Errors
 /// [`SampleError`]; of several failing launches always the first.
 pub fn estimate(
     space: &Space,
     plan: Plan,
     solver: &dyn Solver,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: Progress<'_>,
 ) -> Result<Estimate, SampleError> {
     let points = plan.points(space)?;
     let count = |launches: &Launches, each| count(space, launches, 0..each, solver, progress);
@@ -137,6 +135,12 @@ fn each_scramble<T>(
 }
 
 impl Estimate {
+    /// How far the interval reaches from the probability.
+    pub fn half_width(&self) -> Option<f64> {
+        let Interval { lo, hi } = self.interval?;
+        Some((self.probability - lo).max(hi - self.probability))
+    }
+
     fn of_counts(counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
         Self {
             probability: counts.probability(),

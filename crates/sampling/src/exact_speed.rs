@@ -19,7 +19,7 @@ use dynamics::{ExactMotion, ExactSolver, HeadsPhases, Outcome, SolveError, Solve
 
 use crate::axis::{Distribution, NORMAL_REACH};
 use crate::coordinate::Coordinate;
-use crate::fold::{SampleError, Tally, fold};
+use crate::fold::{Progress, SampleError, Tally, fold};
 use crate::launches::Launches;
 use crate::space::{Space, Values};
 
@@ -178,7 +178,7 @@ pub(crate) fn add_shares(
     space: &Space,
     launches: &Launches,
     range: Range<u64>,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: Progress<'_>,
 ) -> Result<Shares, SampleError> {
     fold(range, progress, |block| {
         let mut shares = Shares::default();

@@ -37,14 +37,16 @@ pub(crate) trait Tally: Default + Send {
 /// The index of a launch in its sequence, the toss, and why it could not be solved.
 pub(crate) type Failure = (u64, Toss, SolveError);
 
-/// Merges what `block` makes of all blocks of the launches `range`, on the threads of the current pool. `progress` is
-/// told the number of launches done since it was last called.
+/// Is told how many launches (or nodes of a map) were done since it was last called.
+pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
+
+/// Merges what `block` makes of all blocks of the launches `range`, on the threads of the current pool.
 ///
 /// # Errors
 /// [`SampleError::Solve`]; of several failing launches always the first.
 pub(crate) fn fold<T: Tally>(
     range: Range<u64>,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: Progress<'_>,
     block: impl Fn(Range<u64>) -> Result<T, Failure> + Sync,
 ) -> Result<T, SampleError> {
     let lowest_failure = AtomicU64::new(u64::MAX);

@@ -29,7 +29,7 @@ pub use axis::{Axis, Distribution};
 pub use coordinate::Coordinate;
 pub use counts::Counts;
 pub use estimate::{Estimate, Found, IntervalKind, estimate};
-pub use fold::SampleError;
+pub use fold::{Progress, SampleError};
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::long_flight_probability;
 pub use map::{Map, Node, map};

@@ -1,14 +1,12 @@
 //! The probability of heads over two coordinates of a space.
 
-use std::f64::consts::FRAC_PI_2;
-
 use dynamics::{ExactMotion, InputError, Solver};
 use rayon::prelude::*;
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
 use crate::estimate::estimate;
-use crate::fold::SampleError;
+use crate::fold::{Progress, SampleError};
 use crate::plan::Plan;
 use crate::space::{AxisOrTie, Space};
 
@@ -28,14 +26,12 @@ pub struct Map {
 pub struct Node {
     /// P(heads), from 0 to 1.
     pub probability: f64,
-    /// φ + ψ - 90° (rad): where it is at most 0 the coin shows heads at every time, as cos φ cos ψ ≥ sin φ sin ψ. From
-    /// horizontal φ = ψ, and this is ψ ≤ 45°. `None` where rates or tilt vary within the node.
-    pub beyond_certainty: Option<f64>,
+    /// cos(φ + ψ), the least cos θ of the motion: where it is at least 0 the coin shows heads at every time. From
+    /// horizontal φ = ψ, and this is ψ ≤ 45° or ψ ≥ 135°. `None` where rates or tilt vary within the node.
+    pub least_cos_tilt: Option<f64>,
 }
 
 /// Maps P(heads) of `space` over the grid of the coordinates `across` and `up`, estimating each node by `plan`.
-///
-/// `progress` is told the number of nodes done since it was last called.
 ///
 /// # Errors
 /// [`SampleError`]; an [`InputError`] names the coordinate that is tied or has no range with a number of points.
@@ -44,7 +40,7 @@ pub fn map(
     [across, up]: [Coordinate; 2],
     plan: Plan,
     solver: &dyn Solver,
-    progress: &(dyn Fn(u64) + Sync),
+    progress: Progress<'_>,
 ) -> Result<Map, SampleError> {
     if across == up {
         let (field, value) = (up.field(), up.name().to_owned());
@@ -56,7 +52,7 @@ pub fn map(
         let here = space.with_axis(across, Axis::fixed(across, column)?)?.with_axis(up, Axis::fixed(up, row)?)?;
         let probability = estimate(&here, plan, solver, &|_| {})?.probability;
         progress(1);
-        Ok(Node { probability, beyond_certainty: beyond_certainty(&here) })
+        Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
     };
     let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, SampleError>>>();
     // In order, so that of several errors it is always the first.
@@ -81,10 +77,10 @@ fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
     }
 }
 
-fn beyond_certainty(space: &Space) -> Option<f64> {
+fn least_cos_tilt(space: &Space) -> Option<f64> {
     let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
     let motion = ExactMotion::new(&space.toss(&space.fixed_values()));
-    (!motion_varies).then(|| motion.momentum_tilt() + motion.cone_angle() - FRAC_PI_2)
+    (!motion_varies).then(|| (motion.momentum_tilt() + motion.cone_angle()).cos())
 }
 
 #[cfg(test)]
@@ -103,15 +99,15 @@ mod tests {
 
     #[test]
     fn a_map_has_the_probability_of_each_node_and_heads_for_sure_up_to_45_degrees() {
-        let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "10:50:5"), (Speed, "3:5")]);
+        let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "-10:30:5"), (Speed, "3:5")]);
         let map = map(&space, [RateX, RateZ], EXACT, &ExactSolver, &|_| {}).unwrap();
         assert_eq!((map.across.1.len(), map.up.1.len(), map.nodes.len()), (21, 5, 105));
         for (index, node) in map.nodes.iter().enumerate() {
             let (rate_x, rate_z) = (map.across.1[index % 21], map.up.1[index / 21]);
             let cone = rate_x.atan2(0.5 * rate_z);
-            let beyond = node.beyond_certainty.unwrap();
-            assert!((beyond - (2.0 * cone - FRAC_PI_2)).abs() < 1e-14);
-            assert!(node.probability > 1.0 - 1e-7 || beyond > 1e-15, "{rate_x}, {rate_z}: {node:?}");
+            let least = node.least_cos_tilt.unwrap();
+            assert!((least - (2.0 * cone).cos()).abs() < 1e-14);
+            assert!(node.probability > 1.0 - 1e-7 || least < 1e-15, "{rate_x}, {rate_z}: {node:?}");
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
                 let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]);
@@ -127,7 +123,7 @@ mod tests {
         let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
         let map = map(&space(&texts), [RateX, Tilt], plan, &ExactSolver, &|_| {}).unwrap();
-        assert!(map.nodes.iter().all(|node| node.beyond_certainty.is_none()));
+        assert!(map.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
         assert_eq!(map.nodes[0].probability, 1.0, "no rate but spin");
     }
 

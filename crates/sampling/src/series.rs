@@ -5,7 +5,7 @@ use dynamics::error::require;
 
 use crate::counts::{Counts, count};
 use crate::estimate::estimate;
-use crate::fold::SampleError;
+use crate::fold::{Progress, SampleError};
 use crate::grid::Grid;
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled};
@@ -19,10 +19,15 @@ pub type Running = Vec<Counts>;
 ///
 /// # Errors
 /// [`SampleError`].
-pub fn running_grid(space: &Space, steps: u64, solver: &dyn Solver) -> Result<Running, SampleError> {
+pub fn running_grid(
+    space: &Space,
+    steps: u64,
+    solver: &dyn Solver,
+    progress: Progress<'_>,
+) -> Result<Running, SampleError> {
     let grid = Grid::new(space)?;
     let points = grid.points();
-    running(space, &Launches::Grid(grid), points, steps, solver)
+    running(space, &Launches::Grid(grid), points, steps, solver, progress)
 }
 
 /// The running counts of method B over `points` launches, in `steps` equal steps.
@@ -35,9 +40,10 @@ pub fn running_random(
     seed: u64,
     steps: u64,
     solver: &dyn Solver,
+    progress: Progress<'_>,
 ) -> Result<Running, SampleError> {
     let cube = Cube::new(space, space.free());
-    running(space, &Launches::Random { cube, seed }, points, steps, solver)
+    running(space, &Launches::Random { cube, seed }, points, steps, solver, progress)
 }
 
 fn running(
@@ -46,6 +52,7 @@ fn running(
     points: u64,
     steps: u64,
     solver: &dyn Solver,
+    progress: Progress<'_>,
 ) -> Result<Running, SampleError> {
     #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
     require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
@@ -54,7 +61,7 @@ fn running(
     let mut counts = Counts::default();
     (0..steps)
         .map(|step| {
-            let more = count(space, launches, end(step)..end(step + 1), solver, &|_| {})?;
+            let more = count(space, launches, end(step)..end(step + 1), solver, progress)?;
             counts = [counts, more].into_iter().sum();
             Ok(counts)
         })
@@ -105,10 +112,11 @@ impl Estimator {
         points: u64,
         replicates: u64,
         solver: &dyn Solver,
+        progress: Progress<'_>,
     ) -> Result<Vec<f64>, SampleError> {
         let space = if self.is_random { *space } else { space.with_grid_of(points)? };
         let seeds = if self.is_random { 1..=replicates } else { 1..=1 };
-        seeds.map(|seed| Ok(estimate(&space, (self.plan)(points, seed), solver, &|_| {})?.probability)).collect()
+        seeds.map(|seed| Ok(estimate(&space, (self.plan)(points, seed), solver, progress)?.probability)).collect()
     }
 }
 
@@ -135,14 +143,14 @@ mod tests {
             Found::Counts(counts) => counts,
             Found::Shares { .. } => panic!("counts were asked for"),
         };
-        let grid = running_grid(&space, 7, &ExactSolver).unwrap();
+        let grid = running_grid(&space, 7, &ExactSolver, &|_| {}).unwrap();
         assert_eq!((grid.len(), grid[6]), (7, counts_of(Plan::Grid)));
-        let random = running_random(&space, 1000, 5, 1000, &ExactSolver).unwrap();
+        let random = running_random(&space, 1000, 5, 1000, &ExactSolver, &|_| {}).unwrap();
         assert_eq!(random[999], counts_of(Plan::Random { points: 1000, seed: 5 }));
         assert_eq!(random[99], counts_of(Plan::Random { points: 100, seed: 5 }));
         assert!(random.iter().zip(1..).all(|(counts, points)| counts.points() == points));
         for steps in [0, 1001] {
-            let refused = running_random(&space, 1000, 5, steps, &ExactSolver);
+            let refused = running_random(&space, 1000, 5, steps, &ExactSolver, &|_| {});
             assert!(matches!(refused, Err(SampleError::Input(error)) if error.field() == "steps"));
         }
     }
@@ -152,8 +160,9 @@ mod tests {
         let texts = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let probability = 0.580_665_055_2;
-        let errors = ESTIMATORS
-            .map(|estimator| rms_error(&estimator.estimates(&space, 1 << 14, 16, &ExactSolver).unwrap(), probability));
+        let errors = ESTIMATORS.map(|estimator| {
+            rms_error(&estimator.estimates(&space, 1 << 14, 16, &ExactSolver, &|_| {}).unwrap(), probability)
+        });
         let [_, random, sobol, exact_speed, scrambled] = errors;
         assert!(sobol < random && 10.0 * exact_speed < sobol && 5.0 * scrambled < sobol, "{errors:?}");
         // Independent launches: √(p (1 - p)/n) = 3.9e-3, and the mean of 16 squares varies by 35 %.

@@ -1,6 +1,9 @@
 //! One file a command.
 
+pub(crate) mod convergence;
+pub(crate) mod errors;
 pub(crate) mod list;
+pub(crate) mod map;
 pub(crate) mod probability;
 pub(crate) mod toss;
 pub(crate) mod trace;

@@ -1,11 +1,14 @@
 //! `unfair-toss probability`: the share of heads over a space of launches.
 
-use sampling::{Counts, Estimate, Found, IntervalKind, Plan, Rest, Scrambled, Space, estimate};
+use sampling::{Counts, Estimate, Found, IntervalKind, estimate};
 use serde::Serialize;
 
-use crate::args::{SolverArgs, SpaceArgs, ThreadArgs};
+use crate::args::SolverArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format, progress_bar};
+use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
+
+const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 << 18 };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -14,13 +17,8 @@ pub(crate) struct Args {
     /// How launches are chosen
     #[arg(long, value_enum)]
     method: MethodArg,
-    /// Number of launches [default: 250000 for random, 262144 for sobol; exact-speed uses the grid of the other axes if
-    /// they have one, else 262144]
-    #[arg(long, value_name = "N")]
-    points: Option<u64>,
-    /// Seed of the random launches and of the scrambles
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    plan: PlanArgs,
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
@@ -31,18 +29,6 @@ pub(crate) struct Args {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum MethodArg {
-    /// Method A: a grid over the space
-    Grid,
-    /// Method B: independent random launches
-    Random,
-    /// Owen-scrambled Sobol points, 8 scrambles
-    Sobol,
-    /// The speed integrated in closed form, by the exact motion; the rest by its grid or by Sobol points
-    ExactSpeed,
 }
 
 #[derive(Serialize)]
@@ -70,46 +56,17 @@ struct CountsAnswer {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let plan = self.plan(&space)?;
         let solver = self.solver.solver(&self.scheme)?;
-        if matches!(plan, Plan::ExactSpeed(_)) && solver.method().is_some() {
-            return Err(Failure::Usage("exact-speed integrates the exact motion; leave --solver out".to_owned()));
-        }
-        let progress = progress_bar(plan.points(&space)?);
+        let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
+        let progress = progress_bar(plan.points(&space)?, "launches");
         let pool = self.threads.pool()?;
         let found = pool.install(|| estimate(&space, plan, solver.as_ref(), &|more| progress.inc(more)));
         progress.finish_and_clear();
         let found = found?;
         Ok(match self.format {
-            Format::Json => output::json(&Answer::new(&found, self.seed_of(plan))),
+            Format::Json => output::json(&Answer::new(&found, self.plan.seed_of(plan))),
             Format::Text => text(&found, solver.name()),
         })
-    }
-
-    fn plan(&self, space: &Space) -> Result<Plan, Failure> {
-        const SOBOL_POINTS: u64 = 1 << 18;
-        let seed = self.seed;
-        let scrambled = || Scrambled::new(self.points.unwrap_or(SOBOL_POINTS), seed);
-        match self.method {
-            MethodArg::Grid if self.points.is_some() => {
-                Err(Failure::Usage("--points: a grid takes its points from the axes, LO:HI:POINTS".to_owned()))
-            }
-            MethodArg::Grid => Ok(Plan::Grid),
-            MethodArg::Random => Ok(Plan::Random { points: self.points.unwrap_or(250_000), seed }),
-            MethodArg::Sobol => Ok(Plan::Sobol(scrambled())),
-            MethodArg::ExactSpeed => {
-                let grid = Plan::ExactSpeed(Rest::Grid);
-                let has_grid = self.points.is_none() && grid.points(space).is_ok();
-                Ok(if has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) })
-            }
-        }
-    }
-
-    fn seed_of(&self, plan: Plan) -> Option<u64> {
-        match plan {
-            Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
-            Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => Some(self.seed),
-        }
     }
 }
 
@@ -117,13 +74,13 @@ impl Answer {
     fn new(found: &Estimate, seed: Option<u64>) -> Self {
         let (counts, error_bound) = match found.found {
             Found::Counts(Counts { heads, tails, undecided }) => (Some(CountsAnswer { heads, tails, undecided }), None),
-            Found::Shares { .. } => (None, Some(error_bound(found))),
+            Found::Shares { .. } => (None, found.half_width()),
         };
         Self {
             counts,
             points: found.points,
             probability: found.probability,
-            error_bound: error_bound.flatten(),
+            error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
             interval_kind: found.interval_kind.to_string(),
             // No solver proves its outcomes.
@@ -133,15 +90,9 @@ impl Answer {
     }
 }
 
-/// How far the interval reaches from the probability.
-fn error_bound(found: &Estimate) -> Option<f64> {
-    let interval = found.interval?;
-    Some((found.probability - interval.lo).max(interval.hi - found.probability))
-}
-
 fn text(found: &Estimate, solver: &str) -> String {
     let kind = &found.interval_kind;
-    let (probability, interval) = match (found.interval, error_bound(found)) {
+    let (probability, interval) = match (found.interval, found.half_width()) {
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
             (format!("{}", found.probability), format!("± {error:.1e} ({kind})"))
         }

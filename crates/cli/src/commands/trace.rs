@@ -6,8 +6,9 @@ use serde::Serialize;
 use toss::{TracePoint, trace};
 
 use crate::args::FlightArgs;
+use crate::chart;
 use crate::failure::Failure;
-use crate::{chart, output};
+use crate::output::{self, DataFormat};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -17,19 +18,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N")]
     points: usize,
     /// Output format
-    #[arg(long, value_enum, default_value_t = TraceFormat::Csv)]
-    pub(crate) format: TraceFormat,
+    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
+    pub(crate) format: DataFormat,
     /// Also draw the flight into this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum TraceFormat {
-    /// A line a point, with a heading
-    Csv,
-    /// One JSON object
-    Json,
 }
 
 /// One line: time (s), attitude, Euler angles (rad), n and a vector fixed in the face (LF), cos θ.
@@ -78,21 +71,12 @@ impl Args {
             output::write_file(path, &chart::flight(&flight)?)?;
         }
         Ok(match self.format {
-            TraceFormat::Csv => csv_text(&flight),
-            TraceFormat::Json => {
+            DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
+            DataFormat::Json => {
                 output::json(&Answer { solver: solver.name(), points: flight.iter().map(Point::from).collect() })
             }
         })
     }
-}
-
-fn csv_text(flight: &[TracePoint]) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for point in flight {
-        writer.serialize(Line::from(point)).expect("a line of numbers always fits into memory");
-    }
-    let bytes = writer.into_inner().expect("memory takes every byte");
-    String::from_utf8(bytes).expect("numbers are ASCII")
 }
 
 impl From<&TracePoint> for Line {

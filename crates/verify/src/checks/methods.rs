@@ -50,7 +50,7 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let mut measurements = Vec::new();
     for estimator in ESTIMATORS {
         for exponent in [14, 16, 18] {
-            let estimates = estimator.estimates(&space, 1 << exponent, replicates, &ExactSolver)?;
+            let estimates = estimator.estimates(&space, 1 << exponent, replicates, &ExactSolver, &|_| {})?;
             let subject = format!("{}/2^{exponent}", estimator.name);
             let input = format!("{} replicates", estimates.len());
             let error = rms_error(&estimates, probability);

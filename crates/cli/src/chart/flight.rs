@@ -1,37 +1,21 @@
 //! The chart of a flight: what n and a vector in the face trace on the sphere, and cos θ against time.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use toss::{TracePoint, Vector3};
 
+use crate::chart::{BLUE, Drawn, FAINT, Panel, SIZE, TEXT, VERMILION, svg};
 use crate::failure::Failure;
 
-/// Blue and vermilion of the palette of Okabe and Ito, told apart by every kind of colour vision.
-const NORMAL: RGBColor = RGBColor(0, 114, 178);
-const FACE: RGBColor = RGBColor(213, 94, 0);
-const FAINT: RGBColor = RGBColor(150, 150, 150);
-/// Twice the size at which it is read: the backend draws on whole pixels, and lines turn out smoother for it.
-const SIZE: (u32, u32) = (2000, 880);
-const TEXT: (&str, u32) = ("sans-serif", 30);
-
-type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+const NORMAL: RGBColor = BLUE;
+const FACE: RGBColor = VERMILION;
 
 /// The chart as SVG.
 pub(crate) fn flight(flight: &[TracePoint]) -> Result<String, Failure> {
-    let mut svg = String::new();
-    draw(&mut svg, flight).map_err(|error| Failure::Chart(error.to_string()))?;
-    Ok(svg)
-}
-
-fn draw(svg: &mut String, flight: &[TracePoint]) -> Drawn {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (sphere, time) = root.split_horizontally(SIZE.1);
-    draw_sphere(&sphere, flight)?;
-    draw_tilt(&time, flight)?;
-    root.present()?;
-    Ok(())
+    svg(SIZE, |root| {
+        let (sphere, time) = root.split_horizontally(SIZE.1);
+        draw_sphere(&sphere, flight)?;
+        draw_tilt(&time, flight)
+    })
 }
 
 /// Where the eye is: azimuth and elevation (rad).

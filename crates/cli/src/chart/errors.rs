@@ -1,0 +1,69 @@
+//! The error of each method of sampling against the number of launches.
+
+use plotters::prelude::*;
+
+use crate::chart::{BLUE, GREEN, GREY, PURPLE, SIZE, TEXT, VERMILION, svg};
+use crate::commands::errors::{Line, Reference};
+use crate::failure::Failure;
+
+const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, BLACK, PURPLE];
+
+/// The chart as SVG, of errors above 0.
+pub(crate) fn errors(lines: &[Line], reference: &Reference) -> Result<String, Failure> {
+    let drawn: Vec<&Line> = lines.iter().filter(|line| line.rms_error > 0.0).collect();
+    let span = |of: fn(&Line) -> f64| {
+        let values = drawn.iter().map(|line| of(line));
+        values.fold((f64::INFINITY, 0.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)))
+    };
+    let ((fewest, most), (smallest, largest)) = (span(|line| line.launches as f64), span(|line| line.rms_error));
+    if drawn.is_empty() {
+        return Err(Failure::Chart("every error is 0".to_owned()));
+    }
+    svg(SIZE, |root| {
+        let mut chart = ChartBuilder::on(root)
+            .margin(24)
+            .margin_right(420)
+            .caption("error of P(heads), root mean square over seeds", TEXT)
+            .x_label_area_size(84)
+            .y_label_area_size(132)
+            .build_cartesian_2d((fewest..1.1 * most).log_scale(), (0.5 * smallest..2.0 * largest).log_scale())?;
+        chart
+            .configure_mesh()
+            .light_line_style(WHITE)
+            .x_desc("launches n")
+            .y_desc("error")
+            .x_label_formatter(&|n: &f64| format!("{n:.0}"))
+            .y_label_formatter(&|error: &f64| format!("{error:.0e}"))
+            .label_style(TEXT)
+            .axis_desc_style(TEXT)
+            .draw()?;
+        let mut labels: Vec<(i32, String, RGBColor)> = Vec::new();
+        if reference.error > 0.5 * smallest {
+            let floor = [(fewest, reference.error), (1.1 * most, reference.error)];
+            chart.draw_series(LineSeries::new(floor, GREY.stroke_width(2)))?;
+            let y = chart.plotting_area().map_coordinate(&floor[1]).1;
+            labels.push((y, "error of the reference".to_owned(), GREY));
+        }
+        for (series, colour) in lines.chunk_by(|a, b| a.method == b.method).zip(COLOURS) {
+            let points: Vec<(f64, f64)> = series
+                .iter()
+                .filter(|line| line.rms_error > 0.0)
+                .map(|line| (line.launches as f64, line.rms_error))
+                .collect();
+            chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(4)))?;
+            chart.draw_series(points.iter().map(|point| Circle::new(*point, 7, colour.filled())))?;
+            if let Some(end) = points.last() {
+                labels.push((chart.plotting_area().map_coordinate(end).1, series[0].method.to_owned(), colour));
+            }
+        }
+        // Direct labels beside the ends of the lines, pushed apart.
+        labels.sort_by_key(|(y, ..)| *y);
+        let right = chart.plotting_area().get_pixel_range().0.end;
+        let mut lowest = i32::MIN;
+        for (y, text, colour) in labels {
+            lowest = (y - 15).max(lowest.saturating_add(36));
+            root.draw(&Text::new(text, (right + 12, lowest), TEXT.into_font().color(&colour)))?;
+        }
+        Ok(())
+    })
+}

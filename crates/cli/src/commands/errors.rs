@@ -1,0 +1,104 @@
+//! `unfair-toss errors`: the error of every method of sampling against the number of launches.
+
+use std::path::PathBuf;
+
+use sampling::{ESTIMATORS, Estimator, Plan, Progress, Rest, Scrambled, Space, estimate, rms_error};
+use serde::Serialize;
+use toss::ExactSolver;
+
+use crate::chart;
+use crate::failure::Failure;
+use crate::output::{self, DataFormat, progress_bar};
+use crate::space_args::{SpaceArgs, ThreadArgs};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    space: SpaceArgs,
+    /// Number of seeds whose errors are averaged
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    replicates: u64,
+    /// Largest number of launches, as a power of two
+    #[arg(long, value_name = "EXPONENT", default_value_t = 18, value_parser = clap::value_parser!(u32).range(8..=24))]
+    up_to: u32,
+    /// The probability that errors are measured from [default: exact-speed with 64 times as many launches]
+    #[arg(long, value_name = "P", value_parser = probability)]
+    reference: Option<f64>,
+    #[command(flatten)]
+    threads: ThreadArgs,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
+    pub(crate) format: DataFormat,
+    /// Also draw the errors into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+fn probability(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "expected a probability from 0 to 1".to_owned())
+}
+
+/// What errors are measured from, and how far it may be off itself.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reference {
+    pub(crate) probability: f64,
+    pub(crate) error: f64,
+}
+
+/// The error of a method by a number of launches.
+#[derive(Debug, Serialize)]
+pub(crate) struct Line {
+    pub(crate) method: &'static str,
+    pub(crate) launches: u64,
+    pub(crate) rms_error: f64,
+    replicates: usize,
+    reference: f64,
+    reference_error: f64,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let space = self.space.space()?;
+        let (lines, reference) = self.threads.pool()?.install(|| self.lines(&space))?;
+        if let Some(path) = &self.svg {
+            output::write_file(path, &chart::errors(&lines, &reference)?)?;
+        }
+        Ok(output::data(self.format, &lines))
+    }
+
+    fn lines(&self, space: &Space) -> Result<(Vec<Line>, Reference), Failure> {
+        let sizes = || (8..=self.up_to).map(|exponent| 1_u64 << exponent);
+        let seeds = |estimator: &Estimator| if estimator.is_random { self.replicates } else { 1 };
+        let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * sizes().sum::<u64>();
+        let bar = progress_bar(all + if self.reference.is_some() { 0 } else { 64 << self.up_to }, "launches");
+        let progress = |more| bar.inc(more);
+        let reference = self.reference(space, &progress)?;
+        let mut lines = Vec::new();
+        for estimator in ESTIMATORS {
+            for launches in sizes() {
+                let estimates = estimator.estimates(space, launches, self.replicates, &ExactSolver, &progress)?;
+                lines.push(Line {
+                    method: estimator.name,
+                    launches,
+                    rms_error: rms_error(&estimates, reference.probability),
+                    replicates: estimates.len(),
+                    reference: reference.probability,
+                    reference_error: reference.error,
+                });
+            }
+        }
+        bar.finish_and_clear();
+        Ok((lines, reference))
+    }
+
+    fn reference(&self, space: &Space, progress: Progress<'_>) -> Result<Reference, Failure> {
+        if let Some(probability) = self.reference {
+            return Ok(Reference { probability, error: 0.0 });
+        }
+        // A seed that no replicate has.
+        let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(64 << self.up_to, 0)));
+        let found = estimate(space, plan, &ExactSolver, progress)?;
+        Ok(Reference { probability: found.probability, error: found.half_width().unwrap_or(0.0) })
+    }
+}

@@ -1,0 +1,100 @@
+//! `unfair-toss map`: the probability of heads over two coordinates of a space.
+
+use std::path::PathBuf;
+
+use sampling::{Coordinate, Map, map};
+use serde::Serialize;
+
+use crate::args::SolverArgs;
+use crate::chart;
+use crate::failure::Failure;
+use crate::output::{self, DataFormat, progress_bar};
+use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
+
+/// For a node.
+const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 1024, sobol: 1024 };
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    space: SpaceArgs,
+    /// Coordinate along a row, whose axis has points: rate_x, rate_y, rate_z, speed, gravity or tilt
+    #[arg(long, value_name = "COORDINATE", default_value = "rate_x")]
+    across: String,
+    /// Coordinate from row to row, likewise
+    #[arg(long, value_name = "COORDINATE", default_value = "rate_z")]
+    up: String,
+    /// How the launches of a node are chosen
+    #[arg(long, value_enum, default_value_t = MethodArg::ExactSpeed)]
+    method: MethodArg,
+    #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
+    threads: ThreadArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    scheme: String,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
+    pub(crate) format: DataFormat,
+    /// Also draw the map into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let space = self.space.space()?;
+        let solver = self.solver.solver(&self.scheme)?;
+        let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
+        let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
+        let nodes = axes.iter().filter_map(|of| space.axis(*of).points()).product();
+        let progress = progress_bar(nodes, "nodes");
+        let pool = self.threads.pool()?;
+        let mapped = pool.install(|| map(&space, axes, plan, solver.as_ref(), &|more| progress.inc(more)));
+        progress.finish_and_clear();
+        let mapped = mapped?;
+        if let Some(path) = &self.svg {
+            output::write_file(path, &chart::map(&mapped)?)?;
+        }
+        Ok(match self.format {
+            DataFormat::Csv => csv(&mapped),
+            DataFormat::Json => output::json(&Answer::from(&mapped)),
+        })
+    }
+}
+
+/// A line a node.
+fn csv(map: &Map) -> String {
+    let ((across, columns), (up, rows)) = (&map.across, &map.up);
+    let heading = format!("{},{},probability\n", across.name(), up.name());
+    let places = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
+    let lines = places.zip(&map.nodes).map(|((column, row), node)| format!("{column},{row},{}\n", node.probability));
+    std::iter::once(heading).chain(lines).collect()
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    across: &'static str,
+    up: &'static str,
+    across_values: &'a [f64],
+    up_values: &'a [f64],
+    /// A row for each value of `up`.
+    probability: Vec<Vec<f64>>,
+}
+
+impl<'a> From<&'a Map> for Answer<'a> {
+    fn from(map: &'a Map) -> Self {
+        let ((across, columns), (up, rows)) = (&map.across, &map.up);
+        let row = |nodes: &[sampling::Node]| nodes.iter().map(|node| node.probability).collect();
+        Self {
+            across: across.name(),
+            up: up.name(),
+            across_values: columns,
+            up_values: rows,
+            probability: map.nodes.chunks(columns.len()).map(row).collect(),
+        }
+    }
+}

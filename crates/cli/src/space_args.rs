@@ -1,0 +1,157 @@
+//! Options of the commands about many launches: the space, how its launches are chosen, the threads.
+
+use std::path::Path;
+
+use clap::Args;
+use sampling::{Coordinate, DescribedSpace, Plan, Rest, Scrambled, Space, named_space};
+use toss::{Coin, ExactSolver, Solver};
+
+use crate::args::CoinArgs;
+use crate::failure::Failure;
+
+/// A space of launches: by name, from a file, or by its axes.
+#[derive(Debug, Args)]
+pub(crate) struct SpaceArgs {
+    #[command(flatten)]
+    coin: CoinArgs,
+    /// A named space of launches (`spaces` lists them), or a file that ends in .toml
+    #[arg(long, value_name = "NAME|FILE.toml",
+          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"])]
+    space: Option<String>,
+    /// ωx (rad/s): VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; or y or z for that rate's value
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    rate_x: Option<String>,
+    /// ωy (rad/s), likewise; x for ωy = ωx
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    rate_y: Option<String>,
+    /// ωz (rad/s), likewise
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    rate_z: Option<String>,
+    /// v0 (m/s), likewise
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    speed: Option<String>,
+    /// Gravity (m/s²), likewise [default: 9.81]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    gravity: Option<String>,
+    /// Turn about the lab's x axis at launch (rad), likewise [default: 0]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    tilt: Option<String>,
+}
+
+impl SpaceArgs {
+    pub(crate) fn space(&self) -> Result<Space, Failure> {
+        let coin = self.coin.given()?;
+        if let Some(name) = &self.space {
+            let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
+            return Ok(coin.map_or(space, |coin| space.with_coin(coin)));
+        }
+        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
+        let given: Vec<(Coordinate, &str)> =
+            Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
+        if given.is_empty() {
+            return Err(Failure::Usage(
+                "one of --space and the axes --rate-x, --rate-y, --rate-z, --speed is needed".to_owned(),
+            ));
+        }
+        Ok(Space::parse(coin.unwrap_or(Coin::PAPER), &given)?)
+    }
+}
+
+fn space_file(path: &Path) -> Result<Space, Failure> {
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Failure::Read { path: path.display().to_string(), source })?;
+    let described = DescribedSpace::from_toml(&text)
+        .map_err(|source| Failure::SpaceFile { path: path.display().to_string(), source })?;
+    Ok(described.space)
+}
+
+/// How the launches of a space are chosen.
+#[derive(Debug, Args)]
+pub(crate) struct PlanArgs {
+    /// Number of launches [default: 250000 at random, 262144 of sobol, 1024 for a node of a map; exact-speed uses the
+    /// grid of the other axes if they have one, else as many as sobol]
+    #[arg(long, value_name = "N")]
+    points: Option<u64>,
+    /// Seed of the random launches and of the scrambles
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+}
+
+/// The methods of sampling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum MethodArg {
+    /// Method A: a grid over the space
+    Grid,
+    /// Method B: independent random launches
+    Random,
+    /// Owen-scrambled Sobol points, 8 scrambles
+    Sobol,
+    /// The speed integrated in closed form, by the exact motion; the rest by its grid or by Sobol points
+    ExactSpeed,
+}
+
+/// How many launches are tried where no number is given.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DefaultPoints {
+    pub(crate) random: u64,
+    pub(crate) sobol: u64,
+}
+
+impl PlanArgs {
+    /// The plan for `space`, by `solver`.
+    pub(crate) fn plan(
+        &self,
+        method: MethodArg,
+        space: &Space,
+        solver: &dyn Solver,
+        default: DefaultPoints,
+    ) -> Result<Plan, Failure> {
+        let seed = self.seed;
+        let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
+        match method {
+            MethodArg::Grid if self.points.is_some() => {
+                Err(Failure::Usage("--points: a grid takes its points from the axes, LO:HI:POINTS".to_owned()))
+            }
+            MethodArg::Grid => Ok(Plan::Grid),
+            MethodArg::Random => Ok(Plan::Random { points: self.points.unwrap_or(default.random), seed }),
+            MethodArg::Sobol => Ok(Plan::Sobol(scrambled())),
+            MethodArg::ExactSpeed if solver.name() != ExactSolver::ENTRY.name => {
+                Err(Failure::Usage("exact-speed integrates the exact motion; leave --solver out".to_owned()))
+            }
+            MethodArg::ExactSpeed => {
+                let grid = Plan::ExactSpeed(Rest::Grid);
+                let has_grid = self.points.is_none() && grid.points(space).is_ok();
+                Ok(if has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) })
+            }
+        }
+    }
+
+    /// The seed, where `plan` depends on it.
+    pub(crate) fn seed_of(&self, plan: Plan) -> Option<u64> {
+        match plan {
+            Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+            Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => Some(self.seed),
+        }
+    }
+}
+
+/// Threads that share the work.
+#[derive(Debug, Args)]
+pub(crate) struct ThreadArgs {
+    /// Number of threads [default: one a core]
+    #[arg(long, value_name = "K")]
+    threads: Option<usize>,
+}
+
+impl ThreadArgs {
+    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
+        const MOST_THREADS: usize = 1024;
+        let threads = match self.threads {
+            None => 0,
+            Some(threads @ 1..=MOST_THREADS) => threads,
+            Some(threads) => return Err(Failure::Usage(format!("threads = {threads}: valid are 1 to {MOST_THREADS}"))),
+        };
+        let build = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        build.map_err(|error| Failure::Usage(format!("threads = {threads}: {error}")))
+    }
+}

@@ -1,0 +1,204 @@
+//! The commands about many launches, from outside.
+
+mod common;
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use common::{assert_near, assert_refused, json, run, stderr, stdout};
+use serde_json::Value;
+
+#[test]
+fn probabilities_are_counts_that_do_not_depend_on_threads() {
+    let answers = [1, 2, 8].map(|threads| {
+        json(&format!("probability --space paper-fig4 --method random --points 20000 --seed 7 --threads {threads}"), 0)
+    });
+    assert!(answers.iter().all(|answer| *answer == answers[0]));
+    let answer = &answers[0];
+    let [heads, tails, undecided] = ["heads", "tails", "undecided"].map(|key| answer[key].as_u64().unwrap());
+    assert_eq!((heads + tails + undecided, answer["points"].as_u64()), (20_000, Some(20_000)));
+    assert_near(&answer["probability"], heads as f64 / 20_000.0, 0.0);
+    let [lo, hi] = [0, 1].map(|end| answer["interval"][end].as_f64().unwrap());
+    assert!(lo < 0.66 && 0.66 < hi && hi - lo < 0.014);
+    assert_eq!((&answer["interval_kind"], &answer["seed"]), (&Value::from("wilson 95 %"), &Value::from(7)));
+
+    let grid = json("probability --space cheated --method grid --solver quaternion", 0);
+    assert_eq!((&grid["heads"], &grid["points"], &grid["interval"]), (&500.into(), &500.into(), &Value::Null));
+    let box_of_axes = "probability --rate-x 0:40:20 --rate-y x --rate-z 30 --speed 3:5:20 --method grid";
+    assert_eq!(json(box_of_axes, 0)["points"], 400);
+    // A disc with Ω ≤ 56.6 rad/s < k ωz = 60 rad/s never flips.
+    assert_eq!(json(&format!("{box_of_axes} --coin disc"), 0)["heads"], 400);
+}
+
+#[test]
+fn exact_speed_reports_a_probability_and_an_error_bound() {
+    let exact = json("probability --space tails --method exact-speed", 0);
+    assert_eq!((&exact["probability"], &exact["heads"], &exact["seed"]), (&0.0.into(), &Value::Null, &Value::Null));
+    assert!(exact["error_bound"].as_f64() < Some(1e-15) && exact["interval_kind"] == "rounding error");
+    // A flip within the range: the first at t = 0.555955 s, v0 = 2.726959 m/s (and the next after 5 m/s).
+    let flips = json("probability --rate-x 2 --rate-y 2 --rate-z 0.5 --speed 2:4 --method exact-speed", 0);
+    assert_near(&flips["probability"], (9.81 * 0.555_955 / 2.0 - 2.0) / 2.0, 2e-6);
+
+    let sampled = json("probability --space paper-fig4 --method exact-speed --points 16384 --threads 2", 0);
+    assert_eq!((&sampled["points"], &sampled["seed"]), (&16_384.into(), &1.into()));
+    let (p, bound) = (sampled["probability"].as_f64().unwrap(), sampled["error_bound"].as_f64().unwrap());
+    assert!((p - 0.661_452_1).abs() < bound && bound < 1e-4, "{sampled}");
+    let grid = json("probability --space paper-fig4 --method exact-speed", 0);
+    assert_eq!((&grid["points"], &grid["interval"], &grid["error_bound"]), (&500.into(), &Value::Null, &Value::Null));
+}
+
+#[test]
+fn sobol_points_are_counted_with_an_interval_from_scrambles() {
+    let answer = json("probability --space paper-fig4 --method sobol --points 65536 --seed 4", 0);
+    let [heads, tails] = ["heads", "tails"].map(|key| answer[key].as_u64().unwrap());
+    assert_eq!((heads + tails, &answer["seed"]), (65_536, &4.into()));
+    assert_eq!(answer["interval_kind"], "student 95 % of 8 scrambles");
+    assert!(answer["interval"][1].as_f64().unwrap() - answer["interval"][0].as_f64().unwrap() < 5e-3);
+}
+
+#[test]
+fn a_space_is_read_from_a_file_and_its_faults_are_found_by_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let command = format!("probability --space {} --method grid", path.display());
+    std::fs::write(&path, "coin = 'disc'\nrate_x = '0:40:20'\nrate_y = 'x'\nrate_z = 30\nspeed = '3:5:20'\n").unwrap();
+    assert_eq!(json(&command, 0)["heads"], 400);
+    assert!(json(&format!("{command} --coin paper"), 0)["tails"].as_u64() > Some(0));
+    std::fs::write(&path, "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'\n").unwrap();
+    let error = json(&command, 2);
+    assert_eq!((&error["error"]["line"], &error["error"]["column"]), (&4.into(), &9.into()));
+    let message = stderr(&run(&command));
+    assert!(message.contains("mine.toml, line 4, column 9: speed [m/s] = 3.0 is outside"), "{message}");
+}
+
+#[test]
+fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
+    assert_refused(&[
+        ("probability --space moon --method grid", ["space = 'moon'", "paper-fig4"]),
+        ("probability --space tails --method random --points 0", ["points = 0.0", "at least 1"]),
+        ("probability --space tails --method grid --points 9", ["--points: a grid", "axes"]),
+        ("probability --space tails --method sobol --points 9", ["points = '9'", "a multiple of"]),
+        ("probability --space tails --method exact-speed --solver gamma", ["exact-speed", "leave --solver out"]),
+        ("probability --space tails.toml --method grid", ["cannot read tails.toml", "No such file"]),
+        ("probability --rate-x 1 --rate-y 1 --rate-z 1 --method grid", ["speed [m/s] is missing", "a range"]),
+        ("probability --rate-y x --rate-z 1 --speed 3:5:9 --method grid", ["rate y [rad/s] = 'x'", "a tie"]),
+        (
+            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed normal:4:1 --method random",
+            ["speed [m/s] = -4.3", ">= 0"],
+        ),
+        (
+            "probability --rate-x 1 --rate-y 1 --rate-z 1 --speed 4 --gravity 0:9 --method random",
+            ["gravity [m/s²] = 0.0", "> 0"],
+        ),
+        ("probability --method grid", ["--space", "--rate-x"]),
+        ("probability --space tails --method grid --threads 0", ["threads = 0", "1 to 1024"]),
+        (
+            "probability --rate-x 5:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
+            ["rate x [rad/s] = 3.0", "at or above the lower bound"],
+        ),
+        (
+            "probability --rate-x 0:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
+            ["rate x [rad/s] = '0:3'", "LO:HI:POINTS"],
+        ),
+        (
+            "probability --rate-x 0:3:0 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
+            ["rate x [rad/s] = 0.0", "at least 2 grid points"],
+        ),
+        ("probability --rate-x 1 --rate-y x --rate-z 1 --speed -1:5:9 --method grid", ["speed [m/s] = -1.0", ">= 0"]),
+        ("map --rate-x 0:9 --rate-y 0 --rate-z 1:2:3 --speed 4", ["rate x [rad/s] = '0:9'", "LO:HI:POINTS"]),
+        ("map --rate-x 0:9:3 --rate-y 0 --rate-z 1 --speed 4", ["rate z [rad/s] = '1'", "2 to 10000"]),
+        ("map --rate-x 0:9:3 --rate-y x --rate-z 1 --speed 4 --up rate_y", ["rate y [rad/s] = 'x'", "not tied"]),
+        ("map --space paper-fig4 --up omega", ["coordinate = 'omega'", "rate_x, rate_y"]),
+        ("map --space paper-fig4 --up rate_x", ["rate x [rad/s] = 'rate_x'", "two different"]),
+        ("convergence --rate-x 0:9 --rate-y x --rate-z 1 --speed 4", ["rate x [rad/s] = '0:9'", "a grid"]),
+        ("convergence --space tails --steps 0", ["steps = 0.0", "at least 1"]),
+        ("convergence --space tails --steps 501", ["steps = 501.0", "at most one a launch"]),
+        ("convergence --space tails --svg /no/such/folder/x.svg", ["/no/such/folder/x.svg", "cannot write"]),
+    ]);
+}
+
+#[test]
+fn a_convergence_ends_with_what_probability_says() {
+    let series = json("convergence --space paper-fig4 --steps 50", 0);
+    let last = &series.as_array().unwrap()[49];
+    assert_eq!(last["launches"], 250_000);
+    for method in ["grid", "random"] {
+        let whole = json(&format!("probability --space paper-fig4 --method {method}"), 0);
+        assert_eq!(last[method], whole["probability"]);
+    }
+    let csv = stdout(&run("convergence --space tails --steps 4"));
+    assert_eq!(csv.lines().next(), Some("launches,grid,random,random_lo,random_hi"));
+    assert_eq!(csv.lines().count(), 5);
+}
+
+#[test]
+fn errors_fall_and_are_measured_from_a_better_reference() {
+    let space = "--rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --speed 3:5";
+    let lines = json(&format!("errors {space} --up-to 10 --replicates 4"), 0);
+    let lines = lines.as_array().unwrap();
+    assert_eq!(lines.len(), 5 * 3);
+    for line in lines {
+        // The box's probability, known from quadrature.
+        assert_near(&line["reference"], 0.580_665_055_2, line["reference_error"].as_f64().unwrap());
+        assert!(line["rms_error"].as_f64() > Some(0.0), "{line}");
+    }
+    let error = |method: &str| {
+        lines.iter().rfind(|line| line["method"] == method).and_then(|line| line["rms_error"].as_f64()).unwrap()
+    };
+    assert!(4.0 * error("exact-speed") < error("random"));
+    let from_zero = json(&format!("errors {space} --up-to 8 --reference 0"), 0);
+    assert!(from_zero[0]["rms_error"].as_f64() > Some(0.5));
+}
+
+#[test]
+fn a_map_has_a_probability_for_each_node() {
+    let command = "map --rate-x 0:40:5 --rate-y 0 --rate-z 20:60:3 --speed 3:5";
+    let map = json(command, 0);
+    assert_eq!((&map["across"], &map["up"]), (&"rate_x".into(), &"rate_z".into()));
+    assert_eq!(map["across_values"], serde_json::json!([0.0, 10.0, 20.0, 30.0, 40.0]));
+    // Heads for sure while ωx < k ωz.
+    assert_eq!((&map["probability"][1][1], &map["probability"][2][2]), (&1.0.into(), &1.0.into()));
+    let node = json("probability --rate-x 30 --rate-y 0 --rate-z 40 --speed 3:5 --method exact-speed", 0);
+    assert_eq!(map["probability"][1][3], node["probability"]);
+    let csv = stdout(&run(command));
+    assert!(csv.starts_with("rate_x,rate_z,probability\n0,20,1\n10,20,"));
+    assert_eq!(csv.lines().count(), 16);
+}
+
+#[test]
+fn charts_are_written_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    for (command, word) in [
+        ("convergence --space paper-fig4 --steps 20", "B, random: 0.6609"),
+        ("errors --space paper-fig4 --up-to 9 --replicates 2", "exact-speed, 8 scrambles"),
+        ("map --rate-x 0:40:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5", "ωz/(rad/s)"),
+    ] {
+        let path = folder.path().join("chart.svg");
+        let output = run(&format!("{command} --svg {}", path.display()));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(output.stderr.is_empty(), "progress is for terminals: {}", stderr(&output));
+        let svg = std::fs::read_to_string(&path).unwrap();
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains(word), "{command}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_no_file_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("chart.svg");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
+        .args("errors --space paper-fig4 --up-to 24 --replicates 10000 --svg".split(' '))
+        .arg(&path)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(child.try_wait().unwrap(), None, "it is still at work");
+    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    assert!(!output.status.success() && output.stdout.is_empty());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
