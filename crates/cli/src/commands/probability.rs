@@ -1,6 +1,6 @@
 //! `unfair-toss probability`: the share of heads over a space of launches.
 
-use sampling::{Counts, Estimate, Found, IntervalKind, estimate};
+use sampling::{Counts, Estimate, Found, Interval, IntervalKind, estimate};
 use serde::Serialize;
 
 use crate::args::SolverArgs;
@@ -91,27 +91,34 @@ impl Answer {
 }
 
 fn text(found: &Estimate, solver: &str) -> String {
-    let kind = &found.interval_kind;
+    let (probability, kind) = (found.probability, &found.interval_kind);
     let (probability, interval) = match (found.interval, found.half_width()) {
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
-            (format!("{}", found.probability), format!("± {error:.1e} ({kind})"))
+            (probability.to_string(), format!("± {error:.1e} ({kind})"))
         }
-        (Some(interval), _) => {
-            (format!("{:.7}", found.probability), format!("{:.7} to {:.7} ({kind})", interval.lo, interval.hi))
+        (Some(Interval { lo, hi }), Some(error)) => {
+            let digits = digits_for(error);
+            (format!("{probability:.digits$}"), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
         }
-        (None, _) => (format!("{:.7}", found.probability), kind.to_string()),
+        _ => (format!("{probability:.6}"), kind.to_string()),
     };
     let launches = match found.found {
-        Found::Counts(counts) => {
-            format!("launches     {} heads, {} tails, {} undecided", counts.heads, counts.tails, counts.undecided)
+        Found::Counts(Counts { heads, tails, undecided }) => {
+            format!("{heads} heads, {tails} tails, {undecided} undecided")
         }
-        Found::Shares { .. } => format!("launches     {}, each at all its speeds", found.points),
+        Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
     };
     [
         format!("P(heads)     {probability}"),
         format!("interval     {interval}"),
-        launches,
+        format!("launches     {launches}"),
         format!("solver       {solver}"),
     ]
     .join("\n")
+}
+
+/// Digits after the point that show two of an error, and at least six.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 6 and 17")]
+fn digits_for(error: f64) -> usize {
+    (1.0 - error.log10().floor()).clamp(6.0, 17.0) as usize
 }
