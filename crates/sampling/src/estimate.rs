@@ -130,7 +130,10 @@ fn each_scramble<T>(
     tally: impl Fn(&Launches, u64) -> Result<T, SampleError>,
 ) -> Result<Vec<T>, SampleError> {
     let each = scrambled.points_each()?;
-    let one = |scramble| tally(&Launches::sobol(cube.clone(), scrambled.seed, scramble)?, each);
+    let one = |scramble| {
+        let launches = Launches::sobol(cube.clone(), scrambled.seed, scramble)?;
+        tally(&launches, each).map_err(|error| error.later(scramble * each))
+    };
     (0..scrambled.scrambles).map(one).collect()
 }
 

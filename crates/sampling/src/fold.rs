@@ -28,6 +28,16 @@ pub enum SampleError {
     },
 }
 
+impl SampleError {
+    /// The same error of a sequence that begins with launch number `first`.
+    pub(crate) fn later(self, first: u64) -> Self {
+        match self {
+            Self::Input(_) => self,
+            Self::Solve { index, toss, source } => Self::Solve { index: first + index, toss, source },
+        }
+    }
+}
+
 /// What launches add up to. Merging is associative and commutative to the last bit, which is why the tallies of this
 /// crate are integers.
 pub(crate) trait Tally: Default + Send {

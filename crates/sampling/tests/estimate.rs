@@ -133,3 +133,25 @@ fn the_first_failing_launch_is_named_and_no_count_given() {
         assert!(matches!(error, SampleError::Solve { index: 10_001, .. }), "{error}");
     }
 }
+
+/// Fails on the 10th toss that it is given; on one thread this is launch 9 of the plan.
+#[derive(Default)]
+struct Worn(AtomicU64);
+impl Solver for Worn {
+    fn name(&self) -> &'static str {
+        "worn"
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let tosses = self.0.fetch_add(1, Ordering::Relaxed);
+        if tosses == 9 { Err(SolveError::NotFinite { time: 0.0 }) } else { ExactSolver.propagate(toss) }
+    }
+}
+
+#[test]
+fn a_launch_of_a_later_scramble_is_counted_from_the_first() {
+    let plan = Plan::Sobol(Scrambled { points: 32, scrambles: 8, seed: 1 });
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let worn = Worn::default();
+    let error = pool.install(|| estimate(&named_space("tails").unwrap(), plan, &worn, &silent)).unwrap_err();
+    assert!(matches!(error, SampleError::Solve { index: 9, .. }), "{error}");
+}
