@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -73,8 +73,13 @@ pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
 
 /// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.
 pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {per_sec}, {eta} left")
-        .expect("the template is valid");
+    let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+        // An error would be one of the terminal, which shows the bar or does not.
+        let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
+    };
+    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {rate}, {eta} left")
+        .expect("the template is valid")
+        .with_key("rate", rate);
     ProgressBar::new(number).with_style(style).with_message(things)
 }
 

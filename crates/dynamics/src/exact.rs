@@ -174,7 +174,7 @@ impl ExactMotion {
 
     /// The phases at which the motion shows heads.
     pub fn heads(&self) -> HeadsPhases {
-        HeadsPhases::new(self.tilt)
+        HeadsPhases::new(self.tilt, resolution(0.0))
     }
 
     /// The first time after launch at which the outcome changes (s); `None` if it never does.
@@ -202,15 +202,9 @@ mod tests {
     fn samples() -> Vec<ExactMotion> {
         let rates = [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 2.0, -9.0]];
         let tilts = [0.0, 1e-9, 0.7, FRAC_PI_2, 2.8];
-        let coins =
-            [Coin::PAPER, Coin::DISC, Coin::from_moments(1.0, 1.0).unwrap(), Coin::from_moments(1.0, 0.0).unwrap()];
-        let mut all = Vec::new();
-        for coin in coins {
-            for rate in rates {
-                all.extend(tilts.map(|tilt| motion(coin, rate, tilt)));
-            }
-        }
-        all
+        let coins = [0.5, 2.0, 1.0, 0.0].map(|k| Coin::from_moments(1.0, k).unwrap());
+        let launches = rates.iter().flat_map(|rate| tilts.map(|tilt| (*rate, tilt)));
+        launches.flat_map(|(rate, tilt)| coins.map(|coin| motion(coin, rate, tilt))).collect()
     }
 
     #[test]

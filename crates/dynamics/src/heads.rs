@@ -5,11 +5,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::exact::resolution;
-
 /// The phases ωL t at which a motion shows heads: those nearer than `half_width` to `crest` + 2π n.
 ///
-/// The errors count rounding as [`resolution`] does, and are no proof.
+/// The errors count rounding as [`resolution`](crate::exact::resolution) does, and are no proof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadsPhases {
     /// Phase at which cos θ is greatest (rad), from -π to π.
@@ -23,10 +21,9 @@ pub struct HeadsPhases {
 }
 
 impl HeadsPhases {
-    /// The phases of cos θ = `mean` + `cosine` cos(ωL t) + `sine` sin(ωL t).
-    pub(crate) fn new([mean, cosine, sine]: [f64; 3]) -> Self {
+    /// The phases of cos θ = `mean` + `cosine` cos(ωL t) + `sine` sin(ωL t), whose terms may each be off by `error`.
+    pub(crate) fn new([mean, cosine, sine]: [f64; 3], error: f64) -> Self {
         let amplitude = cosine.hypot(sine);
-        let error = resolution(0.0);
         if amplitude <= error {
             // As good as constant: the crest is anywhere, and only the sign of the mean matters.
             let half_width_error = if mean.abs() > 2.0 * error { 0.0 } else { PI };
@@ -75,10 +72,12 @@ fn half_width_error(mean: f64, amplitude: f64, error: f64) -> f64 {
 mod tests {
     use super::*;
 
+    const ERROR: f64 = 8.0 * f64::EPSILON;
+
     #[test]
     fn a_horizontal_launch_shows_heads_about_phase_0() {
         // ψ = 60°: cot²ψ = 1/3.
-        let heads = HeadsPhases::new([0.25, 0.75, 0.0]);
+        let heads = HeadsPhases::new([0.25, 0.75, 0.0], ERROR);
         assert_eq!(heads.crest, 0.0);
         assert!((heads.half_width - (-1.0_f64 / 3.0).acos()).abs() < 1e-15);
         assert!(heads.half_width_error < 1e-14);
@@ -87,11 +86,11 @@ mod tests {
     #[test]
     fn certain_and_constant_motions_have_no_edge() {
         for (tilt, half_width) in [([0.6, 0.4, 0.0], PI), ([0.5, 0.5, 0.0], PI), ([-0.6, 0.3, 0.2], 0.0)] {
-            let heads = HeadsPhases::new(tilt);
+            let heads = HeadsPhases::new(tilt, ERROR);
             assert_eq!((heads.half_width, heads.first_flip()), (half_width, None), "{tilt:?}");
         }
-        assert_eq!(HeadsPhases::new([0.8, 0.0, 0.0]).half_width_error, 0.0);
-        assert_eq!(HeadsPhases::new([0.0, 0.0, 0.0]).half_width_error, PI);
+        assert_eq!(HeadsPhases::new([0.8, 0.0, 0.0], ERROR).half_width_error, 0.0);
+        assert_eq!(HeadsPhases::new([0.0, 0.0, 0.0], ERROR).half_width_error, PI);
     }
 
     #[test]
@@ -99,9 +98,9 @@ mod tests {
         // Moving the mean by what rounding may do to it moves the edge by no more than the error says.
         for from_edge in [0.0, 1e-16, 1e-15, 3e-15, 1e-14, 1e-12, 1e-9, 1e-5, 0.1, 0.9] {
             let mean = 0.5 * (1.0 - from_edge);
-            let heads = HeadsPhases::new([mean, 0.5, 0.0]);
-            for moved in [mean - resolution(0.0), mean + resolution(0.0)] {
-                let change = (HeadsPhases::new([moved, 0.5, 0.0]).half_width - heads.half_width).abs();
+            let heads = HeadsPhases::new([mean, 0.5, 0.0], ERROR);
+            for moved in [mean - ERROR, mean + ERROR] {
+                let change = (HeadsPhases::new([moved, 0.5, 0.0], ERROR).half_width - heads.half_width).abs();
                 assert!(change <= heads.half_width_error, "{from_edge:e}: {change:e} > {:e}", heads.half_width_error);
             }
         }

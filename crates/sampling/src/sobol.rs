@@ -163,6 +163,22 @@ mod tests {
         }
     }
 
+    /// Direction numbers m_6 to m_9 of all dimensions, read off the points 2^5 to 2^8 of another implementation: SciPy 1.17,
+    /// scipy.stats.qmc.Sobol(8, scramble=False).
+    #[test]
+    fn direction_numbers_are_those_of_scipy() {
+        let expected: [[u64; DIMENSIONS]; 4] = [
+            [1, 51, 23, 29, 55, 9, 37, 9],
+            [1, 85, 71, 81, 61, 43, 31, 9],
+            [1, 255, 197, 147, 157, 251, 227, 45],
+            [1, 257, 209, 433, 181, 449, 381, 237],
+        ];
+        for (column, numbers) in (5..).zip(expected) {
+            let found: [u64; DIMENSIONS] = std::array::from_fn(|dimension| directions(dimension)[column]);
+            assert_eq!(found.map(|digits| digits >> (DEPTH as usize - 1 - column)), numbers);
+        }
+    }
+
     /// All ways to cut `digits` digits into `parts` parts.
     fn compositions(digits: u32, parts: usize) -> Vec<Vec<u32>> {
         if parts == 1 {

@@ -1,13 +1,23 @@
 //! The running probability of methods A and B against the number of launches.
 
 use plotters::prelude::*;
+use serde::Serialize;
 
 use crate::chart::{BLUE, SIZE, TEXT, VERMILION, svg};
-use crate::commands::convergence::Step;
 use crate::failure::Failure;
 
 const GRID: RGBColor = VERMILION;
 const RANDOM: RGBColor = BLUE;
+
+/// The share of heads among the first launches: of the grid in its order (A), and at random with its interval (B).
+#[derive(Debug, Serialize)]
+pub(crate) struct Step {
+    pub(crate) launches: u64,
+    pub(crate) grid: f64,
+    pub(crate) random: f64,
+    pub(crate) random_lo: f64,
+    pub(crate) random_hi: f64,
+}
 
 /// The chart as SVG; `steps` are not empty.
 pub(crate) fn convergence(steps: &[Step]) -> Result<String, Failure> {

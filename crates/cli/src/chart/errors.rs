@@ -1,17 +1,35 @@
 //! The error of each method of sampling against the number of launches.
 
 use plotters::prelude::*;
+use serde::Serialize;
 
 use crate::chart::{BLUE, GREEN, GREY, PURPLE, SIZE, TEXT, VERMILION, svg};
-use crate::commands::errors::{Line, Reference};
 use crate::failure::Failure;
 
 const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, BLACK, PURPLE];
 
+/// What errors are measured from, and how far it may be off itself.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reference {
+    pub(crate) probability: f64,
+    pub(crate) error: f64,
+}
+
+/// The error of a method by a number of launches.
+#[derive(Debug, Serialize)]
+pub(crate) struct ErrorLine {
+    pub(crate) method: &'static str,
+    pub(crate) launches: u64,
+    pub(crate) rms_error: f64,
+    pub(crate) replicates: usize,
+    pub(crate) reference: f64,
+    pub(crate) reference_error: f64,
+}
+
 /// The chart as SVG, of errors above 0.
-pub(crate) fn errors(lines: &[Line], reference: &Reference) -> Result<String, Failure> {
-    let drawn: Vec<&Line> = lines.iter().filter(|line| line.rms_error > 0.0).collect();
-    let span = |of: fn(&Line) -> f64| {
+pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<String, Failure> {
+    let drawn: Vec<&ErrorLine> = lines.iter().filter(|line| line.rms_error > 0.0).collect();
+    let span = |of: fn(&ErrorLine) -> f64| {
         let values = drawn.iter().map(|line| of(line));
         values.fold((f64::INFINITY, 0.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)))
     };

@@ -5,8 +5,8 @@ mod errors;
 mod flight;
 mod map;
 
-pub(crate) use convergence::convergence;
-pub(crate) use errors::errors;
+pub(crate) use convergence::{Step, convergence};
+pub(crate) use errors::{ErrorLine, Reference, errors};
 pub(crate) use flight::flight;
 pub(crate) use map::map;
 

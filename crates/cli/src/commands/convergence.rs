@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use sampling::estimate::LEVEL;
 use sampling::{SampleError, running_grid, running_random, wilson};
-use serde::Serialize;
 
 use crate::args::SolverArgs;
-use crate::chart;
+use crate::chart::{self, Step};
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
@@ -35,16 +34,6 @@ pub(crate) struct Args {
     /// Also draw the series into this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-}
-
-/// The share of heads among the first launches: of the grid in its order (A), and at random with its interval (B).
-#[derive(Debug, Serialize)]
-pub(crate) struct Step {
-    pub(crate) launches: u64,
-    pub(crate) grid: f64,
-    pub(crate) random: f64,
-    pub(crate) random_lo: f64,
-    pub(crate) random_hi: f64,
 }
 
 impl Args {

@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use sampling::{ESTIMATORS, Estimator, Plan, Progress, Rest, Scrambled, Space, estimate, rms_error};
-use serde::Serialize;
 use toss::ExactSolver;
 
-use crate::chart;
+use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
@@ -39,24 +38,6 @@ fn probability(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a probability from 0 to 1".to_owned())
 }
 
-/// What errors are measured from, and how far it may be off itself.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Reference {
-    pub(crate) probability: f64,
-    pub(crate) error: f64,
-}
-
-/// The error of a method by a number of launches.
-#[derive(Debug, Serialize)]
-pub(crate) struct Line {
-    pub(crate) method: &'static str,
-    pub(crate) launches: u64,
-    pub(crate) rms_error: f64,
-    replicates: usize,
-    reference: f64,
-    reference_error: f64,
-}
-
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
@@ -67,7 +48,7 @@ impl Args {
         Ok(output::data(self.format, &lines))
     }
 
-    fn lines(&self, space: &Space) -> Result<(Vec<Line>, Reference), Failure> {
+    fn lines(&self, space: &Space) -> Result<(Vec<ErrorLine>, Reference), Failure> {
         let sizes = || (8..=self.up_to).map(|exponent| 1_u64 << exponent);
         let seeds = |estimator: &Estimator| if estimator.is_random { self.replicates } else { 1 };
         let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * sizes().sum::<u64>();
@@ -78,7 +59,7 @@ impl Args {
         for estimator in ESTIMATORS {
             for launches in sizes() {
                 let estimates = estimator.estimates(space, launches, self.replicates, &ExactSolver, &progress)?;
-                lines.push(Line {
+                lines.push(ErrorLine {
                     method: estimator.name,
                     launches,
                     rms_error: rms_error(&estimates, reference.probability),
