@@ -131,7 +131,7 @@ fn each_scramble<T>(
 ) -> Result<Vec<T>, SampleError> {
     let each = scrambled.points_each()?;
     let one = |scramble| {
-        let launches = Launches::sobol(cube.clone(), scrambled.seed, scramble)?;
+        let launches = Launches::sobol(cube.clone(), scrambled.seed, scramble);
         tally(&launches, each).map_err(|error| error.later(scramble * each))
     };
     (0..scrambled.scrambles).map(one).collect()

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use dynamics::InputError;
-
 use crate::grid::Grid;
 use crate::random::random_values;
 use crate::sobol::ScrambledSobol;
@@ -19,16 +17,9 @@ pub(crate) enum Launches {
 
 impl Launches {
     /// One scramble of Sobol's sequence over `cube`.
-    ///
-    /// # Errors
-    /// [`InputError`] for a cube of too many dimensions.
-    pub(crate) fn sobol(cube: Cube, seed: u64, scramble: u64) -> Result<Self, InputError> {
-        let sequence = ScrambledSobol::new(cube.dimensions(), seed, scramble).ok_or_else(|| InputError::Malformed {
-            field: "free coordinates",
-            value: cube.dimensions().to_string(),
-            expected: "as many as Sobol's sequence has dimensions, or fewer",
-        })?;
-        Ok(Self::Sobol { cube, sequence })
+    pub(crate) fn sobol(cube: Cube, seed: u64, scramble: u64) -> Self {
+        let sequence = ScrambledSobol::new(cube.dimensions(), seed, scramble);
+        Self::Sobol { cube, sequence: sequence.expect("a space has six coordinates, the sequence eight dimensions") }
     }
 
     /// The launches `range`.
