@@ -249,6 +249,20 @@ mod tests {
     }
 
     #[test]
+    fn a_share_that_hangs_on_rounding_says_so() {
+        // Phases nearer to the edge of the heads than rounding can place it.
+        let heads = HeadsPhases { crest: 0.0, half_width: 2.0, crest_error: 1e-15, half_width_error: 1e-15 };
+        for (from, to) in [(2.0 - 3e-15, 2.0 - 1e-15), (1.0, 2.0 - 1e-15), (2.0 + 1e-15, 2.0 + 3e-15)] {
+            let share = uniform_share(&heads, from, to);
+            assert!(share.error > 1e-15 / (to - from), "{from}, {to}: {share:?}");
+        }
+        assert_eq!(uniform_share(&heads, 1.0, 1.9), Share { probability: 1.0, error: 0.0 });
+        // A quarter of a turn end over end: cos θ = 0 to rounding.
+        let speed = (9.81 * PI / 36.0).to_string();
+        assert_eq!(share_of(Coin::PAPER, ["0", "9", "0"], "0", &speed), Share { probability: 0.5, error: 0.5 });
+    }
+
+    #[test]
     fn a_wide_normal_speed_is_the_long_flight() {
         let wide = share_of(Coin::PAPER, ["20", "0", "3"], "0", "normal:1000:20");
         let cone = 20_f64.atan2(1.5);
@@ -283,6 +297,9 @@ mod tests {
             sum
         };
         assert_eq!(sum(&mut shares.iter()), sum(&mut shares.iter().rev()));
-        assert!((sum(&mut shares.iter()).mean().probability - 0.5).abs() < 1e-15);
+        let mean = sum(&mut shares.iter()).mean();
+        assert!((mean.probability - 0.5).abs() < 1e-15);
+        // Beside the errors given, 499.5e-16 in the mean, that of the unit of the sum.
+        assert!((499.5e-16 + UNIT..499.5e-16 + 3.0 * UNIT).contains(&mean.error), "{:e}", mean.error);
     }
 }

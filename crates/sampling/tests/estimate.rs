@@ -75,6 +75,16 @@ fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampl
 }
 
 #[test]
+fn exact_speed_admits_doubt_where_every_point_agrees() {
+    // ψ < 45° throughout: heads at every speed of every point.
+    let space = space(["0:10", "x", "60", "3:5"]);
+    let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(4096, 1)));
+    let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+    assert_eq!((found.probability, found.interval_kind), (1.0, IntervalKind::Unanimous));
+    assert!((0.999..0.9992).contains(&found.interval.unwrap().lo), "{found:?}");
+}
+
+#[test]
 fn a_union_of_cells_has_the_weighted_mean_of_their_probabilities() {
     let probability = |speeds: &str| {
         let found = estimate(&space(["3", "2", "1", speeds]), PLANS[3], &ExactSolver, &silent).unwrap();
