@@ -81,9 +81,28 @@ pub(crate) fn fold<T: Tally>(
             || Ok(T::default()),
             |a, b| match (a, b) {
                 (Ok(a), Ok(b)) => Ok(a.merge(b)),
-                (Err(a), Err(b)) => Err(if a.0 < b.0 { a } else { b }),
-                (Err(first), Ok(_)) | (Ok(_), Err(first)) => Err(first),
+                (Err(a), Err(b)) => Err(first(a, b)),
+                (Err(failure), Ok(_)) | (Ok(_), Err(failure)) => Err(failure),
             },
         )
         .map_err(|(index, toss, source)| SampleError::Solve { index, toss: Box::new(toss), source })
+}
+
+/// The failure of the launch that comes first.
+fn first(a: Failure, b: Failure) -> Failure {
+    if a.0 < b.0 { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn of_two_failures_the_first_launch_counts() {
+        let launch = Launch::new(Vector3::zeros(), TimeOfFlight::Given(0.0)).unwrap();
+        let failure = |index| (index, Toss { coin: Coin::PAPER, launch }, SolveError::NotFinite { time: 0.0 });
+        assert_eq!((first(failure(3), failure(7)).0, first(failure(7), failure(3)).0), (3, 3));
+    }
 }

@@ -128,6 +128,24 @@ mod tests {
     }
 
     #[test]
+    fn the_least_cos_tilt_is_that_of_the_motion_also_from_a_tilt() {
+        let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0.6")];
+        let tilted = map(&space(&texts), [RateX, RateZ], EXACT, &ExactSolver, &|_| {}).unwrap();
+        for (index, node) in tilted.nodes.iter().enumerate() {
+            let rates = [tilted.across.1[index % 5], 7.0, tilted.up.1[index / 5]];
+            let motion = ExactMotion::new(&space(&texts).toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]));
+            let turn = std::f64::consts::TAU / motion.precession_rate();
+            let heights = (0..10_000).map(|part| motion.cos_tilt(turn * f64::from(part) / 1e4).unwrap());
+            let least = heights.fold(1.0, f64::min);
+            assert!((node.least_cos_tilt.unwrap() - least).abs() < 1e-6, "{rates:?}: {node:?}, {least}");
+        }
+        let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0:0.6")];
+        let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(8, 1)));
+        let blurred = map(&space(&texts), [RateX, RateZ], plan, &ExactSolver, &|_| {}).unwrap();
+        assert!(blurred.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
+    }
+
+    #[test]
     fn what_cannot_be_mapped_is_refused_by_name() {
         let space = space(&[(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "4")]);
         for (axes, field) in [

@@ -149,7 +149,7 @@ impl Space {
 
 fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Result<(), InputError> {
     let is_rate = |of| of <= Coordinate::RateZ;
-    if is_rate(of) && is_rate(to) && of != to && partner_has_an_axis {
+    if is_rate(of) && is_rate(to) && partner_has_an_axis {
         return Ok(());
     }
     Err(InputError::Malformed {
