@@ -30,9 +30,10 @@ pub fn name(solver: &dyn Solver) -> String {
     format!("{} {:?}", solver.name(), solver.method().map(|method| method.scheme()))
 }
 
-/// Error of cos θ that a solver may make on `toss`: what it answers for itself.
+/// Error of cos θ that a solver may make on `toss`: what it answers for itself, and what the rounding of the inputs of
+/// a related toss may change.
 pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
-    solver.resolution(phase(toss))
+    solver.resolution(phase(toss)) + 4.0 * f64::EPSILON * (2.0 + phase(toss))
 }
 
 /// Error of an attitude (rad): ten times that of cos θ, whose slope vanishes where the attitude's does not.

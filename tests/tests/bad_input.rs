@@ -184,15 +184,17 @@ fn huge_and_subnormal_rates_are_solved_or_refused() {
 
 #[test]
 fn an_outcome_at_the_edge_is_never_misjudged() {
-    // ψ = 45° within an ulp: cos θ only touches 0, at half a turn. ωL = √2 k ωz.
+    // ψ = 45° within two ulp. At half a turn, ωL = √2 k ωz, cos θ is 0 to rounding: up to 45° it stays above it (equal to it
+    // only at a phase of π, which no f64 has), and beyond it is below for some 1e-8 rad.
     for ulps in -2..=2_i64 {
         let transverse = f64::from_bits(1.0_f64.to_bits().wrapping_add_signed(ulps));
         let half_turn = std::f64::consts::PI / 2f64.sqrt();
         for nudge in -3..=3_i64 {
             let time = f64::from_bits(half_turn.to_bits().wrapping_add_signed(nudge));
             let edge = toss(2.0, [transverse, 0.0, 0.5], 0.0, time);
-            assert_eq!(ExactSolver.outcome(&edge), Ok(Outcome::Undecided), "{ulps}, {nudge}");
-            for solver in solvers() {
+            let outcome = if ulps <= 0 { Outcome::Heads } else { Outcome::Tails };
+            assert_eq!(ExactSolver.outcome(&edge), Ok(outcome), "{ulps}, {nudge}");
+            for solver in solvers().iter().filter(|solver| solver.method().is_some()) {
                 assert_eq!(solver.outcome(&edge), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
             }
         }

@@ -10,7 +10,11 @@ use toss::{
 use crate::failure::Failure;
 
 /// Reads N numbers separated by commas.
-fn numbers<const N: usize>(field: &'static str, text: &str, expected: &'static str) -> Result<[f64; N], InputError> {
+pub(crate) fn numbers<const N: usize>(
+    field: &'static str,
+    text: &str,
+    expected: &'static str,
+) -> Result<[f64; N], InputError> {
     let malformed = || InputError::Malformed { field, value: text.to_owned(), expected };
     let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     parts.map_err(|_| malformed())?.try_into().map_err(|_| malformed())

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{convergence, errors, list, map, probability, toss, trace};
+use crate::commands::{convergence, errors, intervals, inverse, list, map, probability, toss, trace};
 use crate::failure::Failure;
 use crate::output::{DataFormat, Format};
 
@@ -38,6 +38,10 @@ enum Command {
     Errors(errors::Args),
     /// Map the probability of heads over two coordinates of a space
     Map(map::Args),
+    /// Find the speeds that land heads
+    Intervals(intervals::Args),
+    /// Find the launch that lands heads with a wanted probability
+    Inverse(inverse::Args),
     /// List the coins that can be named
     Coins(list::Args),
     /// List the solvers
@@ -55,6 +59,8 @@ impl Command {
             Self::Convergence(args) => args.run(),
             Self::Errors(args) => args.run(),
             Self::Map(args) => args.run(),
+            Self::Intervals(args) => args.run(),
+            Self::Inverse(args) => args.run(),
             Self::Coins(args) => list::coins(args),
             Self::Solvers(args) => list::solvers(args),
             Self::Spaces(args) => list::spaces(args),
@@ -69,6 +75,8 @@ impl Command {
             Self::Errors(args) => args.format == DataFormat::Json,
             Self::Map(args) => args.format == DataFormat::Json,
             Self::Probability(args) => args.format == Format::Json,
+            Self::Intervals(args) => args.format == Format::Json,
+            Self::Inverse(args) => args.format == Format::Json,
             Self::Coins(args) | Self::Solvers(args) | Self::Spaces(args) => args.format == Format::Json,
         }
     }

@@ -26,10 +26,12 @@ fn a_toss_by_every_solver_has_the_reference_digits() {
 fn the_answer_has_the_fields_of_the_contract() {
     let answer = json("toss --moments 0.04,0.02 --rate 2,4,6 --time 1", 0);
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
-    for field in ["coin", "flight_time", "cos_tilt", "outcome", "certified", "attitude", "solver", "method", "work"] {
+    for field in
+        ["coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude", "solver", "method", "work"]
+    {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 9);
+    assert_eq!(fields.len(), 10);
     // Kane's body.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -42,7 +44,8 @@ fn the_answer_has_the_fields_of_the_contract() {
     }
     assert_eq!(answer["coin"]["i3"], 0.02);
     assert_eq!(answer["method"], Value::Null);
-    assert_eq!(answer["certified"], false);
+    assert_eq!(answer["certified"], true);
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --method rk4", 0)["method"], "rk4");
 }
 
@@ -166,6 +169,55 @@ fn a_chart_is_written_whole() {
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     assert!(svg.contains("cos θ") && svg.contains("time [s]"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no half-written neighbour stays behind");
+}
+
+#[test]
+fn a_margin_leads_to_the_other_outcome() {
+    let answer = json("toss --rate 2,2,0.5 --speed 3", 0);
+    let change = answer["margin"]["speed"].as_f64().unwrap();
+    assert!(change < 0.0, "{answer}");
+    for (part, outcome) in [(0.999_999, "tails"), (1.000_001, "heads")] {
+        assert_eq!(json(&format!("toss --rate 2,2,0.5 --speed {}", 3.0 + part * change), 0)["outcome"], outcome);
+    }
+    assert_near(&answer["margin"]["time"], 2.0 * change / 9.81, 1e-15);
+    let forever = json("toss --rate 1,1,2.5 --speed 3 --coin disc", 0);
+    assert_eq!((&forever["margin"]["speed"], &forever["margin"]["time"]), (&Value::Null, &Value::Null));
+    assert!(stdout(&run("toss --rate 1,1,2.5 --speed 3 --coin disc")).contains("no speed changes the outcome"));
+}
+
+#[test]
+fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
+    let command = "--rate 20,5,3 --speed 3:9 --tilt 0.4";
+    let answer = json(&format!("intervals {command}"), 0);
+    let intervals = answer["heads"].as_array().unwrap();
+    assert!(intervals.len() > 2);
+    for interval in intervals {
+        let [slow, fast] = [0, 1].map(|end| interval[end].as_f64().unwrap());
+        for (speed, outcome) in [(slow + 1e-9, "heads"), (fast - 1e-9, "heads"), (fast + 1e-9, "tails")] {
+            let toss = json(&format!("toss --rate 20,5,3 --tilt 0.4 --speed {speed}"), 0);
+            assert!(toss["outcome"] == outcome || fast == 9.0, "{speed}");
+        }
+    }
+    let exact = json("probability --rate-x 20 --rate-y 5 --rate-z 3 --tilt 0.4 --speed 3:9 --method exact-speed", 0);
+    assert_near(&answer["probability"], exact["probability"].as_f64().unwrap(), 1e-13);
+    assert_refused(&[
+        ("intervals --rate 1,1,1 --speed 3", ["--speed", "LO:HI"]),
+        ("intervals --rate 1,1,1 --speed -3:3", ["speed [m/s] = -3.0", ">= 0"]),
+        ("intervals --rate 1,1,1 --speed 5:3", ["speed [m/s] = 3.0", "lower bound"]),
+        ("intervals --rate 1e6,1,1 --speed 0:3", ["more than 10000 times", "shorter range"]),
+    ]);
+}
+
+#[test]
+fn the_inverse_launch_has_the_wanted_probability() {
+    // p(60°) of the reference numbers, cot²ψ = 1/3.
+    let answer = json("inverse --probability 0.6081734479693927 --coin disc", 0);
+    assert_near(&answer["cone_angle"], std::f64::consts::FRAC_PI_3, 1e-14);
+    assert_near(&answer["rate_ratio"], 2.0 * 3f64.sqrt(), 1e-13);
+    assert_refused(&[
+        ("inverse --probability 0.5", ["probability = 0.5", "above 1/2"]),
+        ("inverse --probability nan", ["probability = NaN", "at most 1"]),
+    ]);
 }
 
 #[test]

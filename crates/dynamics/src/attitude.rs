@@ -9,6 +9,7 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};
 
 /// Attitude of BF in LF as a unit quaternion. See the conventions of [this module](self).
@@ -41,12 +42,11 @@ impl Attitude {
 
     /// A turn by `angle` (rad) about z, which LF and BF share before it.
     pub fn about_z(angle: f64) -> Self {
-        Self::about_unit_axis(&Vector3::z(), 0.5 * angle)
+        Self::about_unit_axis(&Vector3::z(), (0.5 * angle).sin_cos())
     }
 
-    /// A turn by twice `half_angle` (rad) about the unit vector `axis`.
-    pub(crate) fn about_unit_axis(axis: &Vector3<f64>, half_angle: f64) -> Self {
-        let (sin, cos) = half_angle.sin_cos();
+    /// A turn about the unit vector `axis` by twice the angle with this sine and cosine.
+    pub(crate) fn about_unit_axis(axis: &Vector3<f64>, (sin, cos): (f64, f64)) -> Self {
         Self(UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, axis * sin)))
     }
 
@@ -80,6 +80,20 @@ impl Attitude {
     /// The vector `lab` (LF), seen in BF.
     pub fn lab_to_body(&self, lab: &Vector3<f64>) -> Vector3<f64> {
         self.0.inverse_transform_vector(lab)
+    }
+
+    /// The lab's vertical in BF (the third row of the direction cosine matrix), exactly normalised whatever the norm of
+    /// the components.
+    pub(crate) fn vertical_in_body(&self) -> [DoubleDouble; 3] {
+        if *self == Self::IDENTITY {
+            return [0.0, 0.0, 1.0].map(DoubleDouble::from);
+        }
+        let [w, x, y, z] = self.components();
+        let product = DoubleDouble::product;
+        let (upright, inverted) = (product(w, w) + product(z, z), product(x, x) + product(y, y));
+        let norm = upright + inverted;
+        let level = [product(x, z) - product(w, y), product(y, z) + product(w, x)].map(|half| half * 2.0);
+        [level[0], level[1], upright - inverted].map(|part| part / norm)
     }
 
     /// The inverse turn.

@@ -4,7 +4,9 @@
 //! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
 //! For a free flight only the inertia ratio k = I3/I1 matters.
 
+use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};
+use crate::scale::mantissa_and_exponent;
 
 /// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +60,12 @@ impl Coin {
     /// I3, the moment about the coin's normal (kg m²).
     pub fn i3(&self) -> f64 {
         self.i3
+    }
+
+    /// The inertia ratio k in twice the precision of f64; the same for all moments that differ by a power of two.
+    pub fn exact_inertia_ratio(&self) -> DoubleDouble {
+        let ((i1, e1), (i3, e3)) = (mantissa_and_exponent(self.i1), mantissa_and_exponent(self.i3));
+        DoubleDouble::quotient(i3, i1).times_power_of_two(e3 - e1)
     }
 
     /// The inertia ratio k = I3/I1, from 0 (rod) to 2 (flat disc).

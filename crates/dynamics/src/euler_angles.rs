@@ -13,6 +13,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::double_double::DoubleDouble;
 
 /// Euler angles z-x-z (rad). See the conventions of [this module](self).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +30,7 @@ impl EulerAngles {
     /// The attitude that these angles describe.
     pub fn attitude(&self) -> Attitude {
         Attitude::about_z(self.alpha)
-            * Attitude::about_unit_axis(&Vector3::x(), 0.5 * self.beta)
+            * Attitude::about_unit_axis(&Vector3::x(), (0.5 * self.beta).sin_cos())
             * Attitude::about_z(self.gamma)
     }
 
@@ -73,8 +74,8 @@ fn nearest_polar(re: f64, im: f64, reference: f64) -> (f64, f64) {
 ///
 /// The curve is an ellipse about the origin, run through once in 2π: its argument gains ±π in each half turn. A flat
 /// ellipse is a line through the origin; there the argument stays and the radius changes sign.
-pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: f64) -> (f64, f64) {
-    let (sin, cos) = x.sin_cos();
+pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> (f64, f64) {
+    let ((sin, cos), x) = (x.rounded_sin_cos(), x.hi());
     if let Some((argument, [along_a, along_b])) = flat(a, b) {
         return (argument, along_a * cos + along_b * sin);
     }
@@ -150,10 +151,10 @@ mod tests {
         // Ellipses of both senses, thin and wide, that start anywhere.
         for (a, b) in [([1.0, 0.0], [0.2, 0.5]), ([0.3, -0.4], [0.1, -0.9]), ([0.5, 0.5], [-0.5, 1e-3])] {
             let step = 1e-4;
-            let mut last = continuous_polar(a, b, 0.0).0;
+            let mut last = continuous_polar(a, b, 0.0.into()).0;
             let mut largest = 0.0_f64;
             for i in 1..100_000 {
-                let (argument, radius) = continuous_polar(a, b, f64::from(i) * step);
+                let (argument, radius) = continuous_polar(a, b, (f64::from(i) * step).into());
                 largest = largest.max((argument - last).abs());
                 last = argument;
                 let (sin, cos) = (f64::from(i) * step).sin_cos();

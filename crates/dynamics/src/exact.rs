@@ -14,72 +14,76 @@
 //! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
 //! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit.
 //!
-//! Accuracy: the phases ωL t and q t carry a relative error of a few ε, so cos θ is right to about [`resolution`].
+//! The rates ωL and q, the phases ωL t and q t and a, b, c are carried in double-double ([`DoubleDouble`]), so that what
+//! is left is the rounding of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any
+//! phase that a toss can have.
 
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
-use crate::body_rate::body_precession_rate;
+use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
 use crate::euler_angles::{EulerAngles, continuous_polar, flat};
 use crate::heads::HeadsPhases;
-use crate::launch::Toss;
-use crate::scale::power_of_two_scale;
+use crate::launch::{ExactTime, Toss};
+use crate::scale::{mantissa_and_exponent, power_of_two_scale};
 use crate::state::State;
 
-/// 2^53: above it, neighbouring f64 phases are more than a radian apart.
-const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
+/// 2^53 (rad): above it, neighbouring f64 phases are more than a radian apart.
+pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
-/// Error of cos θ that rounding can cause at a [`phase`](ExactMotion::phase) (rad): 4 ε (2 + phase), with ε = 2^-52.
-///
-/// The phase is a product of some ten rounded operations; the bound counts 3 ε for them and is not a proof.
-#[inline]
-pub fn resolution(phase: f64) -> f64 {
-    4.0 * f64::EPSILON * (2.0 + phase)
-}
+/// Error of [`ExactMotion::cos_tilt`], as long as std's sine and cosine are right to 0.6 ulp.
+pub const COS_TILT_ERROR: f64 = 2.3e-16;
 
 /// The closed-form motion that follows a launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactMotion {
     launch: State,
-    /// Power of two (rad/s) in which the rates below are measured.
-    scale: f64,
+    /// Exponent of the power of two (rad/s) in which the rates below are measured.
+    exponent: i32,
     /// Direction of S at launch (BF).
     momentum_direction: Vector3<f64>,
-    /// ωL / scale.
-    precession_rate: f64,
-    /// q / scale.
-    spin_rate: f64,
+    /// ωL.
+    precession_rate: DoubleDouble,
+    /// q.
+    spin_rate: DoubleDouble,
     /// a, b, c of cos θ = a + b cos(ωL t) + c sin(ωL t).
-    tilt: [f64; 3],
+    tilt: [DoubleDouble; 3],
 }
 
 impl ExactMotion {
     /// The motion of a toss.
-    #[inline]
     pub fn new(toss: &Toss) -> Self {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
-        let k = toss.coin.inertia_ratio();
+        let k = toss.coin.exact_inertia_ratio();
         let scale = power_of_two_scale(&rate);
         let scaled = rate / scale;
-        let momentum = Vector3::new(scaled.x, scaled.y, k * scaled.z);
-        let precession_rate = momentum.norm();
-        let direction = if precession_rate > 0.0 { momentum / precession_rate } else { Vector3::z() };
-        let vertical = attitude.lab_to_body(&Vector3::z());
-        let along = vertical.dot(&direction) * direction.z;
+        let spin = k * scaled.z;
+        // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
+        let unit = power_of_two_scale(&Vector3::new(scaled.x, scaled.y, spin.hi()));
+        let (_, unit_exponent) = mantissa_and_exponent(unit);
+        let momentum = [(scaled.x / unit).into(), (scaled.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
+        let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
+        let precession_rate = norm.times_power_of_two(unit_exponent);
+        let [s_x, s_y, s_z] =
+            if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };
+        let [m_x, m_y, m_z] = attitude.vertical_in_body();
+        let across = m_x * s_x + m_y * s_y;
+        // b = m·ẑ - a without the cancellation where n is along S.
+        let tilt = [(across + m_z * s_z) * s_z, m_z * (s_x * s_x + s_y * s_y) - across * s_z, m_x * s_y - m_y * s_x];
         Self {
             launch: State { attitude, rate },
-            scale,
-            momentum_direction: direction,
+            exponent: mantissa_and_exponent(scale).1,
+            momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
             precession_rate,
-            spin_rate: body_precession_rate(k, scaled.z),
-            tilt: [along, vertical.z - along, vertical.dot(&direction.cross(&Vector3::z()))],
+            spin_rate: (k - 1.0.into()) * scaled.z,
+            tilt,
         }
     }
 
     /// ωL = |S|/I1, the rate of the precession about S (rad/s); infinite if it leaves the range of f64.
     pub fn precession_rate(&self) -> f64 {
-        self.precession_rate * self.scale
+        self.precession_rate.times_power_of_two(self.exponent).hi()
     }
 
     /// ψ, the half-angle of the cone that n describes about S (rad), from 0 to π.
@@ -98,22 +102,19 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
-    #[inline]
-    pub fn phase(&self, time: f64) -> Result<f64, SolveError> {
-        self.phases(time).map(|(precession, spin)| precession.max(spin.abs()))
+    pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        self.phases(time).map(|(precession, spin)| precession.hi().max(spin.hi().abs()))
     }
 
     /// ωL t and q t (rad).
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if either is above 2^53.
-    #[inline]
-    pub fn phases(&self, time: f64) -> Result<(f64, f64), SolveError> {
-        let scaled_time = self.scale * time;
-        // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
-        let turned = |rate: f64| if rate == 0.0 { 0.0 } else { rate * scaled_time };
+    pub fn phases(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
+        let time = time.into();
+        let turned = |rate: DoubleDouble| (rate * time.mantissa).times_power_of_two(self.exponent + time.exponent);
         let (precession, spin) = (turned(self.precession_rate), turned(self.spin_rate));
-        let largest = precession.max(spin.abs());
+        let largest = precession.hi().max(spin.hi().abs());
         if largest <= LARGEST_PHASE {
             Ok((precession, spin))
         } else {
@@ -125,24 +126,32 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    #[inline]
-    pub fn cos_tilt(&self, time: f64) -> Result<f64, SolveError> {
-        let (sin, cos) = self.phases(time)?.0.sin_cos();
+    pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        self.cos_tilt_parts(time).map(|(cos_tilt, _)| cos_tilt.hi().clamp(-1.0, 1.0))
+    }
+
+    /// cos θ before it is rounded, and the phase ωL t (rad), in double-double.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn cos_tilt_parts(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
+        let phase = self.phases(time)?.0;
+        let (sin, cos) = phase.sin_cos();
         let [a, b, c] = self.tilt;
-        Ok(a + b * cos + c * sin)
+        Ok((a + b * cos + c * sin, phase))
     }
 
     /// Attitude and body rate, `time` (s) after launch.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    pub fn state(&self, time: f64) -> Result<State, SolveError> {
+    pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
         let (phase, spin) = self.phases(time)?;
-        let precession = Attitude::about_unit_axis(&self.momentum_direction, 0.5 * phase);
-        let (sin, cos) = spin.sin_cos();
-        let rate = self.launch.rate;
+        let precession = Attitude::about_unit_axis(&self.momentum_direction, (phase * 0.5).rounded_sin_cos());
+        let spun = Attitude::about_unit_axis(&Vector3::z(), (-spin * 0.5).rounded_sin_cos());
+        let ((sin, cos), rate) = (spin.rounded_sin_cos(), self.launch.rate);
         Ok(State {
-            attitude: self.launch.attitude * precession * Attitude::about_z(-spin),
+            attitude: self.launch.attitude * precession * spun,
             rate: Vector3::new(rate.x * cos - rate.y * sin, rate.x * sin + rate.y * cos, rate.z),
         })
     }
@@ -154,9 +163,9 @@ impl ExactMotion {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    pub fn euler_angles(&self, time: f64) -> Result<EulerAngles, SolveError> {
+    pub fn euler_angles(&self, time: impl Into<ExactTime>) -> Result<EulerAngles, SolveError> {
         let (phase, spin) = self.phases(time)?;
-        let half_phase = 0.5 * phase;
+        let (half_phase, spin) = (phase * 0.5, spin.hi());
         // Precession alone: cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin only lowers γ by q t.
         let start = self.launch.attitude;
         let [w0, x0, y0, z0] = start.components();
@@ -174,15 +183,13 @@ impl ExactMotion {
 
     /// The phases at which the motion shows heads.
     pub fn heads(&self) -> HeadsPhases {
-        HeadsPhases::new(self.tilt, resolution(0.0))
+        HeadsPhases::new(self.tilt.map(DoubleDouble::hi), COS_TILT_ERROR)
     }
 
     /// The first time after launch at which the outcome changes (s); `None` if it never does.
     pub fn first_flip(&self) -> Option<f64> {
-        if self.precession_rate == 0.0 {
-            return None;
-        }
-        Some(self.heads().first_flip()? / self.precession_rate / self.scale)
+        let rate = self.precession_rate();
+        if rate == 0.0 { None } else { Some(self.heads().first_flip()? / rate) }
     }
 }
 

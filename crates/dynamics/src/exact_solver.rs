@@ -1,9 +1,10 @@
-//! The exact motion as a solver, beside the numerical ones.
+//! The exact motion as a solver, beside the numerical ones. Its outcomes are proven.
 
+use crate::certified::{Certificate, certify};
 use crate::error::SolveError;
-use crate::exact::{ExactMotion, resolution};
+use crate::exact::{COS_TILT_ERROR, ExactMotion};
 use crate::launch::Toss;
-use crate::solver::{Outcome, Propagation, Settings, Solver, SolverEntry, Work};
+use crate::solver::{Propagation, Settings, Solver, SolverEntry, Verdict, Work};
 
 /// The solver by [`ExactMotion`]; it makes no steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,20 +26,24 @@ impl Solver for ExactSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let state = ExactMotion::new(toss).state(toss.launch.flight_time())?;
+        let state = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
         Ok(Propagation { state, defect: 0.0, work: Work::default() })
     }
 
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        ExactMotion::new(toss).cos_tilt(toss.launch.flight_time())
+        ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
     }
 
-    fn resolution(&self, phase: f64) -> f64 {
-        resolution(phase)
+    fn resolution(&self, _: f64) -> f64 {
+        COS_TILT_ERROR
     }
 
-    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        let (motion, time) = (ExactMotion::new(toss), toss.launch.flight_time());
-        Ok(Outcome::of(motion.cos_tilt(time)?, resolution(motion.phase(time)?)))
+    fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
+        let Certificate { outcome, stage } = certify(toss)?;
+        Ok(Verdict { outcome, proof: Some(stage) })
+    }
+
+    fn verdict_at(&self, toss: &Toss, _: f64) -> Result<Verdict, SolveError> {
+        self.verdict(toss)
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The phases ωL t at which a motion shows heads: those nearer than `half_width` to `crest` + 2π n.
 ///
-/// The errors count rounding as [`resolution`](crate::exact::resolution) does, and are no proof.
+/// The errors follow from those of the terms, and are no proof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadsPhases {
     /// Phase at which cos θ is greatest (rad), from -π to π.
@@ -38,6 +38,28 @@ impl HeadsPhases {
             crest_error: FRAC_PI_2 * error / amplitude,
             half_width_error: half_width_error(mean, amplitude, 2.0 * error / amplitude),
         }
+    }
+
+    /// Those of a motion whose cos θ does not change.
+    pub fn constant(cos_tilt: f64) -> Self {
+        Self::new([cos_tilt, 0.0, 0.0], 0.0)
+    }
+
+    /// The intervals of phases between `from` and `to` ≥ `from` that show heads (rad), in order and not touching.
+    pub fn intervals(self, from: f64, to: f64) -> impl Iterator<Item = [f64; 2]> {
+        let Self { crest, half_width, .. } = self;
+        let always = half_width >= PI;
+        let never = half_width <= 0.0;
+        let turn_of = |phase: f64| ((phase - crest) / TAU).round();
+        let (first, last) = if always { (0.0, 0.0) } else { (turn_of(from), turn_of(to)) };
+        let about = move |turn: f64| {
+            let middle = crest + TAU * turn;
+            let ends = if always { [from, to] } else { [middle - half_width, middle + half_width] };
+            [ends[0].max(from), ends[1].min(to)]
+        };
+        std::iter::successors(Some(first), move |turn| Some(turn + 1.0).filter(|turn| *turn <= last))
+            .map(about)
+            .filter(move |[begin, end]| !never && begin < end)
     }
 
     /// The first phase after launch at which the outcome changes (rad); `None` if it never does. A motion that only
@@ -91,6 +113,23 @@ mod tests {
         }
         assert_eq!(HeadsPhases::new([0.8, 0.0, 0.0], ERROR).half_width_error, 0.0);
         assert_eq!(HeadsPhases::new([0.0, 0.0, 0.0], ERROR).half_width_error, PI);
+    }
+
+    #[test]
+    fn intervals_are_where_cos_tilt_is_positive() {
+        for terms in [[0.25, 0.75, 0.0], [-0.3, 0.2, 0.6], [0.6, 0.4, 0.0], [-0.6, 0.3, 0.2], [0.1, -0.5, -0.5]] {
+            let heads = HeadsPhases::new(terms, ERROR);
+            for (from, to) in [(0.0, 0.1), (0.0, 20.0), (3.0, 9.5), (6.0, 6.5)] {
+                let intervals: Vec<[f64; 2]> = heads.intervals(from, to).collect();
+                assert!(intervals.windows(2).all(|pair| pair[0][1] < pair[1][0]), "{intervals:?}");
+                for part in 0..1000 {
+                    let phase = from + (to - from) * (f64::from(part) + 0.5) / 1000.0;
+                    let (sin, cos) = phase.sin_cos();
+                    let inside = intervals.iter().any(|[begin, end]| *begin < phase && phase < *end);
+                    assert_eq!(terms[0] + terms[1] * cos + terms[2] * sin > 0.0, inside, "{terms:?} at {phase}");
+                }
+            }
+        }
     }
 
     #[test]

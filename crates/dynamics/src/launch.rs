@@ -4,7 +4,9 @@ use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
+use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};
+use crate::scale::mantissa_and_exponent;
 use crate::state::State;
 
 /// Gravity used where none is given (m/s²). The paper gives no value.
@@ -34,6 +36,26 @@ impl TimeOfFlight {
         }
     }
 
+    /// T as the quotient that it is, not rounded to f64.
+    pub fn exact(&self) -> ExactTime {
+        match *self {
+            Self::Ballistic { speed, gravity } => {
+                let ((speed, e_speed), (gravity, e_gravity)) =
+                    (mantissa_and_exponent(speed), mantissa_and_exponent(gravity));
+                ExactTime { mantissa: DoubleDouble::quotient(speed, gravity), exponent: 1 + e_speed - e_gravity }
+            }
+            Self::Given(time) => time.into(),
+        }
+    }
+
+    /// Whether the coin flies at all, also where T is below the range of f64.
+    pub fn is_positive(&self) -> bool {
+        match *self {
+            Self::Ballistic { speed, .. } => speed > 0.0,
+            Self::Given(time) => time > 0.0,
+        }
+    }
+
     #[inline]
     fn validated(self) -> Result<Self, InputError> {
         match self {
@@ -47,6 +69,26 @@ impl TimeOfFlight {
             }
         }
         Ok(self)
+    }
+}
+
+/// A time (s) in twice the precision of f64: `mantissa` times 2^`exponent`, with a mantissa between ½ and 2, or 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactTime {
+    pub(crate) mantissa: DoubleDouble,
+    pub(crate) exponent: i32,
+}
+
+impl From<f64> for ExactTime {
+    fn from(time: f64) -> Self {
+        let (mantissa, exponent) = mantissa_and_exponent(time);
+        Self { mantissa: mantissa.into(), exponent }
+    }
+}
+
+impl From<TimeOfFlight> for ExactTime {
+    fn from(time: TimeOfFlight) -> Self {
+        time.exact()
     }
 }
 

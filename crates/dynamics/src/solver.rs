@@ -3,6 +3,7 @@
 //! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
 //! has one entry; every test and every check runs over the registry of entries.
 
+use crate::certified::Stage;
 use crate::error::{InputError, SolveError, find_named};
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
@@ -38,7 +39,7 @@ pub enum Outcome {
     Heads,
     /// cos θ < 0.
     Tails,
-    /// cos θ is nearer to 0 than the solver answers for; an exact tie, cos θ = 0, always.
+    /// cos θ is nearer to 0 than the solver answers for; for a proven outcome only an exact tie, cos θ = 0.
     Undecided,
 }
 
@@ -63,6 +64,15 @@ impl Outcome {
             Self::Undecided => "undecided",
         }
     }
+}
+
+/// An outcome, and what it rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Verdict {
+    /// How the toss lands.
+    pub outcome: Outcome,
+    /// The stage that proved it; `None` for an outcome that is only as good as the solver's error estimate.
+    pub proof: Option<Stage>,
 }
 
 /// Solves the flight of a toss.
@@ -99,9 +109,17 @@ pub trait Solver: Send + Sync {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        let phase = ExactMotion::new(toss).phase(toss.launch.flight_time())?;
-        Ok(Outcome::of(cos_tilt, self.resolution(phase)))
+    fn verdict_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Verdict, SolveError> {
+        let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+        Ok(Verdict { outcome: Outcome::of(cos_tilt, self.resolution(phase)), proof: None })
+    }
+
+    /// How the toss lands, and whether that is proven.
+    ///
+    /// # Errors
+    /// As [`Solver::propagate`].
+    fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
+        self.verdict_at(toss, self.cos_tilt(toss)?)
     }
 
     /// How the toss lands.
@@ -109,7 +127,7 @@ pub trait Solver: Send + Sync {
     /// # Errors
     /// As [`Solver::propagate`].
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        self.outcome_at(toss, self.cos_tilt(toss)?)
+        self.verdict(toss).map(|verdict| verdict.outcome)
     }
 }
 

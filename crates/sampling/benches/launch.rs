@@ -20,7 +20,7 @@ fn heads(space: &Space, plan: Plan, solver: &dyn Solver) -> u64 {
 fn fig4(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").expect("it exists");
     // The phases of the same launches; their range matters to the cost of a sine.
-    let phase = |toss: &Toss| dynamics::ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0;
+    let phase = |toss: &Toss| dynamics::ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
     let phases: Vec<f64> = random_tosses(&space, 1, 0..250_000).iter().map(phase).collect();
     let mut group = criterion.benchmark_group("fig4 grid");
     group.sample_size(20);

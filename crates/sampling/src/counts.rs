@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use dynamics::{Outcome, Solver};
+use dynamics::{Outcome, Solver, Stage, Verdict};
+use serde::Serialize;
 
 use crate::fold::{Progress, SampleError, Tally, fold};
 use crate::launches::Launches;
@@ -15,8 +16,21 @@ pub struct Counts {
     pub heads: u64,
     /// Launches that land tails.
     pub tails: u64,
-    /// Launches nearer to the edge than the solver answers for.
+    /// Launches nearer to the edge than the solver answers for; if outcomes are proven, exact ties.
     pub undecided: u64,
+    /// Launches whose outcome is proven.
+    pub proven: Proven,
+}
+
+/// How many outcomes each stage of the proof decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Proven {
+    /// By f64.
+    pub f64: u64,
+    /// By double-double.
+    pub double_double: u64,
+    /// By more digits than that.
+    pub multiprecision: u64,
 }
 
 impl Counts {
@@ -31,11 +45,24 @@ impl Counts {
         self.heads as f64 / self.points() as f64
     }
 
-    fn add(&mut self, outcome: Outcome) {
-        match outcome {
+    /// Whether every outcome is proven.
+    pub fn are_certified(&self) -> bool {
+        let Proven { f64, double_double, multiprecision } = self.proven;
+        f64 + double_double + multiprecision == self.points()
+    }
+
+    #[inline]
+    fn add(&mut self, verdict: Verdict) {
+        match verdict.outcome {
             Outcome::Heads => self.heads += 1,
             Outcome::Tails => self.tails += 1,
             Outcome::Undecided => self.undecided += 1,
+        }
+        match verdict.proof {
+            Some(Stage::F64) => self.proven.f64 += 1,
+            Some(Stage::DoubleDouble) => self.proven.double_double += 1,
+            Some(Stage::Multiprecision) => self.proven.multiprecision += 1,
+            None => {}
         }
     }
 }
@@ -46,6 +73,11 @@ impl Tally for Counts {
             heads: self.heads + other.heads,
             tails: self.tails + other.tails,
             undecided: self.undecided + other.undecided,
+            proven: Proven {
+                f64: self.proven.f64 + other.proven.f64,
+                double_double: self.proven.double_double + other.proven.double_double,
+                multiprecision: self.proven.multiprecision + other.proven.multiprecision,
+            },
         }
     }
 }
@@ -68,7 +100,7 @@ pub(crate) fn count(
         let mut counts = Counts::default();
         for (index, values) in block.clone().zip(launches.values(block)) {
             let toss = space.toss(&values);
-            counts.add(solver.outcome(&toss).map_err(|error| (index, toss, error))?);
+            counts.add(solver.verdict(&toss).map_err(|error| (index, toss, error))?);
         }
         Ok(counts)
     })

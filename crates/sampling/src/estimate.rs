@@ -228,10 +228,10 @@ mod tests {
 
     #[test]
     fn undecided_launches_widen_the_interval() {
-        let counts = Counts { heads: 500, tails: 300, undecided: 200 };
+        let counts = Counts { heads: 500, tails: 300, undecided: 200, ..Counts::default() };
         let interval = Estimate::of_independent_counts(counts).interval.unwrap();
         assert!(interval.lo < 0.5 && interval.hi > 0.7);
-        let scrambles = [Counts { heads: 5, tails: 3, undecided: 2 }; 8];
+        let scrambles = [Counts { heads: 5, tails: 3, undecided: 2, ..Counts::default() }; 8];
         let interval = Estimate::of_scrambled_counts(&scrambles).interval.unwrap();
         assert!((interval.lo - 0.5).abs() < 1e-15 && (interval.hi - 0.7).abs() < 1e-15, "{interval:?}");
         assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);

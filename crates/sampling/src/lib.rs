@@ -27,11 +27,11 @@ pub mod space_file;
 
 pub use axis::{Axis, Distribution};
 pub use coordinate::Coordinate;
-pub use counts::Counts;
+pub use counts::{Counts, Proven};
 pub use estimate::{Estimate, Found, IntervalKind, estimate};
 pub use fold::{Progress, SampleError};
 pub use interval::{Interval, clopper_pearson, wilson};
-pub use long_flight::long_flight_probability;
+pub use long_flight::{long_flight_probability, rate_ratio};
 pub use map::{Map, Node, map};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;

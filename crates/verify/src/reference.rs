@@ -4,9 +4,11 @@
 //! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is some 2^-250 for the
 //! phases of a toss. It shares no code with the solvers, and its tests hold it against numbers from outside.
 
+use std::cmp::Ordering;
+
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use toss::{Attitude, TimeOfFlight, Toss, Vector3};
+use toss::{Attitude, Outcome, TimeOfFlight, Toss, Vector3};
 
 /// Binary digits.
 const PRECISION: usize = 256;
@@ -53,6 +55,15 @@ impl Reference {
     /// |Δ cos θ| of a computed value.
     pub fn cos_tilt_error(&self, cos_tilt: f64) -> f64 {
         to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
+    }
+
+    /// The outcome; undecided for cos θ = 0 in all digits.
+    pub fn outcome(&self) -> Outcome {
+        match self.cos_tilt().partial_cmp(&big(0.0)) {
+            Some(Ordering::Greater) => Outcome::Heads,
+            Some(Ordering::Less) => Outcome::Tails,
+            _ => Outcome::Undecided,
+        }
     }
 
     /// Angle between a computed attitude and the exact one (rad).

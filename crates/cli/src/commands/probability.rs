@@ -1,6 +1,6 @@
 //! `unfair-toss probability`: the share of heads over a space of launches.
 
-use sampling::{Counts, Estimate, Found, Interval, IntervalKind, estimate};
+use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Proven, estimate};
 use serde::Serialize;
 
 use crate::args::SolverArgs;
@@ -43,6 +43,9 @@ struct Answer {
     interval: Option<[f64; 2]>,
     interval_kind: String,
     certified: bool,
+    /// How many outcomes each stage of the proof decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proven_by: Option<Proven>,
     seed: Option<u64>,
 }
 
@@ -73,9 +76,11 @@ impl Args {
 impl Answer {
     fn new(found: &Estimate, seed: Option<u64>) -> Self {
         let (counts, error_bound) = match found.found {
-            Found::Counts(Counts { heads, tails, undecided }) => (Some(CountsAnswer { heads, tails, undecided }), None),
+            Found::Counts(counts) => (Some(counts), None),
             Found::Shares { .. } => (None, found.half_width()),
         };
+        let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven);
+        let counts = counts.map(|Counts { heads, tails, undecided, .. }| CountsAnswer { heads, tails, undecided });
         Self {
             counts,
             points: found.points,
@@ -83,8 +88,8 @@ impl Answer {
             error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
             interval_kind: found.interval_kind.to_string(),
-            // No solver proves its outcomes.
-            certified: false,
+            certified: proven.is_some(),
+            proven_by: proven,
             seed,
         }
     }
@@ -103,18 +108,24 @@ fn text(found: &Estimate, solver: &str) -> String {
         _ => (format!("{probability:.6}"), kind.to_string()),
     };
     let launches = match found.found {
-        Found::Counts(Counts { heads, tails, undecided }) => {
+        Found::Counts(Counts { heads, tails, undecided, .. }) => {
             format!("{heads} heads, {tails} tails, {undecided} undecided")
         }
         Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
     };
-    [
+    let mut lines = vec![
         format!("P(heads)     {probability}"),
         format!("interval     {interval}"),
         format!("launches     {launches}"),
         format!("solver       {solver}"),
-    ]
-    .join("\n")
+    ];
+    if let Found::Counts(counts) = found.found
+        && counts.are_certified()
+    {
+        let Proven { f64, double_double, multiprecision } = counts.proven;
+        lines.push(format!("proven by    f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
+    }
+    lines.join("\n")
 }
 
 /// Digits after the point that show two of an error, and at least six.

@@ -1,7 +1,7 @@
 //! `unfair-toss toss`: one toss, one answer.
 
 use serde::Serialize;
-use toss::{Propagation, Solver, Toss, Work};
+use toss::{Propagation, Solver, Toss, Work, margin};
 
 use crate::args::FlightArgs;
 use crate::failure::Failure;
@@ -23,6 +23,7 @@ struct Answer {
     cos_tilt: f64,
     outcome: &'static str,
     certified: bool,
+    margin: MarginAnswer,
     attitude: [f64; 4],
     solver: &'static str,
     method: Option<&'static str>,
@@ -42,6 +43,14 @@ struct WorkCounts {
     rejected_steps: u64,
 }
 
+/// The smallest change of one input that flips the outcome of the exact motion; null where none does.
+#[derive(Serialize)]
+struct MarginAnswer {
+    time: Option<f64>,
+    speed: Option<f64>,
+    rate: [Option<f64>; 3],
+}
+
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let (toss, solver) = self.flight.parts()?;
@@ -58,14 +67,16 @@ impl Answer {
         let Propagation { state, work, .. } = solver.propagate(toss)?;
         // A closed form knows cos θ better than through the attitude; an integrator need not fly twice.
         let cos_tilt = if solver.method().is_some() { state.attitude.cos_tilt() } else { solver.cos_tilt(toss)? };
+        let verdict = solver.verdict_at(toss, cos_tilt)?;
+        let margin = margin(toss)?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
         Ok(Self {
             coin: Moments { i1: toss.coin.i1(), i3: toss.coin.i3() },
             flight_time: toss.launch.flight_time(),
             cos_tilt,
-            outcome: solver.outcome_at(toss, cos_tilt)?.name(),
-            // No solver proves its outcome.
-            certified: false,
+            outcome: verdict.outcome.name(),
+            certified: verdict.proof.is_some(),
+            margin: MarginAnswer { time: margin.time, speed: margin.speed, rate: margin.rate },
             attitude: state.attitude.components(),
             solver: solver.name(),
             method: solver.method().map(|method| method.scheme().name()),
@@ -77,13 +88,14 @@ impl Answer {
         let [w, x, y, z] = self.attitude;
         let method = self.method.map(|name| format!(", {name}")).unwrap_or_default();
         let mut lines = vec![
-            format!("outcome      {}", self.outcome),
+            format!("outcome      {}{}", self.outcome, if self.certified { ", proven" } else { "" }),
             format!("cos θ        {}", self.cos_tilt),
             format!("flight time  {} s", self.flight_time),
             format!("attitude     w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}"),
             format!("coin         I1 {:e} kg m², I3 {:e} kg m², k = {inertia_ratio}", self.coin.i1, self.coin.i3),
             format!("solver       {}{method}", self.solver),
         ];
+        lines.insert(1, format!("margin       {}", self.margin.text()));
         if self.method.is_some() {
             let WorkCounts { rhs_calls, accepted_steps, rejected_steps } = self.work;
             lines.push(format!(
@@ -91,5 +103,22 @@ impl Answer {
             ));
         }
         lines.join("\n")
+    }
+}
+
+impl MarginAnswer {
+    fn text(&self) -> String {
+        let change = |value: Option<f64>, unit| {
+            let digits = |value: f64| {
+                if (1e-3..1e4).contains(&value.abs()) { format!("{value:+.4}") } else { format!("{value:+.3e}") }
+            };
+            value.map(|value| format!("{} {unit}", digits(value)))
+        };
+        let nearest = change(self.speed, "m/s in v0").or_else(|| change(self.time, "s in the time of flight"));
+        let rates = ["ωx", "ωy", "ωz"].into_iter().zip(self.rate);
+        let rates =
+            rates.filter_map(|(name, value)| change(value, "rad/s").map(|change| format!("{change} in {name}")));
+        let all: Vec<String> = nearest.into_iter().chain(rates).collect();
+        if self.time.is_none() { "no speed changes the outcome".to_owned() } else { all.join(", ") }
     }
 }

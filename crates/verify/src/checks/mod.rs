@@ -1,5 +1,6 @@
 //! The checks, a line each; a file for each kind of claim.
 
+mod certified;
 mod detest;
 mod figures;
 mod first_return;
@@ -21,6 +22,10 @@ pub const CHECKS: &[Check] = &[
     random::COS_TILT,
     random::ATTITUDE,
     random::CROSS_METHOD,
+    certified::COS_TILT,
+    certified::ATTITUDE,
+    certified::OUTCOMES,
+    certified::BOUNDS,
     first_return::ATTITUDE,
     invariants::MOMENTUM,
     invariants::ENERGY,

@@ -103,7 +103,7 @@ pub fn tables() -> anyhow::Result<Vec<(TableLine, Estimate)>> {
         for (method, plan) in METHODS {
             let estimate = estimate(&named.space, plan, &ExactSolver, &|_| {})?;
             let found = match estimate.found {
-                Found::Counts(Counts { heads, tails, undecided }) => TableEntry::Counts { heads, tails, undecided },
+                Found::Counts(Counts { heads, tails, undecided, .. }) => TableEntry::Counts { heads, tails, undecided },
                 Found::Shares { .. } => TableEntry::Share { probability: format!("{:.12}", estimate.probability) },
             };
             lines.push((TableLine { space, method, found }, estimate));

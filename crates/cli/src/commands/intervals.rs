@@ -1,0 +1,78 @@
+//! `unfair-toss intervals`: the speeds that land heads, for one rate.
+
+use sampling::{Axis, Coordinate};
+use serde::Serialize;
+use toss::launch::DEFAULT_GRAVITY;
+use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
+
+use crate::args::{CoinArgs, numbers};
+use crate::failure::Failure;
+use crate::output::{self, Format, table};
+
+/// More turns than this are refused: nobody reads so many intervals.
+const MOST_TURNS: f64 = 10_000.0;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    coin: CoinArgs,
+    /// Body rate at launch (rad/s)
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
+    rate: String,
+    /// Range of speeds (m/s)
+    #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
+    speed: String,
+    /// Gravity (m/s²)
+    #[arg(long, value_name = "G", allow_hyphen_values = true, default_value_t = DEFAULT_GRAVITY)]
+    gravity: f64,
+    /// Attitude at launch: a turn about the lab's x axis (rad)
+    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
+    tilt: f64,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    /// Speeds (m/s) between which the toss lands heads.
+    heads: Vec<[f64; 2]>,
+    /// Their share of the range.
+    probability: f64,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
+        let [slowest, fastest] = Axis::parse(Coordinate::Speed, &self.speed)?.bounds();
+        if slowest == fastest {
+            return Err(Failure::Usage("--speed: a range LO:HI of more than one speed is needed".to_owned()));
+        }
+        let thrown = |speed| TimeOfFlight::Ballistic { speed, gravity: self.gravity };
+        // The slowest first, which is the one that may be negative.
+        Launch::new(rate, thrown(slowest))?;
+        let toss = Toss { coin, launch: Launch::new(rate, thrown(fastest))?.with_tilt(self.tilt)? };
+        let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
+        if phase > MOST_TURNS * std::f64::consts::TAU {
+            return Err(Failure::Usage(format!(
+                "the coin turns more than {MOST_TURNS} times; ask for a shorter range"
+            )));
+        }
+        let heads: Vec<[f64; 2]> = speeds_of_heads(&toss, slowest)?.into_iter().flatten().collect();
+        let length: f64 = heads.iter().map(|[slow, fast]| fast - slow).sum();
+        let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };
+        Ok(match self.format {
+            Format::Json => output::json(&answer),
+            Format::Text => answer.text(),
+        })
+    }
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        let mut rows = vec![vec!["from/(m/s)".to_owned(), "to/(m/s)".to_owned()]];
+        rows.extend(self.heads.iter().map(|[slow, fast]| vec![format!("{slow:.12}"), format!("{fast:.12}")]));
+        format!("heads at speeds\n{}\nshare of the range  {:.12}", table(&rows), self.probability)
+    }
+}

@@ -1,0 +1,58 @@
+//! `unfair-toss inverse`: how to launch for a wanted probability of heads.
+
+use sampling::rate_ratio;
+use serde::Serialize;
+use toss::Coin;
+
+use crate::args::CoinArgs;
+use crate::failure::Failure;
+use crate::output::{self, Format};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    coin: CoinArgs,
+    /// Wanted probability of heads in long flights from horizontal, above 1/2
+    #[arg(long, value_name = "P", allow_hyphen_values = true)]
+    probability: f64,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    probability: f64,
+    inertia_ratio: f64,
+    /// Ω/ωz.
+    rate_ratio: f64,
+    /// ψ (rad).
+    cone_angle: f64,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let (probability, k) = (self.probability, coin.inertia_ratio());
+        // Of a rod every rate ratio is 0: its angular momentum lies in its middle plane however fast it spins.
+        let cone_angle = rate_ratio(probability, 1.0)?.atan();
+        let answer = Answer { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };
+        Ok(match self.format {
+            Format::Json => output::json(&answer),
+            Format::Text => answer.text(),
+        })
+    }
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        let Self { probability, inertia_ratio, rate_ratio, cone_angle } = self;
+        [
+            format!("P(heads)     {probability}, in the limit of long flights from horizontal"),
+            format!("Ω/ωz         {rate_ratio}"),
+            format!("ψ            {}°", cone_angle.to_degrees()),
+            format!("coin         k = {inertia_ratio}"),
+        ]
+        .join("\n")
+    }
+}

@@ -1,0 +1,204 @@
+//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed and
+//! gravity.
+//!
+//! Three stages, each with more digits than the one before and asked only where that one cannot decide, after the
+//! adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
+//!
+//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units of
+//! `size` ≥ |A|, √(B² + C²), |G|:
+//!
+//! ```text
+//! A                                    12u
+//! B, C                                 14.8u       √(10.9² + 9.9²), as cos² + sin² = 1
+//! cos, sin                             2.9u        √2 · 2u: std is taken to be right to 2 ulp, of numbers below 1
+//! φ                                    6u φ        |dG/dφ| ≤ size
+//! B cos, C sin                         1.42u       rounded products, |B| + |C| ≤ √2 size
+//! the two sums                         2u
+//! sum                                  33.2u + 6u φ
+//! ```
+//!
+//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What
+//! underflows is below 2^-1000, and `size` is above 10^-200.
+//!
+//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]: a, b, c and the phase have relative errors below 500 u² and
+//! 70 u², a phase of up to 2^53 an error below 70 u² φ; sine and cosine of its leading part are std's (2u each, √2 for
+//! both), turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
+//! [`double_double_bound`].
+//!
+//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann), so
+//! A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
+//! arithmetic first.
+
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+
+use crate::double_double::DoubleDouble;
+use crate::error::SolveError;
+use crate::exact::{ExactMotion, LARGEST_PHASE};
+use crate::launch::{TimeOfFlight, Toss};
+use crate::solver::Outcome;
+use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
+
+/// Which stage decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// f64.
+    F64,
+    /// Double-double.
+    DoubleDouble,
+    /// 192 binary digits or more, or exact arithmetic for a tie.
+    Multiprecision,
+}
+
+/// An outcome and the stage that proved it. It is undecided only for an exact tie: cos θ = 0 at landing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Certificate {
+    /// How the toss lands.
+    pub outcome: Outcome,
+    /// Which stage decided.
+    pub stage: Stage,
+}
+
+/// The proven outcome of a toss.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
+#[inline]
+pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
+    match by_f64(toss) {
+        Some(outcome) => Ok(Certificate { outcome, stage: Stage::F64 }),
+        None => with_more_digits(toss),
+    }
+}
+
+/// The first stage; `None` where it cannot decide, and for phases that may be too large.
+#[inline]
+pub fn by_f64(toss: &Toss) -> Option<Outcome> {
+    const SMALLEST_TIME: f64 = 1e-200;
+    let terms = TiltTerms::new(toss);
+    let time = toss.launch.flight_time();
+    let [phase, spin] = terms.phases(time);
+    // A smaller time may have lost digits that count at the largest rates.
+    let in_range = time >= SMALLEST_TIME || time == 0.0;
+    // Also false for a phase that is not a number.
+    if !(in_range && phase < 0.99 * LARGEST_PHASE && spin < 0.99 * LARGEST_PHASE) {
+        return None;
+    }
+    match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
+        Outcome::Undecided => None,
+        decided => Some(decided),
+    }
+}
+
+#[cold]
+fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
+    let motion = ExactMotion::new(toss);
+    let time = toss.launch.time_of_flight();
+    motion.phase(time)?;
+    Ok(match by_double_double(&motion, time)? {
+        Some(outcome) => Certificate { outcome, stage: Stage::DoubleDouble },
+        None => Certificate { outcome: by_multiprecision(toss), stage: Stage::Multiprecision },
+    })
+}
+
+/// The second stage; `None` where it cannot decide.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub fn by_double_double(motion: &ExactMotion, time: TimeOfFlight) -> Result<Option<Outcome>, SolveError> {
+    let (cos_tilt, phase) = motion.cos_tilt_parts(time)?;
+    Ok(match Outcome::of(cos_tilt.hi(), double_double_bound(phase)) {
+        Outcome::Undecided => None,
+        decided => Some(decided),
+    })
+}
+
+/// Bound of the error of cos θ in the double-double stage at a `phase` (rad).
+pub fn double_double_bound(phase: DoubleDouble) -> f64 {
+    const CONSTANT: f64 = 4.0 * UNIT_ROUNDOFF;
+    const OF_REST: f64 = 8.0 * UNIT_ROUNDOFF;
+    const OF_PHASE: f64 = 80.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+    CONSTANT + OF_REST * phase.lo().abs() + OF_PHASE * phase.hi()
+}
+
+/// Bound of the error of the f64 stage's height at a `phase` (rad), in parts of the terms' size.
+#[inline]
+pub fn f64_bound(phase: f64) -> f64 {
+    (34.0 + 7.0 * phase) * UNIT_ROUNDOFF
+}
+
+type Big = FBig<HalfEven>;
+
+/// `value` with unlimited precision, so that sums and products are exact.
+fn exactly(value: f64) -> Big {
+    Big::try_from(value).expect("a validated toss is finite").with_precision(0).value()
+}
+
+/// The third stage. It always decides, but for exact ties.
+pub fn by_multiprecision(toss: &Toss) -> Outcome {
+    if is_tie(toss) {
+        return Outcome::Undecided;
+    }
+    let mut digits: isize = 192;
+    loop {
+        let cos_tilt = cos_tilt(toss, digits);
+        // Some twenty operations, the phase's error multiplied by up to 2^53.
+        let bound = Big::ONE >> (digits - 80);
+        if cos_tilt > bound {
+            return Outcome::Heads;
+        }
+        if cos_tilt < -bound {
+            return Outcome::Tails;
+        }
+        digits *= 2;
+    }
+}
+
+/// The vertical in BF times |q|², exactly.
+fn vertical(toss: &Toss) -> [Big; 3] {
+    let [w, x, y, z] = toss.launch.attitude().components().map(exactly);
+    let two = exactly(2.0);
+    [&two * (&x * &z - &w * &y), two * (&y * &z + &w * &x), &w * &w + &z * &z - &x * &x - &y * &y]
+}
+
+/// Whether cos θ = 0 exactly at landing.
+fn is_tie(toss: &Toss) -> bool {
+    let [m_x, m_y, m_z] = vertical(toss);
+    let zero = exactly(0.0);
+    if m_z != zero {
+        // At a phase of 0, cos θ = mz. Without B and C, either Ω = 0 and cos θ = mz too, or m is along L, where A = 0
+        // needs Lz = 0 and with it mz = 0.
+        return false;
+    }
+    let rate = toss.launch.rate();
+    let landed_at_once = !toss.launch.time_of_flight().is_positive();
+    let precesses = rate.x != 0.0 || rate.y != 0.0;
+    let level_momentum = rate.z == 0.0 || toss.coin.i3() == 0.0;
+    landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
+}
+
+/// cos θ at landing in `digits` binary digits.
+fn cos_tilt(toss: &Toss, digits: isize) -> Big {
+    let digits = digits.unsigned_abs();
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let round = |value: Big| value.with_precision(digits).value();
+    let rate = toss.launch.rate();
+    let (x, y, z) = (big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z));
+    let across = &x * &x + &y * &y;
+    let squared = &across + &z * &z;
+    let [m_x, m_y, m_z] = vertical(toss).map(round);
+    if squared == big(0.0) {
+        return m_z;
+    }
+    let momentum = squared.sqrt();
+    let time = match toss.launch.time_of_flight() {
+        TimeOfFlight::Given(time) => big(time),
+        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+    };
+    let (sin, cos) = (&momentum * time).sin_cos();
+    let level = &m_x * &x + &m_y * &y;
+    let mean = (&level + &m_z * &z) * &z;
+    let height = mean + (&m_z * across - level * z) * cos + (m_x * y - m_y * x) * &momentum * sin;
+    // |q|² is 1 to rounding wherever the attitude comes from; only the sign counts, and the scale to a factor of two.
+    height / squared
+}

@@ -1,0 +1,203 @@
+//! How far a toss is from the other outcome.
+//!
+//! In the speed exactly, from the phases that show heads; in each component of ω to first order, by the derivative of
+//! cos θ at a fixed time. With ŝ = L/|L|, L = (ωx, ωy, k ωz), m the vertical in BF, P = m·ŝ and D = mx ŝy - my ŝx:
+//!
+//! ```text
+//! cos θ = P ŝz (1 - cos φ) + mz cos φ + D sin φ,   φ = |L| T
+//! ∂ŝ/∂Li = (ei - ŝi ŝ)/|L|,   ∂φ/∂Li = ŝi T,   ∂/∂ωz = k ∂/∂Lz
+//! ```
+
+use nalgebra::Vector3;
+
+use crate::error::SolveError;
+use crate::exact::ExactMotion;
+use crate::heads::HeadsPhases;
+use crate::launch::{TimeOfFlight, Toss};
+
+/// The smallest changes that flip the outcome, each of one input alone and with its sign; `None` where none does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Margin {
+    /// Of the time of flight (s).
+    pub time: Option<f64>,
+    /// Of the speed (m/s); `None` also where the time was given instead.
+    pub speed: Option<f64>,
+    /// Of ωx, ωy, ωz (rad/s), to first order.
+    pub rate: [Option<f64>; 3],
+}
+
+/// The margin of a toss.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
+    let motion = ExactMotion::new(toss);
+    let time_of_flight = toss.launch.time_of_flight();
+    let phase = motion.phases(time_of_flight)?.0.hi();
+    let time = to_nearest_edge(&motion.heads(), phase).map(|change| change / motion.precession_rate());
+    let speed = match time_of_flight {
+        TimeOfFlight::Ballistic { gravity, .. } => time.map(|time| 0.5 * gravity * time),
+        TimeOfFlight::Given(_) => None,
+    };
+    let cos_tilt = motion.cos_tilt(time_of_flight)?;
+    let derivative = tilt_derivative(toss, phase);
+    let rate = [derivative.x, derivative.y, derivative.z]
+        .map(|slope| Some(-cos_tilt / slope).filter(|change| change.is_finite()));
+    Ok(Margin { time, speed, rate })
+}
+
+/// The smallest change of a phase ≥ 0 that takes it to an edge of the heads, and not below 0 (rad).
+fn to_nearest_edge(heads: &HeadsPhases, phase: f64) -> Option<f64> {
+    use std::f64::consts::{PI, TAU};
+    if heads.half_width <= 0.0 || heads.half_width >= PI {
+        return None;
+    }
+    let turn = ((phase - heads.crest) / TAU).round();
+    let from_crest = phase - heads.crest - TAU * turn;
+    // About this crest and its neighbours.
+    let edges = [-1.0, 0.0, 1.0]
+        .into_iter()
+        .flat_map(|turns| [-heads.half_width, heads.half_width].map(|edge| TAU * turns + edge - from_crest));
+    edges.filter(|change| phase + change >= 0.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+/// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if the time was
+/// given instead of a speed. A motion of many turns has as many intervals.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub fn speeds_of_heads(
+    toss: &Toss,
+    slowest: f64,
+) -> Result<Option<impl Iterator<Item = [f64; 2]> + use<>>, SolveError> {
+    let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return Ok(None) };
+    let motion = ExactMotion::new(toss);
+    let fastest_phase = motion.phases(toss.launch.time_of_flight())?.0.hi();
+    let slowest_phase = motion.phases(TimeOfFlight::Ballistic { speed: slowest, gravity })?.0.hi();
+    // Without a precession every speed has the outcome of the launch, and a phase of 0 no length.
+    let still = fastest_phase == slowest_phase;
+    let span = if still { [slowest, speed] } else { [slowest_phase, fastest_phase] };
+    let heads = if still { HeadsPhases::constant(motion.cos_tilt(0.0)?) } else { motion.heads() };
+    let speed_of = move |phase: f64| {
+        if still { phase } else { slowest + (phase - span[0]) / (span[1] - span[0]) * (speed - slowest) }
+    };
+    Ok(Some(heads.intervals(span[0], span[1]).map(move |interval| interval.map(speed_of))))
+}
+
+/// ∂ cos θ/∂ω at landing (s), where the phase is `phase` (rad).
+pub fn tilt_derivative(toss: &Toss, phase: f64) -> Vector3<f64> {
+    let (k, rate, time) = (toss.coin.inertia_ratio(), toss.launch.rate(), toss.launch.flight_time());
+    let vertical = toss.launch.attitude().lab_to_body(&Vector3::z());
+    let across = Vector3::new(-vertical.y, vertical.x, 0.0);
+    let momentum = Vector3::new(rate.x, rate.y, k * rate.z);
+    let size = momentum.norm();
+    let by_momentum = if size == 0.0 {
+        // cos θ = mz + (mx Ly - my Lx) T to first order.
+        across * time
+    } else {
+        let (direction, (sin, cos)) = (momentum / size, phase.sin_cos());
+        let (along, side) = (vertical.dot(&direction), across.dot(&direction));
+        let by_phase = (along * direction.z - vertical.z) * sin + side * cos;
+        let turned_along =
+            (vertical - direction * along) * direction.z + (Vector3::z() - direction * direction.z) * along;
+        let turned_side = across - direction * side;
+        (turned_along * (1.0 - cos) + turned_side * sin) / size + direction * (by_phase * time)
+    };
+    Vector3::new(by_momentum.x, by_momentum.y, k * by_momentum.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certified::certify;
+    use crate::coin::Coin;
+    use crate::launch::Launch;
+
+    fn toss(rate: Vector3<f64>, tilt: f64, speed: f64) -> Toss {
+        let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
+        let launch = Launch::new(rate, thrown).unwrap().with_tilt(tilt).unwrap();
+        Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
+    }
+
+    const RATES: [[f64; 3]; 6] =
+        [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2.0, 2.0, 0.5], [0.0, 0.0, 0.0]];
+    const TILTS: [f64; 4] = [0.0, 0.6, 2.0, -1.1];
+
+    #[test]
+    fn the_derivative_is_that_of_finite_differences() {
+        const STEP: f64 = 1e-5;
+        for rate in RATES.map(Vector3::from) {
+            for tilt in TILTS {
+                let cos_tilt = |rate| {
+                    let toss = toss(rate, tilt, 3.7);
+                    ExactMotion::new(&toss).cos_tilt(toss.launch.time_of_flight()).unwrap()
+                };
+                let toss = toss(rate, tilt, 3.7);
+                let phase = ExactMotion::new(&toss).phases(toss.launch.time_of_flight()).unwrap().0.hi();
+                let derivative = tilt_derivative(&toss, phase);
+                for axis in 0..3 {
+                    let step = Vector3::ith(axis, STEP);
+                    let difference = (cos_tilt(rate + step) - cos_tilt(rate - step)) / (2.0 * STEP);
+                    assert!((derivative[axis] - difference).abs() < 1e-8, "{rate:?} {tilt} {axis}: {derivative:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_change_of_speed_flips_the_outcome_and_none_smaller_does() {
+        let mut flips = 0;
+        for rate in RATES.map(Vector3::from) {
+            for (tilt, speed) in TILTS.into_iter().flat_map(|tilt| [0.3, 3.0, 4.1].map(|speed| (tilt, speed))) {
+                let outcome = |speed| certify(&toss(rate, tilt, speed)).unwrap().outcome;
+                let Some(change) = margin(&toss(rate, tilt, speed)).unwrap().speed else { continue };
+                flips += 1;
+                assert_ne!(outcome(speed + change * (1.0 + 1e-9)), outcome(speed), "{rate:?} {tilt} {speed}");
+                for part in [-0.999_999, -0.5, 0.5, 0.999_999] {
+                    let other = speed + part * change;
+                    assert!(other < 0.0 || outcome(other) == outcome(speed), "{rate:?} {tilt} {speed}: {change}");
+                }
+            }
+        }
+        assert!(flips > 40, "{flips}");
+    }
+
+    #[test]
+    fn near_the_edge_the_change_of_rate_flips_the_outcome() {
+        // 1e-4 m/s before the edge.
+        let start = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, 3.0);
+        let edge = 3.0 + margin(&start).unwrap().speed.unwrap();
+        let near = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, edge - 1e-4);
+        let outcome = certify(&near).unwrap().outcome;
+        for (axis, change) in margin(&near).unwrap().rate.into_iter().enumerate() {
+            let changed = |part: f64| near.launch.rate() + Vector3::ith(axis, part * change.unwrap());
+            assert_eq!(certify(&toss(changed(0.99), 0.4, edge - 1e-4)).unwrap().outcome, outcome);
+            assert_ne!(certify(&toss(changed(1.01), 0.4, edge - 1e-4)).unwrap().outcome, outcome);
+        }
+    }
+
+    #[test]
+    fn speeds_inside_the_intervals_land_heads_and_others_tails() {
+        for rate in RATES.map(Vector3::from) {
+            for tilt in TILTS {
+                let intervals: Vec<[f64; 2]> = speeds_of_heads(&toss(rate, tilt, 9.0), 1.0).unwrap().unwrap().collect();
+                for part in 0..500 {
+                    let speed = 1.0 + 8.0 * (f64::from(part) + 0.5) / 500.0;
+                    let inside = intervals.iter().any(|[slow, fast]| *slow < speed && speed < *fast);
+                    let heads = certify(&toss(rate, tilt, speed)).unwrap().outcome == crate::solver::Outcome::Heads;
+                    assert_eq!(inside, heads, "{rate:?} {tilt} {speed}: {intervals:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_never_flips_has_no_margin_in_speed() {
+        let certain = margin(&toss(Vector3::new(1.0, 0.0, 9.0), 0.0, 3.0)).unwrap();
+        assert_eq!((certain.speed, certain.time), (None, None));
+        let launch = Launch::new(Vector3::new(9.0, 0.0, 0.0), TimeOfFlight::Given(0.1)).unwrap();
+        let given = margin(&Toss { coin: Coin::PAPER, launch }).unwrap();
+        assert_eq!(given.speed, None);
+        assert!((given.time.unwrap() - (std::f64::consts::FRAC_PI_2 / 9.0 - 0.1)).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,110 @@
+//! cos θ as three terms in f64, without a division: what decides an outcome, and what shares of heads are made of.
+//!
+//! With m the vertical seen from the body at launch, for a quaternion q of any norm, and L = (ωx, ωy, k ωz):
+//!
+//! ```text
+//! |q|² |L|² cos θ = A + B cos φ + C sin φ,   φ = |L| t
+//! A = (m·L) Lz,   B = mz (Lx² + Ly²) - (mx Lx + my Ly) Lz,   C = (mx Ly - my Lx) |L|
+//! ```
+
+use crate::heads::HeadsPhases;
+use crate::launch::Toss;
+use crate::scale::power_of_two_scale;
+
+/// Half of ε: the largest relative error of one rounded operation.
+pub const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
+
+/// Error of `mean`, `cosine` and `sine`, in parts of `size`. With u the [`UNIT_ROUNDOFF`], N = |q|² and Ω² = Lx² + Ly²,
+/// each line from the lines before it and one rounding of its own (squares of u are in the rounding up of the last):
+///
+/// ```text
+/// Lz = k ωz             2u |Lz|           two rounded operations
+/// mx, my                2u N each         two products, one difference, |ac| + |bd| ≤ N/2
+/// mz                    3u N              four squares, three sums
+/// Ω²                    2u Ω²             two squares, one sum
+/// mx Lx + my Ly         4.9u N Ω          2u for the operations, √8 u from m
+/// mz Lz                 6u N |Lz|
+/// m·L                   8.8u N |L|        √(4.9² + 6²) by Cauchy and Schwarz, and u for the sum
+/// A                     11.8u N |L||Lz|
+/// B                     10.9u N Ω |L|     √(6² + 7.9²) for mz Ω² and (mx Lx + my Ly) Lz, and u for the difference
+/// |L|² and |L|          6u and 4u relative
+/// C                     9.9u N Ω |L|
+/// ```
+pub const TERM_ERROR: f64 = 12.0 * UNIT_ROUNDOFF;
+
+/// Relative error of the phase: 4u of |L|, u of the time, u of their product.
+pub const PHASE_ERROR: f64 = 6.0 * UNIT_ROUNDOFF;
+
+/// Precessions slower than its square root count as none, in the unit of rates; squares above it keep their digits.
+const SLOWEST_SQUARED: f64 = 1e-200;
+
+/// The terms of cos θ of a toss.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TiltTerms {
+    /// A.
+    pub mean: f64,
+    /// B.
+    pub cosine: f64,
+    /// C.
+    pub sine: f64,
+    /// |q|² |L|², in the square of the unit of rates.
+    pub size: f64,
+    /// |L| = ωL and |q|, the rate of the spin, in the unit of rates.
+    rates: [f64; 2],
+    /// Unit of rates (rad/s), a power of two.
+    unit: f64,
+}
+
+impl TiltTerms {
+    /// The terms of a toss.
+    #[inline]
+    pub fn new(toss: &Toss) -> Self {
+        let k = toss.coin.inertia_ratio();
+        let rate = toss.launch.rate();
+        let unit = power_of_two_scale(&rate);
+        let (x, y, spin) = (rate.x / unit, rate.y / unit, rate.z / unit);
+        let z = k * spin;
+        let across = x * x + y * y;
+        let squared = across + z * z;
+        let momentum = squared.sqrt();
+        let [w, i, j, l] = toss.launch.attitude().components();
+        let (upright, inverted) = (w * w + l * l, i * i + j * j);
+        let [m_x, m_y, m_z] = [2.0 * (i * l - w * j), 2.0 * (j * l + w * i), upright - inverted];
+        let level = m_x * x + m_y * y;
+        let norm = upright + inverted;
+        let rates = [momentum, ((k - 1.0) * spin).abs()];
+        if squared < SLOWEST_SQUARED {
+            // At rest. Or precessing so slowly next to the spin, whose rate is above ½ then, that the spin's phase is too
+            // large (2^53) when that of the precession is still below 1e-83.
+            return Self { mean: m_z, cosine: 0.0, sine: 0.0, size: norm, rates: [0.0, rates[1]], unit };
+        }
+        Self {
+            mean: (level + m_z * z) * z,
+            cosine: m_z * across - level * z,
+            sine: (m_x * y - m_y * x) * momentum,
+            size: norm * squared,
+            rates,
+            unit,
+        }
+    }
+
+    /// ωL t and |q| t (rad) for a `time` (s).
+    #[inline]
+    pub fn phases(&self, time: f64) -> [f64; 2] {
+        let time = self.unit * time;
+        // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
+        self.rates.map(|rate| if rate == 0.0 { 0.0 } else { rate * time })
+    }
+
+    /// `size` cos θ at a phase ωL t (rad).
+    #[inline]
+    pub fn height(&self, phase: f64) -> f64 {
+        let (sin, cos) = phase.sin_cos();
+        self.mean + (self.cosine * cos + self.sine * sin)
+    }
+
+    /// The phases at which the motion shows heads.
+    pub fn heads(&self) -> HeadsPhases {
+        HeadsPhases::new([self.mean, self.cosine, self.sine].map(|term| term / self.size), TERM_ERROR + UNIT_ROUNDOFF)
+    }
+}
