@@ -10,11 +10,8 @@
 //!
 //! where, with m the vertical seen from the body at launch, a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ). From
 //! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
-//!
 //! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
-//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit.
-//!
-//! The rates ωL and q, the phases ωL t and q t and a, b, c are carried in double-double ([`DoubleDouble`]), so that what
+//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. The rates ωL and q, the phases ωL t and q t and a, b, c are carried in double-double ([`DoubleDouble`]), so that what
 //! is left is the rounding of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any
 //! phase that a toss can have.
 
@@ -32,7 +29,7 @@ use crate::state::State;
 /// 2^53 (rad): above it, neighbouring f64 phases are more than a radian apart.
 pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
-/// Error of [`ExactMotion::cos_tilt`], as long as std's sine and cosine are right to 0.6 ulp.
+/// Error of [`ExactMotion::cos_tilt`], if std's sine and cosine are right to 0.6 ulp.
 pub const COS_TILT_ERROR: f64 = 2.3e-16;
 
 /// The closed-form motion that follows a launch.
@@ -278,8 +275,7 @@ mod tests {
     fn cone_and_momentum_tilt_are_the_angles_of_the_geometry() {
         // Ω = k ωz: n and S enclose 45°.
         let motion = motion(Coin::DISC, [2.0, 0.0, 1.0], 0.0);
-        assert!((motion.cone_angle() - FRAC_PI_4).abs() < 1e-15);
-        assert!((motion.momentum_tilt() - FRAC_PI_4).abs() < 1e-15);
+        assert!([motion.cone_angle(), motion.momentum_tilt()].iter().all(|angle| (angle - FRAC_PI_4).abs() < 1e-15));
     }
 
     #[test]

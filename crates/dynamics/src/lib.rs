@@ -12,7 +12,9 @@
 //! | coin + body rate + attitude + time of flight | [`launch`], [`state`] |
 //! | Euler's equations and what they conserve | [`body_rate`] |
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
-//! | the exact motion, and when it shows heads | [`exact`], [`heads`] |
+//! | the exact motion, to the last bit | [`exact`], [`double_double`] |
+//! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | outcomes that are proven | [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
 //!

@@ -14,12 +14,13 @@ use std::fmt;
 use dynamics::Solver;
 
 use crate::counts::{Counts, count};
-use crate::exact_speed::{Share, Shares, add_shares};
+use crate::exact_speed::Share;
 use crate::fold::{Progress, SampleError};
 use crate::grid::Grid;
 use crate::interval::{Interval, from_scrambles, wilson};
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled, cube_of_the_rest};
+use crate::shares::{Shares, add_shares};
 use crate::space::{Cube, Space};
 
 /// Confidence level of the intervals.

@@ -21,6 +21,7 @@ pub mod map;
 pub mod plan;
 pub mod random;
 pub mod series;
+mod shares;
 pub mod sobol;
 pub mod space;
 pub mod space_file;
