@@ -4,7 +4,8 @@ use crate::certified::{Certificate, certify};
 use crate::error::SolveError;
 use crate::exact::{COS_TILT_ERROR, ExactMotion};
 use crate::launch::Toss;
-use crate::solver::{Propagation, Settings, Solver, SolverEntry, Verdict, Work};
+use crate::outcome::Verdict;
+use crate::solver::{Propagation, Settings, Solver, SolverEntry, Work};
 
 /// The solver by [`ExactMotion`]; it makes no steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

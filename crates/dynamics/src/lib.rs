@@ -14,7 +14,7 @@
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
 //! | the exact motion, to the last bit | [`exact`], [`double_double`] |
 //! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
-//! | outcomes that are proven | [`certified`] |
+//! | outcomes, and their proofs | [`outcome`], [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
 //!
@@ -41,13 +41,14 @@ pub mod integrate;
 pub mod launch;
 pub mod margin;
 pub mod method;
+pub mod outcome;
 pub mod scale;
 pub mod solver;
 pub mod state;
 pub mod tilt_terms;
 
 pub use attitude::Attitude;
-pub use certified::{Certificate, Stage, certify};
+pub use certified::{Certificate, certify};
 pub use coin::Coin;
 pub use error::{InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;
@@ -59,6 +60,7 @@ pub use launch::{Launch, TimeOfFlight, Toss};
 pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
-pub use solver::{Frame, Outcome, Propagation, Settings, Solver, SolverEntry, Verdict, Work};
+pub use outcome::{Outcome, Stage, Verdict};
+pub use solver::{Frame, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;
 pub use tilt_terms::TiltTerms;

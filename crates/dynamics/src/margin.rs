@@ -184,7 +184,7 @@ mod tests {
                 for part in 0..500 {
                     let speed = 1.0 + 8.0 * (f64::from(part) + 0.5) / 500.0;
                     let inside = intervals.iter().any(|[slow, fast]| *slow < speed && speed < *fast);
-                    let heads = certify(&toss(rate, tilt, speed)).unwrap().outcome == crate::solver::Outcome::Heads;
+                    let heads = certify(&toss(rate, tilt, speed)).unwrap().outcome == crate::outcome::Outcome::Heads;
                     assert_eq!(inside, heads, "{rate:?} {tilt} {speed}: {intervals:?}");
                 }
             }

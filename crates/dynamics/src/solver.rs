@@ -3,11 +3,11 @@
 //! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
 //! has one entry; every test and every check runs over the registry of entries.
 
-use crate::certified::Stage;
 use crate::error::{InputError, SolveError, find_named};
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
 use crate::method::Method;
+use crate::outcome::{Outcome, Verdict};
 use crate::state::State;
 
 /// What a propagation cost, as counts that repeat exactly.
@@ -30,49 +30,6 @@ pub struct Propagation {
     pub defect: f64,
     /// Its cost.
     pub work: Work,
-}
-
-/// How the coin lands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// cos θ > 0.
-    Heads,
-    /// cos θ < 0.
-    Tails,
-    /// cos θ is nearer to 0 than the solver answers for; for a proven outcome only an exact tie, cos θ = 0.
-    Undecided,
-}
-
-impl Outcome {
-    /// The rule: heads or tails by the sign of `cos_tilt` where its size exceeds `resolution`, else undecided.
-    #[inline]
-    pub fn of(cos_tilt: f64, resolution: f64) -> Self {
-        if cos_tilt > resolution {
-            Self::Heads
-        } else if cos_tilt < -resolution {
-            Self::Tails
-        } else {
-            Self::Undecided
-        }
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Heads => "heads",
-            Self::Tails => "tails",
-            Self::Undecided => "undecided",
-        }
-    }
-}
-
-/// An outcome, and what it rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Verdict {
-    /// How the toss lands.
-    pub outcome: Outcome,
-    /// The stage that proved it; `None` for an outcome that is only as good as the solver's error estimate.
-    pub proof: Option<Stage>,
 }
 
 /// Solves the flight of a toss.
@@ -189,19 +146,4 @@ pub struct SolverEntry {
     pub integrates: bool,
     /// Makes the solver.
     pub build: fn(&Settings) -> Box<dyn Solver>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tie_is_undecided_whatever_the_resolution() {
-        assert_eq!(Outcome::of(0.0, 0.0), Outcome::Undecided);
-        assert_eq!(Outcome::of(-0.0, 1e-16), Outcome::Undecided);
-        assert_eq!(Outcome::of(1e-300, 0.0), Outcome::Heads);
-        assert_eq!(Outcome::of(-1e-9, 1e-8), Outcome::Undecided);
-        assert_eq!(Outcome::of(-1e-7, 1e-8), Outcome::Tails);
-        assert_eq!(Outcome::of(f64::NAN, 0.0), Outcome::Undecided);
-    }
 }
