@@ -70,14 +70,40 @@ fn nearest_polar(re: f64, im: f64, reference: f64) -> (f64, f64) {
     (reference + (across * along.signum()).atan2(along.abs()), radius)
 }
 
-/// The complex curve `a cos x + b sin x` in polar form, continuous in x: (argument, signed radius).
+/// A complex number in polar form, its argument as `base` + π `half_turns`, so that sums and differences of arguments
+/// lose no digits to turns that cancel.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Polar {
+    /// Within a turn or so (rad).
+    pub(crate) base: f64,
+    /// A whole number.
+    pub(crate) half_turns: f64,
+    /// May be negative.
+    pub(crate) radius: f64,
+}
+
+impl Polar {
+    /// The argument (rad), rounded.
+    pub(crate) fn argument(&self) -> f64 {
+        (half_turns(self.half_turns) + self.base.into()).hi()
+    }
+}
+
+/// π times a whole number (rad).
+pub(crate) fn half_turns(number: f64) -> DoubleDouble {
+    /// π less the f64 next to it.
+    const PI_REST: f64 = 1.224_646_799_147_353_2e-16;
+    DoubleDouble::product(PI, number) + DoubleDouble::product(PI_REST, number)
+}
+
+/// The complex curve `a cos x + b sin x` in polar form, continuous in x.
 ///
 /// The curve is an ellipse about the origin, run through once in 2π: its argument gains ±π in each half turn. A flat
 /// ellipse is a line through the origin; there the argument stays and the radius changes sign.
-pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> (f64, f64) {
+pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> Polar {
     let ((sin, cos), x) = (x.rounded_sin_cos(), x.hi());
     if let Some((argument, [along_a, along_b])) = flat(a, b) {
-        return (argument, along_a * cos + along_b * sin);
+        return Polar { base: argument, half_turns: 0.0, radius: along_a * cos + along_b * sin };
     }
     let (re, im) = (a[0] * cos + b[0] * sin, a[1] * cos + b[1] * sin);
     let start = a[1].atan2(a[0]);
@@ -88,7 +114,7 @@ pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> (f6
     let parity = if half_turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
     let along = parity * (re * cos_start + im * sin_start);
     let across = parity * sense * (im * cos_start - re * sin_start);
-    (start + sense * (half_turns * PI + across.max(0.0).atan2(along)), re.hypot(im))
+    Polar { base: start + sense * across.max(0.0).atan2(along), half_turns: sense * half_turns, radius: re.hypot(im) }
 }
 
 /// The line that a flat curve `a cos x + b sin x` runs on: its argument, and the components of a and b along it.
@@ -151,10 +177,11 @@ mod tests {
         // Ellipses of both senses, thin and wide, that start anywhere.
         for (a, b) in [([1.0, 0.0], [0.2, 0.5]), ([0.3, -0.4], [0.1, -0.9]), ([0.5, 0.5], [-0.5, 1e-3])] {
             let step = 1e-4;
-            let mut last = continuous_polar(a, b, 0.0.into()).0;
+            let mut last = continuous_polar(a, b, 0.0.into()).argument();
             let mut largest = 0.0_f64;
             for i in 1..100_000 {
-                let (argument, radius) = continuous_polar(a, b, (f64::from(i) * step).into());
+                let polar = continuous_polar(a, b, (f64::from(i) * step).into());
+                let (argument, radius) = (polar.argument(), polar.radius);
                 largest = largest.max((argument - last).abs());
                 last = argument;
                 let (sin, cos) = (f64::from(i) * step).sin_cos();

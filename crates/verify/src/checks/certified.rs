@@ -34,6 +34,20 @@ pub(super) const ATTITUDE: Check = Check {
     },
 };
 
+pub(super) const EULER_ANGLES: Check = Check {
+    id: "last-bit-euler-angles",
+    claim: "the Euler angles of the exact motion give its attitude to the last bits of the angles (measured: in ulp of 1 + |angle|)",
+    basis: Basis::ClosedForm,
+    unit: "ulp",
+    measure: |context| {
+        last_bit(context, |toss, reference| {
+            let angles = ExactMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
+            let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
+            Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
+        })
+    },
+};
+
 pub(super) const OUTCOMES: Check = Check {
     id: "certified-outcomes",
     claim: "certified outcomes are those of 256 bits, also within 3 ulp of the edge (measured: that differ, or are undecided)",

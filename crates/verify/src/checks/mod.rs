@@ -24,6 +24,7 @@ pub const CHECKS: &[Check] = &[
     random::CROSS_METHOD,
     certified::COS_TILT,
     certified::ATTITUDE,
+    certified::EULER_ANGLES,
     certified::OUTCOMES,
     certified::BOUNDS,
     first_return::ATTITUDE,
