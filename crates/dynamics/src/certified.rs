@@ -17,13 +17,13 @@
 //! sum                                  33.2u + 6u φ
 //! ```
 //!
-//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What
-//! underflows is below 2^-1000, and `size` is above 10^-200.
+//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
+//! 2^-1000, and `size` is above 10^-200.
 //!
-//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations of at most
-//! 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time 10 u², their product
-//! 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for
-//! both), turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
+//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations of
+//! at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time 10 u²,
+//! their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both), turned by
+//! its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
 //! [`double_double_bound`].
 //!
 //! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann), so

@@ -10,10 +10,11 @@
 //!
 //! where, with m the vertical seen from the body at launch, a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ). From
 //! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
+//!
 //! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
-//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. The rates ωL and q, the phases ωL t and q t and a, b, c are carried in double-double ([`DoubleDouble`]), so that what
-//! is left is the rounding of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any
-//! phase that a toss can have.
+//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. ωL and q, the phases
+//! ωL t and q t, and a, b, c are carried in double-double ([`DoubleDouble`]). What is left is the rounding of sine, cosine
+//! and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any phase that a toss can have.
 
 use nalgebra::Vector3;
 
@@ -112,11 +113,8 @@ impl ExactMotion {
         let turned = |rate: DoubleDouble| (rate * time.mantissa).times_power_of_two(self.exponent + time.exponent);
         let (precession, spin) = (turned(self.precession_rate), turned(self.spin_rate));
         let largest = precession.hi().max(spin.hi().abs());
-        if largest <= LARGEST_PHASE {
-            Ok((precession, spin))
-        } else {
-            Err(SolveError::PhaseTooLarge { phase: largest })
-        }
+        let in_range = largest <= LARGEST_PHASE;
+        in_range.then_some((precession, spin)).ok_or(SolveError::PhaseTooLarge { phase: largest })
     }
 
     /// cos θ, `time` (s) after launch: one sine and cosine.
