@@ -122,6 +122,7 @@ mod tests {
             for (from, to) in [(0.0, 0.1), (0.0, 20.0), (3.0, 9.5), (6.0, 6.5)] {
                 let intervals: Vec<[f64; 2]> = heads.intervals(from, to).collect();
                 assert!(intervals.windows(2).all(|pair| pair[0][1] < pair[1][0]), "{intervals:?}");
+                assert!(intervals.iter().flatten().all(|end| (from..=to).contains(end)), "{intervals:?}");
                 for part in 0..1000 {
                     let phase = from + (to - from) * (f64::from(part) + 0.5) / 1000.0;
                     let (sin, cos) = phase.sin_cos();

@@ -108,3 +108,24 @@ impl TiltTerms {
         HeadsPhases::new([self.mean, self.cosine, self.sine].map(|term| term / self.size), TERM_ERROR + UNIT_ROUNDOFF)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::coin::Coin;
+    use crate::launch::{Launch, TimeOfFlight};
+
+    #[test]
+    fn a_coin_that_does_not_precess_keeps_its_face() {
+        for (rate, tilt, half_width) in
+            [([0.0; 3], 0.3, std::f64::consts::PI), ([0.0; 3], 2.0, 0.0), ([1e-160, 0.0, 1.0], 2.0, 0.0)]
+        {
+            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+            let terms = TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch });
+            assert_eq!((terms.phases(1.0)[0], terms.heads().half_width), (0.0, half_width), "{rate:?} {tilt}");
+            assert!((terms.height(0.0) / terms.size - tilt.cos()).abs() < 1e-15);
+        }
+    }
+}
