@@ -18,7 +18,7 @@ pub fn solvers() -> Vec<Box<dyn Solver>> {
     let methods = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, TOLERANCE).expect("valid"));
     let mut solvers = Vec::new();
     for entry in SOLVERS {
-        for method in methods.iter().take(if entry.integrates { 2 } else { 1 }) {
+        for method in methods.iter().take(if entry.integrates() { 2 } else { 1 }) {
             solvers.push((entry.build)(&Settings { method: *method, ..Settings::default() }));
         }
     }

@@ -25,7 +25,7 @@ fn integrators_allocate_with_the_logarithm_of_the_steps() {
     let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0);
     let adaptive = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, 1e-12).unwrap());
     let methods = [adaptive[0], adaptive[1], Method::fixed(Scheme::Rk4, 1e-3).unwrap()];
-    for entry in SOLVERS.iter().filter(|entry| entry.integrates) {
+    for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
         for method in methods {
             let solver = (entry.build)(&Settings { method, ..Settings::default() });
             let mut steps = 0;

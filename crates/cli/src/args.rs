@@ -4,7 +4,7 @@ use clap::Args;
 use toss::catalogue::named_coin;
 use toss::launch::DEFAULT_GRAVITY;
 use toss::{
-    Coin, Frame, InputError, Launch, Method, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3, named_solver,
+    Coin, Formulation, InputError, Launch, Method, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3, named_solver,
 };
 
 use crate::failure::Failure;
@@ -113,9 +113,10 @@ pub(crate) struct SolverArgs {
     /// Step of rk4 (s) [default: 0.001]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Frame of the Euler angles (gamma, euler): momentum, where no flight is singular, or vertical, as the paper has it
-    #[arg(long, value_name = "NAME", default_value = "momentum")]
-    frame: String,
+    /// Set-up of the kinematics: momentum, where no flight is singular; vertical, as the paper has it, with typed errors; or
+    /// raw, as the paper prints it, where an answer may be wrong
+    #[arg(long, value_name = "NAME", alias = "frame", default_value = "momentum")]
+    formulation: String,
 }
 
 impl SolverArgs {
@@ -123,8 +124,8 @@ impl SolverArgs {
     pub(crate) fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
         let entry = named_solver(&self.solver)?;
         let scheme = Scheme::named(scheme)?;
-        let frame = Frame::named(&self.frame)?;
-        Ok((entry.build)(&Settings { method: self.method(scheme)?, frame }))
+        let formulation = Formulation::named(&self.formulation)?;
+        Ok((entry.build)(&Settings { method: self.method(scheme)?, formulation }))
     }
 
     fn method(&self, scheme: Scheme) -> Result<Method, Failure> {

@@ -81,7 +81,10 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
         ("toss --rate 1,1,1 --time 1 --coin groat", ["coin = 'groat'", "us-quarter"]),
         ("toss --rate 1,1,1 --time 1 --solver newton", ["solver = 'newton'", "quaternion"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --method euler", ["method = 'euler'", "dopri5"]),
-        ("toss --rate 1,1,1 --time 1 --solver gamma --frame sideways", ["frame = 'sideways'", "momentum, vertical"]),
+        (
+            "toss --rate 1,1,1 --time 1 --solver gamma --formulation sideways",
+            ["formulation = 'sideways'", "momentum, vertical, raw"],
+        ),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 0", ["tolerance = 0.0", "2.220446049250313e-16"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 1e-17", ["tolerance = 1e-17", "<= tolerance < 1"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --method rk4 --step 0", ["step [s] = 0.0", "> 0"]),
@@ -124,7 +127,7 @@ fn a_solver_that_fails_ends_with_1_and_a_typed_error() {
     assert!(phase["error"]["phase"].as_f64() > Some(9e15));
     assert!(phase["error"]["message"].as_str().unwrap().starts_with("outcome not determined"));
 
-    let stops = json("toss --rate 0.3,0.3,5 --time 5 --tilt 1 --solver gamma --frame vertical", 1);
+    let stops = json("toss --rate 0.3,0.3,5 --time 5 --tilt 1 --solver gamma --formulation vertical", 1);
     assert_eq!(stops["error"]["kind"], "singular");
     assert_eq!(stops["error"]["point"], "α' = 0");
     assert!(stops["error"]["time"].as_f64().unwrap() > 0.0);
@@ -134,7 +137,7 @@ fn a_solver_that_fails_ends_with_1_and_a_typed_error() {
     assert_eq!(steps["error"]["limit"], 1_000_000);
 
     let space = "probability --rate-x 9 --rate-y x --rate-z 0 --speed 3:5:9 --method grid";
-    let launch = json(&format!("{space} --solver gamma --frame vertical"), 1);
+    let launch = json(&format!("{space} --solver gamma --formulation vertical"), 1);
     assert_eq!(launch["error"]["launch"]["index"], 0);
     assert_eq!(launch["error"]["launch"]["rate"][0], 9.0);
 }

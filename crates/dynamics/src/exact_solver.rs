@@ -16,7 +16,7 @@ impl ExactSolver {
     pub const ENTRY: SolverEntry = SolverEntry {
         name: "exact",
         summary: "closed form of the motion: precession about S, spin about n",
-        integrates: false,
+        formulations: &[],
         build: |_: &Settings| Box::new(Self),
     };
 }
@@ -27,8 +27,9 @@ impl Solver for ExactSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let state = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
-        Ok(Propagation { state, defect: 0.0, work: Work::default() })
+        let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
+        let (state, cos_tilt) = (motion.state(time)?, motion.cos_tilt(time)?);
+        Ok(Propagation { state, cos_tilt, defect: 0.0, work: Work::default() })
     }
 
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {

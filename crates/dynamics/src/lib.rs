@@ -61,6 +61,6 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
 pub use outcome::{Outcome, Stage, Verdict};
-pub use solver::{Frame, Propagation, Settings, Solver, SolverEntry, Work};
+pub use solver::{Formulation, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;
 pub use tilt_terms::TiltTerms;

@@ -26,10 +26,19 @@ pub struct Work {
 pub struct Propagation {
     /// State at landing.
     pub state: State,
-    /// Loss of norm of an integrated quaternion, ||Q| - 1|, before it was normalised; 0 where attitudes need no norm.
+    /// cos θ at landing, as the solver finds it: that of the state's attitude, or better.
+    pub cos_tilt: f64,
+    /// Loss of norm of an integrated quaternion, ||Q| - 1|; 0 where attitudes need no norm.
     pub defect: f64,
     /// Its cost.
     pub work: Work,
+}
+
+impl Propagation {
+    /// A landing whose cos θ is that of its attitude.
+    pub fn new(state: State, work: Work) -> Self {
+        Self { state, cos_tilt: state.attitude.cos_tilt(), defect: 0.0, work }
+    }
 }
 
 /// Solves the flight of a toss.
@@ -53,7 +62,7 @@ pub trait Solver: Send + Sync {
     /// # Errors
     /// As [`Solver::propagate`].
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        Ok(self.propagate(toss)?.state.attitude.cos_tilt())
+        self.propagate(toss).map(|landing| landing.cos_tilt)
     }
 
     /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) (rad), by its method; 0 if it
@@ -88,27 +97,32 @@ pub trait Solver: Send + Sync {
     }
 }
 
-/// The transport frame in which the γ-ODE and the Euler angles are taken. The motion is the same in each; what
-/// differs is where sin β = 0 lies. Other solvers have no use for it.
+/// How the kinematics are set up for integration. The motion is the same in each; what differs is where the equations
+/// are singular, and what happens there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Frame {
-    /// z along ±S, the angular momentum, on the side of n: S is fixed in TF, so β is constant and at most π/2.
+pub enum Formulation {
+    /// Euler angles and γ-ODE in the transport frame with z along ±S, the angular momentum, on the side of n: S is fixed
+    /// in TF, so β is constant and at most π/2. Quaternions are projected onto unit norm.
     #[default]
     Momentum,
-    /// z up, as the paper has it: singular whenever n is vertical, as at every horizontal launch and at each return.
+    /// Euler angles and γ-ODE with z up, as the paper has them: singular whenever n is vertical, as at every horizontal
+    /// launch, which starts on the regular solution, and at each return, which is a typed error. Quaternions as above.
     Vertical,
+    /// The equations exactly as the paper prints them, with z up and nothing to guard their singular points, and the
+    /// quaternion without projection. Kept to show where that fails: an answer may be wrong without an error.
+    Raw,
 }
 
-impl Frame {
-    /// All frames.
-    pub const ALL: [Self; 2] = [Self::Momentum, Self::Vertical];
+impl Formulation {
+    /// All formulations.
+    pub const ALL: [Self; 3] = [Self::Momentum, Self::Vertical, Self::Raw];
 
-    /// The frame called `name`.
+    /// The formulation called `name`.
     ///
     /// # Errors
     /// [`InputError::UnknownName`].
     pub fn named(name: &str) -> Result<Self, InputError> {
-        find_named("frame", name, &Self::ALL, |frame| frame.name()).copied()
+        find_named("formulation", name, &Self::ALL, |formulation| formulation.name()).copied()
     }
 
     /// Its name.
@@ -116,6 +130,7 @@ impl Frame {
         match self {
             Self::Momentum => "momentum",
             Self::Vertical => "vertical",
+            Self::Raw => "raw",
         }
     }
 }
@@ -125,13 +140,13 @@ impl Frame {
 pub struct Settings {
     /// Runge-Kutta method and step control.
     pub method: Method,
-    /// Frame of the Euler angles.
-    pub frame: Frame,
+    /// How the kinematics are set up.
+    pub formulation: Formulation,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::DEFAULT, frame: Frame::default() }
+        Self { method: Method::DEFAULT, formulation: Formulation::default() }
     }
 }
 
@@ -142,8 +157,15 @@ pub struct SolverEntry {
     pub name: &'static str,
     /// What it solves, in a line.
     pub summary: &'static str,
-    /// Whether it steps through time with a Runge-Kutta method.
-    pub integrates: bool,
+    /// The formulations that differ for it; none for a closed form, which takes no steps.
+    pub formulations: &'static [Formulation],
     /// Makes the solver.
     pub build: fn(&Settings) -> Box<dyn Solver>,
+}
+
+impl SolverEntry {
+    /// Whether it steps through time with a Runge-Kutta method.
+    pub fn integrates(&self) -> bool {
+        !self.formulations.is_empty()
+    }
 }

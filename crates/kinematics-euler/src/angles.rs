@@ -12,18 +12,18 @@ use std::f64::consts::PI;
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, State,
-    Toss,
+    EulerAngles, Flight, Formulation, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, Toss,
 };
 use nalgebra::SVector;
 
+use crate::raw::RawAngles;
 use crate::start::Start;
 
 /// The Euler angles' solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAnglesSolver {
     method: Method,
-    frame: Frame,
+    formulation: Formulation,
 }
 
 impl EulerAnglesSolver {
@@ -31,13 +31,13 @@ impl EulerAnglesSolver {
     pub const ENTRY: SolverEntry = SolverEntry {
         name: "euler",
         summary: "the three Euler angles (5)",
-        integrates: true,
-        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.frame)),
+        formulations: &Formulation::ALL,
+        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 
-    /// A solver that steps by `method`, with angles taken in `frame`.
-    pub fn new(method: Method, frame: Frame) -> Self {
-        Self { method, frame }
+    /// A solver of `formulation` that steps by `method`.
+    pub fn new(method: Method, formulation: Formulation) -> Self {
+        Self { method, formulation }
     }
 }
 
@@ -52,14 +52,16 @@ impl Solver for EulerAnglesSolver {
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
-        let start = Start::new(toss, &flight.rate, self.frame);
-        let system = AnglesSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
+        let start = Start::new(toss, &flight.rate, self.formulation);
+        let (k, rate_z) = (toss.coin.inertia_ratio(), flight.rate.z);
         let EulerAngles { alpha, beta, gamma } = start.angles;
         let first = SVector::from([alpha, beta, gamma, flight.rate.x, flight.rate.y]);
-        let (end, work) = flight.integrate(&system, first, &self.method)?;
+        let (end, work) = match self.formulation {
+            Formulation::Raw => flight.integrate(&RawAngles::new(k, rate_z), first, &self.method)?,
+            _ => flight.integrate(&AnglesSystem::new(k, rate_z), first, &self.method)?,
+        };
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
-        let state = State { attitude: start.frame * angles.attitude(), rate: flight.rate_at(end[3], end[4]) };
-        Ok(Propagation { state, defect: 0.0, work })
+        start.landing(&flight, &angles, [end[3], end[4]], work)
     }
 }
 
@@ -150,7 +152,7 @@ mod tests {
         let toss = Toss { coin: Coin::PAPER, launch };
         let first_return = 2.0 * PI / ExactMotion::new(&toss).precession_rate();
         let method = Method::fixed(dynamics::Scheme::Rk4, 1e-3).unwrap();
-        let error = EulerAnglesSolver::new(method, Frame::Vertical).propagate(&toss).unwrap_err();
+        let error = EulerAnglesSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
     }

@@ -13,11 +13,11 @@
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Frame, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, State,
-    Toss,
+    EulerAngles, Flight, Formulation, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, Toss,
 };
 use nalgebra::SVector;
 
+use crate::raw::RawGamma;
 use crate::start::Start;
 
 /// Where |D| is smaller than this part of |β'|, rounding leaves (10) no digit: √ε.
@@ -31,7 +31,7 @@ const SMALLEST_PRECESSION: f64 = 1e-2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GammaSolver {
     method: Method,
-    frame: Frame,
+    formulation: Formulation,
 }
 
 impl GammaSolver {
@@ -39,13 +39,13 @@ impl GammaSolver {
     pub const ENTRY: SolverEntry = SolverEntry {
         name: "gamma",
         summary: "the γ-ODE (10), the paper's equation for the spin angle",
-        integrates: true,
-        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.frame)),
+        formulations: &Formulation::ALL,
+        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 
-    /// A solver that steps by `method`, with angles taken in `frame`.
-    pub fn new(method: Method, frame: Frame) -> Self {
-        Self { method, frame }
+    /// A solver of `formulation` that steps by `method`.
+    pub fn new(method: Method, formulation: Formulation) -> Self {
+        Self { method, formulation }
     }
 }
 
@@ -61,15 +61,20 @@ impl Solver for GammaSolver {
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
-        let start = Start::new(toss, &rate, self.frame);
-        let system = GammaSystem::new(toss.coin.inertia_ratio(), rate.z, start.precession);
+        let start = Start::new(toss, &rate, self.formulation);
+        let k = toss.coin.inertia_ratio();
         let first = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
+        if self.formulation == Formulation::Raw {
+            let system = RawGamma::new(k, rate.z);
+            let (end, work) = flight.integrate(&system, first, &self.method)?;
+            return start.landing(&flight, &system.angles(&end), [end[3], end[4]], work);
+        }
+        let system = GammaSystem::new(k, rate.z, start.precession);
         if system.precession_stops(&first) && !start.rests_at_the_pole(&rate) {
             return Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
         }
         let (end, work) = flight.integrate(&system, first, &self.method)?;
-        let attitude = start.frame * system.angles(&end).attitude();
-        Ok(Propagation { state: State { attitude, rate: flight.rate_at(end[3], end[4]) }, defect: 0.0, work })
+        start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)
     }
 }
 
@@ -197,7 +202,7 @@ mod tests {
     fn from_horizontal_it_starts_on_the_regular_solution() {
         let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
         let rate = toss.launch.rate();
-        let start = Start::new(&toss, &rate, Frame::Vertical);
+        let start = Start::new(&toss, &rate, Formulation::Vertical);
         assert_eq!((start.angles.beta, start.angles.gamma), (0.0, (-1.0_f64).atan2(1.0)));
         assert_eq!(rate.z - start.u, rate.z * (1.0 - 0.5 / 2.0), "γ'(0) = ωz (1 - k/2)");
         let system = GammaSystem::new(0.5, rate.z, start.precession);
@@ -209,7 +214,7 @@ mod tests {
     fn along_the_momentum_the_angles_turn_steadily() {
         for rate in [[1.0, 1.0, 2.5], [1.0, -2.0, -3.0], [1e-12, 0.0, -1.0]] {
             let toss = toss(1.98, rate, 0.4);
-            let start = Start::new(&toss, &toss.launch.rate(), Frame::Momentum);
+            let start = Start::new(&toss, &toss.launch.rate(), Formulation::Momentum);
             assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&start.angles.beta));
             let precession = ExactMotion::new(&toss).precession_rate();
             assert!((start.precession.abs() - precession).abs() < 1e-15 * precession);
@@ -231,11 +236,11 @@ mod tests {
         let tilted = Toss { coin: Coin::PAPER, launch };
         for scheme in [dynamics::Scheme::Dop853, dynamics::Scheme::Dopri5] {
             let method = Method::adaptive(scheme, 1e-10).unwrap();
-            let error = GammaSolver::new(method, Frame::Vertical).propagate(&tilted).unwrap_err();
+            let error = GammaSolver::new(method, Formulation::Vertical).propagate(&tilted).unwrap_err();
             let SolveError::Singular { point: Singularity::PrecessionStops, time } = error else { panic!("{error}") };
             assert!(time > 0.0 && time < 5.0, "{time}");
             // The same flight along the momentum.
-            let landing = GammaSolver::new(method, Frame::Momentum).propagate(&tilted).unwrap();
+            let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&tilted).unwrap();
             let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
             assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
         }
@@ -247,7 +252,7 @@ mod tests {
         let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
         for step in [1e-3, 3e-4, 1e-4] {
             let method = Method::fixed(dynamics::Scheme::Rk4, step).unwrap();
-            let error = GammaSolver::new(method, Frame::Vertical).propagate(&toss).unwrap_err();
+            let error = GammaSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
             let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
             assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
         }

@@ -3,16 +3,17 @@
 //! In the kinematics (5) write D = ωx sin γ + ωy cos γ = α' sin β and u = ωz - γ' = α' cos β. Angles taken in the frame
 //! F describe the attitude `Q = F ⊗ z(α) x(β) z(γ)`.
 //!
-//! - [`Frame::Momentum`]: F's z axis is along s S, where the sign s is that of k ωz, so that n is on its side:
+//! - [`Formulation::Momentum`]: F's z axis is along s S, where the sign s is that of k ωz, so that n is on its side:
 //!   β ≤ π/2, and a small sin β keeps its digits. Then β is constant, α' = s ωL and γ' = -q for the whole flight, with
 //!   γ(0) = atan2(s ωx, s ωy), α(0) = 0. S is known at launch; that it stays is conservation of angular momentum, and
 //!   the integration shows whether it does.
-//! - [`Frame::Vertical`]: F = 1. At sin β = 0 the motion has the regular limit u = k ωz / 2 and
+//! - [`Formulation::Vertical`]: F = 1. At sin β = 0 the motion has the regular limit u = k ωz / 2 and
 //!   γ(0) = atan2(-ωy, ωx), where D = 0.
+//! - [`Formulation::Raw`]: F = 1 and no limit: 0/0 at sin β = 0.
 
 use std::f64::consts::PI;
 
-use dynamics::{Attitude, EulerAngles, Frame, Toss, Vector3};
+use dynamics::{Attitude, EulerAngles, Flight, Formulation, Propagation, SolveError, State, Toss, Vector3, Work};
 
 /// A launch whose sin β is below this is taken as vertical: the attitude differs by less than rounding.
 const VERTICAL: f64 = f64::EPSILON;
@@ -32,12 +33,29 @@ pub(crate) struct Start {
 
 impl Start {
     /// `rate`: the body rate at launch (BF) in any unit.
-    pub(crate) fn new(toss: &Toss, rate: &Vector3<f64>, frame: Frame) -> Self {
+    pub(crate) fn new(toss: &Toss, rate: &Vector3<f64>, formulation: Formulation) -> Self {
         let momentum_z = toss.coin.inertia_ratio() * rate.z;
-        match frame {
-            Frame::Momentum => Self::along_momentum(toss.launch.attitude(), rate, momentum_z),
-            Frame::Vertical => Self::vertical(toss.launch.attitude(), rate, momentum_z),
+        match formulation {
+            Formulation::Momentum => Self::along_momentum(toss.launch.attitude(), rate, momentum_z),
+            Formulation::Vertical => Self::vertical(toss.launch.attitude(), rate, momentum_z),
+            Formulation::Raw => Self::from_kinematics(EulerAngles::principal(&toss.launch.attitude()), rate),
         }
+    }
+
+    /// The landing at `angles` with the transverse rates `rate_x`, `rate_y` in the flight's unit.
+    pub(crate) fn landing(
+        &self,
+        flight: &Flight,
+        angles: &EulerAngles,
+        [rate_x, rate_y]: [f64; 2],
+        work: Work,
+    ) -> Result<Propagation, SolveError> {
+        // D = u = 0 leaves no β.
+        if !angles.beta.is_finite() {
+            return Err(flight.not_finite());
+        }
+        let state = State { attitude: self.frame * angles.attitude(), rate: flight.rate_at(rate_x, rate_y) };
+        Ok(Propagation::new(state, work))
     }
 
     /// Whether n is along the frame's axis and stays there: a pure spin, or no motion.
@@ -59,9 +77,7 @@ impl Start {
         let [w, x, y, z] = launch.components();
         let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
         if sin_half_beta.min(cos_half_beta) > VERTICAL {
-            let (sin_gamma, cos_gamma) = angles.gamma.sin_cos();
-            let precession = (rate.x * sin_gamma + rate.y * cos_gamma) / angles.beta.sin();
-            return Self { frame: Attitude::IDENTITY, angles, precession, u: precession * angles.beta.cos() };
+            return Self::from_kinematics(angles, rate);
         }
         let u = 0.5 * momentum_z;
         let gamma = (-rate.y).atan2(rate.x);
@@ -71,5 +87,12 @@ impl Start {
             (EulerAngles { alpha: angles.alpha - angles.gamma + gamma, beta: PI, gamma }, -u)
         };
         Self { frame: Attitude::IDENTITY, angles, precession, u }
+    }
+
+    /// By (5), which has no answer at sin β = 0.
+    fn from_kinematics(angles: EulerAngles, rate: &Vector3<f64>) -> Self {
+        let (sin_gamma, cos_gamma) = angles.gamma.sin_cos();
+        let precession = (rate.x * sin_gamma + rate.y * cos_gamma) / angles.beta.sin();
+        Self { frame: Attitude::IDENTITY, angles, precession, u: precession * angles.beta.cos() }
     }
 }

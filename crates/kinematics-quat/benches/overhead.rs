@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::integrate::OdeSystem;
 use dynamics::scale::power_of_two_scale;
-use dynamics::{Coin, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
+use dynamics::{Coin, Formulation, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
 use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 use nalgebra::SVector;
 use ode_solvers::Dop853;
@@ -43,7 +43,10 @@ fn bare(toss: &Toss) -> SVector<f64, 6> {
 
 fn overhead(criterion: &mut Criterion) {
     let toss = toss();
-    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, TOLERANCE).expect("a valid tolerance"));
+    let solver = QuaternionSolver::new(
+        Method::adaptive(Scheme::Dop853, TOLERANCE).expect("a valid tolerance"),
+        Formulation::default(),
+    );
     let mut group = criterion.benchmark_group("quaternion at 1e-9");
     group.bench_function("solver", |bencher| bencher.iter(|| solver.propagate(black_box(&toss))));
     group.bench_function("bare DOP853", |bencher| bencher.iter(|| bare(black_box(&toss))));

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{ExactSolver, Method, Scheme, Solver, Toss};
+use dynamics::{ExactSolver, Formulation, Method, Solver, Toss};
 use kinematics_quat::QuaternionSolver;
 use sampling::{Counts, Found, Plan, Space, estimate, named_space, random_tosses};
 
@@ -33,7 +33,7 @@ fn fig4(criterion: &mut Criterion) {
 
 fn quaternion(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").and_then(|space| space.with_grid_of(400)).expect("it exists");
-    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, 1e-10).expect("a valid tolerance"));
+    let solver = QuaternionSolver::new(Method::DEFAULT, Formulation::default());
     let plan = Plan::Random { points: 400, seed: 1 };
     let tosses = random_tosses(&space, 1, 0..400);
     let mut group = criterion.benchmark_group("quaternion");

@@ -52,7 +52,7 @@ impl Case {
             rate.y,
             rate.z,
             self.tilt,
-            subject.options
+            subject.options()
         )
     }
 }

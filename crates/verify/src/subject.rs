@@ -1,74 +1,84 @@
 //! What is verified: each solver of the registry with each Runge-Kutta method.
 
-use toss::{Frame, InputError, Method, Scheme, Settings, Solver, SolverEntry};
+use toss::{Formulation, InputError, Method, Scheme, Settings, Solver, SolverEntry, StepControl};
 
 /// Tolerance of the adaptive methods under verification.
-pub const TIGHT_TOLERANCE: f64 = 1e-12;
+const TIGHT_TOLERANCE: f64 = 1e-12;
 
 /// Step of RK4 under verification (s).
-pub const TIGHT_STEP: f64 = 1e-4;
+const TIGHT_STEP: f64 = 1e-4;
 
 /// A solver with its settings.
 pub struct Subject {
-    /// `solver` or `solver/method`; the key of its bounds.
+    /// `solver`, `solver/method` or, if not by default, `solver/method/formulation`; the key of its bounds.
     pub name: String,
     /// Its line of the registry.
     pub entry: SolverEntry,
     /// Its method, if it integrates.
-    pub scheme: Option<Scheme>,
+    pub method: Option<Method>,
+    /// How its kinematics are set up.
+    pub formulation: Formulation,
     /// The solver.
     pub solver: Box<dyn Solver>,
-    /// The options of the command line that make the same solver.
-    pub options: String,
 }
 
 impl Subject {
-    /// `entry` with `scheme` at the tight settings, angles taken in `frame`.
-    ///
-    /// # Errors
-    /// Never for a scheme of the library.
-    pub fn new(entry: SolverEntry, scheme: Option<Scheme>, frame: Frame) -> Result<Self, InputError> {
-        let method = scheme.map_or(Ok(Method::DEFAULT), tight)?;
-        let options = match scheme {
-            None => format!("--solver {}", entry.name),
-            Some(scheme) => {
-                let control = if scheme.is_adaptive() {
-                    format!("--tolerance {TIGHT_TOLERANCE:?}")
-                } else {
-                    format!("--step {TIGHT_STEP:?}")
-                };
-                let frame =
-                    if frame == Frame::default() { String::new() } else { format!(" --frame {}", frame.name()) };
-                format!("--solver {} --method {} {control}{frame}", entry.name, scheme.name())
-            }
-        };
-        Ok(Self {
-            name: scheme.map_or_else(|| entry.name.to_owned(), |scheme| format!("{}/{}", entry.name, scheme.name())),
-            solver: (entry.build)(&Settings { method, frame }),
+    /// `entry` with `method`, which a closed form has none of, in `formulation`.
+    pub fn new(entry: SolverEntry, method: Option<Method>, formulation: Formulation) -> Self {
+        let scheme = method.map(|method| format!("/{}", method.scheme().name())).unwrap_or_default();
+        let suffix =
+            if formulation == Formulation::default() { String::new() } else { format!("/{}", formulation.name()) };
+        let settings = Settings { method: method.unwrap_or(Method::DEFAULT), formulation };
+        Self {
+            name: format!("{}{scheme}{suffix}", entry.name),
+            solver: (entry.build)(&settings),
             entry,
-            scheme,
-            options,
-        })
+            method,
+            formulation,
+        }
+    }
+
+    /// Its scheme, if it integrates.
+    pub fn scheme(&self) -> Option<Scheme> {
+        self.method.map(|method| method.scheme())
+    }
+
+    /// The options of the command line that make the same solver.
+    pub fn options(&self) -> String {
+        let Some(method) = self.method else { return format!("--solver {}", self.entry.name) };
+        let control = match method.control() {
+            StepControl::Tolerance(tolerance) => format!("--tolerance {tolerance:?}"),
+            StepControl::Step(step) => format!("--step {step:?}"),
+        };
+        let formulation = match self.formulation {
+            Formulation::Momentum => String::new(),
+            other => format!(" --formulation {}", other.name()),
+        };
+        format!("--solver {} --method {} {control}{formulation}", self.entry.name, method.scheme().name())
     }
 }
 
-fn tight(scheme: Scheme) -> Result<Method, InputError> {
+/// `scheme` with the tight settings.
+///
+/// # Errors
+/// Never for a scheme of the library.
+pub fn tight(scheme: Scheme) -> Result<Method, InputError> {
     if scheme.is_adaptive() { Method::adaptive(scheme, TIGHT_TOLERANCE) } else { Method::fixed(scheme, TIGHT_STEP) }
 }
 
-/// Every solver of `registry`, each integrator with every method.
+/// Every solver of `registry`, each integrator with every method at the tight settings.
 ///
 /// # Errors
 /// Never for the library's schemes.
 pub fn subjects(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut subjects = Vec::new();
     for &entry in registry {
-        if entry.integrates {
+        if entry.integrates() {
             for scheme in Scheme::ALL {
-                subjects.push(Subject::new(entry, Some(scheme), Frame::default())?);
+                subjects.push(Subject::new(entry, Some(tight(scheme)?), Formulation::default()));
             }
         } else {
-            subjects.push(Subject::new(entry, None, Frame::default())?);
+            subjects.push(Subject::new(entry, None, Formulation::default()));
         }
     }
     Ok(subjects)

@@ -9,8 +9,8 @@ use nalgebra::SVector;
 use toss::integrate::{OdeSystem, integrate};
 use toss::scale::power_of_two_scale;
 use toss::{
-    Attitude, Coin, EulerAngles, ExactSolver, Method, Propagation, QuaternionSolver, SolveError, Solver, SolverEntry,
-    State, Toss, Vector3, Work,
+    Attitude, Coin, EulerAngles, ExactSolver, Formulation, Method, Propagation, QuaternionSolver, SolveError, Solver,
+    SolverEntry, State, Toss, Vector3, Work,
 };
 use verify::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, judge};
@@ -70,7 +70,7 @@ impl Solver for GammaCopy {
         let angles = EulerAngles { alpha: end[2], beta, gamma: end[0] };
         let attitude = toss.launch.attitude() * start.attitude().inverse() * angles.attitude();
         let rate = Vector3::new(end[3] * scale, end[4] * scale, toss.launch.rate().z);
-        Ok(Propagation { state: State { attitude, rate }, defect: 0.0, work })
+        Ok(Propagation::new(State { attitude, rate }, work))
     }
 }
 
@@ -84,7 +84,7 @@ impl GammaCopy {
         let landing = self.propagate(&Toss { launch, ..*toss })?;
         let state =
             State { attitude: landing.state.attitude * half_turn, rate: landing.state.rate.component_mul(&mirror) };
-        Ok(Propagation { state, ..landing })
+        Ok(Propagation::new(state, landing.work))
     }
 }
 
@@ -131,7 +131,7 @@ impl Solver for QuaternionCopy {
         let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
         let rate = Vector3::new(end[4] * scale, end[5] * scale, toss.launch.rate().z);
         let state = State { attitude: toss.launch.attitude() * turn, rate };
-        Ok(Propagation { state, defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), work })
+        Ok(Propagation { defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), ..Propagation::new(state, work) })
     }
 }
 
@@ -151,7 +151,7 @@ impl<S: Solver> Solver for Swapped<S> {
             // A rod has no swapped twin; any answer will do.
             Err(_) => {
                 let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-                Ok(Propagation { state, defect: 0.0, work: Work::default() })
+                Ok(Propagation::new(state, Work::default()))
             }
         }
     }
@@ -161,7 +161,8 @@ impl<S: Solver> Solver for Swapped<S> {
 }
 
 const fn entry(name: &'static str, integrates: bool, build: fn(&toss::Settings) -> Box<dyn Solver>) -> SolverEntry {
-    SolverEntry { name, summary: "", integrates, build }
+    let formulations: &[Formulation] = if integrates { &[Formulation::Momentum] } else { &[] };
+    SolverEntry { name, summary: "", formulations, build }
 }
 
 /// The checks that fail with `solver` beside the exact motion. Two checks need the vertical frame, which the copies lack;
@@ -171,7 +172,7 @@ fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
         ["vertical-frame-to-first-return", "convergence-order", "sampling-errors", "interval-coverage"];
     let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
     let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
-    let registry = if solver.integrates { vec![ExactSolver::ENTRY, solver] } else { vec![solver] };
+    let registry = if solver.integrates() { vec![ExactSolver::ENTRY, solver] } else { vec![solver] };
     let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
     CHECKS
         .iter()
@@ -215,7 +216,7 @@ fn a_lost_half_is_caught() {
 
 #[test]
 fn swapped_moments_are_caught_in_an_integrator_and_in_the_exact_motion() {
-    let faulty = entry("quaternion", true, |s| Box::new(Swapped(QuaternionSolver::new(s.method))));
+    let faulty = entry("quaternion", true, |s| Box::new(Swapped(QuaternionSolver::new(s.method, s.formulation))));
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);
     let exact = entry("exact", false, |_| Box::new(Swapped(ExactSolver)));
     assert_caught(exact, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);

@@ -83,7 +83,7 @@ struct SolverLine {
 pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
     let lines: Vec<SolverLine> = SOLVERS
         .iter()
-        .map(|entry| SolverLine { name: entry.name, summary: entry.summary, integrates: entry.integrates })
+        .map(|entry| SolverLine { name: entry.name, summary: entry.summary, integrates: entry.integrates() })
         .collect();
     if args.format == Format::Json {
         return Ok(output::json(&lines));

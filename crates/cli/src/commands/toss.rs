@@ -25,6 +25,7 @@ struct Answer {
     certified: bool,
     margin: MarginAnswer,
     attitude: [f64; 4],
+    defect: f64,
     solver: &'static str,
     method: Option<&'static str>,
     work: WorkCounts,
@@ -64,9 +65,7 @@ impl Args {
 
 impl Answer {
     fn new(toss: &Toss, solver: &dyn Solver) -> Result<Self, Failure> {
-        let Propagation { state, work, .. } = solver.propagate(toss)?;
-        // A closed form knows cos θ better than through the attitude; an integrator need not fly twice.
-        let cos_tilt = if solver.method().is_some() { state.attitude.cos_tilt() } else { solver.cos_tilt(toss)? };
+        let Propagation { state, cos_tilt, defect, work } = solver.propagate(toss)?;
         let verdict = solver.verdict_at(toss, cos_tilt)?;
         let margin = margin(toss)?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
@@ -78,6 +77,7 @@ impl Answer {
             certified: verdict.proof.is_some(),
             margin: MarginAnswer { time: margin.time, speed: margin.speed, rate: margin.rate },
             attitude: state.attitude.components(),
+            defect,
             solver: solver.name(),
             method: solver.method().map(|method| method.scheme().name()),
             work: WorkCounts { rhs_calls, accepted_steps, rejected_steps },
@@ -96,6 +96,9 @@ impl Answer {
             format!("solver       {}{method}", self.solver),
         ];
         lines.insert(1, format!("margin       {}", self.margin.text()));
+        if self.defect > 0.0 {
+            lines.push(format!("defect       {:.1e}, the loss of norm of the quaternion", self.defect));
+        }
         if self.method.is_some() {
             let WorkCounts { rhs_calls, accepted_steps, rejected_steps } = self.work;
             lines.push(format!(

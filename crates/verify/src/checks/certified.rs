@@ -6,7 +6,10 @@ use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Space, random_tosses};
 use toss::certified::{double_double_bound, f64_bound};
-use toss::{Coin, ExactMotion, Launch, SolveError, Stage, TiltTerms, TimeOfFlight, Toss, Vector3, certify};
+use toss::{
+    Coin, ExactMotion, ExactSolver, Formulation, Launch, SolveError, Stage, TiltTerms, TimeOfFlight, Toss, Vector3,
+    certify,
+};
 
 use crate::case::Case;
 use crate::check::{Basis, Check, Context, Effort, Measurement};
@@ -174,11 +177,8 @@ fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
     if height > 1.0 { 0.3 } else { ulps(rate.y.atan2(spin) + height.acos(), turn) }
 }
 
-fn subject(name: &str, context: &Context) -> anyhow::Result<Subject> {
-    let exact = context.subjects.iter().find(|subject| subject.scheme.is_none());
-    let options = exact.map_or_else(String::new, |subject| subject.options.clone());
-    let entry = context.registry.first().copied().ok_or_else(|| anyhow::anyhow!("the registry is empty"))?;
-    Ok(Subject { name: name.to_owned(), entry, scheme: None, solver: Box::new(toss::ExactSolver), options })
+fn subject(name: &str) -> Subject {
+    Subject { name: name.to_owned(), ..Subject::new(ExactSolver::ENTRY, None, Formulation::default()) }
 }
 
 fn last_bit(
@@ -195,7 +195,7 @@ fn last_bit(
         .map(|(name, cases)| {
             let one = |case: &Case| error(&case.toss, &Reference::new(&case.toss));
             let errors: Vec<_> = cases.par_iter().map(one).filter(is_in_range).collect();
-            Ok(Measurement::largest(&subject(name, context)?, errors, |index| cases[index]))
+            Ok(Measurement::largest(&subject(name), errors, |index| cases[index]))
         })
         .collect()
 }
@@ -221,7 +221,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
                 .map(|judged| judged.map(|(found, right)| f64::from(u8::from(found.outcome != right))))
                 .collect();
             let sum: Result<f64, SolveError> = wrong.iter().cloned().sum();
-            let mut worst = Measurement::largest(&subject(name, context)?, wrong, |index| cases[index]);
+            let mut worst = Measurement::largest(&subject(name), wrong, |index| cases[index]);
             if let Some(worst) = &mut worst.worst {
                 worst.input = format!("decided by stage 1, 2, 3: {stages:?}; {}", worst.input);
             }
@@ -238,7 +238,7 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     cases.extend(adversarial(tries(context) / 4)?);
     let largest = |name: &str, ratio: fn(&Toss) -> Result<f64, SolveError>| {
         let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss)).collect();
-        anyhow::Ok(Measurement::largest(&subject(name, context)?, ratios, |index| cases[index]))
+        anyhow::Ok(Measurement::largest(&subject(name), ratios, |index| cases[index]))
     };
     Ok(vec![largest("f64", of_f64)?, largest("double-double", of_double_double)?])
 }

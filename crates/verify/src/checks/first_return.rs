@@ -4,12 +4,12 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use toss::{ExactMotion, Frame, Launch, Scheme, TimeOfFlight, Toss};
+use toss::{ExactMotion, Formulation, Launch, Scheme, TimeOfFlight, Toss};
 
 use crate::case::Case;
 use crate::check::{Basis, Check, Context, Measurement};
 use crate::reference::Reference;
-use crate::subject::Subject;
+use crate::subject::{Subject, tight};
 
 pub(super) const ATTITUDE: Check = Check {
     id: "vertical-frame-to-first-return",
@@ -30,9 +30,9 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let cases = returning_flights(context)?;
     let references: Vec<Reference> = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();
     let mut measurements = Vec::new();
-    for entry in context.registry.iter().filter(|entry| ["gamma", "euler"].contains(&entry.name)) {
+    for entry in context.registry.iter().filter(|entry| entry.formulations.contains(&Formulation::Vertical)) {
         for scheme in [Scheme::Dop853, Scheme::Dopri5] {
-            let subject = Subject::new(*entry, Some(scheme), Frame::Vertical)?;
+            let subject = Subject::new(*entry, Some(tight(scheme)?), Formulation::Vertical);
             let deviation = |(case, reference): (&Case, &Reference)| {
                 let landing = subject.solver.propagate(&case.toss)?;
                 Ok(reference.attitude_error(&landing.state.attitude))

@@ -9,7 +9,9 @@ use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Space, random_tosses};
-use toss::{Coin, ExactMotion, Frame, Method, Propagation, Scheme, Settings, SolveError, SolverEntry, State, Toss};
+use toss::{
+    Coin, ExactMotion, Formulation, Method, Propagation, Scheme, Settings, SolveError, SolverEntry, State, Toss,
+};
 
 use crate::check::{Basis, Check, Context, Measurement};
 use crate::reference::Reference;
@@ -35,7 +37,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let tosses = regular_flights()?;
     let references: Vec<Reference> = tosses.iter().map(Reference::new).collect();
     let mut measurements = Vec::new();
-    for entry in context.registry.iter().filter(|entry| entry.integrates) {
+    for entry in context.registry.iter().filter(|entry| entry.integrates()) {
         for scheme in Scheme::ALL {
             let errors = errors_by_step(entry, scheme, &tosses, &references)?;
             let order = slope(&errors);
@@ -79,7 +81,8 @@ fn errors_by_step(
     let mut points = Vec::new();
     for eighth_octave in 0..120 {
         let step = TIME / (2.0 * 2f64.powf(0.125 * f64::from(eighth_octave))).round();
-        let solver = (entry.build)(&Settings { method: Method::fixed(scheme, step)?, frame: Frame::Vertical });
+        let solver =
+            (entry.build)(&Settings { method: Method::fixed(scheme, step)?, formulation: Formulation::Vertical });
         let error = |(toss, reference): (&Toss, &Reference)| -> Result<f64, SolveError> {
             let Propagation { state: State { attitude, rate }, defect, .. } = solver.propagate(toss)?;
             Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + defect)

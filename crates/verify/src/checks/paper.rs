@@ -54,7 +54,7 @@ fn at_every_speed(context: &Context, rate: Vector3<f64>, expected: Outcome) -> a
 fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let rate = Vector3::new(1.0, 1.0, 2.5);
     let measure = |subject: &Subject| {
-        let (count, last): (u32, f64) = if subject.scheme.is_none() { (100_000, 10_000.0) } else { (60, 30.0) };
+        let (count, last): (u32, f64) = if subject.method.is_none() { (100_000, 10_000.0) } else { (60, 30.0) };
         let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
         let cases = cases(Coin::DISC, rate, times)?;
         Ok(misses(subject, &cases, Outcome::Heads))

@@ -163,7 +163,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         };
         Measurement::figure(FIG4_SAME_COUNTS.id, entry.name, difference, exact.points(), input)
     };
-    Ok(context.registry.iter().filter(|entry| entry.integrates).map(measure).collect())
+    Ok(context.registry.iter().filter(|entry| entry.integrates()).map(measure).collect())
 }
 
 fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -50,7 +50,7 @@ fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let mut measurements = Vec::new();
     for (index, one) in context.subjects.iter().enumerate() {
         for (offset, other) in context.subjects[index + 1..].iter().enumerate() {
-            let comparable = one.scheme == other.scheme || one.scheme.is_none() || other.scheme.is_none();
+            let comparable = one.method == other.method || one.method.is_none() || other.method.is_none();
             if comparable {
                 measurements.push(pair(survey, (index, one), (index + 1 + offset, other)));
             }

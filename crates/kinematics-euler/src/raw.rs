@@ -1,0 +1,73 @@
+//! The paper's two systems exactly as it prints them, with nothing to guard their singular points.
+//!
+//! They are here to be compared with, not to be relied on: an answer may be wrong without an error.
+
+use dynamics::EulerAngles;
+use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
+use dynamics::integrate::OdeSystem;
+use nalgebra::SVector;
+
+/// ωz and q, all that both right-hand sides need of the coin.
+struct Spin {
+    rate_z: f64,
+    q: f64,
+}
+
+impl Spin {
+    fn new(inertia_ratio: f64, rate_z: f64) -> Self {
+        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z) }
+    }
+}
+
+/// (5) over (α, β, γ, ωx, ωy): 0/0 at sin β = 0.
+pub(crate) struct RawAngles(Spin);
+
+impl RawAngles {
+    pub(crate) fn new(inertia_ratio: f64, rate_z: f64) -> Self {
+        Self(Spin::new(inertia_ratio, rate_z))
+    }
+}
+
+impl OdeSystem<5> for RawAngles {
+    fn derivative(&self, y: &SVector<f64, 5>) -> SVector<f64, 5> {
+        let &[_, beta, gamma, rate_x, rate_y] = &y.data.0[0];
+        let (sin_gamma, cos_gamma) = gamma.sin_cos();
+        let precession = (rate_x * sin_gamma + rate_y * cos_gamma) / beta.sin();
+        let (rate_x_dot, rate_y_dot) = transverse_acceleration(self.0.q, rate_x, rate_y);
+        let nutation = rate_x * cos_gamma - rate_y * sin_gamma;
+        SVector::from([precession, nutation, self.0.rate_z - precession * beta.cos(), rate_x_dot, rate_y_dot])
+    }
+}
+
+/// (10) and (11) over (γ, γ', α, ωx, ωy), with β from tan β = D/u (9) and α' = u/cos β: 0/0 at D = 0, and the quadrant
+/// of β is lost.
+pub(crate) struct RawGamma(Spin);
+
+impl RawGamma {
+    pub(crate) fn new(inertia_ratio: f64, rate_z: f64) -> Self {
+        Self(Spin::new(inertia_ratio, rate_z))
+    }
+
+    pub(crate) fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
+        let &[gamma, gamma_rate, alpha, rate_x, rate_y] = &y.data.0[0];
+        let (sin, cos) = gamma.sin_cos();
+        let beta = ((rate_x * sin + rate_y * cos) / (self.0.rate_z - gamma_rate)).atan();
+        EulerAngles { alpha, beta, gamma }
+    }
+}
+
+impl OdeSystem<5> for RawGamma {
+    fn derivative(&self, y: &SVector<f64, 5>) -> SVector<f64, 5> {
+        let &[gamma, gamma_rate, _, rate_x, rate_y] = &y.data.0[0];
+        let Spin { rate_z, q } = self.0;
+        let (sin, cos) = gamma.sin_cos();
+        let (d, beta_rate) = (rate_x * sin + rate_y * cos, rate_x * cos - rate_y * sin);
+        let a = (3.0 * rate_z - q) * beta_rate / d;
+        let b = -2.0 * beta_rate / d;
+        let c = -(rate_z * (rate_z - q) + d * d) * beta_rate / d;
+        let precession = (rate_z - gamma_rate) / self.angles(y).beta.cos();
+        let (rate_x_dot, rate_y_dot) = transverse_acceleration(q, rate_x, rate_y);
+        let gamma_acceleration = -(a * gamma_rate + b * gamma_rate * gamma_rate + c);
+        SVector::from([gamma_rate, gamma_acceleration, precession, rate_x_dot, rate_y_dot])
+    }
+}
