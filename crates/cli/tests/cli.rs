@@ -26,12 +26,11 @@ fn a_toss_by_every_solver_has_the_reference_digits() {
 fn the_answer_has_the_fields_of_the_contract() {
     let answer = json("toss --moments 0.04,0.02 --rate 2,4,6 --time 1", 0);
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
-    for field in
-        ["coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude", "solver", "method", "work"]
-    {
+    let toss = ["coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude"];
+    for field in toss.into_iter().chain(["defect", "solver", "method", "work"]) {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 10);
+    assert_eq!(fields.len(), 11);
     // Kane's body.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -47,6 +46,24 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(answer["certified"], true);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --method rk4", 0)["method"], "rk4");
+}
+
+#[test]
+fn the_raw_formulation_is_wrong_without_an_error_where_the_default_is_right() {
+    let error = |toss: &str, solver: &str| {
+        let cos_tilt = |options: &str| json(&format!("toss {toss} {options}"), 0)["cos_tilt"].as_f64().unwrap();
+        (cos_tilt(solver) - cos_tilt("")).abs()
+    };
+    let precession_stops = "--rate 0.3,0.3,5 --time 5 --tilt 1";
+    assert!(error(precession_stops, "--solver gamma --formulation raw") > 1e-5);
+    assert!(error(precession_stops, "--solver gamma") < 1e-8);
+    let level = "--rate 2,5,1 --time 0.4 --tilt 1.2";
+    assert!(error(level, "--solver gamma --formulation raw") > 0.1);
+    assert!(error(level, "--solver gamma") < 1e-8);
+    let quaternion = "--solver quaternion --tolerance 1e-4";
+    let unprojected = error(level, &format!("{quaternion} --formulation raw"));
+    assert!(unprojected != error(level, quaternion));
+    assert!(json(&format!("toss {level} {quaternion}"), 0)["defect"].as_f64().unwrap() > 1e-9);
 }
 
 #[test]

@@ -14,6 +14,7 @@
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
 //! | the exact motion, to the last bit | [`exact`], [`double_double`] |
 //! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | derivatives of the landing by the launch | [`sensitivity`] |
 //! | outcomes, and their proofs | [`outcome`], [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
@@ -43,6 +44,7 @@ pub mod margin;
 pub mod method;
 pub mod outcome;
 pub mod scale;
+pub mod sensitivity;
 pub mod solver;
 pub mod state;
 pub mod tilt_terms;
@@ -61,6 +63,7 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
 pub use outcome::{Outcome, Stage, Verdict};
+pub use sensitivity::Sensitivity;
 pub use solver::{Formulation, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;
 pub use tilt_terms::TiltTerms;

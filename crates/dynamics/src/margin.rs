@@ -1,19 +1,13 @@
 //! How far a toss is from the other outcome.
 //!
-//! In the speed exactly, from the phases that show heads; in each component of ω to first order, by the derivative of
-//! cos θ at a fixed time. With ŝ = L/|L|, L = (ωx, ωy, k ωz), m the vertical in BF, P = m·ŝ and D = mx ŝy - my ŝx:
-//!
-//! ```text
-//! cos θ = P ŝz (1 - cos φ) + mz cos φ + D sin φ,   φ = |L| T
-//! ∂ŝ/∂Li = (ei - ŝi ŝ)/|L|,   ∂φ/∂Li = ŝi T,   ∂/∂ωz = k ∂/∂Lz
-//! ```
-
-use nalgebra::Vector3;
+//! In the speed exactly, from the phases that show heads; in each component of ω to first order, by the
+//! [sensitivity](Sensitivity) of cos θ.
 
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
 use crate::heads::HeadsPhases;
 use crate::launch::{TimeOfFlight, Toss};
+use crate::sensitivity::Sensitivity;
 
 /// The smallest changes that flip the outcome, each of one input alone and with its sign; `None` where none does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +34,8 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
         TimeOfFlight::Given(_) => None,
     };
     let cos_tilt = motion.cos_tilt(time_of_flight)?;
-    let derivative = tilt_derivative(toss, phase);
-    let rate = [derivative.x, derivative.y, derivative.z]
-        .map(|slope| Some(-cos_tilt / slope).filter(|change| change.is_finite()));
+    let slopes = Sensitivity::new(toss)?.cos_tilt;
+    let rate = [slopes.x, slopes.y, slopes.z].map(|slope| Some(-cos_tilt / slope).filter(|change| change.is_finite()));
     Ok(Margin { time, speed, rate })
 }
 
@@ -84,30 +77,10 @@ pub fn speeds_of_heads(
     Ok(Some(heads.intervals(span[0], span[1]).map(move |interval| interval.map(speed_of))))
 }
 
-/// ∂ cos θ/∂ω at landing (s), where the phase is `phase` (rad).
-pub fn tilt_derivative(toss: &Toss, phase: f64) -> Vector3<f64> {
-    let (k, rate, time) = (toss.coin.inertia_ratio(), toss.launch.rate(), toss.launch.flight_time());
-    let vertical = toss.launch.attitude().lab_to_body(&Vector3::z());
-    let across = Vector3::new(-vertical.y, vertical.x, 0.0);
-    let momentum = Vector3::new(rate.x, rate.y, k * rate.z);
-    let size = momentum.norm();
-    let by_momentum = if size == 0.0 {
-        // cos θ = mz + (mx Ly - my Lx) T to first order.
-        across * time
-    } else {
-        let (direction, (sin, cos)) = (momentum / size, phase.sin_cos());
-        let (along, side) = (vertical.dot(&direction), across.dot(&direction));
-        let by_phase = (along * direction.z - vertical.z) * sin + side * cos;
-        let turned_along =
-            (vertical - direction * along) * direction.z + (Vector3::z() - direction * direction.z) * along;
-        let turned_side = across - direction * side;
-        (turned_along * (1.0 - cos) + turned_side * sin) / size + direction * (by_phase * time)
-    };
-    Vector3::new(by_momentum.x, by_momentum.y, k * by_momentum.z)
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::certified::certify;
     use crate::coin::Coin;
@@ -122,27 +95,6 @@ mod tests {
     const RATES: [[f64; 3]; 6] =
         [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2.0, 2.0, 0.5], [0.0, 0.0, 0.0]];
     const TILTS: [f64; 4] = [0.0, 0.6, 2.0, -1.1];
-
-    #[test]
-    fn the_derivative_is_that_of_finite_differences() {
-        const STEP: f64 = 1e-5;
-        for rate in RATES.map(Vector3::from) {
-            for tilt in TILTS {
-                let cos_tilt = |rate| {
-                    let toss = toss(rate, tilt, 3.7);
-                    ExactMotion::new(&toss).cos_tilt(toss.launch.time_of_flight()).unwrap()
-                };
-                let toss = toss(rate, tilt, 3.7);
-                let phase = ExactMotion::new(&toss).phases(toss.launch.time_of_flight()).unwrap().0.hi();
-                let derivative = tilt_derivative(&toss, phase);
-                for axis in 0..3 {
-                    let step = Vector3::ith(axis, STEP);
-                    let difference = (cos_tilt(rate + step) - cos_tilt(rate - step)) / (2.0 * STEP);
-                    assert!((derivative[axis] - difference).abs() < 1e-8, "{rate:?} {tilt} {axis}: {derivative:?}");
-                }
-            }
-        }
-    }
 
     #[test]
     fn the_change_of_speed_flips_the_outcome_and_none_smaller_does() {
