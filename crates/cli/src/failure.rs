@@ -118,7 +118,7 @@ fn solve_details(source: &SolveError) -> Value {
         SolveError::PhaseTooLarge { phase } => json!({"phase": phase}),
         SolveError::Singular { point, time } => json!({"point": point.to_string(), "time": time}),
         SolveError::StepLimit { time, limit } => json!({"time": time, "limit": limit}),
-        SolveError::StepSizeUnderflow { time } | SolveError::Stiff { time } | SolveError::NotFinite { time } => {
+        SolveError::StepSizeUnderflow { time } | SolveError::NotFinite { time } => {
             json!({"time": time})
         }
     }

@@ -135,12 +135,6 @@ pub enum SolveError {
         /// Where it stopped (s).
         time: f64,
     },
-    /// The method judged the problem to be stiff.
-    #[error("the equations became stiff at t = {time} s")]
-    Stiff {
-        /// Where it stopped (s).
-        time: f64,
-    },
     /// The integrated state holds a NaN or an infinity.
     #[error("the integrated state is not finite at t = {time} s")]
     NotFinite {
@@ -158,7 +152,6 @@ impl SolveError {
             Self::Singular { time, .. }
             | Self::StepLimit { time, .. }
             | Self::StepSizeUnderflow { time }
-            | Self::Stiff { time }
             | Self::NotFinite { time } => *time += seconds,
         }
         self
@@ -171,7 +164,6 @@ impl SolveError {
             Self::Singular { .. } => "singular",
             Self::StepLimit { .. } => "step_limit",
             Self::StepSizeUnderflow { .. } => "step_size_underflow",
-            Self::Stiff { .. } => "stiff",
             Self::NotFinite { .. } => "not_finite",
         }
     }

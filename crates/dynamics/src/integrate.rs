@@ -99,7 +99,8 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     steps: &Steps,
 ) -> Result<SolverResult<f64, SVector<f64, N>>, IntegrationError> {
     const SAFETY: f64 = 0.9;
-    const STIFFNESS_TEST_EVERY: u32 = 1000;
+    // No toss is stiff, but where the state hardly changes the test sees rounding and says so: it is never made.
+    const STIFFNESS_TEST_EVERY: u32 = u32::MAX;
     let &Steps { tolerance, first, largest } = steps;
     macro_rules! adaptive {
         ($stepper:ident, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
@@ -174,8 +175,9 @@ fn work(rhs_calls: u64, accepted_steps: u64, method: &Method) -> Work {
 fn in_seconds(error: &IntegrationError, scale: f64) -> SolveError {
     match *error {
         IntegrationError::MaxNumStepReached { x, .. } => SolveError::StepLimit { time: x / scale, limit: STEP_LIMIT },
-        IntegrationError::StepSizeUnderflow { x } => SolveError::StepSizeUnderflow { time: x / scale },
-        IntegrationError::StiffnessDetected { x } => SolveError::Stiff { time: x / scale },
+        IntegrationError::StepSizeUnderflow { x } | IntegrationError::StiffnessDetected { x } => {
+            SolveError::StepSizeUnderflow { time: x / scale }
+        }
     }
 }
 

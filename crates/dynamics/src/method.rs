@@ -111,6 +111,18 @@ impl Method {
         self.control
     }
 
+    /// The method with its tolerance, if it has one, divided by `factor`, down to ε; unchanged for a factor below 1.
+    #[must_use]
+    pub(crate) fn tightened(self, factor: f64) -> Self {
+        let control = match self.control {
+            StepControl::Tolerance(tolerance) => {
+                StepControl::Tolerance((tolerance / factor.max(1.0)).max(f64::EPSILON))
+            }
+            fixed @ StepControl::Step(_) => fixed,
+        };
+        Self { control, ..self }
+    }
+
     /// Error of cos θ at landing that a solver with this method answers for, after a
     /// [`phase`](crate::ExactMotion::phase) (rad):
     /// 100 × tolerance × (1 + phase), or nothing (0) for fixed steps, which come without an estimate.

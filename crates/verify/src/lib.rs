@@ -9,6 +9,8 @@
 //! A check only measures. What is allowed stands in `validation/bounds.toml`, the judge compares, and the reports render
 //! rows; none of them knows the others.
 
+pub mod adversary;
+pub mod atlas;
 pub mod bounds;
 pub mod case;
 pub mod check;
@@ -18,6 +20,7 @@ pub mod reference;
 pub mod reference_data;
 pub mod reference_probability;
 pub mod report;
+pub mod run;
 pub mod subject;
 pub mod survey;
 

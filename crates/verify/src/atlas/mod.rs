@@ -1,0 +1,125 @@
+//! The atlas of failures: every contestant at every distance from every [hazard](hazards).
+//!
+//! A contestant is a solver × method × formulation at the settings a user gets without asking. The raw formulations are
+//! there to fail.
+
+pub mod hazards;
+
+use anyhow::ensure;
+use faer::Mat;
+use rayon::prelude::*;
+use serde::Serialize;
+use toss::{Formulation, InputError, Method, Scheme, Sensitivity, SolverEntry, Toss};
+
+use crate::case::Case;
+use crate::reference::Reference;
+use crate::run::{Answer, Run};
+use crate::subject::Subject;
+use hazards::{HAZARDS, Hazard};
+
+/// One contestant at one distance from one hazard.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Spot {
+    /// The hazard's id.
+    pub hazard: &'static str,
+    /// The distance from it.
+    pub distance: f64,
+    /// The largest turn (rad) of the landed coin by a relative change of the launch; see [`largest_sensitivity`]. Null
+    /// where the phase is too large.
+    pub sensitivity: Option<f64>,
+    /// What the contestant made of it.
+    #[serde(flatten)]
+    pub run: Run,
+}
+
+/// All spots.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Atlas {
+    /// By hazard, distance and contestant, in this order.
+    pub spots: Vec<Spot>,
+}
+
+impl Atlas {
+    /// Flies every contestant of `registry`.
+    ///
+    /// # Errors
+    /// Never for the library's own solvers and hazards.
+    pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
+        let contestants = contestants(registry)?;
+        let mut spots = Vec::new();
+        for hazard in HAZARDS {
+            for distance in hazard.distances {
+                spots.extend(fly(hazard, *distance, &contestants)?);
+            }
+        }
+        Ok(Self { spots })
+    }
+
+    /// The spots of one contestant under one hazard, from far to near.
+    pub fn series<'a>(&'a self, hazard: &'a str, subject: &'a str) -> impl Iterator<Item = &'a Spot> {
+        self.spots.iter().filter(move |spot| spot.hazard == hazard && spot.run.subject == subject)
+    }
+
+    /// The worst answer of one contestant under one hazard.
+    pub fn worst(&self, hazard: &str, subject: &str) -> Option<Answer> {
+        self.series(hazard, subject).map(|spot| spot.run.answer).max()
+    }
+
+    /// The contestants, in their order.
+    pub fn subjects(&self) -> Vec<&str> {
+        let Some(first) = self.spots.first() else { return Vec::new() };
+        let same = |spot: &&Spot| spot.hazard == first.hazard && spot.distance == first.distance;
+        self.spots.iter().take_while(same).map(|spot| spot.run.subject.as_str()).collect()
+    }
+}
+
+/// Every solver of `registry`, each integrator by every method in every formulation that differs for it.
+fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
+    let mut contestants = Vec::new();
+    for &entry in registry {
+        if !entry.integrates() {
+            contestants.push(Subject::new(entry, None, Formulation::default()));
+        }
+        for &formulation in entry.formulations {
+            for scheme in Scheme::ALL {
+                let method = if scheme.is_adaptive() {
+                    Method::adaptive(scheme, Method::DEFAULT_TOLERANCE)?
+                } else {
+                    Method::fixed(scheme, Method::DEFAULT_STEP)?
+                };
+                contestants.push(Subject::new(entry, Some(method), formulation));
+            }
+        }
+    }
+    Ok(contestants)
+}
+
+fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Result<Vec<Spot>> {
+    let case: Case = (hazard.case)(distance)?;
+    let reference = Reference::new(&case.toss);
+    let sensitivity = largest_sensitivity(&case.toss)?;
+    let spot = |subject: &Subject| Spot {
+        hazard: hazard.id,
+        distance,
+        sensitivity,
+        run: Run::new(subject, &case, &reference),
+    };
+    // One at a time: some stall, and would hold up their neighbours.
+    Ok(contestants.par_iter().with_max_len(1).map(spot).collect())
+}
+
+/// The largest singular value of the landing's derivative by relative changes of the launch (rad): columns by ω in units
+/// of |ω|, and by the time of flight in units of itself. Times ε it is what one rounding of the inputs does; an error
+/// that is larger is the method's own. `None` where the phase is too large.
+///
+/// # Errors
+/// If the singular values can't be found, which finite numbers never cause.
+pub fn largest_sensitivity(toss: &Toss) -> anyhow::Result<Option<f64>> {
+    let Ok(Sensitivity { attitude, .. }) = Sensitivity::new(toss) else { return Ok(None) };
+    let (rate, time) = (toss.launch.rate().norm(), toss.launch.flight_time());
+    let scaled = Mat::from_fn(3, 4, |row, column| attitude[(row, column)] * if column == 3 { time } else { rate });
+    let values = scaled.singular_values().map_err(|error| anyhow::anyhow!("no singular values: {error:?}"))?;
+    ensure!(values.iter().all(|value| value.is_finite()), "singular values of {toss:?}: {values:?}");
+    Ok(values.first().copied())
+}
