@@ -8,9 +8,13 @@ use anyhow::Context as _;
 use serde::Serialize;
 use toss::{InputError, SolveError, SolverEntry};
 
+use crate::atlas::Atlas;
+use crate::atlas::expected::Expected;
 use crate::case::Case;
+use crate::long_flights::LongFlights;
 use crate::reference_data::ReferenceData;
 use crate::reference_probability::ReferenceProbabilities;
+use crate::search::{Findings, search};
 use crate::subject::{Subject, subjects};
 use crate::survey::Survey;
 
@@ -58,6 +62,17 @@ impl Effort {
             Self::Quick => 1000,
             Self::Standard => 5000,
             Self::Deep => 50_000,
+        }
+    }
+}
+
+impl Effort {
+    /// Number of adversarial launches.
+    pub fn adversarial_launches(self) -> u64 {
+        match self {
+            Self::Quick => 2000,
+            Self::Standard => 10_000,
+            Self::Deep => 200_000,
         }
     }
 }
@@ -148,7 +163,12 @@ pub struct Context {
     pub data: ReferenceData,
     /// Probabilities from outside.
     pub probabilities: ReferenceProbabilities,
+    /// What contestants are known to do at hazards.
+    pub expected: Expected,
     survey: OnceLock<Survey>,
+    atlas: OnceLock<Atlas>,
+    long_flights: OnceLock<LongFlights>,
+    search: OnceLock<Vec<Findings>>,
 }
 
 impl Context {
@@ -163,7 +183,11 @@ impl Context {
             subjects: subjects(registry).context("the registry's solvers can't be made")?,
             data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
             probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
+            expected: Expected::read(&validation.join("atlas.toml"))?,
             survey: OnceLock::new(),
+            atlas: OnceLock::new(),
+            long_flights: OnceLock::new(),
+            search: OnceLock::new(),
         })
     }
 
@@ -172,10 +196,52 @@ impl Context {
     /// # Errors
     /// Never for the survey's own space.
     pub fn survey(&self) -> Result<&Survey, InputError> {
-        if self.survey.get().is_none() {
-            let survey = Survey::new(&self.subjects, self.effort.launches())?;
-            let _ = self.survey.set(survey);
-        }
-        Ok(self.survey.get().expect("it was just set"))
+        once(&self.survey, || Survey::new(&self.subjects, self.effort.launches()))
     }
+
+    /// The atlas of failures; computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`Atlas::new`].
+    pub fn atlas(&self) -> anyhow::Result<&Atlas> {
+        once(&self.atlas, || Atlas::new(&self.registry))
+    }
+
+    /// The long flights; computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`LongFlights::new`].
+    pub fn long_flights(&self) -> anyhow::Result<&LongFlights> {
+        once(&self.long_flights, || LongFlights::new(&self.registry))
+    }
+
+    /// What the search by adversarial launches found; done when first asked for.
+    ///
+    /// # Errors
+    /// As [`search`].
+    pub fn search(&self) -> Result<&Vec<Findings>, InputError> {
+        once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
+    }
+
+    /// What was asked for so far, for the reports.
+    pub fn records(&self) -> Records<'_> {
+        Records { atlas: self.atlas.get(), long_flights: self.long_flights.get() }
+    }
+}
+
+/// Runs behind the rows, where a check asked for them.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Records<'a> {
+    /// The atlas of failures.
+    pub atlas: Option<&'a Atlas>,
+    /// Error and drift by time.
+    pub long_flights: Option<&'a LongFlights>,
+}
+
+/// What is in `cell`, made first if it is empty.
+fn once<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+    if cell.get().is_none() {
+        let _ = cell.set(make()?);
+    }
+    Ok(cell.get().expect("it was just set"))
 }

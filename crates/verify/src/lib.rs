@@ -16,11 +16,13 @@ pub mod case;
 pub mod check;
 pub mod checks;
 pub mod judge;
+pub mod long_flights;
 pub mod reference;
 pub mod reference_data;
 pub mod reference_probability;
 pub mod report;
 pub mod run;
+pub mod search;
 pub mod subject;
 pub mod survey;
 

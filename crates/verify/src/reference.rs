@@ -68,10 +68,20 @@ impl Reference {
 
     /// Angle between a computed attitude and the exact one (rad).
     pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
-        let [w, x, y, z] = attitude.components().map(big);
-        let [w, x, y, z] = product(&[w, -x, -y, -z], &self.attitude);
+        let [w, x, y, z] = turn(&attitude.components().map(big), &self.attitude);
         let sine = to_f64(&(&x * &x + &y * &y + &z * &z).sqrt());
         2.0 * sine.atan2(to_f64(&w).abs())
+    }
+
+    /// The small turn from this landing to `other`: its axis in BF times its angle (rad), to third order in it.
+    pub fn turn_to(&self, other: &Self) -> Vector3<f64> {
+        let [w, x, y, z] = turn(&self.attitude, &other.attitude);
+        Vector3::from([x, y, z].map(|part| 2.0 * to_f64(&(part / &w))))
+    }
+
+    /// cos θ of `other` less that of this landing.
+    pub fn cos_tilt_to(&self, other: &Self) -> f64 {
+        to_f64(&(other.cos_tilt() - self.cos_tilt()))
     }
 
     /// Largest |Δω| of a computed body rate (rad/s).
@@ -87,6 +97,12 @@ impl Reference {
 
 fn to_f64(value: &Big) -> f64 {
     value.to_f64().value()
+}
+
+/// The turn that leads from one attitude to another, seen in BF.
+fn turn(from: &[Big; 4], to: &[Big; 4]) -> [Big; 4] {
+    let [w, x, y, z] = from.clone();
+    product(&[w, -x, -y, -z], to)
 }
 
 fn product(a: &[Big; 4], b: &[Big; 4]) -> [Big; 4] {

@@ -1,6 +1,6 @@
 //! A run: one toss flown by one subject and judged against the exact motion. Records are made of these.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use toss::exact::COS_TILT_ERROR;
 use toss::{ExactMotion, Outcome, Propagation, SolveError, StepControl, Toss};
 
@@ -9,7 +9,7 @@ use crate::reference::Reference;
 use crate::subject::Subject;
 
 /// What an answer is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Answer {
     /// Within the [allowance](Allowance), and no wrong outcome.

@@ -3,6 +3,7 @@
 //! A contestant is a solver × method × formulation at the settings a user gets without asking. The raw formulations are
 //! there to fail.
 
+pub mod expected;
 pub mod hazards;
 
 use anyhow::ensure;

@@ -1,16 +1,20 @@
 //! The checks, a line each; a file for each kind of claim.
 
+mod adversarial;
+mod atlas;
 mod certified;
 mod detest;
 mod figures;
 mod first_return;
 mod invariants;
+mod long_flights;
 mod methods;
 mod numbers;
 mod order;
 mod paper;
 pub mod probability;
 mod random;
+mod sensitivity;
 
 use crate::check::Check;
 
@@ -33,6 +37,14 @@ pub const CHECKS: &[Check] = &[
     invariants::NORMAL_MOMENTUM_BODY,
     invariants::NORMAL_MOMENTUM_TRANSPORT,
     invariants::MOMENTUM_VECTOR,
+    atlas::ANSWERS,
+    atlas::TILT_WORK,
+    atlas::RETURN_WORK,
+    adversarial::SILENTLY_WRONG,
+    adversarial::REFUSED,
+    long_flights::ERROR,
+    long_flights::DRIFT,
+    sensitivity::DERIVATIVES,
     order::ORDER,
     paper::CHEATED_IN_FLIGHT,
     paper::CHEATED_FOREVER,
