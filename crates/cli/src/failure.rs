@@ -1,5 +1,6 @@
 //! Why a command gave no answer, and the exit code that says so.
 
+use chart::ChartError;
 use sampling::SpaceFileError;
 use serde_json::{Map, Value, json};
 use toss::{InputError, SolveError};
@@ -39,7 +40,7 @@ pub(crate) enum Failure {
     },
     /// A chart that can't be drawn.
     #[error("cannot draw the chart: {0}")]
-    Chart(String),
+    Chart(#[from] ChartError),
     /// The solver failed.
     #[error(transparent)]
     Solve(#[from] SolveError),

@@ -2,7 +2,7 @@
 //!
 //! Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 4 could not run.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::ensure;
@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
 use verify::bounds::Bounds;
 use verify::judge::unused_bounds;
+use verify::report::charts::{Chart, charts};
 use verify::report::{Report, junit, table, write_file};
 use verify::{CHECKS, Check, Context, Effort, Row, judge};
 
@@ -80,11 +81,16 @@ fn run(args: &Args) -> anyhow::Result<bool> {
         _ => (Effort::Standard, "standard"),
     };
     let bounds = Bounds::read(&args.validation.join("bounds.toml"))?;
-    let rows = measure(args, effort, &bounds)?;
+    let context = Context::new(SOLVERS, effort, &args.validation)?;
+    let rows = measure(args, &context, &bounds)?;
     ensure!(!rows.is_empty(), "no check measured anything");
-    let report = Report::new(effort_name, &rows);
+    let report = Report::new(effort_name, &rows, context.records());
     let (json, junit) = (report.json()?, junit::xml(&rows)?);
-    write_reports(&args.out, &json, &junit)?;
+    write_file(&args.out.join("report.json"), &json)?;
+    write_file(&args.out.join("junit.xml"), &junit)?;
+    for Chart { file, svg } in charts(&context.records())? {
+        write_file(&args.out.join(file), &svg)?;
+    }
     match args.format {
         Format::Text => println!("{}\nreport: {}", table::text(&rows), args.out.join("report.json").display()),
         Format::Json => println!("{json}"),
@@ -93,8 +99,7 @@ fn run(args: &Args) -> anyhow::Result<bool> {
     Ok(report.passed)
 }
 
-fn measure(args: &Args, effort: Effort, bounds: &Bounds) -> anyhow::Result<Vec<Row>> {
-    let context = Context::new(SOLVERS, effort, &args.validation)?;
+fn measure(args: &Args, context: &Context, bounds: &Bounds) -> anyhow::Result<Vec<Row>> {
     let checks: Vec<&Check> = CHECKS.iter().filter(|check| args.only.is_none_or(|only| only.id == check.id)).collect();
     let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
     let progress = ProgressBar::new(checks.len() as u64).with_style(style);
@@ -103,16 +108,11 @@ fn measure(args: &Args, effort: Effort, bounds: &Bounds) -> anyhow::Result<Vec<R
     for check in checks {
         progress.inc(1);
         progress.set_message(check.id);
-        rows.extend(judge(check, (check.measure)(&context)?, bounds));
+        rows.extend(judge(check, (check.measure)(context)?, bounds));
     }
     progress.finish_and_clear();
     if args.only.is_none() {
         rows.extend(unused_bounds(&rows, bounds));
     }
     Ok(rows)
-}
-
-fn write_reports(folder: &Path, json: &str, junit: &str) -> anyhow::Result<()> {
-    write_file(&folder.join("report.json"), json)?;
-    write_file(&folder.join("junit.xml"), junit)
 }

@@ -1,10 +1,8 @@
 //! The running probability of methods A and B against the number of launches.
 
+use chart::{BLUE, ChartError, SIZE, TEXT, VERMILION, svg};
 use plotters::prelude::*;
 use serde::Serialize;
-
-use crate::chart::{BLUE, SIZE, TEXT, VERMILION, svg};
-use crate::failure::Failure;
 
 const GRID: RGBColor = VERMILION;
 const RANDOM: RGBColor = BLUE;
@@ -20,7 +18,7 @@ pub(crate) struct Step {
 }
 
 /// The chart as SVG; `steps` are not empty.
-pub(crate) fn convergence(steps: &[Step]) -> Result<String, Failure> {
+pub(crate) fn convergence(steps: &[Step]) -> Result<String, ChartError> {
     let last = steps.last().expect("a series has its end");
     let values = || steps.iter().flat_map(|step| [step.grid, step.random]);
     let (lowest, highest) = values().fold((1.0_f64, 0.0_f64), |(lo, hi), p| (lo.min(p), hi.max(p)));

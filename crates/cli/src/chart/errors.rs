@@ -1,10 +1,8 @@
 //! The error of each method of sampling against the number of launches.
 
+use chart::{BLUE, ChartError, EndLabel, GREEN, GREY, PURPLE, SIZE, TEXT, VERMILION, end_labels, svg};
 use plotters::prelude::*;
 use serde::Serialize;
-
-use crate::chart::{BLUE, GREEN, GREY, PURPLE, SIZE, TEXT, VERMILION, svg};
-use crate::failure::Failure;
 
 const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, BLACK, PURPLE];
 
@@ -27,7 +25,7 @@ pub(crate) struct ErrorLine {
 }
 
 /// The chart as SVG, of errors above 0.
-pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<String, Failure> {
+pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<String, ChartError> {
     let drawn: Vec<&ErrorLine> = lines.iter().filter(|line| line.rms_error > 0.0).collect();
     let span = |of: fn(&ErrorLine) -> f64| {
         let values = drawn.iter().map(|line| of(line));
@@ -35,7 +33,7 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
     };
     let ((fewest, most), (smallest, largest)) = (span(|line| line.launches as f64), span(|line| line.rms_error));
     if drawn.is_empty() {
-        return Err(Failure::Chart("every error is 0".to_owned()));
+        return Err(ChartError("every error is 0".to_owned()));
     }
     svg(SIZE, |root| {
         let mut chart = ChartBuilder::on(root)
@@ -55,12 +53,12 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
             .label_style(TEXT)
             .axis_desc_style(TEXT)
             .draw()?;
-        let mut labels: Vec<(i32, String, RGBColor)> = Vec::new();
+        let mut labels: Vec<EndLabel> = Vec::new();
         if reference.error > 0.5 * smallest {
             let floor = [(fewest, reference.error), (1.1 * most, reference.error)];
             chart.draw_series(LineSeries::new(floor, GREY.stroke_width(2)))?;
             let y = chart.plotting_area().map_coordinate(&floor[1]).1;
-            labels.push((y, "error of the reference".to_owned(), GREY));
+            labels.push(EndLabel { y, text: "error of the reference".to_owned(), colour: GREY });
         }
         for (series, colour) in lines.chunk_by(|a, b| a.method == b.method).zip(COLOURS) {
             let points: Vec<(f64, f64)> = series
@@ -71,17 +69,10 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
             chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(4)))?;
             chart.draw_series(points.iter().map(|point| Circle::new(*point, 7, colour.filled())))?;
             if let Some(end) = points.last() {
-                labels.push((chart.plotting_area().map_coordinate(end).1, series[0].method.to_owned(), colour));
+                let y = chart.plotting_area().map_coordinate(end).1;
+                labels.push(EndLabel { y, text: series[0].method.to_owned(), colour });
             }
         }
-        // Direct labels beside the ends of the lines, pushed apart.
-        labels.sort_by_key(|(y, ..)| *y);
-        let right = chart.plotting_area().get_pixel_range().0.end;
-        let mut lowest = i32::MIN;
-        for (y, text, colour) in labels {
-            lowest = (y - 15).max(lowest.saturating_add(36));
-            root.draw(&Text::new(text, (right + 12, lowest), TEXT.into_font().color(&colour)))?;
-        }
-        Ok(())
+        end_labels(root, chart.plotting_area().get_pixel_range().0.end + 12, labels)
     })
 }

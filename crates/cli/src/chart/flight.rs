@@ -1,16 +1,14 @@
 //! The chart of a flight: what n and a vector in the face trace on the sphere, and cos θ against time.
 
+use chart::{BLUE, ChartError, Drawn, FAINT, Panel, SIZE, TEXT, VERMILION, svg};
 use plotters::prelude::*;
 use toss::{TracePoint, Vector3};
-
-use crate::chart::{BLUE, Drawn, FAINT, Panel, SIZE, TEXT, VERMILION, svg};
-use crate::failure::Failure;
 
 const NORMAL: RGBColor = BLUE;
 const FACE: RGBColor = VERMILION;
 
 /// The chart as SVG.
-pub(crate) fn flight(flight: &[TracePoint]) -> Result<String, Failure> {
+pub(crate) fn flight(flight: &[TracePoint]) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (sphere, time) = root.split_horizontally(SIZE.1);
         draw_sphere(&sphere, flight)?;

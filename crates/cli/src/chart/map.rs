@@ -1,10 +1,8 @@
 //! P(heads) over two coordinates, as a heat map with the line of certainty.
 
+use chart::{ChartError, Drawn, Panel, TEXT, VERMILION, svg};
 use plotters::prelude::*;
 use sampling::Map;
-
-use crate::chart::{Drawn, Panel, TEXT, VERMILION, svg};
-use crate::failure::Failure;
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1500, 1200);
@@ -26,7 +24,7 @@ fn colour(probability: f64) -> RGBColor {
 }
 
 /// The map as SVG.
-pub(crate) fn map(map: &Map) -> Result<String, Failure> {
+pub(crate) fn map(map: &Map) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (left, right) = root.split_horizontally(SIZE.0 - 200);
         draw_map(&left, map)?;

@@ -44,7 +44,7 @@ pub const HAZARDS: &[Hazard] = &[
     },
     Hazard {
         id: "F3",
-        name: "cos β = 0: the coin on edge",
+        name: "cos β = 0: launch on edge",
         distance: "angle at launch (rad)",
         case: |distance| case([2.0, 5.0, 1.0], FRAC_PI_2 - distance, 0.9),
         distances: DECADES,
@@ -76,7 +76,7 @@ pub const HAZARDS: &[Hazard] = &[
     },
     Hazard {
         id: "F7",
-        name: "cos θ = 0 at landing",
+        name: "cos θ = 0: landing on edge",
         distance: "time left to the flip, in times of flight",
         case: |distance| {
             let falling = |time| case([2.0, 5.0, 1.0], 1.0, time);

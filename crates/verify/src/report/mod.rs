@@ -1,5 +1,6 @@
 //! Reports render rows; they measure and judge nothing.
 
+pub mod charts;
 pub mod junit;
 pub mod table;
 
@@ -9,6 +10,7 @@ use std::path::Path;
 use anyhow::Context;
 use serde::Serialize;
 
+use crate::check::Records;
 use crate::judge::Row;
 
 /// Everything that a run found.
@@ -22,12 +24,14 @@ pub struct Report<'a> {
     pub effort: &'a str,
     /// The rows.
     pub rows: &'a [Row],
+    /// The runs behind some of the rows.
+    pub records: Records<'a>,
 }
 
 impl<'a> Report<'a> {
     /// The report of `rows`.
-    pub fn new(effort: &'a str, rows: &'a [Row]) -> Self {
-        Self { schema: 1, passed: rows.iter().all(|row| row.status.passes()), effort, rows }
+    pub fn new(effort: &'a str, rows: &'a [Row], records: Records<'a>) -> Self {
+        Self { schema: 2, passed: rows.iter().all(|row| row.status.passes()), effort, rows, records }
     }
 
     /// As JSON.

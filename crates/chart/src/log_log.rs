@@ -1,0 +1,145 @@
+//! Lines over two logarithmic axes, with runs that failed at the upper edge.
+
+use std::ops::Range;
+
+use plotters::prelude::*;
+
+use crate::{Drawn, GREY, Panel, TEXT};
+
+/// How the points of a series are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Marker {
+    /// A filled disc.
+    Disc,
+    /// A ring.
+    Ring,
+    /// A triangle.
+    Triangle,
+    /// Nothing.
+    None,
+}
+
+/// One line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Its name in the legend.
+    pub label: String,
+    /// Its colour.
+    pub colour: RGBColor,
+    /// Whether it is dashed.
+    pub dashed: bool,
+    /// Its points' form.
+    pub marker: Marker,
+    /// Its points; values outside the axes are drawn at their edge.
+    pub points: Vec<(f64, f64)>,
+    /// Where it has no point because the run failed: drawn as crosses at the upper edge.
+    pub failures: Vec<f64>,
+}
+
+/// A logarithmic axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Quantity and unit.
+    pub label: String,
+    /// From its first to its last value, both positive.
+    pub range: Range<f64>,
+    /// The first value stands for 0, and is so labelled.
+    pub starts_at_zero: bool,
+}
+
+impl Axis {
+    fn clamp(&self, value: f64) -> f64 {
+        value.clamp(self.range.start, self.range.end)
+    }
+}
+
+/// Draws `series` over the axes `x` and `y` on `panel`.
+///
+/// # Errors
+/// As the backend's.
+pub fn log_log(panel: &Panel<'_>, title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Drawn {
+    let mut chart = ChartBuilder::on(panel)
+        .margin(16)
+        .margin_right(40)
+        .caption(title, TEXT)
+        .x_label_area_size(84)
+        .y_label_area_size(132)
+        .build_cartesian_2d(x.range.clone().log_scale(), y.range.clone().log_scale())?;
+    chart
+        .configure_mesh()
+        .light_line_style(WHITE)
+        .x_labels(8)
+        .y_labels(8)
+        .x_desc(&x.label)
+        .y_desc(&y.label)
+        .x_label_formatter(&|value: &f64| format!("{value:.0e}"))
+        .y_label_formatter(&|value: &f64| format!("{value:.0e}"))
+        .label_style(TEXT)
+        .axis_desc_style(TEXT)
+        .draw()?;
+    for line in series {
+        let points: Vec<(f64, f64)> = line.points.iter().map(|point| (x.clamp(point.0), y.clamp(point.1))).collect();
+        let stroke = line.colour.stroke_width(4);
+        if line.dashed {
+            chart.draw_series(DashedLineSeries::new(points.clone(), 14, 10, stroke))?;
+        } else {
+            chart.draw_series(LineSeries::new(points.clone(), stroke))?;
+        }
+        for point in points {
+            let at = chart.backend_coord(&point);
+            draw_marker(panel, line.marker, at, line.colour)?;
+        }
+        for failed in &line.failures {
+            let (column, top) = local(panel, chart.backend_coord(&(x.clamp(*failed), y.range.end)));
+            panel.draw(&Cross::new((column, top + 14), 9, line.colour.stroke_width(4)))?;
+        }
+    }
+    if x.starts_at_zero {
+        // The mesh labels decades only.
+        let (column, bottom) = local(panel, chart.backend_coord(&(x.range.start, y.range.start)));
+        panel.draw(&Text::new("0", (column - 8, bottom + 14), TEXT))?;
+    }
+    Ok(())
+}
+
+/// Backend coordinates in those of `panel`.
+fn local(panel: &Panel<'_>, (x, y): (i32, i32)) -> (i32, i32) {
+    let (left, top) = panel.get_base_pixel();
+    (x - left, y - top)
+}
+
+fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBColor) -> Drawn {
+    let at = local(panel, at);
+    match marker {
+        Marker::Disc => panel.draw(&Circle::new(at, 6, colour.filled()))?,
+        Marker::Ring => panel.draw(&Circle::new(at, 8, colour.stroke_width(3)))?,
+        Marker::Triangle => panel.draw(&TriangleMarker::new(at, 9, colour.filled()))?,
+        Marker::None => {}
+    }
+    Ok(())
+}
+
+/// The names of `series` in rows of `columns`, each `width` pixels wide, with a remark on failures.
+///
+/// # Errors
+/// As the backend's.
+pub fn legend(panel: &Panel<'_>, series: &[Series], columns: i32, width: i32) -> Drawn {
+    let place = |index: i32| (40 + width * (index % columns), 30 + 44 * (index / columns));
+    let mut last = 0;
+    for (index, line) in (0..).zip(series) {
+        let (x, y) = place(index);
+        let stroke = line.colour.stroke_width(4);
+        let dashes = if line.dashed { vec![(0, 24), (36, 60)] } else { vec![(0, 60)] };
+        for (from, to) in dashes {
+            panel.draw(&PathElement::new([(x + from, y), (x + to, y)], stroke))?;
+        }
+        let (left, top) = panel.get_base_pixel();
+        draw_marker(panel, line.marker, (x + 30 + left, y + top), line.colour)?;
+        panel.draw(&Text::new(line.label.clone(), (x + 76, y - 14), TEXT.into_font().color(&line.colour)))?;
+        last = index + 1;
+    }
+    let (x, y) = place(last);
+    panel.draw(&Cross::new((x + 30, y), 9, GREY.stroke_width(4)))?;
+    panel.draw(&Text::new("a typed error, no answer", (x + 76, y - 14), TEXT.into_font().color(&GREY)))?;
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! The atlas at a glance: a row a contestant, a column a hazard, the worst answer in each cell.
+
+use chart::{ChartError, Drawn, FAINT, GREEN, GREY, ORANGE, Panel, TEXT, VERMILION, svg};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::atlas::Atlas;
+use crate::atlas::hazards::HAZARDS;
+use crate::run::Answer;
+
+const LEFT: i32 = 440;
+const TOP: i32 = 110;
+const CELL: (i32, i32) = (190, 46);
+
+/// The matrix as SVG.
+pub(super) fn matrix(atlas: &Atlas) -> Result<String, ChartError> {
+    let subjects = atlas.subjects();
+    let width = LEFT + CELL.0 * as_i32(HAZARDS.len()) + 40;
+    let height = TOP + CELL.1 * as_i32(subjects.len()) + 120;
+    svg((width.cast_unsigned(), height.cast_unsigned()), |root| {
+        for (column, hazard) in (0..).zip(HAZARDS) {
+            let x = LEFT + CELL.0 * column + CELL.0 / 2;
+            let what = hazard.name.split_once(": ").map_or(hazard.name, |(what, _)| what);
+            centred(root, hazard.id, (x, 36), BLACK)?;
+            centred(root, what, (x, 76), GREY)?;
+        }
+        for (row, subject) in (0..).zip(&subjects) {
+            let y = TOP + CELL.1 * row;
+            root.draw(&Text::new((*subject).to_owned(), (24, y + 8), TEXT))?;
+            for (column, hazard) in (0..).zip(HAZARDS) {
+                if let Some(answer) = atlas.worst(hazard.id, subject) {
+                    cell(root, (LEFT + CELL.0 * column, y), answer)?;
+                }
+            }
+        }
+        let remark =
+            "the worst answer over all distances from the hazard, 1 to 1e-16 and 0 (F6, F8: up to 2^53 rad, 10⁴ s)";
+        let below = TOP + CELL.1 * as_i32(subjects.len());
+        root.draw(&Text::new(remark, (24, below + 24), TEXT.into_font().color(&GREY)))?;
+        let rk4 = "rk4 estimates no error: it is judged by what its order promises, and takes a sign for an outcome";
+        root.draw(&Text::new(rk4, (24, below + 66), TEXT.into_font().color(&GREY)))?;
+        Ok(())
+    })
+}
+
+fn as_i32(count: usize) -> i32 {
+    i32::try_from(count).unwrap_or(i32::MAX)
+}
+
+/// Colour and word, so that neither has to be relied on.
+fn cell(root: &Panel<'_>, (x, y): (i32, i32), answer: Answer) -> Drawn {
+    let (fill, text, word) = match answer {
+        Answer::Right => (GREEN.mix(0.25), BLACK, "right"),
+        Answer::TypedError => (ORANGE.mix(0.45), BLACK, "typed error"),
+        Answer::SilentlyWrong => (VERMILION.mix(1.0), WHITE, "WRONG"),
+    };
+    let corners = [(x + 2, y + 2), (x + CELL.0 - 2, y + CELL.1 - 2)];
+    root.draw(&Rectangle::new(corners, fill.filled()))?;
+    if answer == Answer::SilentlyWrong {
+        root.draw(&Rectangle::new(corners, FAINT.stroke_width(1)))?;
+    }
+    centred(root, word, (x + CELL.0 / 2, y + CELL.1 / 2), text)
+}
+
+fn centred(root: &Panel<'_>, text: &str, at: (i32, i32), colour: RGBColor) -> Drawn {
+    let size = 26;
+    let style = (TEXT.0, size).into_font().color(&colour).pos(Pos::new(HPos::Center, VPos::Center));
+    root.draw(&Text::new(text.to_owned(), at, style))?;
+    Ok(())
+}

@@ -1,0 +1,61 @@
+//! Error and drift against the time of flight.
+
+use chart::{Axis, BLUE, ChartError, GREEN, Marker, Series, VERMILION, legend, log_log, svg};
+use plotters::prelude::*;
+
+use crate::long_flights::{Drift, LongFlights};
+
+const LEGEND: u32 = 170;
+
+/// What is drawn of each flight.
+type Quantity = fn(&Drift) -> f64;
+
+/// Title, label of the axis and quantity, by panel.
+const PANELS: [(&str, &str, Quantity); 4] = [
+    ("attitude", "error [rad]", |drift| drift.err_attitude),
+    ("S in the transport frame", "relative drift", |drift| drift.momentum_vector),
+    ("kinetic energy", "relative drift", |drift| drift.energy),
+    ("norm of the quaternion", "defect", |drift| drift.defect),
+];
+
+/// The chart as SVG.
+pub(super) fn long_flights(flights: &LongFlights) -> Result<String, ChartError> {
+    let height = 1160 + LEGEND;
+    let x = Axis { label: "time of flight [s]".to_owned(), range: 1.0..1e4, starts_at_zero: false };
+    svg((2000, height), |root| {
+        let (body, foot) = root.split_vertically(height - LEGEND);
+        for ((title, label, quantity), panel) in PANELS.into_iter().zip(body.split_evenly((2, 2))) {
+            let y = Axis { label: label.to_owned(), range: 1e-17..1e-3, starts_at_zero: false };
+            log_log(&panel, title, &x, &y, &lines(flights, quantity))?;
+        }
+        legend(&foot, &lines(flights, PANELS[0].2), 4, 480)
+    })
+}
+
+/// A colour a solver, a form a method. What is exactly 0 is not drawn.
+fn lines(flights: &LongFlights, quantity: Quantity) -> Vec<Series> {
+    let line = |subject: &str| {
+        let (solver, method) = subject.split_once('/').unwrap_or((subject, ""));
+        let colour = match solver {
+            "gamma" => VERMILION,
+            "euler" => BLUE,
+            "quaternion" => GREEN,
+            _ => BLACK,
+        };
+        let (marker, dashed) = match method {
+            "dopri5" => (Marker::Triangle, false),
+            "rk4" => (Marker::Ring, true),
+            _ => (Marker::Disc, false),
+        };
+        let (mut points, mut failures) = (Vec::new(), Vec::new());
+        for (time, found) in flights.of(subject) {
+            match found {
+                Ok(drift) if quantity(drift) > 0.0 => points.push((time, quantity(drift))),
+                Ok(_) => {}
+                Err(_) => failures.push(time),
+            }
+        }
+        Series { label: subject.to_owned(), colour, dashed, marker, points, failures }
+    };
+    flights.subjects().map(line).collect()
+}

@@ -1,0 +1,35 @@
+//! Charts of the records, as SVG.
+
+mod atlas_lines;
+mod atlas_matrix;
+mod long_flights;
+
+use chart::ChartError;
+
+use crate::check::Records;
+
+/// A chart and the name of its file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chart {
+    /// Name of the file, without a folder.
+    pub file: &'static str,
+    /// The SVG.
+    pub svg: String,
+}
+
+/// The charts of the records that there are.
+///
+/// # Errors
+/// [`ChartError`] if one can't be drawn.
+pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
+    let mut charts = Vec::new();
+    if let Some(atlas) = records.atlas {
+        charts.push(Chart { file: "atlas-matrix.svg", svg: atlas_matrix::matrix(atlas)? });
+        charts.push(Chart { file: "atlas-error.svg", svg: atlas_lines::errors(atlas)? });
+        charts.push(Chart { file: "atlas-work.svg", svg: atlas_lines::work(atlas)? });
+    }
+    if let Some(flights) = records.long_flights {
+        charts.push(Chart { file: "long-flights.svg", svg: long_flights::long_flights(flights)? });
+    }
+    Ok(charts)
+}
