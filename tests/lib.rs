@@ -33,7 +33,7 @@ pub fn name(solver: &dyn Solver) -> String {
 /// Error of cos θ that a solver may make on `toss`: what it answers for itself, and what the rounding of the inputs of
 /// a related toss may change.
 pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
-    solver.resolution(phase(toss)) + 4.0 * f64::EPSILON * (2.0 + phase(toss))
+    solver.resolution(toss).expect("the tosses of the tests are short") + 4.0 * f64::EPSILON * (2.0 + phase(toss))
 }
 
 /// Error of an attitude (rad): ten times that of cos θ, whose slope vanishes where the attitude's does not.

@@ -10,8 +10,8 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  verify [--quick | --deep] [--only ID] [--list] [--format text|json|junit]
-      run the verification suite; writes target/verify/report.json and junit.xml";
+  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--format text|json|junit]
+      run the verification suite; writes report.json, junit.xml and charts to target/verify";
 
 fn main() -> ExitCode {
     let mut args = env::args().skip(1);

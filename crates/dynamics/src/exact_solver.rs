@@ -36,8 +36,8 @@ impl Solver for ExactSolver {
         ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
     }
 
-    fn resolution(&self, _: f64) -> f64 {
-        COS_TILT_ERROR
+    fn resolution(&self, _: &Toss) -> Result<f64, SolveError> {
+        Ok(COS_TILT_ERROR)
     }
 
     fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {

@@ -142,6 +142,11 @@ impl Launch {
         self.rate
     }
 
+    /// |ω| (rad/s), which does not overflow where a sum of squares would.
+    pub fn turn_rate(&self) -> f64 {
+        self.rate.x.hypot(self.rate.y).hypot(self.rate.z)
+    }
+
     /// Attitude at launch.
     pub fn attitude(&self) -> Attitude {
         self.attitude

@@ -1,6 +1,8 @@
 //! Runge-Kutta methods and their step control, as settings.
 
-use crate::error::{InputError, find_named, require};
+use crate::error::{InputError, SolveError, find_named, require};
+use crate::exact::ExactMotion;
+use crate::launch::Toss;
 
 /// A Runge-Kutta scheme of `ode_solvers`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,13 +125,23 @@ impl Method {
         Self { control, ..self }
     }
 
-    /// Error of cos θ at landing that a solver with this method answers for, after a
-    /// [`phase`](crate::ExactMotion::phase) (rad):
-    /// 100 × tolerance × (1 + phase), or nothing (0) for fixed steps, which come without an estimate.
-    pub fn resolution(&self, phase: f64) -> f64 {
-        match self.control {
-            StepControl::Tolerance(tolerance) => 100.0 * tolerance * (1.0 + phase),
-            StepControl::Step(_) => 0.0,
-        }
+    /// Error of cos θ at the landing of `toss` that a solver with this method answers for, after a
+    /// [`phase`](ExactMotion::phase) φ (rad):
+    ///
+    /// - with a tolerance, 100 × tolerance × (1 + φ);
+    /// - with n fixed steps h, which come without an estimate, what their order promises of a regular motion and what
+    ///   rounding may do: (|ω| h)^order × (1 + φ) + 4 ε (1 + φ + n).
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn resolution(&self, toss: &Toss) -> Result<f64, SolveError> {
+        let turned = 1.0 + ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+        Ok(match self.control {
+            StepControl::Tolerance(tolerance) => 100.0 * tolerance * turned,
+            StepControl::Step(step) => {
+                let truncation = (toss.launch.turn_rate() * step).powf(f64::from(self.scheme.order()));
+                truncation * turned + 4.0 * f64::EPSILON * (turned + toss.launch.flight_time() / step)
+            }
+        })
     }
 }

@@ -4,7 +4,6 @@
 //! has one entry; every test and every check runs over the registry of entries.
 
 use crate::error::{InputError, SolveError, find_named};
-use crate::exact::ExactMotion;
 use crate::launch::Toss;
 use crate::method::Method;
 use crate::outcome::{Outcome, Verdict};
@@ -65,10 +64,12 @@ pub trait Solver: Send + Sync {
         self.propagate(toss).map(|landing| landing.cos_tilt)
     }
 
-    /// Error of cos θ that this solver answers for after a [`phase`](ExactMotion::phase) (rad), by its method; 0 if it
-    /// gives no estimate.
-    fn resolution(&self, phase: f64) -> f64 {
-        self.method().map_or(0.0, |method| method.resolution(phase))
+    /// Error of its cos θ on `toss` that this solver answers for, by its [method](Method::resolution); 0 if it has none.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    fn resolution(&self, toss: &Toss) -> Result<f64, SolveError> {
+        self.method().map_or(Ok(0.0), |method| method.resolution(toss))
     }
 
     /// Heads or tails by a `cos_tilt` of this solver, or undecided where it is within [`Solver::resolution`] of 0.
@@ -76,8 +77,7 @@ pub trait Solver: Send + Sync {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     fn verdict_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Verdict, SolveError> {
-        let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
-        Ok(Verdict { outcome: Outcome::of(cos_tilt, self.resolution(phase)), proof: None })
+        Ok(Verdict { outcome: Outcome::of(cos_tilt, self.resolution(toss)?), proof: None })
     }
 
     /// How the toss lands, and whether that is proven.

@@ -10,10 +10,11 @@ use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
 use verify::bounds::Bounds;
+use verify::case::Case;
 use verify::judge::unused_bounds;
 use verify::report::charts::{Chart, charts};
-use verify::report::{Report, junit, table, write_file};
-use verify::{CHECKS, Check, Context, Effort, Row, judge};
+use verify::report::{Report, junit, runs, table, write_file};
+use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge};
 
 /// Runs the checks and writes report.json and junit.xml.
 #[derive(Parser)]
@@ -31,6 +32,9 @@ struct Args {
     /// List the checks
     #[arg(long)]
     list: bool,
+    /// Fly one toss, given as the hex floats of a worst input, by every solver, method and formulation
+    #[arg(long, value_name = "INPUT", value_parser = hex_case, conflicts_with_all = ["quick", "deep", "only", "format"])]
+    replay: Option<Case>,
     /// What goes to standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -54,6 +58,10 @@ fn known_check(id: &str) -> Result<&'static Check, String> {
     CHECKS.iter().find(|check| check.id == id).ok_or_else(|| format!("no such check; known: {}", known()))
 }
 
+fn hex_case(line: &str) -> Result<Case, String> {
+    Case::from_hex(line).map_err(|error| format!("{error:#}"))
+}
+
 fn main() -> ExitCode {
     let args = Args::parse();
     if args.list {
@@ -75,6 +83,10 @@ fn listing() -> String {
 }
 
 fn run(args: &Args) -> anyhow::Result<bool> {
+    if let Some(case) = &args.replay {
+        print!("{}", runs::text(&atlas::replay(SOLVERS, case)?));
+        return Ok(true);
+    }
     let (effort, effort_name) = match (args.quick, args.deep) {
         (true, _) => (Effort::Quick, "quick"),
         (_, true) => (Effort::Deep, "deep"),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use toss::exact::COS_TILT_ERROR;
-use toss::{ExactMotion, Outcome, Propagation, SolveError, StepControl, Toss};
+use toss::{Outcome, Propagation, SolveError, Toss};
 
 use crate::case::Case;
 use crate::reference::Reference;
@@ -34,26 +34,19 @@ impl Answer {
 /// The errors that an answer may have and still be right.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Allowance {
-    /// Of cos θ: what the solver answers for, `100 × tolerance × (1 + phase)` for an integrator.
+    /// Of cos θ: what the solver answers for.
     pub cos_tilt: f64,
     /// Of the attitude (rad): ten times that.
     pub attitude: f64,
 }
 
 impl Allowance {
-    /// What `subject` may be off by on `toss`. RK4 estimates no error; it is held to `(|ω| h)⁴ × (1 + phase)`, as its order
-    /// promises on a regular motion.
+    /// What `subject` may be off by on `toss`.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn new(subject: &Subject, toss: &Toss) -> Result<Self, SolveError> {
-        let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
-        let cos_tilt = match subject.method.map(|method| method.control()) {
-            Some(StepControl::Step(step)) => {
-                (toss.launch.rate().norm() * step).powi(4).max(f64::EPSILON) * (1.0 + phase)
-            }
-            _ => subject.solver.resolution(phase).max(COS_TILT_ERROR),
-        };
+        let cos_tilt = subject.solver.resolution(toss)?.max(COS_TILT_ERROR);
         Ok(Self { cos_tilt, attitude: 10.0 * cos_tilt })
     }
 }

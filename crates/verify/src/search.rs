@@ -15,6 +15,9 @@ const SEED: u64 = 20_261_121;
 /// Tolerances, of which each launch is flown at one.
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
+/// Steps of RK4 in parts of 1/|ω|, of which each launch is flown at one.
+const STEPS: [f64; 2] = [0.1, 0.03];
+
 /// What the search found of one solver and method.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Findings {
@@ -32,58 +35,58 @@ pub struct Findings {
     pub first_wrong: Option<Worst>,
 }
 
-/// Searches `launches` launches for every solver of `registry`, each integrator by every method that has an error
-/// estimate.
+/// Searches `launches` launches for every solver of `registry`, each integrator by every method.
 ///
 /// # Errors
 /// Never: every launch is valid.
 pub fn search(registry: &[SolverEntry], launches: u64) -> Result<Vec<Findings>, InputError> {
-    let contestants = contestants(registry)?;
+    let contestants = contestants(registry);
     let fly = |index: u64| -> Result<Vec<Run>, InputError> {
         let case = adversary::launch(SEED, index)?;
         let reference = Reference::new(&case.toss);
-        Ok(contestants.iter().map(|by_tolerance| Run::new(at(by_tolerance, index), &case, &reference)).collect())
+        contestants.iter().map(|by| Ok(Run::new(&subject(*by, &case, index)?, &case, &reference))).collect()
     };
     let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<Result<_, _>>()?;
-    let findings = |(index, by_tolerance): (usize, &Vec<Subject>)| {
-        let of = |answer: Answer| runs.iter().enumerate().filter(move |(_, runs)| runs[index].answer == answer);
-        let first = |answer: Answer| {
-            let (launch, runs) = of(answer).next()?;
-            let launch = launch as u64;
-            let case: Case = adversary::launch(SEED, launch).ok()?;
-            let replay = case.replay(at(by_tolerance, launch));
-            Some(Worst { input: case.hex(), failure: runs[index].failure.clone(), replay })
+    let findings = |(column, by): (usize, &Contestant)| {
+        let of = |answer: Answer| (0..).zip(&runs).filter(move |(_, runs)| runs[column].answer == answer);
+        let first = |answer: Answer| -> Result<Option<Worst>, InputError> {
+            let Some((index, runs)) = of(answer).next() else { return Ok(None) };
+            let case = adversary::launch(SEED, index)?;
+            let replay = case.replay(&subject(*by, &case, index)?);
+            Ok(Some(Worst { input: case.hex(), failure: runs[column].failure.clone(), replay }))
         };
-        Findings {
-            subject: by_tolerance[0].name.clone(),
+        Ok(Findings {
+            subject: runs.first().map(|runs| runs[column].subject.clone()).unwrap_or_default(),
             launches,
             refused: of(Answer::TypedError).count() as u64,
             silently_wrong: of(Answer::SilentlyWrong).count() as u64,
-            first_refused: first(Answer::TypedError),
-            first_wrong: first(Answer::SilentlyWrong),
-        }
+            first_refused: first(Answer::TypedError)?,
+            first_wrong: first(Answer::SilentlyWrong)?,
+        })
     };
-    Ok(contestants.iter().enumerate().map(findings).collect())
+    contestants.iter().enumerate().map(findings).collect()
 }
 
-/// By solver and method, the subject at each tolerance; a closed form has but one.
-fn contestants(registry: &[SolverEntry]) -> Result<Vec<Vec<Subject>>, InputError> {
-    let mut contestants = Vec::new();
-    for &entry in registry {
-        if !entry.integrates() {
-            contestants.push(vec![Subject::new(entry, None, Formulation::default())]);
-            continue;
-        }
-        for scheme in Scheme::ALL.into_iter().filter(|scheme| scheme.is_adaptive()) {
-            let at =
-                |tolerance| Ok(Subject::new(entry, Some(Method::adaptive(scheme, tolerance)?), Formulation::default()));
-            contestants.push(TOLERANCES.into_iter().map(at).collect::<Result<_, InputError>>()?);
-        }
-    }
-    Ok(contestants)
+/// A solver and its scheme, if it integrates.
+type Contestant = (SolverEntry, Option<Scheme>);
+
+fn contestants(registry: &[SolverEntry]) -> Vec<Contestant> {
+    let schemes = |entry: &SolverEntry| {
+        if entry.integrates() { Scheme::ALL.map(Some).to_vec() } else { vec![None] }
+    };
+    registry.iter().flat_map(|entry| schemes(entry).into_iter().map(|scheme| (*entry, scheme))).collect()
 }
 
-/// The subject that flies launch `index`.
-fn at(by_tolerance: &[Subject], index: u64) -> &Subject {
-    &by_tolerance[usize::try_from(index).unwrap_or(0) % by_tolerance.len()]
+/// The contestant with the settings at which it flies launch `index`, `case`.
+fn subject((entry, scheme): Contestant, case: &Case, index: u64) -> Result<Subject, InputError> {
+    let turn = usize::try_from(index).unwrap_or(0);
+    let method = |scheme: Scheme| {
+        if scheme.is_adaptive() {
+            return Method::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]);
+        }
+        // A coin at rest takes any step.
+        let rate = case.toss.launch.turn_rate().max(f64::MIN_POSITIVE);
+        Method::fixed(scheme, (STEPS[turn % STEPS.len()] / rate).min(f64::MAX))
+    };
+    Ok(Subject::new(entry, scheme.map(method).transpose()?, Formulation::default()))
 }

@@ -19,6 +19,20 @@ fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
         .expect("the program starts")
 }
 
+/// The charts of the records are written beside the reports.
+#[test]
+fn long_flights_are_drawn() {
+    let out = tempfile::tempdir().unwrap();
+    let output = run(&["--only", "long-flight-error"], &validation(), out.path());
+    assert_eq!(output.status.code(), Some(0));
+    let chart = std::fs::read_to_string(out.path().join("long-flights.svg")).unwrap();
+    assert!(chart.contains("quaternion/dopri5") && chart.contains("a typed error, no answer"));
+    let report: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.path().join("report.json")).unwrap()).unwrap();
+    assert!(report["records"]["long_flights"].as_array().unwrap().len() > 80);
+    assert!(report["records"]["atlas"].is_null());
+}
+
 #[test]
 fn a_passing_run_ends_with_0_and_writes_both_reports() {
     let out = tempfile::tempdir().unwrap();
@@ -45,7 +59,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
     let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     std::fs::create_dir(folder.path().join("reference")).unwrap();
-    for file in ["reference/motion.toml", "reference/probability.toml"] {
+    for file in ["reference/motion.toml", "reference/probability.toml", "atlas.toml"] {
         std::fs::copy(validation().join(file), folder.path().join(file)).unwrap();
     }
     let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();
@@ -72,6 +86,26 @@ fn bad_usage_ends_with_2_and_missing_data_with_4() {
     assert_eq!(output.status.code(), Some(4));
     assert!(String::from_utf8(output.stderr).unwrap().contains("cannot read /no/such/folder/bounds.toml"));
     assert!(!out.path().join("report.json").exists());
+}
+
+#[test]
+fn a_worst_input_is_replayed_by_every_contestant() {
+    // α' = 0 on the way.
+    let line = "i1=0x1.0000000000000p+1 i3=0x1.0000000000000p+0 rate_x=0x1.3333333333333p-2 rate_y=0x1.3333333333333p-2 \
+                rate_z=0x1.4000000000000p+2 tilt=0x1.0000000000000p+0 time=0x1.4000000000000p+2";
+    let output = run(&["--replay", line], &validation(), Path::new("unused"));
+    assert_eq!(output.status.code(), Some(0));
+    let table = String::from_utf8(output.stdout).unwrap();
+    let answer = |subject: &str| {
+        let line = table.lines().find(|line| line.split_whitespace().next() == Some(subject)).unwrap();
+        line[subject.len()..].trim_start().split("  ").next().unwrap().to_owned()
+    };
+    assert_eq!(answer("gamma/dop853"), "right");
+    assert_eq!(answer("gamma/dop853/vertical"), "typed error");
+    assert_eq!(answer("gamma/dop853/raw"), "silently wrong");
+    let output = run(&["--replay", "i1=nonsense"], &validation(), Path::new("unused"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("i1: 'nonsense' is no hex float"));
 }
 
 #[test]

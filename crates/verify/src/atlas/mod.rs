@@ -75,6 +75,15 @@ impl Atlas {
     }
 }
 
+/// One toss by every contestant.
+///
+/// # Errors
+/// Never for the library's own solvers.
+pub fn replay(registry: &[SolverEntry], case: &Case) -> Result<Vec<Run>, InputError> {
+    let reference = Reference::new(&case.toss);
+    Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, case, &reference)).collect())
+}
+
 /// Every solver of `registry`, each integrator by every method in every formulation that differs for it.
 fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();

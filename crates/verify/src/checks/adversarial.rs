@@ -5,7 +5,7 @@ use crate::search::Findings;
 
 pub(super) const SILENTLY_WRONG: Check = Check {
     id: "adversarial-silence",
-    claim: "no adversarial launch is answered wrongly without an error, at any of five tolerances (measured: how many are)",
+    claim: "no adversarial launch is answered wrongly without an error, at five tolerances or two steps (measured: how many are)",
     basis: Basis::ClosedForm,
     unit: "launches",
     measure: |context| {

@@ -2,6 +2,7 @@
 
 pub mod charts;
 pub mod junit;
+pub mod runs;
 pub mod table;
 
 use std::io::Write;
