@@ -48,18 +48,13 @@ fn panels(
 ) -> Result<String, ChartError> {
     let rows = HAZARDS.len().div_ceil(2);
     let height = 540 * u32::try_from(rows).unwrap_or(1) + LEGEND;
-    let y = Axis { label: label.to_owned(), range, starts_at_zero: false };
+    let y = Axis::positive(label, range);
     svg((2000, height), |root| {
         let (body, foot) = root.split_vertically(height - LEGEND);
         for (hazard, panel) in HAZARDS.iter().zip(body.split_evenly((rows, 2))) {
             let x = distance_axis(hazard);
-            log_log(
-                &panel,
-                &format!("{}  {}", hazard.id, hazard.name),
-                &x,
-                &y,
-                &lines(atlas, hazard, quantity, background),
-            )?;
+            let title = format!("{}  {}", hazard.id, hazard.name);
+            log_log(&panel, &title, (&x, &y), &lines(atlas, hazard, quantity, background), 40)?;
         }
         legend(&foot, &lines(atlas, &HAZARDS[0], quantity, background), 4, 480)
     })

@@ -21,12 +21,12 @@ const PANELS: [(&str, &str, Quantity); 4] = [
 /// The chart as SVG.
 pub(super) fn long_flights(flights: &LongFlights) -> Result<String, ChartError> {
     let height = 1160 + LEGEND;
-    let x = Axis { label: "time of flight [s]".to_owned(), range: 1.0..1e4, starts_at_zero: false };
+    let x = Axis::positive("time of flight [s]", 1.0..1e4);
     svg((2000, height), |root| {
         let (body, foot) = root.split_vertically(height - LEGEND);
         for ((title, label, quantity), panel) in PANELS.into_iter().zip(body.split_evenly((2, 2))) {
-            let y = Axis { label: label.to_owned(), range: 1e-17..1e-3, starts_at_zero: false };
-            log_log(&panel, title, &x, &y, &lines(flights, quantity))?;
+            let y = Axis::positive(label, 1e-17..1e-3);
+            log_log(&panel, title, (&x, &y), &lines(flights, quantity), 40)?;
         }
         legend(&foot, &lines(flights, PANELS[0].2), 4, 480)
     })
