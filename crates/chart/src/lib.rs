@@ -4,7 +4,7 @@ mod labels;
 mod log_log;
 
 pub use labels::{EndLabel, end_labels};
-pub use log_log::{Axis, Marker, Series, legend, log_log};
+pub use log_log::{Axis, LINE_WIDTH, Marker, Series, legend, log_log};
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

@@ -7,6 +7,9 @@ use plotters::prelude::*;
 
 use crate::{Drawn, EndLabel, GREY, Panel, TEXT};
 
+/// Width of a line (pixels), unless it has a reason to differ.
+pub const LINE_WIDTH: u32 = 4;
+
 /// How the points of a series are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Marker {
@@ -27,6 +30,8 @@ pub struct Series {
     pub label: String,
     /// Its colour.
     pub colour: RGBColor,
+    /// Width of the line (pixels).
+    pub width: u32,
     /// Whether it is dashed.
     pub dashed: bool,
     /// Its points' form.
@@ -70,7 +75,8 @@ impl Axis {
 
     fn tick(&self, position: f64) -> String {
         let decade = self.sense() * position;
-        if (decade - decade.round()).abs() < 1e-9 { format!("1e{decade:.0}") } else { String::new() }
+        // Adding zero turns -0 into 0.
+        if (decade - decade.round()).abs() < 1e-9 { format!("1e{:.0}", decade.round() + 0.0) } else { String::new() }
     }
 }
 
@@ -100,7 +106,7 @@ pub fn log_log(
     chart
         .configure_mesh()
         .light_line_style(WHITE)
-        .x_labels(9)
+        .x_labels(7)
         .y_labels(9)
         .x_desc(&x.label)
         .y_desc(&y.label)
@@ -127,7 +133,7 @@ fn draw_line<'b>(
     line: &Series,
 ) -> Result<Option<EndLabel>, Box<dyn std::error::Error>> {
     let points: Vec<(f64, f64)> = line.points.iter().map(|point| (x.position(point.0), y.position(point.1))).collect();
-    let stroke = line.colour.stroke_width(4);
+    let stroke = line.colour.stroke_width(line.width);
     if line.dashed {
         chart.draw_series(DashedLineSeries::new(points.clone(), 14, 10, stroke))?;
     } else {

@@ -11,12 +11,15 @@ use toss::{InputError, SolveError, SolverEntry};
 use crate::atlas::Atlas;
 use crate::atlas::expected::Expected;
 use crate::case::Case;
+use crate::convergence::{Convergence, convergence};
 use crate::long_flights::LongFlights;
 use crate::reference_data::ReferenceData;
 use crate::reference_probability::ReferenceProbabilities;
 use crate::search::{Findings, search};
 use crate::subject::{Subject, subjects};
 use crate::survey::Survey;
+use crate::work_precision::Sweep;
+use crate::work_precision::problems::{self, Problem};
 
 /// What a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -163,12 +166,16 @@ pub struct Context {
     pub data: ReferenceData,
     /// Probabilities from outside.
     pub probabilities: ReferenceProbabilities,
+    /// The flights over which speed is compared with accuracy.
+    pub problems: Vec<Problem>,
     /// What contestants are known to do at hazards.
     pub expected: Expected,
     survey: OnceLock<Survey>,
     atlas: OnceLock<Atlas>,
     long_flights: OnceLock<LongFlights>,
     search: OnceLock<Vec<Findings>>,
+    sweep: OnceLock<Sweep>,
+    convergence: OnceLock<Vec<Convergence>>,
 }
 
 impl Context {
@@ -183,11 +190,14 @@ impl Context {
             subjects: subjects(registry).context("the registry's solvers can't be made")?,
             data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
             probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
+            problems: problems::read(&validation.join("problems.toml"))?,
             expected: Expected::read(&validation.join("atlas.toml"))?,
             survey: OnceLock::new(),
             atlas: OnceLock::new(),
             long_flights: OnceLock::new(),
             search: OnceLock::new(),
+            sweep: OnceLock::new(),
+            convergence: OnceLock::new(),
         })
     }
 
@@ -223,9 +233,30 @@ impl Context {
         once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
     }
 
+    /// The sweep of tolerances and steps; done when first asked for.
+    ///
+    /// # Errors
+    /// As [`Sweep::new`].
+    pub fn sweep(&self) -> Result<&Sweep, InputError> {
+        once(&self.sweep, || Sweep::new(&self.registry, &self.problems, self.effort))
+    }
+
+    /// Errors by fixed step; measured when first asked for.
+    ///
+    /// # Errors
+    /// As [`convergence`].
+    pub fn convergence(&self) -> anyhow::Result<&Vec<Convergence>> {
+        once(&self.convergence, || convergence(&self.registry))
+    }
+
     /// What was asked for so far, for the reports.
     pub fn records(&self) -> Records<'_> {
-        Records { atlas: self.atlas.get(), long_flights: self.long_flights.get() }
+        Records {
+            atlas: self.atlas.get(),
+            long_flights: self.long_flights.get(),
+            sweep: self.sweep.get(),
+            convergence: self.convergence.get(),
+        }
     }
 }
 
@@ -236,6 +267,10 @@ pub struct Records<'a> {
     pub atlas: Option<&'a Atlas>,
     /// Error and drift by time.
     pub long_flights: Option<&'a LongFlights>,
+    /// Error and work by tolerance or step.
+    pub sweep: Option<&'a Sweep>,
+    /// Error by fixed step.
+    pub convergence: Option<&'a Vec<Convergence>>,
 }
 
 /// What is in `cell`, made first if it is empty.

@@ -15,6 +15,7 @@ pub mod bounds;
 pub mod case;
 pub mod check;
 pub mod checks;
+pub mod convergence;
 pub mod judge;
 pub mod long_flights;
 pub mod reference;
@@ -25,6 +26,7 @@ pub mod run;
 pub mod search;
 pub mod subject;
 pub mod survey;
+pub mod work_precision;
 
 pub use check::{Basis, Check, Context, Effort, Measurement};
 pub use checks::CHECKS;

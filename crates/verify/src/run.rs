@@ -1,8 +1,9 @@
 //! A run: one toss flown by one subject and judged against the exact motion. Records are made of these.
 
 use serde::{Deserialize, Serialize};
+use toss::body_rate::angular_momentum_tf;
 use toss::exact::COS_TILT_ERROR;
-use toss::{Outcome, Propagation, SolveError, Toss};
+use toss::{Outcome, Propagation, SolveError, State, Toss};
 
 use crate::case::Case;
 use crate::reference::Reference;
@@ -66,6 +67,10 @@ pub struct Run {
     pub err_cos_tilt: Option<f64>,
     /// Angle to the exact attitude at landing (rad).
     pub err_attitude: Option<f64>,
+    /// The attitude's error in parts of what the solver answers for.
+    pub err_by_allowance: Option<f64>,
+    /// Drift of S in TF, relative; null also for a coin at rest.
+    pub err_invariants: Option<f64>,
     /// Whether the outcome is the exact one; null where none was stated.
     pub outcome_ok: Option<bool>,
     /// Loss of norm of an integrated quaternion.
@@ -90,6 +95,8 @@ impl Run {
                 failure: Some(error.to_string()),
                 err_cos_tilt: None,
                 err_attitude: None,
+                err_by_allowance: None,
+                err_invariants: None,
                 outcome_ok: None,
                 defect: None,
                 rhs_calls: None,
@@ -136,6 +143,8 @@ impl Judged {
             failure: None,
             err_cos_tilt: Some(self.err_cos_tilt),
             err_attitude: Some(self.err_attitude),
+            err_by_allowance: Some(self.err_attitude / self.allowance.attitude),
+            err_invariants: momentum_drift(&case.toss, &self.landing.state),
             outcome_ok: self.outcome_ok,
             defect: Some(self.landing.defect),
             rhs_calls: Some(self.landing.work.rhs_calls),
@@ -143,4 +152,11 @@ impl Judged {
             rejected_steps: Some(self.landing.work.rejected_steps),
         }
     }
+}
+
+/// Change of S in TF from launch to `landing`, relative; `None` for a coin at rest.
+fn momentum_drift(toss: &Toss, landing: &State) -> Option<f64> {
+    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+    let [before, after] = [&launch, landing].map(|state| angular_momentum_tf(&toss.coin, state));
+    Some((after - before).norm() / before.norm()).filter(|drift| drift.is_finite())
 }

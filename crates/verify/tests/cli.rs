@@ -59,7 +59,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
     let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     std::fs::create_dir(folder.path().join("reference")).unwrap();
-    for file in ["reference/motion.toml", "reference/probability.toml", "atlas.toml"] {
+    for file in ["reference/motion.toml", "reference/probability.toml", "atlas.toml", "problems.toml"] {
         std::fs::copy(validation().join(file), folder.path().join(file)).unwrap();
     }
     let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();

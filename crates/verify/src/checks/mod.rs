@@ -15,6 +15,7 @@ mod paper;
 pub mod probability;
 mod random;
 mod sensitivity;
+mod work_precision;
 
 use crate::check::Check;
 
@@ -45,6 +46,7 @@ pub const CHECKS: &[Check] = &[
     long_flights::ERROR,
     long_flights::DRIFT,
     sensitivity::DERIVATIVES,
+    work_precision::PROMISE,
     order::ORDER,
     paper::CHEATED_IN_FLIGHT,
     paper::CHEATED_FOREVER,

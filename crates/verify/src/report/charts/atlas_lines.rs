@@ -1,6 +1,6 @@
 //! Error and work against the distance from each hazard, by DOP853: a panel a hazard, a line a contestant.
 
-use chart::{Axis, BLUE, ChartError, GREEN, Marker, PURPLE, Series, VERMILION, legend, log_log, svg};
+use chart::{Axis, BLUE, ChartError, GREEN, LINE_WIDTH, Marker, PURPLE, Series, VERMILION, legend, log_log, svg};
 use plotters::prelude::*;
 
 use crate::atlas::hazards::{HAZARDS, Hazard};
@@ -79,6 +79,7 @@ fn lines(
         lines.push(Series {
             label: label.to_owned(),
             colour,
+            width: LINE_WIDTH,
             dashed: true,
             marker: Marker::None,
             points,
@@ -94,7 +95,7 @@ fn lines(
                 None => {}
             }
         }
-        lines.push(Series { label: subject.to_owned(), colour, dashed, marker, points, failures });
+        lines.push(Series { label: subject.to_owned(), colour, width: LINE_WIDTH, dashed, marker, points, failures });
     }
     lines
 }

@@ -1,6 +1,6 @@
 //! Error and drift against the time of flight.
 
-use chart::{Axis, BLUE, ChartError, GREEN, Marker, Series, VERMILION, legend, log_log, svg};
+use chart::{Axis, BLUE, ChartError, GREEN, LINE_WIDTH, Marker, Series, VERMILION, legend, log_log, svg};
 use plotters::prelude::*;
 
 use crate::long_flights::{Drift, LongFlights};
@@ -55,7 +55,7 @@ fn lines(flights: &LongFlights, quantity: Quantity) -> Vec<Series> {
                 Err(_) => failures.push(time),
             }
         }
-        Series { label: subject.to_owned(), colour, dashed, marker, points, failures }
+        Series { label: subject.to_owned(), colour, width: LINE_WIDTH, dashed, marker, points, failures }
     };
     flights.subjects().map(line).collect()
 }

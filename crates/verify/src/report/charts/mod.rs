@@ -3,6 +3,8 @@
 mod atlas_lines;
 mod atlas_matrix;
 mod long_flights;
+mod order;
+mod work_precision;
 
 use chart::ChartError;
 
@@ -12,7 +14,7 @@ use crate::check::Records;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chart {
     /// Name of the file, without a folder.
-    pub file: &'static str,
+    pub file: String,
     /// The SVG.
     pub svg: String,
 }
@@ -24,12 +26,21 @@ pub struct Chart {
 pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
     let mut charts = Vec::new();
     if let Some(atlas) = records.atlas {
-        charts.push(Chart { file: "atlas-matrix.svg", svg: atlas_matrix::matrix(atlas)? });
-        charts.push(Chart { file: "atlas-error.svg", svg: atlas_lines::errors(atlas)? });
-        charts.push(Chart { file: "atlas-work.svg", svg: atlas_lines::work(atlas)? });
+        charts.push(Chart { file: "atlas-matrix.svg".to_owned(), svg: atlas_matrix::matrix(atlas)? });
+        charts.push(Chart { file: "atlas-error.svg".to_owned(), svg: atlas_lines::errors(atlas)? });
+        charts.push(Chart { file: "atlas-work.svg".to_owned(), svg: atlas_lines::work(atlas)? });
     }
     if let Some(flights) = records.long_flights {
-        charts.push(Chart { file: "long-flights.svg", svg: long_flights::long_flights(flights)? });
+        charts.push(Chart { file: "long-flights.svg".to_owned(), svg: long_flights::long_flights(flights)? });
+    }
+    if let Some(all) = records.convergence {
+        charts.push(Chart { file: "order.svg".to_owned(), svg: order::order(all)? });
+    }
+    if let Some(sweep) = records.sweep {
+        for (problem, _, launches) in &sweep.problems {
+            let svg = work_precision::work_precision(sweep, problem, *launches)?;
+            charts.push(Chart { file: format!("work-precision-{problem}.svg"), svg });
+        }
     }
     Ok(charts)
 }

@@ -1,0 +1,101 @@
+//! Work against the error that it buys, a chart a problem: calls on the left, time on the right.
+
+use chart::{
+    Axis, BLUE, ChartError, EndLabel, GREEN, GREY, LINE_WIDTH, Marker, Panel, Series, TEXT, VERMILION, end_labels,
+    log_log, svg,
+};
+use plotters::prelude::*;
+
+use crate::work_precision::{Sample, Sweep};
+
+const SIZE: (u32, u32) = (2000, 940);
+
+/// Room for labels beside the lines (pixels).
+const RIGHT: u32 = 290;
+
+/// Errors from a radian down to the last bit.
+const ERRORS: std::ops::Range<f64> = 10.0..1e-16;
+
+/// Light grey, drawn wide under the lines.
+const FRONT: RGBColor = RGBColor(205, 205, 205);
+
+/// What work is, in the unit of its axis; `None` for none.
+type Work = fn(&Sample) -> Option<f64>;
+
+/// The chart of `problem` as SVG.
+pub(super) fn work_precision(sweep: &Sweep, problem: &str, launches: usize) -> Result<String, ChartError> {
+    let per_launch = if launches > 1 { format!(" (all {launches} launches)") } else { String::new() };
+    let calls: Work = |sample| Some(sample.n_rhs as f64).filter(|calls| *calls > 0.0);
+    let time: Work = |sample| Some(sample.t_min_ns as f64 * 1e-3);
+    svg(SIZE, |root| {
+        let (left, right) = root.split_horizontally(SIZE.0 / 2);
+        panel(&left, sweep, problem, &format!("calls of the right-hand side{per_launch}"), calls)?;
+        panel(&right, sweep, problem, &format!("time [µs]{per_launch}"), time)
+    })
+}
+
+fn panel(panel: &Panel<'_>, sweep: &Sweep, problem: &str, label: &str, work: Work) -> chart::Drawn {
+    let mut lines = vec![front(sweep, problem, work)];
+    lines.extend(sweep.subjects().iter().map(|subject| line(sweep, problem, subject, work)));
+    let values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.1)).collect();
+    let (least, most) =
+        values.iter().fold((f64::INFINITY, 1.0_f64), |(lo, hi), value| (lo.min(*value), hi.max(*value)));
+    let x = Axis::positive("error of the attitude [rad]", ERRORS);
+    let y = Axis::positive(label, 0.5 * least.min(most)..2.0 * most);
+    let mut labels = log_log(panel, problem, (&x, &y), &lines, RIGHT)?;
+    let (width, height) = panel.dim_in_pixel();
+    if lines.iter().any(|line| line.points.is_empty() && line.label == "exact") {
+        // The exact motion calls no right-hand side: it is below every axis.
+        let bottom = i32::try_from(height).unwrap_or(0) - 110;
+        labels.push(EndLabel { y: bottom, text: "exact: 0 calls".to_owned(), colour: BLACK });
+    }
+    end_labels(panel, i32::try_from(width - RIGHT).unwrap_or(0) + 16, labels)?;
+    panel.draw(&Text::new("grey: the front of the integrators", (160, 66), TEXT.into_font().color(&GREY)))?;
+    Ok(())
+}
+
+fn line(sweep: &Sweep, problem: &str, subject: &str, work: Work) -> Series {
+    let (solver, method) = subject.split_once('/').unwrap_or((subject, ""));
+    let colour = match solver {
+        "gamma" => VERMILION,
+        "euler" => BLUE,
+        "quaternion" => GREEN,
+        _ => BLACK,
+    };
+    let (marker, dashed) = match method {
+        "dopri5" => (Marker::Triangle, false),
+        "rk4" => (Marker::Ring, true),
+        _ => (Marker::Disc, false),
+    };
+    let samples: Vec<&Sample> = sweep.series(problem, subject).collect();
+    let points = samples.iter().filter_map(|sample| Some((sample.err_attitude_rad?, work(sample)?))).collect();
+    // A failed run has no error: it is drawn over the finest one.
+    let failures = samples.iter().filter(|sample| sample.failure.is_some()).map(|_| ERRORS.end).collect();
+    Series { label: subject.to_owned(), colour, width: LINE_WIDTH, dashed, marker, points, failures }
+}
+
+/// The integrators' runs that none beats in both error and work, by falling error.
+fn front(sweep: &Sweep, problem: &str, work: Work) -> Series {
+    let mut runs: Vec<(f64, f64)> = sweep
+        .samples
+        .iter()
+        .filter(|sample| sample.problem == problem && sample.method.is_some())
+        .filter_map(|sample| Some((sample.err_attitude_rad?, work(sample)?)))
+        .collect();
+    runs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for run in runs {
+        if points.last().is_none_or(|best| run.0 < best.0) {
+            points.push(run);
+        }
+    }
+    Series {
+        label: String::new(),
+        colour: FRONT,
+        width: 16,
+        dashed: false,
+        marker: Marker::None,
+        points,
+        failures: Vec::new(),
+    }
+}
