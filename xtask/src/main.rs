@@ -10,13 +10,16 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--format text|json|junit]
-      run the verification suite; writes report.json, junit.xml and charts to target/verify";
+  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--format text|json|junit]
+      run the verification suite; writes report.json, junit.xml and charts to target/verify
+  history
+      draw the accuracy of the committed records over time";
 
 fn main() -> ExitCode {
     let mut args = env::args().skip(1);
     match args.next().as_deref() {
         Some("verify") => verify(args),
+        Some("history") => verify(std::iter::once("--history".to_owned()).chain(args)),
         Some("help" | "--help" | "-h") => {
             println!("{USAGE}");
             ExitCode::SUCCESS

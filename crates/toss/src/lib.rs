@@ -20,7 +20,7 @@ pub mod trace;
 
 pub use dynamics::*;
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-pub use kinematics_quat::QuaternionSolver;
+pub use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 pub use registry::{SOLVERS, named_solver};
 pub use trace::{TracePoint, trace};
 

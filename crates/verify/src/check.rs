@@ -48,7 +48,8 @@ impl Basis {
 }
 
 /// How much is tried.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Effort {
     /// Within a minute on two cores.
     Quick,
@@ -59,6 +60,15 @@ pub enum Effort {
 }
 
 impl Effort {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Standard => "standard",
+            Self::Deep => "deep",
+        }
+    }
+
     /// Number of random launches.
     pub fn launches(self) -> u64 {
         match self {

@@ -1,6 +1,7 @@
 //! Runs the verification suite; `cargo xtask verify` starts it.
 //!
-//! Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 4 could not run.
+//! Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
+//! within bounds; 4 could not run.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,8 +13,10 @@ use toss::SOLVERS;
 use verify::bounds::Bounds;
 use verify::case::Case;
 use verify::judge::unused_bounds;
-use verify::report::charts::{Chart, charts};
-use verify::report::{Report, junit, runs, table, write_file};
+use verify::ledger::{Direction, Ledger};
+use verify::record::{self, Host};
+use verify::report::charts::{self, Chart};
+use verify::report::{self, Report, junit, moves, runs, table, write_file};
 use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge};
 
 /// Runs the checks and writes report.json and junit.xml.
@@ -35,6 +38,12 @@ struct Args {
     /// Fly one toss, given as the hex floats of a worst input, by every solver, method and formulation
     #[arg(long, value_name = "INPUT", value_parser = hex_case, conflicts_with_all = ["quick", "deep", "only", "format"])]
     replay: Option<Case>,
+    /// Take what is better or new into the baseline, and write a dated record; what is worse is not taken
+    #[arg(long, conflicts_with_all = ["only", "replay"])]
+    bless: bool,
+    /// Draw the accuracy of the committed records
+    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
+    history: bool,
     /// What goes to standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -69,8 +78,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     match run(&args) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
+        Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("error: {error:#}");
             ExitCode::from(4)
@@ -82,33 +90,65 @@ fn listing() -> String {
     CHECKS.iter().map(|check| format!("{:<36} [{}] {}\n", check.id, check.basis.name(), check.claim)).collect()
 }
 
-fn run(args: &Args) -> anyhow::Result<bool> {
+/// The exit code.
+fn run(args: &Args) -> anyhow::Result<u8> {
     if let Some(case) = &args.replay {
         print!("{}", runs::text(&atlas::replay(SOLVERS, case)?));
-        return Ok(true);
+        return Ok(0);
     }
-    let (effort, effort_name) = match (args.quick, args.deep) {
-        (true, _) => (Effort::Quick, "quick"),
-        (_, true) => (Effort::Deep, "deep"),
-        _ => (Effort::Standard, "standard"),
+    if args.history {
+        return history(args);
+    }
+    let effort = match (args.quick, args.deep) {
+        (true, _) => Effort::Quick,
+        (_, true) => Effort::Deep,
+        _ => Effort::Standard,
     };
     let bounds = Bounds::read(&args.validation.join("bounds.toml"))?;
     let context = Context::new(SOLVERS, effort, &args.validation)?;
     let rows = measure(args, &context, &bounds)?;
     ensure!(!rows.is_empty(), "no check measured anything");
-    let report = Report::new(effort_name, &rows, context.records());
+    let baseline_path = args.validation.join("baseline").join(format!("{}.csv", effort.name()));
+    let (baseline, found) = (Ledger::read(&baseline_path)?, Ledger::of(&rows, context.records().sweep));
+    let moves = baseline.moves(&found, args.only.is_none());
+    let report = Report::new(effort, &rows, &moves, context.records());
     let (json, junit) = (report.json()?, junit::xml(&rows)?);
     write_file(&args.out.join("report.json"), &json)?;
     write_file(&args.out.join("junit.xml"), &junit)?;
-    for Chart { file, svg } in charts(&context.records())? {
+    for Chart { file, svg } in charts::charts(&context.records())? {
         write_file(&args.out.join(file), &svg)?;
     }
     match args.format {
-        Format::Text => println!("{}\nreport: {}", table::text(&rows), args.out.join("report.json").display()),
+        Format::Text => {
+            println!(
+                "{}{}\nreport: {}",
+                table::text(&rows),
+                moves::text(&moves),
+                args.out.join("report.json").display()
+            );
+        }
         Format::Json => println!("{json}"),
         Format::Junit => println!("{junit}"),
     }
-    Ok(report.passed)
+    if !report.passed {
+        return Ok(1);
+    }
+    if args.bless {
+        write_file(&baseline_path, &baseline.ratcheted(&found).csv()?)?;
+        if let Some(sweep) = context.records().sweep.filter(|_| effort == Effort::Standard) {
+            record::write(&args.validation.join("record"), &Host::here(), &found, sweep)?;
+        }
+    }
+    Ok(if moves.iter().any(|moved| moved.direction == Direction::Worse) { 3 } else { 0 })
+}
+
+fn history(args: &Args) -> anyhow::Result<u8> {
+    let records = record::read(&args.validation.join("record"))?;
+    ensure!(!records.is_empty(), "there are no records yet; `cargo xtask verify --bless` writes one");
+    let path = args.out.join("history.svg");
+    write_file(&path, &charts::history(&records)?)?;
+    println!("{}\nchart: {}", report::history::text(&records), path.display());
+    Ok(0)
 }
 
 fn measure(args: &Args, context: &Context, bounds: &Bounds) -> anyhow::Result<Vec<Row>> {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Space, random_tosses};
-use toss::{Coin, InputError, SolveError, State, Toss};
+use toss::{Coin, InputError, Propagation, SolveError, Toss};
 
 use crate::case::Case;
 use crate::reference::Reference;
@@ -21,7 +21,7 @@ pub struct Survey {
     /// Their exact landings.
     pub references: Vec<Reference>,
     /// For each subject, in their order: the landing of each launch.
-    pub landings: Vec<Vec<Result<State, SolveError>>>,
+    pub landings: Vec<Vec<Result<Propagation, SolveError>>>,
 }
 
 impl Survey {
@@ -32,9 +32,7 @@ impl Survey {
     pub fn new(subjects: &[Subject], launches: u64) -> Result<Self, InputError> {
         let cases = launches_of_the_survey(launches)?;
         let references = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();
-        let fly = |subject: &Subject| {
-            cases.par_iter().map(|case| subject.solver.propagate(&case.toss).map(|landing| landing.state)).collect()
-        };
+        let fly = |subject: &Subject| cases.par_iter().map(|case| subject.solver.propagate(&case.toss)).collect();
         let landings = subjects.iter().map(fly).collect();
         Ok(Self { cases, references, landings })
     }

@@ -5,7 +5,7 @@
 //! by two ways through the attitude; S as a vector is the stronger check.
 
 use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
-use toss::{State, Toss, Vector3};
+use toss::{Propagation, SolveError, State, Toss, Vector3};
 
 use crate::check::{Basis, Check, Context, Measurement};
 use crate::subject::Subject;
@@ -77,13 +77,32 @@ pub(super) const MOMENTUM_VECTOR: Check = Check {
     },
 };
 
+pub(super) const PROJECTION: Check = Check {
+    id: "invariant-projection",
+    claim: "cos θ of a landing is that of its attitude, which has unit norm",
+    basis: Basis::Invariant,
+    unit: "1",
+    measure: |context| {
+        let survey = context.survey()?;
+        let off = |landing: &Propagation| {
+            let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
+            (norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs())
+        };
+        let row = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
+            let deviations = landings.iter().map(|landing| landing.as_ref().map(off).map_err(Clone::clone));
+            Measurement::largest(subject, deviations, |index| survey.cases[index])
+        };
+        Ok(context.subjects.iter().zip(&survey.landings).map(row).collect())
+    },
+};
+
 /// The largest `drift` of each subject between launch and landing of the random launches.
 fn drift(context: &Context, drift: fn(&Toss, &State, &State) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.survey()?;
     let measure = |(index, subject): (usize, &Subject)| {
         let deviations = survey.cases.iter().zip(&survey.landings[index]).map(|(case, landing)| {
             let launch = State { attitude: case.toss.launch.attitude(), rate: case.toss.launch.rate() };
-            landing.as_ref().map(|landing| drift(&case.toss, &launch, landing)).map_err(Clone::clone)
+            landing.as_ref().map(|landing| drift(&case.toss, &launch, &landing.state)).map_err(Clone::clone)
         });
         Measurement::largest(subject, deviations, |index| survey.cases[index])
     };

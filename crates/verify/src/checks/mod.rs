@@ -38,6 +38,7 @@ pub const CHECKS: &[Check] = &[
     invariants::NORMAL_MOMENTUM_BODY,
     invariants::NORMAL_MOMENTUM_TRANSPORT,
     invariants::MOMENTUM_VECTOR,
+    invariants::PROJECTION,
     atlas::ANSWERS,
     atlas::TILT_WORK,
     atlas::RETURN_WORK,

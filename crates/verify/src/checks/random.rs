@@ -1,6 +1,6 @@
 //! Random launches: every subject against the exact motion in 256 bits, and the solvers against each other.
 
-use toss::{SolveError, State};
+use toss::{Propagation, SolveError};
 
 use crate::check::{Basis, Check, Context, Measurement};
 use crate::reference::Reference;
@@ -12,9 +12,7 @@ pub(super) const COS_TILT: Check = Check {
     claim: "cos θ at landing is the exact motion's, from random launches",
     basis: Basis::ClosedForm,
     unit: "1",
-    measure: |context| {
-        against_reference(context, |reference, state| reference.cos_tilt_error(state.attitude.cos_tilt()))
-    },
+    measure: |context| against_reference(context, |reference, landing| reference.cos_tilt_error(landing.cos_tilt)),
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -22,7 +20,9 @@ pub(super) const ATTITUDE: Check = Check {
     claim: "the attitude at landing is the exact motion's, from random launches",
     basis: Basis::ClosedForm,
     unit: "rad",
-    measure: |context| against_reference(context, |reference, state| reference.attitude_error(&state.attitude)),
+    measure: |context| {
+        against_reference(context, |reference, landing| reference.attitude_error(&landing.state.attitude))
+    },
 };
 
 pub(super) const CROSS_METHOD: Check = Check {
@@ -33,13 +33,15 @@ pub(super) const CROSS_METHOD: Check = Check {
     measure: cross_method,
 };
 
-fn against_reference(context: &Context, error: fn(&Reference, &State) -> f64) -> anyhow::Result<Vec<Measurement>> {
+fn against_reference(
+    context: &Context,
+    error: fn(&Reference, &Propagation) -> f64,
+) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.survey()?;
-    let measure = |(subject, landings): (&Subject, &Vec<Result<State, SolveError>>)| {
-        let deviations = landings
-            .iter()
-            .zip(&survey.references)
-            .map(|(landing, reference)| landing.as_ref().map(|state| error(reference, state)).map_err(Clone::clone));
+    let measure = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
+        let deviations = landings.iter().zip(&survey.references).map(|(landing, reference)| {
+            landing.as_ref().map(|landing| error(reference, landing)).map_err(Clone::clone)
+        });
         Measurement::largest(subject, deviations, |index| survey.cases[index])
     };
     Ok(context.subjects.iter().zip(&survey.landings).map(measure).collect())
@@ -61,7 +63,7 @@ fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): (usize, &Subject)) -> Measurement {
     let deviations = survey.landings[index].iter().zip(&survey.landings[other_index]).map(|pair| match pair {
-        (Ok(a), Ok(b)) => Ok(a.attitude.angle_to(&b.attitude)),
+        (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
     });
     let measurement = Measurement::largest(other, deviations, |index| survey.cases[index]);

@@ -1,7 +1,9 @@
 //! Reports render rows; they measure and judge nothing.
 
 pub mod charts;
+pub mod history;
 pub mod junit;
+pub mod moves;
 pub mod runs;
 pub mod table;
 
@@ -11,8 +13,9 @@ use std::path::Path;
 use anyhow::Context;
 use serde::Serialize;
 
-use crate::check::Records;
+use crate::check::{Effort, Records};
 use crate::judge::Row;
+use crate::ledger::Move;
 
 /// Everything that a run found.
 #[derive(Debug, Serialize)]
@@ -21,18 +24,20 @@ pub struct Report<'a> {
     pub schema: u32,
     /// Whether every row passes.
     pub passed: bool,
-    /// `quick`, `standard` or `deep`.
-    pub effort: &'a str,
+    /// How much was tried.
+    pub effort: Effort,
     /// The rows.
     pub rows: &'a [Row],
+    /// What moved against the baseline.
+    pub moves: &'a [Move],
     /// The runs behind some of the rows.
     pub records: Records<'a>,
 }
 
 impl<'a> Report<'a> {
     /// The report of `rows`.
-    pub fn new(effort: &'a str, rows: &'a [Row], records: Records<'a>) -> Self {
-        Self { schema: 2, passed: rows.iter().all(|row| row.status.passes()), effort, rows, records }
+    pub fn new(effort: Effort, rows: &'a [Row], moves: &'a [Move], records: Records<'a>) -> Self {
+        Self { schema: 2, passed: rows.iter().all(|row| row.status.passes()), effort, rows, moves, records }
     }
 
     /// As JSON.

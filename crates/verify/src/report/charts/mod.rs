@@ -2,6 +2,7 @@
 
 mod atlas_lines;
 mod atlas_matrix;
+mod history;
 mod long_flights;
 mod order;
 mod work_precision;
@@ -9,6 +10,7 @@ mod work_precision;
 use chart::ChartError;
 
 use crate::check::Records;
+use crate::record::Record;
 
 /// A chart and the name of its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +19,14 @@ pub struct Chart {
     pub file: String,
     /// The SVG.
     pub svg: String,
+}
+
+/// The errors of committed records over time, as SVG; `records` are not empty.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn history(records: &[Record]) -> Result<String, ChartError> {
+    history::history(records)
 }
 
 /// The charts of the records that there are.

@@ -1,7 +1,6 @@
 //! Error against step, with the orders that the lines show.
 
 use chart::{Axis, BLUE, ChartError, EndLabel, GREEN, LINE_WIDTH, Marker, Series, VERMILION, end_labels, log_log, svg};
-use plotters::prelude::*;
 
 use crate::convergence::Convergence;
 
