@@ -2,9 +2,11 @@
 
 mod labels;
 mod log_log;
+mod running;
 
 pub use labels::{EndLabel, end_labels};
 pub use log_log::{Axis, LINE_WIDTH, Marker, Series, legend, log_log};
+pub use running::running;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

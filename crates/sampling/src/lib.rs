@@ -36,6 +36,6 @@ pub use long_flight::{long_flight_probability, rate_ratio};
 pub use map::{Map, Node, map};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;
-pub use series::{ESTIMATORS, Estimator, rms_error, running_grid, running_random};
+pub use series::{ESTIMATORS, Estimator, RunningStep, rms_error, running_shares};
 pub use space::{AxisOrTie, Space};
 pub use space_file::{DescribedSpace, SpaceFileError, named_space, named_spaces};

@@ -2,11 +2,13 @@
 
 use dynamics::Solver;
 use dynamics::error::require;
+use serde::Serialize;
 
 use crate::counts::{Counts, count};
-use crate::estimate::estimate;
+use crate::estimate::{LEVEL, estimate};
 use crate::fold::{Progress, SampleError};
 use crate::grid::Grid;
+use crate::interval::wilson;
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::space::{Cube, Space};
@@ -14,12 +16,63 @@ use crate::space::{Cube, Space};
 /// The outcomes of the first launches of a sequence.
 pub type Running = Vec<Counts>;
 
+/// The shares of heads among the first launches of both methods.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RunningStep {
+    /// Launches so far.
+    pub launches: u64,
+    /// Of the grid in its order (A).
+    pub grid: f64,
+    /// At random (B).
+    pub random: f64,
+    /// Lower end of B's interval of 95 %.
+    pub random_lo: f64,
+    /// Upper end of it.
+    pub random_hi: f64,
+}
+
+impl RunningStep {
+    /// Its values in their order.
+    pub fn columns(&self) -> [f64; 5] {
+        #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
+        let launches = self.launches as f64;
+        [launches, self.grid, self.random, self.random_lo, self.random_hi]
+    }
+}
+
+/// The running probability of the whole grid of `space` (A) beside that of as many random launches (B), in `steps` equal
+/// steps.
+///
+/// # Errors
+/// [`SampleError`].
+pub fn running_shares(
+    space: &Space,
+    steps: u64,
+    seed: u64,
+    solver: &dyn Solver,
+    progress: Progress<'_>,
+) -> Result<Vec<RunningStep>, SampleError> {
+    let grid = running_grid(space, steps, solver, progress)?;
+    let random = running_random(space, space.grid_points()?, seed, steps, solver, progress)?;
+    let step = |(grid, random): (&Counts, &Counts)| {
+        let interval = wilson(random.heads, random.points(), LEVEL);
+        RunningStep {
+            launches: grid.points(),
+            grid: grid.probability(),
+            random: random.probability(),
+            random_lo: interval.lo,
+            random_hi: interval.hi,
+        }
+    };
+    Ok(grid.iter().zip(&random).map(step).collect())
+}
+
 /// The running counts of method A, whose launches come in the grid's order: the speed fastest, ωx slowest of the four.
 /// `steps` equal steps, the last of them the whole grid.
 ///
 /// # Errors
 /// [`SampleError`].
-pub fn running_grid(
+fn running_grid(
     space: &Space,
     steps: u64,
     solver: &dyn Solver,
@@ -34,7 +87,7 @@ pub fn running_grid(
 ///
 /// # Errors
 /// [`SampleError`].
-pub fn running_random(
+fn running_random(
     space: &Space,
     points: u64,
     seed: u64,

@@ -15,6 +15,7 @@ pub mod bounds;
 pub mod case;
 pub mod check;
 pub mod checks;
+pub mod context;
 pub mod convergence;
 pub mod judge;
 pub mod ledger;
@@ -30,6 +31,7 @@ pub mod subject;
 pub mod survey;
 pub mod work_precision;
 
-pub use check::{Basis, Check, Context, Effort, Measurement};
+pub use check::{Basis, Check, Effort, Measurement};
 pub use checks::CHECKS;
+pub use context::{Context, Records};
 pub use judge::{Row, Status, judge};

@@ -1,11 +1,9 @@
 //! Charts as SVG, a file each.
 
-mod convergence;
 mod errors;
 mod flight;
 mod map;
 
-pub(crate) use convergence::{Step, convergence};
 pub(crate) use errors::{ErrorLine, Reference, errors};
 pub(crate) use flight::flight;
 pub(crate) use map::map;

@@ -2,11 +2,9 @@
 
 use std::path::PathBuf;
 
-use sampling::estimate::LEVEL;
-use sampling::{SampleError, running_grid, running_random, wilson};
+use sampling::{RunningStep, running_shares};
 
 use crate::args::SolverArgs;
-use crate::chart::{self, Step};
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
@@ -42,26 +40,15 @@ impl Args {
         let solver = self.solver.solver(&self.scheme)?;
         let points = space.grid_points()?;
         let bar = progress_bar(2 * points, "launches");
-        let progress = |more| bar.inc(more);
-        let counted: Result<_, SampleError> = self.threads.pool()?.install(|| {
-            let grid = running_grid(&space, self.steps, solver.as_ref(), &progress)?;
-            Ok((grid, running_random(&space, points, self.seed, self.steps, solver.as_ref(), &progress)?))
-        });
+        let steps = self
+            .threads
+            .pool()?
+            .install(|| running_shares(&space, self.steps, self.seed, solver.as_ref(), &|more| bar.inc(more)));
         bar.finish_and_clear();
-        let (grid, random) = counted?;
-        let step = |(grid, random): (&sampling::Counts, &sampling::Counts)| {
-            let interval = wilson(random.heads, random.points(), LEVEL);
-            Step {
-                launches: grid.points(),
-                grid: grid.probability(),
-                random: random.probability(),
-                random_lo: interval.lo,
-                random_hi: interval.hi,
-            }
-        };
-        let steps: Vec<Step> = grid.iter().zip(&random).map(step).collect();
+        let steps = steps?;
         if let Some(path) = &self.svg {
-            output::write_file(path, &chart::convergence(&steps)?)?;
+            let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
+            output::write_file(path, &chart::running(&columns)?)?;
         }
         Ok(output::data(self.format, &steps))
     }

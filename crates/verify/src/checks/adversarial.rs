@@ -1,6 +1,7 @@
 //! A search for answers that are wrong without an error, by launches that an adversary would pick.
 
-use crate::check::{Basis, Check, Context, Measurement, Worst};
+use crate::check::{Basis, Check, Measurement, Worst};
+use crate::context::Context;
 use crate::search::Findings;
 
 pub(super) const SILENTLY_WRONG: Check = Check {

@@ -7,7 +7,8 @@ use toss::{Attitude, ExactMotion, Formulation, Launch, Method, Scheme, SolveErro
 
 use crate::atlas::hazards::HAZARDS;
 use crate::case::Case;
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::subject::Subject;
 
 pub(super) const ANSWERS: Check = Check {

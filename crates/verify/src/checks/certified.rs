@@ -12,7 +12,8 @@ use toss::{
 };
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Context, Effort, Measurement};
+use crate::check::{Basis, Check, Effort, Measurement};
+use crate::context::Context;
 use crate::reference::Reference;
 use crate::subject::Subject;
 

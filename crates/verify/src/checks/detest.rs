@@ -4,7 +4,8 @@ use nalgebra::SVector;
 use toss::integrate::{OdeSystem, integrate};
 use toss::{Method, Scheme};
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 
 pub(super) const STATE: Check = Check {
     id: "detest-b5",

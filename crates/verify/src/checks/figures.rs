@@ -4,7 +4,8 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Coordinate, Found, Plan, Rest, Scrambled, Space, estimate, long_flight_probability};
 use toss::{Coin, ExactSolver};
 
-use crate::check::{Basis, Check, Context, Effort, Measurement};
+use crate::check::{Basis, Check, Effort, Measurement};
+use crate::context::Context;
 
 pub(super) const SHARES: Check = Check {
     id: "exact-speed-share",
@@ -40,7 +41,7 @@ pub(super) const FIGURES: Check = Check {
 
 fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
-    for reference in &context.probabilities.shares {
+    for reference in &context.reference_probabilities.shares {
         let found = estimate(&reference.space, Plan::ExactSpeed(Rest::Grid), &ExactSolver, &|_| {})?;
         let Found::Shares { rounding_error } = found.found else { anyhow::bail!("exact-speed has no counts") };
         let measured = measure((found.probability - reference.probability).abs(), rounding_error);
@@ -48,7 +49,7 @@ fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> 
             worst = (measured, reference.name.clone());
         }
     }
-    let cases = context.probabilities.shares.len() as u64;
+    let cases = context.reference_probabilities.shares.len() as u64;
     Ok(vec![Measurement::figure(check, "exact", worst.0, cases, worst.1)])
 }
 
@@ -73,7 +74,7 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     ]
     .into_iter()
     .map(|(name, k)| {
-        let (found, figure) = (mean(k), context.probabilities.figure(name)?);
+        let (found, figure) = (mean(k), context.reference_probabilities.figure(name)?);
         let input = format!("{found:.9} for {figure:.9}");
         Ok(Measurement::figure(ISOTROPIC.id, name, (found - figure).abs(), u64::from(PARTS), input))
     })
@@ -144,7 +145,7 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         .map(|Figure { name, coin, axes }| {
             let texts: Vec<_> = axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
             let found = estimate(&Space::parse(coin, &texts)?, plan, &ExactSolver, &|_| {})?;
-            let figure = context.probabilities.figure(name)?;
+            let figure = context.reference_probabilities.figure(name)?;
             let interval = found.interval.map_or(String::new(), |i| format!(", {:.8} to {:.8}", i.lo, i.hi));
             let input = format!("{:.8} for {figure:.8}{interval}", found.probability);
             Ok(Measurement::figure(FIGURES.id, name, (found.probability - figure).abs(), points, input))

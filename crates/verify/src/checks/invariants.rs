@@ -7,7 +7,8 @@
 use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use toss::{Propagation, SolveError, State, Toss, Vector3};
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::subject::Subject;
 
 pub(super) const MOMENTUM: Check = Check {

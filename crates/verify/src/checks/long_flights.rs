@@ -1,6 +1,7 @@
 //! Flights of up to 10⁴ s: the error keeps within what a solver answers for, and S stays where it is.
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::long_flights::Drift;
 
 pub(super) const ERROR: Check = Check {

@@ -4,7 +4,8 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{ESTIMATORS, Estimate, Found, Plan, Rest, Scrambled, Space, clopper_pearson, estimate, rms_error};
 use toss::{Coin, ExactSolver};
 
-use crate::check::{Basis, Check, Context, Effort, Measurement};
+use crate::check::{Basis, Check, Effort, Measurement};
+use crate::context::Context;
 
 pub(super) const ERRORS: Check = Check {
     id: "sampling-errors",
@@ -37,7 +38,7 @@ fn four_coordinates() -> anyhow::Result<Space> {
 }
 
 fn probability(context: &Context) -> anyhow::Result<f64> {
-    context.probabilities.figure("box of four coordinates")
+    context.reference_probabilities.figure("box of four coordinates")
 }
 
 fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -2,7 +2,8 @@
 
 use toss::{SolveError, Solver};
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::reference_data::ReferenceFlight;
 use crate::subject::Subject;
 

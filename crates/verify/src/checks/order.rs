@@ -1,6 +1,7 @@
 //! Order of convergence.
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::convergence::Convergence;
 
 pub(super) const ORDER: Check = Check {

@@ -1,13 +1,15 @@
 //! Probabilities: the long-flight limit, and the tables of the named spaces by every method.
 
+use anyhow::Context as _;
 use sampling::{
-    Counts, Estimate, Found, Plan, Rest, Scrambled, Space, clopper_pearson, estimate, long_flight_probability,
-    named_space, named_spaces,
+    Counts, Estimate, Found, Plan, Rest, RunningStep, Scrambled, Space, clopper_pearson, estimate,
+    long_flight_probability, named_space, named_spaces, running_shares,
 };
 use serde::Serialize;
 use toss::{Coin, ExactMotion, ExactSolver, Launch, Settings, Solver, TimeOfFlight, Toss, Vector3};
 
-use crate::check::{Basis, Check, Context, Effort, Measurement};
+use crate::check::{Basis, Check, Effort, Measurement};
+use crate::context::Context;
 
 pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
@@ -112,28 +114,69 @@ pub fn tables() -> anyhow::Result<Vec<(TableLine, Estimate)>> {
     Ok(lines)
 }
 
-fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let measure = |(line, found): (TableLine, Estimate)| {
-        let expected = match line.space {
+/// P(heads) of a space by a method, with its interval.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Probability {
+    /// Name of the space.
+    pub space: &'static str,
+    /// How it was sampled.
+    pub method: &'static str,
+    /// Launches.
+    pub points: u64,
+    /// P(heads).
+    pub probability: f64,
+    /// Ends of the interval, if the method has one.
+    pub interval: Option<[f64; 2]>,
+    /// What the interval is.
+    pub interval_kind: String,
+}
+
+/// The tables, for the reports.
+///
+/// # Errors
+/// As [`tables`].
+pub fn probabilities() -> anyhow::Result<Vec<Probability>> {
+    let line = |(line, found): (TableLine, Estimate)| Probability {
+        space: line.space,
+        method: line.method,
+        points: found.points,
+        probability: found.probability,
+        interval: found.interval.map(|interval| [interval.lo, interval.hi]),
+        interval_kind: found.interval_kind.to_string(),
+    };
+    Ok(tables()?.into_iter().map(line).collect())
+}
+
+/// The running shares of Fig. 4's space, for its check and its chart.
+///
+/// # Errors
+/// Never for the named space.
+pub fn fig4() -> anyhow::Result<Vec<RunningStep>> {
+    const STEPS: u64 = 250;
+    Ok(running_shares(&named_space("paper-fig4")?, STEPS, SEED, &ExactSolver, &|_| {})?)
+}
+
+fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |found: &Probability| {
+        let expected = match found.space {
             "cheated" => 1.0,
             "tails" => 0.0,
             _ => 0.66,
         };
-        let subject = format!("{}/{}", line.space, line.method);
+        let subject = format!("{}/{}", found.space, found.method);
         let input = format!("P = {}, {}", found.probability, found.interval_kind);
         Measurement::figure(TABLES.id, &subject, (found.probability - expected).abs(), found.points, input)
     };
-    Ok(tables()?.into_iter().map(measure).collect())
+    Ok(context.probabilities()?.iter().map(measure).collect())
 }
 
-fn grid_in_random(_: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let space = named_space("paper-fig4")?;
-    let grid = counts(&space, Plan::Grid, &ExactSolver)?.probability();
-    let random = counts(&space, Plan::Random { points: RANDOM_LAUNCHES, seed: SEED }, &ExactSolver)?;
-    let interval = clopper_pearson(random.heads, random.points(), 1.0 - 1e-6);
+fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("a series has its end")?;
+    let heads = (random * launches as f64).round() as u64;
+    let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
     let input = format!("A: {grid}; B: {:.6} to {:.6}", interval.lo, interval.hi);
-    Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, random.points(), input)])
+    Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, launches, input)])
 }
 
 fn counts(space: &Space, plan: Plan, solver: &dyn Solver) -> anyhow::Result<Counts> {

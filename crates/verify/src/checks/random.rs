@@ -2,7 +2,8 @@
 
 use toss::{Propagation, SolveError};
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::reference::Reference;
 use crate::subject::Subject;
 use crate::survey::Survey;

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use toss::{ExactSolver, Formulation, Launch, Sensitivity, SolveError, TimeOfFlight, Toss};
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::reference::Reference;
 use crate::subject::Subject;
 

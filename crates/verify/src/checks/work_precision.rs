@@ -1,6 +1,7 @@
 //! What a tolerance or a step is worth: errors over the whole range of both.
 
-use crate::check::{Basis, Check, Context, Measurement};
+use crate::check::{Basis, Check, Measurement};
+use crate::context::Context;
 use crate::work_precision::Sample;
 
 pub(super) const PROMISE: Check = Check {

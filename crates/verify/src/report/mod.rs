@@ -13,7 +13,8 @@ use std::path::Path;
 use anyhow::Context;
 use serde::Serialize;
 
-use crate::check::{Effort, Records};
+use crate::check::Effort;
+use crate::context::Records;
 use crate::judge::Row;
 use crate::ledger::Move;
 

@@ -8,8 +8,9 @@ mod order;
 mod work_precision;
 
 use chart::ChartError;
+use sampling::RunningStep;
 
-use crate::check::Records;
+use crate::context::Records;
 use crate::record::Record;
 
 /// A chart and the name of its file.
@@ -42,6 +43,10 @@ pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
     }
     if let Some(flights) = records.long_flights {
         charts.push(Chart { file: "long-flights.svg".to_owned(), svg: long_flights::long_flights(flights)? });
+    }
+    if let Some(steps) = records.fig4 {
+        let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
+        charts.push(Chart { file: "fig4.svg".to_owned(), svg: chart::running(&columns)? });
     }
     if let Some(all) = records.convergence {
         charts.push(Chart { file: "order.svg".to_owned(), svg: order::order(all)? });
