@@ -11,7 +11,7 @@ usage: cargo xtask TASK
 
 tasks:
   verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--format text|json|junit]
-      run the verification suite; writes report.json, junit.xml and charts to target/verify
+      run the verification suite; writes report.html, report.json, junit.xml and charts to target/verify
   history
       draw the accuracy of the committed records over time";
 

@@ -43,7 +43,8 @@ pub fn running(steps: &[[f64; 5]]) -> Result<String, ChartError> {
         chart.draw_series(LineSeries::new(column(1), GRID.stroke_width(4)))?;
         chart.draw_series(LineSeries::new(column(2), RANDOM.stroke_width(4)))?;
         let at = |p: f64| chart.plotting_area().map_coordinate(&(launches, p)).1;
-        let label = |p: f64, text: String, colour: RGBColor| EndLabel { y: at(p), text, colour };
+        // Above the end of the line, where the axis has no number.
+        let label = |p: f64, text: String, colour: RGBColor| EndLabel { y: at(p) - 60, text, colour };
         let labels = vec![
             label(last_grid, format!("A, grid: {last_grid:.4}"), GRID),
             label(last_random, format!("B, random: {last_random:.4}"), RANDOM),

@@ -16,7 +16,7 @@ use verify::judge::unused_bounds;
 use verify::ledger::{Direction, Ledger};
 use verify::record::{self, Host};
 use verify::report::charts::{self, Chart};
-use verify::report::{self, Report, junit, moves, runs, table, write_file};
+use verify::report::{self, Report, html, junit, moves, runs, table, write_file};
 use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge};
 
 /// Runs the checks and writes report.json and junit.xml.
@@ -99,11 +99,7 @@ fn run(args: &Args) -> anyhow::Result<u8> {
     if args.history {
         return history(args);
     }
-    let effort = match (args.quick, args.deep) {
-        (true, _) => Effort::Quick,
-        (_, true) => Effort::Deep,
-        _ => Effort::Standard,
-    };
+    let effort = effort(args);
     let bounds = Bounds::read(&args.validation.join("bounds.toml"))?;
     let context = Context::new(SOLVERS, effort, &args.validation)?;
     let rows = measure(args, &context, &bounds)?;
@@ -112,24 +108,7 @@ fn run(args: &Args) -> anyhow::Result<u8> {
     let (baseline, found) = (Ledger::read(&baseline_path)?, Ledger::of(&rows, context.records().sweep));
     let moves = baseline.moves(&found, args.only.is_none());
     let report = Report::new(effort, &rows, &moves, context.records());
-    let (json, junit) = (report.json()?, junit::xml(&rows)?);
-    write_file(&args.out.join("report.json"), &json)?;
-    write_file(&args.out.join("junit.xml"), &junit)?;
-    for Chart { file, svg } in charts::charts(&context.records())? {
-        write_file(&args.out.join(file), &svg)?;
-    }
-    match args.format {
-        Format::Text => {
-            println!(
-                "{}{}\nreport: {}",
-                table::text(&rows),
-                moves::text(&moves),
-                args.out.join("report.json").display()
-            );
-        }
-        Format::Json => println!("{json}"),
-        Format::Junit => println!("{junit}"),
-    }
+    write_reports(&report, args)?;
     if !report.passed {
         return Ok(1);
     }
@@ -140,6 +119,35 @@ fn run(args: &Args) -> anyhow::Result<u8> {
         }
     }
     Ok(if moves.iter().any(|moved| moved.direction == Direction::Worse) { 3 } else { 0 })
+}
+
+fn effort(args: &Args) -> Effort {
+    match (args.quick, args.deep) {
+        (true, _) => Effort::Quick,
+        (_, true) => Effort::Deep,
+        _ => Effort::Standard,
+    }
+}
+
+/// Into files and, as the arguments ask, to standard output.
+fn write_reports(report: &Report<'_>, args: &Args) -> anyhow::Result<()> {
+    let (json, junit) = (report.json()?, junit::xml(report.rows)?);
+    let charts = charts::charts(&report.records)?;
+    let page = args.out.join("report.html");
+    write_file(&args.out.join("report.json"), &json)?;
+    write_file(&args.out.join("junit.xml"), &junit)?;
+    write_file(&page, &html::page(report, &charts))?;
+    for Chart { file, svg, .. } in &charts {
+        write_file(&args.out.join(file), svg)?;
+    }
+    match args.format {
+        Format::Text => {
+            println!("{}{}\nreport: {}", table::text(report.rows), moves::text(report.moves), page.display());
+        }
+        Format::Json => println!("{json}"),
+        Format::Junit => println!("{junit}"),
+    }
+    Ok(())
 }
 
 fn history(args: &Args) -> anyhow::Result<u8> {

@@ -2,6 +2,7 @@
 
 pub mod charts;
 pub mod history;
+pub mod html;
 pub mod junit;
 pub mod moves;
 pub mod runs;

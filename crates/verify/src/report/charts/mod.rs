@@ -20,6 +20,8 @@ pub struct Chart {
     pub file: String,
     /// The SVG.
     pub svg: String,
+    /// What it shows, where that does not follow from its chapter.
+    pub caption: Option<String>,
 }
 
 /// The errors of committed records over time, as SVG; `records` are not empty.
@@ -37,25 +39,32 @@ pub fn history(records: &[Record]) -> Result<String, ChartError> {
 pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
     let mut charts = Vec::new();
     if let Some(atlas) = records.atlas {
-        charts.push(Chart { file: "atlas-matrix.svg".to_owned(), svg: atlas_matrix::matrix(atlas)? });
-        charts.push(Chart { file: "atlas-error.svg".to_owned(), svg: atlas_lines::errors(atlas)? });
-        charts.push(Chart { file: "atlas-work.svg".to_owned(), svg: atlas_lines::work(atlas)? });
+        charts.push(chart("atlas-matrix.svg", atlas_matrix::matrix(atlas)?));
+        charts.push(chart("atlas-error.svg", atlas_lines::errors(atlas)?));
+        charts.push(chart("atlas-work.svg", atlas_lines::work(atlas)?));
     }
     if let Some(flights) = records.long_flights {
-        charts.push(Chart { file: "long-flights.svg".to_owned(), svg: long_flights::long_flights(flights)? });
+        charts.push(chart("long-flights.svg", long_flights::long_flights(flights)?));
     }
     if let Some(steps) = records.fig4 {
         let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
-        charts.push(Chart { file: "fig4.svg".to_owned(), svg: chart::running(&columns)? });
+        charts.push(chart("fig4.svg", chart::running(&columns)?));
     }
     if let Some(all) = records.convergence {
-        charts.push(Chart { file: "order.svg".to_owned(), svg: order::order(all)? });
+        charts.push(chart("order.svg", order::order(all)?));
     }
     if let Some(sweep) = records.sweep {
-        for (problem, _, launches) in &sweep.problems {
-            let svg = work_precision::work_precision(sweep, problem, *launches)?;
-            charts.push(Chart { file: format!("work-precision-{problem}.svg"), svg });
+        for (problem, stresses, launches) in &sweep.problems {
+            charts.push(Chart {
+                file: format!("work-precision-{problem}.svg"),
+                svg: work_precision::work_precision(sweep, problem, *launches)?,
+                caption: Some(format!("{problem}: {stresses}")),
+            });
         }
     }
     Ok(charts)
+}
+
+fn chart(file: &str, svg: String) -> Chart {
+    Chart { file: file.to_owned(), svg, caption: None }
 }
