@@ -19,6 +19,16 @@ fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
         .expect("the program starts")
 }
 
+/// A folder with everything that a run reads, without a baseline or records.
+fn copy_of_validation() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("reference")).expect("a folder");
+    for file in ["reference/motion.toml", "reference/probability.toml", "atlas.toml", "problems.toml", "bounds.toml"] {
+        std::fs::copy(validation().join(file), folder.path().join(file)).expect("a copy");
+    }
+    folder
+}
+
 /// The charts of the records are written beside the reports.
 #[test]
 fn long_flights_are_drawn() {
@@ -57,11 +67,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 
 #[test]
 fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
-    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    std::fs::create_dir(folder.path().join("reference")).unwrap();
-    for file in ["reference/motion.toml", "reference/probability.toml", "atlas.toml", "problems.toml"] {
-        std::fs::copy(validation().join(file), folder.path().join(file)).unwrap();
-    }
+    let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
     let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();
     let tightened = bounds.replacen("exact = ", "exact = 1e-20 #", 1);
     std::fs::write(folder.path().join("bounds.toml"), tightened).unwrap();
@@ -72,6 +78,44 @@ fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
     assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
     let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
     assert!(junit.contains("failures=\"1\""));
+}
+
+#[test]
+fn what_slips_within_its_bound_ends_with_3_and_is_named() {
+    let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
+    let baseline = folder.path().join("baseline");
+    std::fs::create_dir(&baseline).unwrap();
+    // As if the γ-ODE had been twice as accurate, and the quaternion half as much.
+    let lines = [
+        "check,subject,error,calls",
+        "reference-cos-tilt,gamma/dop853,1.5e-12,",
+        "reference-cos-tilt,quaternion/dop853,8e-12,",
+    ];
+    std::fs::write(baseline.join("standard.csv"), lines.join("\n")).unwrap();
+    let output = run(&["--only", CHECK], folder.path(), out.path());
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{table}");
+    assert!(
+        table.contains("WORSE than the baseline: 1\n  reference-cos-tilt / gamma/dop853: error 1.500e-12 → "),
+        "{table}"
+    );
+    assert!(
+        table.contains("better than the baseline; --bless takes it over: 1\n  reference-cos-tilt / quaternion/dop853")
+    );
+    let page = std::fs::read_to_string(out.path().join("report.html")).unwrap();
+    assert!(page.contains("1 values are worse than the accepted baseline") && page.contains("PASS"), "{page}");
+}
+
+#[test]
+fn without_records_there_is_no_history() {
+    let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
+    std::fs::create_dir(folder.path().join("record")).unwrap();
+    let output = run(&["--history"], folder.path(), out.path());
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("--bless"));
+    let output = run(&["--history"], &validation(), out.path());
+    assert_eq!(output.status.code(), Some(0));
+    assert!(out.path().join("history.svg").exists());
 }
 
 #[test]

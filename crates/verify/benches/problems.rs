@@ -1,0 +1,31 @@
+//! The problems of the work-precision record, flown by every solver at its default settings: what `cargo bench` times is
+//! what the charts draw.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use toss::{SOLVERS, Settings};
+use verify::work_precision::problems;
+
+fn solvers(criterion: &mut Criterion) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/problems.toml");
+    for problem in problems::read(&path).expect("the problems") {
+        let mut group = criterion.benchmark_group(&problem.name);
+        group.sample_size(20);
+        for entry in SOLVERS {
+            let solver = (entry.build)(&Settings::default());
+            group.bench_function(entry.name, |bencher| {
+                bencher.iter(|| {
+                    for case in &problem.cases {
+                        let _ = black_box(solver.propagate(black_box(&case.toss)));
+                    }
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, solvers);
+criterion_main!(benches);
