@@ -10,6 +10,7 @@ use anyhow::ensure;
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
+use verify::atlas::conditioning::Conditioning;
 use verify::bounds::Bounds;
 use verify::case::Case;
 use verify::judge::unused_bounds;
@@ -93,7 +94,7 @@ fn listing() -> String {
 /// The exit code.
 fn run(args: &Args) -> anyhow::Result<u8> {
     if let Some(case) = &args.replay {
-        print!("{}", runs::text(&atlas::replay(SOLVERS, case)?));
+        print!("{}", runs::text(&atlas::replay(SOLVERS, case)?, Conditioning::new(&case.toss)?));
         return Ok(0);
     }
     if args.history {

@@ -3,19 +3,19 @@
 //! A contestant is a solver × method × formulation at the settings a user gets without asking. The raw formulations are
 //! there to fail.
 
+pub mod conditioning;
 pub mod expected;
 pub mod hazards;
 
-use anyhow::ensure;
-use faer::Mat;
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::{Formulation, InputError, Method, Scheme, Sensitivity, SolverEntry, Toss};
+use toss::{Formulation, InputError, Method, Scheme, SolverEntry};
 
 use crate::case::Case;
 use crate::reference::Reference;
 use crate::run::{Answer, Run};
 use crate::subject::Subject;
+use conditioning::Conditioning;
 use hazards::{HAZARDS, Hazard};
 
 /// One contestant at one distance from one hazard.
@@ -25,9 +25,8 @@ pub struct Spot {
     pub hazard: &'static str,
     /// The distance from it.
     pub distance: f64,
-    /// The largest turn (rad) of the landed coin by a relative change of the launch; see [`largest_sensitivity`]. Null
-    /// where the phase is too large.
-    pub sensitivity: Option<f64>,
+    /// What a relative change of the launch does to the landing; null where the phase is too large.
+    pub conditioning: Option<Conditioning>,
     /// What the contestant made of it.
     #[serde(flatten)]
     pub run: Run,
@@ -108,28 +107,13 @@ fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
 fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Result<Vec<Spot>> {
     let case: Case = (hazard.case)(distance)?;
     let reference = Reference::new(&case.toss);
-    let sensitivity = largest_sensitivity(&case.toss)?;
+    let conditioning = Conditioning::new(&case.toss)?;
     let spot = |subject: &Subject| Spot {
         hazard: hazard.id,
         distance,
-        sensitivity,
+        conditioning,
         run: Run::new(subject, &case, &reference),
     };
     // One at a time: some stall, and would hold up their neighbours.
     Ok(contestants.par_iter().with_max_len(1).map(spot).collect())
-}
-
-/// The largest singular value of the landing's derivative by relative changes of the launch (rad): columns by ω in units
-/// of |ω|, and by the time of flight in units of itself. Times ε it is what one rounding of the inputs does; an error
-/// that is larger is the method's own. `None` where the phase is too large.
-///
-/// # Errors
-/// If the singular values can't be found, which finite numbers never cause.
-pub fn largest_sensitivity(toss: &Toss) -> anyhow::Result<Option<f64>> {
-    let Ok(Sensitivity { attitude, .. }) = Sensitivity::new(toss) else { return Ok(None) };
-    let (rate, time) = (toss.launch.rate().norm(), toss.launch.flight_time());
-    let scaled = Mat::from_fn(3, 4, |row, column| attitude[(row, column)] * if column == 3 { time } else { rate });
-    let values = scaled.singular_values().map_err(|error| anyhow::anyhow!("no singular values: {error:?}"))?;
-    ensure!(values.iter().all(|value| value.is_finite()), "singular values of {toss:?}: {values:?}");
-    Ok(values.first().copied())
 }

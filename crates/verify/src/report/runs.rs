@@ -1,9 +1,10 @@
 //! Runs of one toss as a table, a line a contestant.
 
+use crate::atlas::conditioning::Conditioning;
 use crate::run::Run;
 
-/// Answer, errors and work of each run.
-pub fn text(runs: &[Run]) -> String {
+/// Answer, errors and work of each run, and what one rounding of the launch does by itself.
+pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
     let width = runs.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));
     let line = |run: &Run| {
@@ -17,5 +18,9 @@ pub fn text(runs: &[Run]) -> String {
             run.failure.as_deref().unwrap_or_default()
         )
     };
-    runs.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect()
+    let rounding = conditioning.map_or_else(String::new, |conditioning| {
+        let (attitude, cos_tilt) = (conditioning.rounding(), f64::EPSILON * conditioning.cos_tilt);
+        format!("one rounding of the launch moves cos θ by {cos_tilt:.1e}, the attitude by {attitude:.1e} rad\n")
+    });
+    runs.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
 }

@@ -29,7 +29,7 @@ const LINES: [(&str, RGBColor, bool, Marker); 8] = [
 
 /// The attitude's error, with what one rounding of the inputs does.
 pub(super) fn errors(atlas: &Atlas) -> Result<String, ChartError> {
-    let rounding = ("one rounding of the launch", PURPLE, (|spot| Some(f64::EPSILON * spot.sensitivity?)) as Quantity);
+    let rounding = ("one rounding of the launch", PURPLE, (|spot| Some(spot.conditioning?.rounding())) as Quantity);
     panels(atlas, "error of the attitude [rad]", 1e-18..1e3, |spot| spot.run.err_attitude, Some(rounding))
 }
 

@@ -1,9 +1,10 @@
 //! The errors of the committed records over time: a line a subject.
 
-use chart::{BLUE, ChartError, EndLabel, GREEN, GREY, TEXT, VERMILION, end_labels, svg};
+use chart::{ChartError, EndLabel, GREY, TEXT, end_labels, svg};
 use plotters::prelude::*;
 
 use crate::record::Record;
+use crate::report::charts::colour;
 use crate::report::history::FOLLOWED;
 
 const SIZE: (u32, u32) = (2000, 900);
@@ -42,12 +43,7 @@ pub(super) fn history(records: &[Record]) -> Result<String, ChartError> {
             .draw()?;
         let mut labels = Vec::new();
         for subject in records[last].accuracy.subjects(FOLLOWED) {
-            let colour = match subject.split('/').next() {
-                Some("gamma") => VERMILION,
-                Some("euler") => BLUE,
-                Some("quaternion") => GREEN,
-                _ => BLACK,
-            };
+            let colour = colour(subject);
             let points: Vec<(f64, f64)> = records
                 .iter()
                 .enumerate()

@@ -1,9 +1,9 @@
 //! Error and drift against the time of flight.
 
-use chart::{Axis, BLUE, ChartError, GREEN, LINE_WIDTH, Marker, Series, VERMILION, legend, log_log, svg};
-use plotters::prelude::*;
+use chart::{Axis, ChartError, Series, legend, log_log, svg};
 
 use crate::long_flights::{Drift, LongFlights};
+use crate::report::charts::line;
 
 const LEGEND: u32 = 170;
 
@@ -32,21 +32,9 @@ pub(super) fn long_flights(flights: &LongFlights) -> Result<String, ChartError> 
     })
 }
 
-/// A colour a solver, a form a method. What is exactly 0 is not drawn.
+/// What is exactly 0 is not drawn.
 fn lines(flights: &LongFlights, quantity: Quantity) -> Vec<Series> {
-    let line = |subject: &str| {
-        let (solver, method) = subject.split_once('/').unwrap_or((subject, ""));
-        let colour = match solver {
-            "gamma" => VERMILION,
-            "euler" => BLUE,
-            "quaternion" => GREEN,
-            _ => BLACK,
-        };
-        let (marker, dashed) = match method {
-            "dopri5" => (Marker::Triangle, false),
-            "rk4" => (Marker::Ring, true),
-            _ => (Marker::Disc, false),
-        };
+    let of_subject = |subject: &str| {
         let (mut points, mut failures) = (Vec::new(), Vec::new());
         for (time, found) in flights.of(subject) {
             match found {
@@ -55,7 +43,7 @@ fn lines(flights: &LongFlights, quantity: Quantity) -> Vec<Series> {
                 Err(_) => failures.push(time),
             }
         }
-        Series { label: subject.to_owned(), colour, width: LINE_WIDTH, dashed, marker, points, failures }
+        line(subject, subject.to_owned(), points, failures)
     };
-    flights.subjects().map(line).collect()
+    flights.subjects().map(of_subject).collect()
 }

@@ -7,7 +7,8 @@ mod long_flights;
 mod order;
 mod work_precision;
 
-use chart::ChartError;
+use chart::{BLUE, ChartError, GREEN, LINE_WIDTH, Marker, Series, VERMILION};
+use plotters::style::{BLACK, RGBColor};
 use sampling::RunningStep;
 
 use crate::context::Records;
@@ -67,4 +68,24 @@ pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
 
 fn chart(file: &str, svg: String) -> Chart {
     Chart { file: file.to_owned(), svg, caption: None }
+}
+
+/// One colour a solver.
+fn colour(subject: &str) -> RGBColor {
+    match subject.split('/').next() {
+        Some("gamma") => VERMILION,
+        Some("euler") => BLUE,
+        Some("quaternion") => GREEN,
+        _ => BLACK,
+    }
+}
+
+/// The line of a subject: its solver's colour, and a form for its method.
+fn line(subject: &str, label: String, points: Vec<(f64, f64)>, failures: Vec<f64>) -> Series {
+    let (marker, dashed) = match subject.split('/').nth(1) {
+        Some("dopri5") => (Marker::Triangle, false),
+        Some("rk4") => (Marker::Ring, true),
+        _ => (Marker::Disc, false),
+    };
+    Series { label, colour: colour(subject), width: LINE_WIDTH, dashed, marker, points, failures }
 }

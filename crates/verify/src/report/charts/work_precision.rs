@@ -1,9 +1,6 @@
 //! Work against the error that it buys, a chart a problem: calls on the left, time on the right.
 
-use chart::{
-    Axis, BLUE, ChartError, EndLabel, GREEN, GREY, LINE_WIDTH, Marker, Panel, Series, TEXT, VERMILION, end_labels,
-    log_log, svg,
-};
+use chart::{Axis, ChartError, EndLabel, GREY, Marker, Panel, Series, TEXT, end_labels, log_log, svg};
 use plotters::prelude::*;
 
 use crate::work_precision::{Sample, Sweep};
@@ -36,7 +33,7 @@ pub(super) fn work_precision(sweep: &Sweep, problem: &str, launches: usize) -> R
 
 fn panel(panel: &Panel<'_>, sweep: &Sweep, problem: &str, label: &str, work: Work) -> chart::Drawn {
     let mut lines = vec![front(sweep, problem, work)];
-    lines.extend(sweep.subjects().iter().map(|subject| line(sweep, problem, subject, work)));
+    lines.extend(sweep.subjects().iter().map(|subject| subject_line(sweep, problem, subject, work)));
     let values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.1)).collect();
     let (least, most) =
         values.iter().fold((f64::INFINITY, 1.0_f64), |(lo, hi), value| (lo.min(*value), hi.max(*value)));
@@ -54,24 +51,12 @@ fn panel(panel: &Panel<'_>, sweep: &Sweep, problem: &str, label: &str, work: Wor
     Ok(())
 }
 
-fn line(sweep: &Sweep, problem: &str, subject: &str, work: Work) -> Series {
-    let (solver, method) = subject.split_once('/').unwrap_or((subject, ""));
-    let colour = match solver {
-        "gamma" => VERMILION,
-        "euler" => BLUE,
-        "quaternion" => GREEN,
-        _ => BLACK,
-    };
-    let (marker, dashed) = match method {
-        "dopri5" => (Marker::Triangle, false),
-        "rk4" => (Marker::Ring, true),
-        _ => (Marker::Disc, false),
-    };
+fn subject_line(sweep: &Sweep, problem: &str, subject: &str, work: Work) -> Series {
     let samples: Vec<&Sample> = sweep.series(problem, subject).collect();
     let points = samples.iter().filter_map(|sample| Some((sample.err_attitude_rad?, work(sample)?))).collect();
     // A failed run has no error: it is drawn over the finest one.
     let failures = samples.iter().filter(|sample| sample.failure.is_some()).map(|_| ERRORS.end).collect();
-    Series { label: subject.to_owned(), colour, width: LINE_WIDTH, dashed, marker, points, failures }
+    super::line(subject, subject.to_owned(), points, failures)
 }
 
 /// The integrators' runs that none beats in both error and work, by falling error.

@@ -1,0 +1,63 @@
+//! What the launch itself leaves open: an error that one rounding of the inputs explains is not the method's.
+
+use anyhow::ensure;
+use faer::Mat;
+use serde::Serialize;
+use toss::{Sensitivity, Toss};
+
+/// The derivative of a landing by relative changes of the launch: by ω in units of |ω|, by the time of flight in units of
+/// itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Conditioning {
+    /// Singular values of the attitude's derivative (rad), from the largest down: how far a change of the launch by a part
+    /// ε turns the landed coin, in parts of ε.
+    pub attitude: [f64; 3],
+    /// Norm of the derivative of cos θ.
+    pub cos_tilt: f64,
+}
+
+impl Conditioning {
+    /// At the landing of `toss`; `None` where the phase is too large to have one.
+    ///
+    /// # Errors
+    /// If the singular values can't be found, which finite numbers never cause.
+    pub fn new(toss: &Toss) -> anyhow::Result<Option<Self>> {
+        let Ok(Sensitivity { attitude, cos_tilt }) = Sensitivity::new(toss) else { return Ok(None) };
+        let (rate, time) = (toss.launch.turn_rate(), toss.launch.flight_time());
+        let unit = |column: usize| if column == 3 { time } else { rate };
+        let scaled = Mat::from_fn(3, 4, |row, column| attitude[(row, column)] * unit(column));
+        let values = scaled.singular_values().map_err(|error| anyhow::anyhow!("no singular values: {error:?}"))?;
+        ensure!(
+            values.len() == 3 && values.iter().all(|value| value.is_finite()),
+            "singular values of {toss:?}: {values:?}"
+        );
+        let slope = |column: usize| cos_tilt[column] * unit(column);
+        let cos_tilt = (0..4).map(|column| slope(column).powi(2)).sum::<f64>().sqrt();
+        Ok(Some(Self { attitude: [values[0], values[1], values[2]], cos_tilt }))
+    }
+
+    /// What one rounding of the launch does to the attitude (rad).
+    pub fn rounding(&self) -> f64 {
+        f64::EPSILON * self.attitude[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use toss::{Coin, Launch, TimeOfFlight, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn a_spin_about_its_axis_is_as_sensitive_as_its_angle() {
+        // ω = (0, 0, 2) rad/s for 3 s turns by 6 rad; ωz and the time count alike, ωx and ωy by what they tip over.
+        let launch = Launch::new(Vector3::new(0.0, 0.0, 2.0), TimeOfFlight::Given(3.0)).unwrap();
+        let sphere = Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let found = Conditioning::new(&sphere).unwrap().unwrap();
+        let tipped = 6.0 * (3.0_f64.sin() / 3.0).abs();
+        for (value, expected) in found.attitude.into_iter().zip([6.0 * 2f64.sqrt(), tipped, tipped]) {
+            assert!((value - expected).abs() < 1e-14, "{found:?}");
+        }
+        assert!(found.cos_tilt < 1e-15, "its tilt stays whatever changes");
+    }
+}
