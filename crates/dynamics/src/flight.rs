@@ -41,7 +41,8 @@ impl Flight {
         Ok(Self { rate: rate / scale, rate_z: rate.z, scale, duration, phase })
     }
 
-    /// Follows `system`, whose rates are in the flight's unit, from `start` to landing; see [`integrate`].
+    /// Follows `system`, whose rates are in the flight's unit, from `start` to landing; see [`integrate`]. The tolerance of
+    /// `method` is divided by the phase in units of 100 rad, where that is above 1.
     ///
     /// # Errors
     /// As [`integrate`].

@@ -54,7 +54,8 @@ impl Scheme {
 /// What sets the size of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepControl {
-    /// Local error per step below `tolerance × (1 + |y|)`, in every component of the dimensionless state.
+    /// Local error per step below `tolerance × (1 + |y|)`, in every component of the dimensionless state. Flights that turn
+    /// by more than 100 rad get a tighter one, see [`Flight`](crate::Flight).
     Tolerance(f64),
     /// Equal steps of at most this length (s).
     Step(f64),

@@ -10,15 +10,15 @@ use toss::{InputError, SolverEntry};
 
 use crate::atlas::Atlas;
 use crate::atlas::expected::Expected;
-use crate::check::Effort;
-use crate::checks::probability::{Probability, fig4, probabilities};
 use crate::convergence::{Convergence, convergence};
+use crate::effort::Effort;
 use crate::long_flights::LongFlights;
 use crate::reference_data::ReferenceData;
 use crate::reference_probability::ReferenceProbabilities;
 use crate::search::{Findings, search};
 use crate::subject::{Subject, subjects};
 use crate::survey::Survey;
+use crate::tables::{Probability, fig4, probabilities};
 use crate::work_precision::Sweep;
 use crate::work_precision::problems::{self, Problem};
 

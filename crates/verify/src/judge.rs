@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::bounds::Bounds;
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
+use crate::measurement::Measurement;
 
 /// A bound this many times above what was measured hides bugs, and is reported.
 const LOOSE: f64 = 10.0;

@@ -5,7 +5,7 @@ use toss::{Formulation, InputError, Method, Scheme, SolverEntry};
 
 use crate::adversary;
 use crate::case::Case;
-use crate::check::Worst;
+use crate::measurement::Worst;
 use crate::reference::Reference;
 use crate::run::{Answer, Run};
 use crate::subject::Subject;

@@ -1,7 +1,8 @@
 //! A search for answers that are wrong without an error, by launches that an adversary would pick.
 
-use crate::check::{Basis, Check, Measurement, Worst};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::{Measurement, Worst};
 use crate::search::Findings;
 
 pub(super) const SILENTLY_WRONG: Check = Check {

@@ -7,8 +7,9 @@ use toss::{Attitude, ExactMotion, Formulation, Launch, Method, Scheme, SolveErro
 
 use crate::atlas::hazards::HAZARDS;
 use crate::case::Case;
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::subject::Subject;
 
 pub(super) const ANSWERS: Check = Check {

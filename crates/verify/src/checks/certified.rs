@@ -12,8 +12,10 @@ use toss::{
 };
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Effort, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::effort::Effort;
+use crate::measurement::Measurement;
 use crate::reference::Reference;
 use crate::subject::Subject;
 

@@ -4,8 +4,9 @@ use nalgebra::SVector;
 use toss::integrate::{OdeSystem, integrate};
 use toss::{Method, Scheme};
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 
 pub(super) const STATE: Check = Check {
     id: "detest-b5",

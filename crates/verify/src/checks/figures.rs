@@ -4,8 +4,10 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Coordinate, Found, Plan, Rest, Scrambled, Space, estimate, long_flight_probability};
 use toss::{Coin, ExactSolver};
 
-use crate::check::{Basis, Check, Effort, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::effort::Effort;
+use crate::measurement::Measurement;
 
 pub(super) const SHARES: Check = Check {
     id: "exact-speed-share",

@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use toss::{ExactMotion, Formulation, Launch, Scheme, TimeOfFlight, Toss};
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::reference::Reference;
 use crate::subject::{Subject, tight};
 

@@ -7,8 +7,9 @@
 use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use toss::{Propagation, SolveError, State, Toss, Vector3};
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::subject::Subject;
 
 pub(super) const MOMENTUM: Check = Check {

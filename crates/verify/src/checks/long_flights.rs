@@ -1,8 +1,9 @@
 //! Flights of up to 10⁴ s: the error keeps within what a solver answers for, and S stays where it is.
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
 use crate::long_flights::Drift;
+use crate::measurement::Measurement;
 
 pub(super) const ERROR: Check = Check {
     id: "long-flight-error",

@@ -4,8 +4,10 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{ESTIMATORS, Estimate, Found, Plan, Rest, Scrambled, Space, clopper_pearson, estimate, rms_error};
 use toss::{Coin, ExactSolver};
 
-use crate::check::{Basis, Check, Effort, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::effort::Effort;
+use crate::measurement::Measurement;
 
 pub(super) const ERRORS: Check = Check {
     id: "sampling-errors",

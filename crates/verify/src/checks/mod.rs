@@ -12,7 +12,7 @@ mod methods;
 mod numbers;
 mod order;
 mod paper;
-pub mod probability;
+mod probability;
 mod random;
 mod sensitivity;
 mod work_precision;

@@ -2,8 +2,9 @@
 
 use toss::{SolveError, Solver};
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::reference_data::ReferenceFlight;
 use crate::subject::Subject;
 

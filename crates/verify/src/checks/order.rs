@@ -1,8 +1,9 @@
 //! Order of convergence.
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
 use crate::convergence::Convergence;
+use crate::measurement::Measurement;
 
 pub(super) const ORDER: Check = Check {
     id: "convergence-order",

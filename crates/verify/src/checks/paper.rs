@@ -8,8 +8,9 @@ use toss::launch::DEFAULT_GRAVITY;
 use toss::{Coin, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss, Vector3};
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::reference_data::FirstFlip;
 use crate::subject::Subject;
 

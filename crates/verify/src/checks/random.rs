@@ -2,8 +2,9 @@
 
 use toss::{Propagation, SolveError};
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::reference::Reference;
 use crate::subject::Subject;
 use crate::survey::Survey;

@@ -6,8 +6,9 @@ use rayon::prelude::*;
 use toss::{ExactSolver, Formulation, Launch, Sensitivity, SolveError, TimeOfFlight, Toss};
 
 use crate::case::Case;
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::reference::Reference;
 use crate::subject::Subject;
 

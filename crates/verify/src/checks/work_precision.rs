@@ -1,7 +1,8 @@
 //! What a tolerance or a step is worth: errors over the whole range of both.
 
-use crate::check::{Basis, Check, Measurement};
+use crate::check::{Basis, Check};
 use crate::context::Context;
+use crate::measurement::Measurement;
 use crate::work_precision::Sample;
 
 pub(super) const PROMISE: Check = Check {

@@ -2,11 +2,11 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::checks::probability::Probability;
 use crate::judge::{Row, Status};
 use crate::ledger::{Direction, Move};
 use crate::report::Report;
 use crate::report::charts::Chart;
+use crate::tables::Probability;
 
 const STYLE: &str = include_str!("report.css");
 

@@ -14,8 +14,8 @@ use std::path::Path;
 use anyhow::Context;
 use serde::Serialize;
 
-use crate::check::Effort;
 use crate::context::Records;
+use crate::effort::Effort;
 use crate::judge::Row;
 use crate::ledger::Move;
 

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Formulation, InputError, Method, Scheme, SolverEntry, StepControl};
 
-use crate::check::Effort;
+use crate::effort::Effort;
 use crate::reference::Reference;
 use crate::run::{Answer, Run};
 use crate::subject::Subject;
