@@ -21,6 +21,9 @@ const CALLS_RATIO: f64 = 1.05;
 /// Errors that differ by less are the platform's: its sine and cosine may round otherwise.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Errors of single runs below it are taken for it (rad): there rounding decides, which differs by platform.
+const FLOOR: f64 = 1e-11;
+
 /// Stands for the error of a run that failed (rad).
 const FAILED: f64 = std::f64::consts::PI;
 
@@ -171,7 +174,7 @@ impl Ledger {
 impl Entry {
     /// Of one subject's samples on one problem.
     fn of(samples: &[&Sample]) -> Self {
-        let logs: f64 = samples.iter().map(|sample| sample.err_attitude_rad.unwrap_or(FAILED).max(1e-16).ln()).sum();
+        let logs: f64 = samples.iter().map(|sample| sample.err_attitude_rad.unwrap_or(FAILED).max(FLOOR).ln()).sum();
         Self {
             error: (logs / samples.len().max(1) as f64).exp(),
             calls: Some(samples.iter().map(|sample| sample.n_rhs).sum()),

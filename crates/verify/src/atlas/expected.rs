@@ -8,10 +8,36 @@ use serde::Deserialize;
 
 use crate::run::Answer;
 
+/// What the worst answer may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Expectation {
+    /// It is right.
+    Right,
+    /// It is an error.
+    TypedError,
+    /// It is wrong without an error.
+    SilentlyWrong,
+    /// It is right or an error: which of them hangs on roundings next to a singular point, which differ by platform.
+    RightOrTypedError,
+}
+
+impl Expectation {
+    /// Whether `answer` is as expected.
+    pub fn allows(self, answer: Answer) -> bool {
+        match self {
+            Self::Right => answer == Answer::Right,
+            Self::TypedError => answer == Answer::TypedError,
+            Self::SilentlyWrong => answer == Answer::SilentlyWrong,
+            Self::RightOrTypedError => answer != Answer::SilentlyWrong,
+        }
+    }
+}
+
 /// The worst answer, by contestant and hazard.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]
-pub struct Expected(BTreeMap<String, BTreeMap<String, Answer>>);
+pub struct Expected(BTreeMap<String, BTreeMap<String, Expectation>>);
 
 impl Expected {
     /// Reads the table at `path`.
@@ -25,7 +51,7 @@ impl Expected {
     }
 
     /// What `subject` is known to do at `hazard`.
-    pub fn get(&self, subject: &str, hazard: &str) -> Option<Answer> {
+    pub fn get(&self, subject: &str, hazard: &str) -> Option<Expectation> {
         self.0.get(subject)?.get(hazard).copied()
     }
 }
