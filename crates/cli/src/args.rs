@@ -102,8 +102,24 @@ impl FlightArgs {
     }
 }
 
+/// The solver of many launches, where `--method` is how they are sampled.
 #[derive(Debug, Args)]
-pub(crate) struct SolverArgs {
+pub(crate) struct SamplingSolverArgs {
+    #[command(flatten)]
+    solver: SolverArgs,
+    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    scheme: String,
+}
+
+impl SamplingSolverArgs {
+    pub(crate) fn solver(&self) -> Result<Box<dyn Solver>, Failure> {
+        self.solver.solver(&self.scheme)
+    }
+}
+
+#[derive(Debug, Args)]
+struct SolverArgs {
     /// The solver: exact, gamma, euler or quaternion
     #[arg(long, value_name = "NAME", default_value = "exact")]
     solver: String,
@@ -121,7 +137,7 @@ pub(crate) struct SolverArgs {
 
 impl SolverArgs {
     /// The solver, with the Runge-Kutta scheme called `scheme`.
-    pub(crate) fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
+    fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
         let entry = named_solver(&self.solver)?;
         let scheme = Scheme::named(scheme)?;
         let formulation = Formulation::named(&self.formulation)?;

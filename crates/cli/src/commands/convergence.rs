@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use sampling::{RunningStep, running_shares};
 
-use crate::args::SolverArgs;
+use crate::args::SamplingSolverArgs;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
@@ -22,10 +22,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SolverArgs,
-    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    scheme: String,
+    solver: SamplingSolverArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
     pub(crate) format: DataFormat,
@@ -37,7 +34,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver(&self.scheme)?;
+        let solver = self.solver.solver()?;
         let points = space.grid_points()?;
         let bar = progress_bar(2 * points, "launches");
         let steps = self

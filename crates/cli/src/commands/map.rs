@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use sampling::{Coordinate, Map, map};
 use serde::Serialize;
 
-use crate::args::SolverArgs;
+use crate::args::SamplingSolverArgs;
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, progress_bar};
@@ -32,10 +32,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SolverArgs,
-    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    scheme: String,
+    solver: SamplingSolverArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
     pub(crate) format: DataFormat,
@@ -47,7 +44,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver(&self.scheme)?;
+        let solver = self.solver.solver()?;
         let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
         let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
         let nodes = axes.iter().filter_map(|of| space.axis(*of).points()).product();

@@ -3,7 +3,7 @@
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Proven, estimate};
 use serde::Serialize;
 
-use crate::args::SolverArgs;
+use crate::args::SamplingSolverArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format, progress_bar};
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
@@ -22,10 +22,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SolverArgs,
-    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    scheme: String,
+    solver: SamplingSolverArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
@@ -59,7 +56,7 @@ struct CountsAnswer {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver(&self.scheme)?;
+        let solver = self.solver.solver()?;
         let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
         let progress = progress_bar(plan.points(&space)?, "launches");
         let pool = self.threads.pool()?;
