@@ -205,7 +205,7 @@ fn sections(charts: &[Chart]) -> Vec<Section<'_>> {
             "long-flights",
             "Long flights",
             "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
-          in proportion to the time; what is conserved stays within the tolerance.",
+          in proportion to the time; what is conserved drifts by some parts in 10⁸ at most.",
         ),
     ];
     let section = |(id, title, caption): (&'static str, &'static str, &'static str)| {
