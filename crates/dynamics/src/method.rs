@@ -146,3 +146,35 @@ impl Method {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::coin::Coin;
+    use crate::launch::{Launch, TimeOfFlight};
+
+    #[test]
+    fn a_solver_answers_for_a_hundred_tolerances_a_radian_or_for_the_order_of_its_steps() {
+        // A sphere at 2 rad/s for 3 s: a phase of 6 rad.
+        let launch = Launch::new(Vector3::new(0.0, 2.0, 0.0), TimeOfFlight::Given(3.0)).unwrap();
+        let toss = Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let near =
+            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found}, not {expected}");
+        let adaptive = Method::adaptive(Scheme::Dopri5, 1e-8).unwrap();
+        near(adaptive.resolution(&toss).unwrap(), 100.0 * 1e-8 * 7.0);
+        let fixed = Method::fixed(Scheme::Rk4, 0.01).unwrap();
+        near(fixed.resolution(&toss).unwrap(), 0.02_f64.powi(4) * 7.0 + 4.0 * f64::EPSILON * (7.0 + 300.0));
+    }
+
+    #[test]
+    fn a_tighter_tolerance_stops_at_rounding_and_leaves_steps_alone() {
+        let adaptive = Method::adaptive(Scheme::Dop853, 1e-10).unwrap();
+        assert_eq!(adaptive.tightened(0.5), adaptive);
+        assert_eq!(adaptive.tightened(100.0), Method::adaptive(Scheme::Dop853, 1e-12).unwrap());
+        assert_eq!(adaptive.tightened(1e9), Method::adaptive(Scheme::Dop853, f64::EPSILON).unwrap());
+        let fixed = Method::fixed(Scheme::Rk4, 0.01).unwrap();
+        assert_eq!(fixed.tightened(100.0), fixed);
+    }
+}
