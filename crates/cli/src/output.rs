@@ -61,14 +61,9 @@ pub(crate) fn data(format: DataFormat, lines: &[impl Serialize]) -> String {
     }
 }
 
-/// Writes a file whole or not at all: to a neighbour first, which then takes its name.
+/// Writes a file whole or not at all.
 pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
-    let failed = |source| Failure::Write { target: path.display().to_string(), source };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(content.as_bytes()).map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    whole_file::write(path, content).map_err(|source| Failure::Write { target: path.display().to_string(), source })
 }
 
 /// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.

@@ -8,7 +8,6 @@ pub mod moves;
 pub mod runs;
 pub mod table;
 
-use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
@@ -51,16 +50,12 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Writes a file whole or not at all: to a neighbour first, which then takes its name.
+/// Writes a file whole or not at all, and the folder that it is in.
 ///
 /// # Errors
 /// If the folder can't be made or the file not be written.
 pub fn write_file(path: &Path, content: &str) -> anyhow::Result<()> {
     let failed = || format!("cannot write {}", path.display());
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).with_context(failed)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(failed)?;
-    file.write_all(content.as_bytes()).with_context(failed)?;
-    file.persist(path).with_context(failed)?;
-    Ok(())
+    std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(failed)?;
+    whole_file::write(path, content).with_context(failed)
 }
