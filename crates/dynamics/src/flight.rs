@@ -11,8 +11,9 @@ use crate::scale::power_of_two_scale;
 use crate::solver::Work;
 
 /// Above this phase (rad) the tolerance of the steps is tightened in proportion. The errors of the steps add up in |ω|,
-/// and the phase adds up those of |ω|, so that the error at landing grows like tolerance × phase², with a factor of up to
-/// 0.14 in 10⁵ launches. Tightened, it stays below 100 × tolerance × phase, which [`Method::resolution`] answers for.
+/// and the phase adds up those of |ω|, so that the error at landing grows like tolerance × phase², with a factor of 0.14
+/// in the worst case that was met. Tightened, it stays below 100 × tolerance × phase, which [`Method::resolution`] answers
+/// for.
 const LONG_FLIGHT: f64 = 100.0;
 
 /// The flight of a toss with its rates divided by a power of two.

@@ -34,7 +34,7 @@ fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// A number between -1e-17 and 1, as likely in each decade, of either sign.
+/// A number of either sign, of a size from 1e-17 to 1, as likely in each decade.
 fn near(rng: &mut ChaCha8Rng) -> f64 {
     decades(rng, -17.0, 0.0) * one(rng, [-1.0, 1.0])
 }

@@ -16,7 +16,7 @@ use crate::long_flights::LongFlights;
 use crate::reference_data::ReferenceData;
 use crate::reference_probability::ReferenceProbabilities;
 use crate::search::{Findings, search};
-use crate::subject::{Subject, subjects};
+use crate::subject::{Subject, subjects, tight};
 use crate::survey::Survey;
 use crate::tables::{Probability, fig4, probabilities};
 use crate::work_precision::Sweep;
@@ -57,7 +57,7 @@ impl Context {
         Ok(Self {
             effort,
             registry: registry.to_vec(),
-            subjects: subjects(registry).context("the registry's solvers can't be made")?,
+            subjects: subjects(registry, tight).context("the registry's solvers can't be made")?,
             data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
             reference_probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
             problems: problems::read(&validation.join("problems.toml"))?,

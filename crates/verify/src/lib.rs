@@ -17,6 +17,7 @@ pub mod check;
 pub mod checks;
 pub mod context;
 pub mod convergence;
+pub mod drift;
 pub mod effort;
 pub mod judge;
 pub mod ledger;

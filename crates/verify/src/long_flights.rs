@@ -2,14 +2,12 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
-use toss::{
-    Coin, Formulation, InputError, Launch, Method, Scheme, SolveError, SolverEntry, State, TimeOfFlight, Toss, Vector3,
-};
+use toss::{Coin, InputError, Launch, Method, Scheme, SolveError, SolverEntry, TimeOfFlight, Toss, Vector3};
 
+use crate::drift;
 use crate::reference::Reference;
 use crate::run::Allowance;
-use crate::subject::Subject;
+use crate::subject::{Subject, subjects, usual};
 
 /// Step of RK4 (s); the default of 1e-3 s would need too many.
 const STEP: f64 = 1e-2;
@@ -59,7 +57,7 @@ impl LongFlights {
     /// # Errors
     /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
-        let subjects = subjects(registry)?;
+        let subjects = subjects(registry, method)?;
         let flights: Vec<(&Subject, f64)> =
             subjects.iter().flat_map(|subject| TIMES.map(|time| (subject, time))).collect();
         let fly = |(subject, time): (&Subject, f64)| -> Result<LongFlight, InputError> {
@@ -81,41 +79,20 @@ impl LongFlights {
     }
 }
 
-fn subjects(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
-    let mut subjects = Vec::new();
-    for &entry in registry {
-        if !entry.integrates() {
-            subjects.push(Subject::new(entry, None, Formulation::default()));
-            continue;
-        }
-        for scheme in Scheme::ALL {
-            let method = if scheme.is_adaptive() {
-                Method::adaptive(scheme, Method::DEFAULT_TOLERANCE)?
-            } else {
-                Method::fixed(scheme, STEP)?
-            };
-            subjects.push(Subject::new(entry, Some(method), Formulation::default()));
-        }
-    }
-    Ok(subjects)
+fn method(scheme: Scheme) -> Result<Method, InputError> {
+    if scheme.is_adaptive() { usual(scheme) } else { Method::fixed(scheme, STEP) }
 }
 
 impl Drift {
     fn new(subject: &Subject, toss: &Toss) -> Result<Self, SolveError> {
         let landing = subject.solver.propagate(toss)?;
-        let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-        let change = |of: &dyn Fn(&State) -> f64, scale: f64| (of(&landing.state) - of(&launch)).abs() / scale;
-        let momentum = angular_momentum_tf(&toss.coin, &launch);
-        let size = |state: &State| angular_momentum(&toss.coin, &state.rate).norm();
-        let energy = |state: &State| kinetic_energy(&toss.coin, &state.rate);
-        let along_normal = |state: &State| state.attitude.normal().dot(&momentum);
         Ok(Self {
             err_attitude: Reference::new(toss).attitude_error(&landing.state.attitude),
             allowed: Allowance::new(subject, toss)?.attitude,
-            momentum: change(&size, momentum.norm()),
-            energy: change(&energy, energy(&launch)),
-            normal_momentum: change(&along_normal, momentum.norm()),
-            momentum_vector: (angular_momentum_tf(&toss.coin, &landing.state) - momentum).norm() / momentum.norm(),
+            momentum: drift::momentum(toss, &landing.state),
+            energy: drift::energy(toss, &landing.state),
+            normal_momentum: drift::normal_momentum(toss, &landing.state),
+            momentum_vector: drift::momentum_vector(toss, &landing.state),
             defect: landing.defect,
         })
     }

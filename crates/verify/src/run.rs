@@ -1,11 +1,11 @@
 //! A run: one toss flown by one subject and judged against the exact motion. Records are made of these.
 
 use serde::{Deserialize, Serialize};
-use toss::body_rate::angular_momentum_tf;
 use toss::exact::COS_TILT_ERROR;
-use toss::{Outcome, Propagation, SolveError, State, Toss};
+use toss::{Outcome, Propagation, SolveError, Toss};
 
 use crate::case::Case;
+use crate::drift;
 use crate::reference::Reference;
 use crate::subject::Subject;
 
@@ -144,7 +144,8 @@ impl Judged {
             err_cos_tilt: Some(self.err_cos_tilt),
             err_attitude: Some(self.err_attitude),
             err_by_allowance: Some(self.err_attitude / self.allowance.attitude),
-            err_invariants: momentum_drift(&case.toss, &self.landing.state),
+            err_invariants: Some(drift::momentum_vector(&case.toss, &self.landing.state))
+                .filter(|drift| drift.is_finite()),
             outcome_ok: self.outcome_ok,
             defect: Some(self.landing.defect),
             rhs_calls: Some(self.landing.work.rhs_calls),
@@ -152,11 +153,4 @@ impl Judged {
             rejected_steps: Some(self.landing.work.rejected_steps),
         }
     }
-}
-
-/// Change of S in TF from launch to `landing`, relative; `None` for a coin at rest.
-fn momentum_drift(toss: &Toss, landing: &State) -> Option<f64> {
-    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-    let [before, after] = [&launch, landing].map(|state| angular_momentum_tf(&toss.coin, state));
-    Some((after - before).norm() / before.norm()).filter(|drift| drift.is_finite())
 }

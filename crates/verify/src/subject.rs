@@ -66,20 +66,41 @@ pub fn tight(scheme: Scheme) -> Result<Method, InputError> {
     if scheme.is_adaptive() { Method::adaptive(scheme, TIGHT_TOLERANCE) } else { Method::fixed(scheme, TIGHT_STEP) }
 }
 
-/// Every solver of `registry`, each integrator with every method at the tight settings.
+/// `scheme` with the settings that a user gets without asking.
 ///
 /// # Errors
-/// Never for the library's schemes.
-pub fn subjects(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
-    let mut subjects = Vec::new();
-    for &entry in registry {
-        if entry.integrates() {
-            for scheme in Scheme::ALL {
-                subjects.push(Subject::new(entry, Some(tight(scheme)?), Formulation::default()));
-            }
-        } else {
-            subjects.push(Subject::new(entry, None, Formulation::default()));
-        }
+/// Never for a scheme of the library.
+pub fn usual(scheme: Scheme) -> Result<Method, InputError> {
+    if scheme.is_adaptive() {
+        Method::adaptive(scheme, Method::DEFAULT_TOLERANCE)
+    } else {
+        Method::fixed(scheme, Method::DEFAULT_STEP)
     }
-    Ok(subjects)
+}
+
+/// Every solver of `registry`, each integrator by every scheme with its `method`.
+///
+/// # Errors
+/// As `method`'s.
+pub fn subjects(
+    registry: &[SolverEntry],
+    method: fn(Scheme) -> Result<Method, InputError>,
+) -> Result<Vec<Subject>, InputError> {
+    let of_entry = |entry: &SolverEntry| by_every_scheme(*entry, Formulation::default(), method);
+    registry.iter().map(of_entry).collect::<Result<Vec<_>, _>>().map(|all| all.into_iter().flatten().collect())
+}
+
+/// `entry` by every scheme in `formulation`, or once if it is a closed form.
+///
+/// # Errors
+/// As `method`'s.
+pub fn by_every_scheme(
+    entry: SolverEntry,
+    formulation: Formulation,
+    method: fn(Scheme) -> Result<Method, InputError>,
+) -> Result<Vec<Subject>, InputError> {
+    if !entry.integrates() {
+        return Ok(vec![Subject::new(entry, None, formulation)]);
+    }
+    Scheme::ALL.into_iter().map(|scheme| Ok(Subject::new(entry, Some(method(scheme)?), formulation))).collect()
 }

@@ -9,12 +9,12 @@ pub mod hazards;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::{Formulation, InputError, Method, Scheme, SolverEntry};
+use toss::{Formulation, InputError, SolverEntry};
 
 use crate::case::Case;
 use crate::reference::Reference;
 use crate::run::{Answer, Run};
-use crate::subject::Subject;
+use crate::subject::{Subject, by_every_scheme, usual};
 use conditioning::Conditioning;
 use hazards::{HAZARDS, Hazard};
 
@@ -87,18 +87,10 @@ pub fn replay(registry: &[SolverEntry], case: &Case) -> Result<Vec<Run>, InputEr
 fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();
     for &entry in registry {
-        if !entry.integrates() {
-            contestants.push(Subject::new(entry, None, Formulation::default()));
-        }
-        for &formulation in entry.formulations {
-            for scheme in Scheme::ALL {
-                let method = if scheme.is_adaptive() {
-                    Method::adaptive(scheme, Method::DEFAULT_TOLERANCE)?
-                } else {
-                    Method::fixed(scheme, Method::DEFAULT_STEP)?
-                };
-                contestants.push(Subject::new(entry, Some(method), formulation));
-            }
+        let one = [Formulation::default()];
+        let formulations = if entry.integrates() { entry.formulations } else { &one };
+        for &formulation in formulations {
+            contestants.extend(by_every_scheme(entry, formulation, usual)?);
         }
     }
     Ok(contestants)

@@ -62,7 +62,9 @@ fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn tilt_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let atlas = context.atlas()?;
     let row = |subject: &Subject| {
-        let calls: Vec<u64> = atlas.series("F1", &subject.name).filter_map(|spot| spot.run.rhs_calls).collect();
+        // A flight that fails has no calls, and takes the whole row with it.
+        let calls: Option<Vec<u64>> = atlas.series("F1", &subject.name).map(|spot| spot.run.rhs_calls).collect();
+        let calls = calls.unwrap_or_default();
         let (fewest, most) = (calls.iter().min(), calls.iter().max());
         let spread = fewest.zip(most).map_or(f64::NAN, |(fewest, most)| *most as f64 / *fewest as f64 - 1.0);
         let input = format!("{fewest:?} to {most:?} calls for tilts from 1 rad to 0");
