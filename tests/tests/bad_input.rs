@@ -28,6 +28,7 @@ fn what_is_not_finite_is_refused_by_name() {
             (launch([1.0; 3], TimeOfFlight::Given(bad)).err(), "time"),
             (launch([1.0; 3], thrown(bad, 9.81)).err(), "speed"),
             (launch([1.0; 3], thrown(3.0, bad)).err(), "gravity"),
+            (launch([1.0; 3], TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: bad }).err(), "drop"),
             (toss(0.5, [1.0; 3], 0.0, 1.0).launch.with_tilt(bad).err(), "tilt"),
             (Attitude::from_components([bad, 0.0, 0.0, 1.0]).err(), "attitude"),
             (Method::adaptive(Scheme::Dop853, bad).err(), "tolerance"),

@@ -60,11 +60,14 @@ struct TossArgs {
     #[arg(long, value_name = "V0", allow_hyphen_values = true, required_unless_present = "time")]
     speed: Option<f64>,
     /// Time of flight, instead of a speed (s)
-    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity"])]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"])]
     time: Option<f64>,
     /// Gravity (m/s²) [default: 9.81]
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     gravity: Option<f64>,
+    /// How far below the launch the coin lands; negative: above it (m) [default: 0]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    drop: Option<f64>,
     /// Attitude at launch: a turn about the lab's x axis (rad)
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
     tilt: f64,
@@ -76,7 +79,13 @@ impl TossArgs {
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
-            (Some(speed), None) => TimeOfFlight::Ballistic { speed, gravity: self.gravity.unwrap_or(DEFAULT_GRAVITY) },
+            (Some(speed), None) => {
+                let gravity = self.gravity.unwrap_or(DEFAULT_GRAVITY);
+                match self.drop {
+                    None => TimeOfFlight::Ballistic { speed, gravity },
+                    Some(drop) => TimeOfFlight::BallisticTo { speed, gravity, drop },
+                }
+            }
             (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
         };
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;

@@ -21,7 +21,7 @@
 //! 2^-1000, and `size` is above 10^-200.
 //!
 //! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations of
-//! at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time 10 u²,
+//! at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time 25 u²,
 //! their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both), turned by
 //! its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
 //! [`double_double_bound`].
@@ -184,6 +184,11 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let time = match toss.launch.time_of_flight() {
         TimeOfFlight::Given(time) => big(time),
         TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            let (speed, gravity) = (exactly(speed), exactly(gravity));
+            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
+            (round(speed) + round(discriminant).sqrt()) / round(gravity)
+        }
     };
     let (sin, cos) = (&momentum * time).sin_cos();
     let level = &m_x * &x + &m_y * &y;

@@ -28,9 +28,17 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     let motion = ExactMotion::new(toss);
     let time_of_flight = toss.launch.time_of_flight();
     let phase = motion.phases(time_of_flight)?.0.hi();
-    let time = to_nearest_edge(&motion.heads(), phase).map(|change| change / motion.precession_rate());
+    let (heads, rate) = (motion.heads(), motion.precession_rate());
+    let to_edge = |shortest: f64| to_nearest_edge(&heads, phase, shortest * rate).map(|change| change / rate);
+    let time = to_edge(0.0);
     let speed = match time_of_flight {
         TimeOfFlight::Ballistic { gravity, .. } => time.map(|time| 0.5 * gravity * time),
+        TimeOfFlight::BallisticTo { gravity, drop, .. } => {
+            // v0 = g T/2 - h/T, for flights not shorter than the fall from the apex or the rise to it.
+            let now = toss.launch.flight_time();
+            let change = |time: f64| time * (0.5 * gravity + drop / (now * (now + time)));
+            to_edge((2.0 * drop.abs() / gravity).sqrt()).map(change)
+        }
         TimeOfFlight::Given(_) => None,
     };
     let cos_tilt = motion.cos_tilt(time_of_flight)?;
@@ -39,8 +47,8 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     Ok(Margin { time, speed, rate })
 }
 
-/// The smallest change of a phase ≥ 0 that takes it to an edge of the heads, and not below 0 (rad).
-fn to_nearest_edge(heads: &HeadsPhases, phase: f64) -> Option<f64> {
+/// The smallest change of a `phase` that takes it to an edge of the heads, and not below `least` ≥ 0 (rad).
+fn to_nearest_edge(heads: &HeadsPhases, phase: f64, least: f64) -> Option<f64> {
     use std::f64::consts::{PI, TAU};
     if heads.half_width <= 0.0 || heads.half_width >= PI {
         return None;
@@ -51,11 +59,11 @@ fn to_nearest_edge(heads: &HeadsPhases, phase: f64) -> Option<f64> {
     let edges = [-1.0, 0.0, 1.0]
         .into_iter()
         .flat_map(|turns| [-heads.half_width, heads.half_width].map(|edge| TAU * turns + edge - from_crest));
-    edges.filter(|change| phase + change >= 0.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+    edges.filter(|change| phase + change >= least).min_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
-/// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if the time was
-/// given instead of a speed. A motion of many turns has as many intervals.
+/// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if it was not thrown
+/// and caught at the same height. A motion of many turns has as many intervals.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -112,6 +120,25 @@ mod tests {
             }
         }
         assert!(flips > 40, "{flips}");
+    }
+
+    #[test]
+    fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
+        let mut flips = 0;
+        for rate in RATES.map(Vector3::from) {
+            for (drop, now) in [-0.4, 0.2, 1.5].into_iter().flat_map(|drop| [3.0, 4.1].map(|now| (drop, now))) {
+                let toss = |speed| {
+                    let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop };
+                    Toss { coin: Coin::DISC, launch: Launch::new(rate, thrown).unwrap().with_tilt(0.6).unwrap() }
+                };
+                let outcome = |speed| certify(&toss(speed)).unwrap().outcome;
+                let Some(change) = margin(&toss(now)).unwrap().speed else { continue };
+                flips += 1;
+                assert_ne!(outcome(now + change * (1.0 + 1e-9)), outcome(now), "{rate:?} {drop}");
+                assert_eq!(outcome(now + change * (1.0 - 1e-9)), outcome(now), "{rate:?} {drop}");
+            }
+        }
+        assert!(flips >= 18, "{flips}");
     }
 
     #[test]

@@ -34,6 +34,9 @@ impl Case {
             TimeOfFlight::Ballistic { speed, gravity } => {
                 fields.extend([("speed", speed), ("gravity", gravity)]);
             }
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+                fields.extend([("speed", speed), ("gravity", gravity), ("drop", drop)]);
+            }
         }
         fields.iter().map(|(name, value)| format!("{name}={}", hex_float(*value))).collect::<Vec<_>>().join(" ")
     }
@@ -55,7 +58,13 @@ impl Case {
         let tilt = take("tilt")?;
         let time_of_flight = match take("time") {
             Ok(time) => TimeOfFlight::Given(time),
-            Err(_) => TimeOfFlight::Ballistic { speed: take("speed")?, gravity: take("gravity")? },
+            Err(_) => {
+                let (speed, gravity) = (take("speed")?, take("gravity")?);
+                match take("drop") {
+                    Ok(drop) => TimeOfFlight::BallisticTo { speed, gravity, drop },
+                    Err(_) => TimeOfFlight::Ballistic { speed, gravity },
+                }
+            }
         };
         ensure!(fields.is_empty(), "unknown: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt)?;
@@ -69,6 +78,9 @@ impl Case {
         let flight = match launch.time_of_flight() {
             TimeOfFlight::Given(time) => format!("--time {time:?}"),
             TimeOfFlight::Ballistic { speed, gravity } => format!("--speed {speed:?} --gravity {gravity:?}"),
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+                format!("--speed {speed:?} --gravity {gravity:?} --drop {drop:?}")
+            }
         };
         format!(
             "cargo run -q --release --bin unfair-toss -- toss --moments {:?},{:?} --rate {:?},{:?},{:?} {flight} \
@@ -120,10 +132,15 @@ mod tests {
             let case = crate::adversary::launch(3, index).unwrap();
             assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
         }
-        let thrown = TimeOfFlight::Ballistic { speed: 0.1, gravity: 9.81 };
-        let launch = Launch::new(Vector3::new(-0.0, 5e-324, f64::MAX), thrown).unwrap();
-        let case = Case { toss: Toss { coin: Coin::DISC, launch }, tilt: 0.0 };
-        assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
+        let thrown = [
+            TimeOfFlight::Ballistic { speed: 0.1, gravity: 9.81 },
+            TimeOfFlight::BallisticTo { speed: 0.1, gravity: 9.81, drop: 1.3 },
+        ];
+        for thrown in thrown {
+            let launch = Launch::new(Vector3::new(-0.0, 5e-324, f64::MAX), thrown).unwrap();
+            let case = Case { toss: Toss { coin: Coin::DISC, launch }, tilt: 0.0 };
+            assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
+        }
         assert_eq!(from_hex_float(&hex_float(-0.0)).unwrap().to_bits(), (-0.0_f64).to_bits());
     }
 

@@ -36,6 +36,11 @@ impl Reference {
         let time = match toss.launch.time_of_flight() {
             TimeOfFlight::Given(time) => big(time),
             TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+                let (speed, gravity) = (big(speed), big(gravity));
+                let fall = big(2.0) * &gravity * big(drop);
+                (&speed + (&speed * &speed + fall).sqrt()) / gravity
+            }
         };
         let half_time = time / big(2.0);
         let (sin, cos) = (&precession * &half_time).sin_cos();

@@ -127,7 +127,7 @@ impl Solver for OtherGravity {
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let time = match toss.launch.time_of_flight() {
             TimeOfFlight::Ballistic { speed, .. } => TimeOfFlight::Ballistic { speed, gravity: 9.80665 },
-            given @ TimeOfFlight::Given(_) => given,
+            other => other,
         };
         let launch = Launch::new(toss.launch.rate(), time).expect("valid").with_attitude(toss.launch.attitude());
         self.0.propagate(&Toss { launch, ..*toss })
