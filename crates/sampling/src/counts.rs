@@ -100,7 +100,7 @@ pub(crate) fn count(
         let mut counts = Counts::default();
         for (index, values) in block.clone().zip(launches.values(block)) {
             let toss = space.toss(&values);
-            counts.add(solver.verdict(&toss).map_err(|error| (index, toss, error))?);
+            counts.add(solver.verdict(&toss).map_err(|error| (index, Box::new(toss), error))?);
         }
         Ok(counts)
     })

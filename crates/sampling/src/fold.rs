@@ -45,7 +45,7 @@ pub(crate) trait Tally: Default + Send {
 }
 
 /// The index of a launch in its sequence, the toss, and why it could not be solved.
-pub(crate) type Failure = (u64, Toss, SolveError);
+pub(crate) type Failure = (u64, Box<Toss>, SolveError);
 
 /// Is told how many launches (or nodes of a map) were done since it was last called.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
@@ -85,7 +85,7 @@ pub(crate) fn fold<T: Tally>(
                 (Err(failure), Ok(_)) | (Ok(_), Err(failure)) => Err(failure),
             },
         )
-        .map_err(|(index, toss, source)| SampleError::Solve { index, toss: Box::new(toss), source })
+        .map_err(|(index, toss, source)| SampleError::Solve { index, toss, source })
 }
 
 /// The failure of the launch that comes first.
@@ -102,7 +102,8 @@ mod tests {
     #[test]
     fn of_two_failures_the_first_launch_counts() {
         let launch = Launch::new(Vector3::zeros(), TimeOfFlight::Given(0.0)).unwrap();
-        let failure = |index| (index, Toss { coin: Coin::PAPER, launch }, SolveError::NotFinite { time: 0.0 });
+        let toss = Box::new(Toss { coin: Coin::PAPER, launch });
+        let failure = |index| (index, toss.clone(), SolveError::NotFinite { time: 0.0 });
         assert_eq!((first(failure(3), failure(7)).0, first(failure(7), failure(3)).0), (3, 3));
     }
 }
