@@ -29,8 +29,8 @@ fn outcomes(criterion: &mut Criterion) {
     let tosses = tosses();
     let heads = |outcome: fn(&Toss) -> Outcome| tosses.iter().filter(|toss| outcome(toss) == Outcome::Heads).count();
     assert_eq!(heads(plain), heads(|toss| certify(toss).expect("small phases").outcome));
-    let escalated = tosses.iter().filter(|toss| certify(toss).is_ok_and(|found| found.stage != Stage::F64)).count();
-    println!("escalated: {escalated} of {}", tosses.len());
+    let by = |stage| tosses.iter().filter(|toss| certify(toss).is_ok_and(|found| found.stage == stage)).count();
+    println!("decided by stage: {:?}", Stage::ALL.map(by));
     let mut group = criterion.benchmark_group("10 000 tosses");
     group.bench_function("certified outcome", |bencher| {
         bencher.iter(|| heads(|toss| certify(black_box(toss)).expect("small phases").outcome));

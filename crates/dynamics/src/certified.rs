@@ -1,7 +1,8 @@
 //! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed and
 //! gravity.
 //!
-//! Three stages, each with more digits than the one before and asked only where that one cannot decide, after the
+//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it: what is
+//! [certain](mod@crate::certain) and [Keller's coin](crate::keller). Three have more digits, one than the other, after the
 //! adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
 //!
 //! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units of
@@ -33,9 +34,11 @@
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
+use crate::certain::{certain_by, phase_in_range};
 use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
-use crate::exact::{ExactMotion, LARGEST_PHASE};
+use crate::exact::ExactMotion;
+use crate::keller::{keller_outcome, keller_phase};
 use crate::launch::{TimeOfFlight, Toss};
 use crate::outcome::{Outcome, Stage};
 use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
@@ -55,25 +58,34 @@ pub struct Certificate {
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
 #[inline]
 pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
-    match by_f64(toss) {
-        Some(outcome) => Ok(Certificate { outcome, stage: Stage::F64 }),
+    match cheaply(toss) {
+        Some(certificate) => Ok(certificate),
         None => with_more_digits(toss),
     }
 }
 
-/// The first stage; `None` where it cannot decide, and for phases that may be too large.
+/// The stages in f64.
+#[inline]
+fn cheaply(toss: &Toss) -> Option<Certificate> {
+    let by = |stage| move |outcome| Certificate { outcome, stage };
+    if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
+        return Some(Certificate { outcome, stage: Stage::Keller });
+    }
+    let terms = TiltTerms::new(toss);
+    let phase = phase_in_range(toss, &terms)?;
+    certain_by(&terms, phase).map(by(Stage::Certain)).or_else(|| by_terms(&terms, phase).map(by(Stage::F64)))
+}
+
+/// The stage in f64; `None` where it cannot decide, and for phases that may be too large.
 #[inline]
 pub fn by_f64(toss: &Toss) -> Option<Outcome> {
-    const SMALLEST_TIME: f64 = 1e-200;
     let terms = TiltTerms::new(toss);
-    let time = toss.launch.flight_time();
-    let [phase, spin] = terms.phases(time);
-    // A smaller time may have lost digits that count at the largest rates.
-    let in_range = time >= SMALLEST_TIME || time == 0.0;
-    // Also false for a phase that is not a number.
-    if !(in_range && phase < 0.99 * LARGEST_PHASE && spin < 0.99 * LARGEST_PHASE) {
-        return None;
-    }
+    by_terms(&terms, phase_in_range(toss, &terms)?)
+}
+
+/// As [`by_f64`], from the terms of a toss and the phase of its landing (rad), which is in range.
+#[inline]
+fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
         Outcome::Undecided => None,
         decided => Some(decided),
@@ -91,7 +103,7 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     })
 }
 
-/// The second stage; `None` where it cannot decide.
+/// The stage in double-double; `None` where it cannot decide.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -124,7 +136,7 @@ fn exactly(value: f64) -> Big {
     Big::try_from(value).expect("a validated toss is finite").with_precision(0).value()
 }
 
-/// The third stage. It always decides, but for exact ties.
+/// The stage in as many digits as it takes. It always decides, but for exact ties.
 pub fn by_multiprecision(toss: &Toss) -> Outcome {
     if is_tie(toss) {
         return Outcome::Undecided;

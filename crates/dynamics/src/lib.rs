@@ -15,6 +15,7 @@
 //! | the exact motion, to the last bit | [`exact`], [`double_double`] |
 //! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
 //! | derivatives of the landing by the launch | [`sensitivity`] |
+//! | cheaper forms: without a motion, of Keller's coin, of the attitude in f64 | [`mod@certain`], [`keller`], [`plain_motion`] |
 //! | outcomes, and their proofs | [`outcome`], [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
@@ -29,6 +30,7 @@
 pub mod attitude;
 pub mod body_rate;
 pub mod catalogue;
+pub mod certain;
 pub mod certified;
 pub mod coin;
 pub mod double_double;
@@ -39,10 +41,12 @@ pub mod exact_solver;
 pub mod flight;
 pub mod heads;
 pub mod integrate;
+pub mod keller;
 pub mod launch;
 pub mod margin;
 pub mod method;
 pub mod outcome;
+pub mod plain_motion;
 pub mod scale;
 pub mod sensitivity;
 pub mod solver;
@@ -50,6 +54,7 @@ pub mod state;
 pub mod tilt_terms;
 
 pub use attitude::Attitude;
+pub use certain::certain;
 pub use certified::{Certificate, certify};
 pub use coin::Coin;
 pub use error::{InputError, Singularity, SolveError};
@@ -63,6 +68,7 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
 pub use outcome::{Outcome, Stage, Verdict};
+pub use plain_motion::plain_landing;
 pub use sensitivity::Sensitivity;
 pub use solver::{Formulation, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;

@@ -34,15 +34,24 @@ impl Outcome {
     }
 }
 
-/// Which stage of a proof decided: see [`certified`](crate::certified).
+/// Which stage of a proof decided, from the cheapest on: see [`certified`](crate::certified).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
+    /// No motion was evaluated: the face never changes, or the flight is too short for it.
+    Certain,
+    /// The one cosine of Keller's coin.
+    Keller,
     /// f64.
     F64,
     /// Double-double.
     DoubleDouble,
     /// 192 binary digits or more, or exact arithmetic for a tie.
     Multiprecision,
+}
+
+impl Stage {
+    /// All stages, in their order.
+    pub const ALL: [Self; 5] = [Self::Certain, Self::Keller, Self::F64, Self::DoubleDouble, Self::Multiprecision];
 }
 
 /// An outcome, and what it rests on.

@@ -36,7 +36,7 @@ pub const TERM_ERROR: f64 = 12.0 * UNIT_ROUNDOFF;
 pub const PHASE_ERROR: f64 = 6.0 * UNIT_ROUNDOFF;
 
 /// Precessions slower than its square root count as none, in the unit of rates; squares above it keep their digits.
-const SLOWEST_SQUARED: f64 = 1e-200;
+pub(crate) const SLOWEST_SQUARED: f64 = 1e-200;
 
 /// The terms of cos θ of a toss.
 #[derive(Debug, Clone, Copy, PartialEq)]

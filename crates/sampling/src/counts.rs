@@ -25,6 +25,10 @@ pub struct Counts {
 /// How many outcomes each stage of the proof decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Proven {
+    /// Without evaluating the motion.
+    pub certain: u64,
+    /// By the cosine of Keller's coin.
+    pub keller: u64,
     /// By f64.
     pub f64: u64,
     /// By double-double.
@@ -47,8 +51,8 @@ impl Counts {
 
     /// Whether every outcome is proven.
     pub fn are_certified(&self) -> bool {
-        let Proven { f64, double_double, multiprecision } = self.proven;
-        f64 + double_double + multiprecision == self.points()
+        let Proven { certain, keller, f64, double_double, multiprecision } = self.proven;
+        certain + keller + f64 + double_double + multiprecision == self.points()
     }
 
     #[inline]
@@ -59,6 +63,8 @@ impl Counts {
             Outcome::Undecided => self.undecided += 1,
         }
         match verdict.proof {
+            Some(Stage::Certain) => self.proven.certain += 1,
+            Some(Stage::Keller) => self.proven.keller += 1,
             Some(Stage::F64) => self.proven.f64 += 1,
             Some(Stage::DoubleDouble) => self.proven.double_double += 1,
             Some(Stage::Multiprecision) => self.proven.multiprecision += 1,
@@ -74,6 +80,8 @@ impl Tally for Counts {
             tails: self.tails + other.tails,
             undecided: self.undecided + other.undecided,
             proven: Proven {
+                certain: self.proven.certain + other.proven.certain,
+                keller: self.proven.keller + other.proven.keller,
                 f64: self.proven.f64 + other.proven.f64,
                 double_double: self.proven.double_double + other.proven.double_double,
                 multiprecision: self.proven.multiprecision + other.proven.multiprecision,

@@ -119,8 +119,8 @@ fn text(found: &Estimate, solver: &str) -> String {
     if let Found::Counts(counts) = found.found
         && counts.are_certified()
     {
-        let Proven { f64, double_double, multiprecision } = counts.proven;
-        lines.push(format!("proven by    f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
+        let Proven { certain, keller, f64, double_double, multiprecision } = counts.proven;
+        lines.push(format!("proven by    no motion {certain}, Keller's cosine {keller}, f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
     }
     lines.join("\n")
 }

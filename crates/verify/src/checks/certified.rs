@@ -216,7 +216,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
                 .par_iter()
                 .map(|case| certify(&case.toss).map(|found| (found, Reference::new(&case.toss).outcome())))
                 .collect();
-            let stages = [Stage::F64, Stage::DoubleDouble, Stage::Multiprecision].map(|stage| {
+            let stages = Stage::ALL.map(|stage| {
                 judged.iter().filter(|found| found.as_ref().is_ok_and(|(found, _)| found.stage == stage)).count()
             });
             let wrong: Vec<_> = judged
@@ -226,7 +226,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let sum: Result<f64, SolveError> = wrong.iter().cloned().sum();
             let mut worst = Measurement::largest(&subject(name), wrong, |index| cases[index]);
             if let Some(worst) = &mut worst.worst {
-                worst.input = format!("decided by stage 1, 2, 3: {stages:?}; {}", worst.input);
+                worst.input = format!("decided without the motion, by Keller's cosine, by f64, double-double, more digits: {stages:?}; {}", worst.input);
             }
             Ok(Measurement { measured: sum.unwrap_or(f64::INFINITY), ..worst })
         })

@@ -1,0 +1,111 @@
+//! Outcomes that need no motion: no sine or cosine is evaluated.
+//!
+//! By [`TiltTerms`], `size` cos θ = G(φ) = A + B cos φ + C sin φ. The outcome is certain
+//!
+//! - at any time, if |A| > √(B² + C²): from horizontal this is ψ < 45°. It is the sign of A;
+//! - within a flight too short to flip, if |A + B| > |C| φ + ½ |B| φ² ≥ |G(φ) - G(0)|: the outcome of the launch.
+
+use crate::exact::LARGEST_PHASE;
+use crate::launch::Toss;
+use crate::outcome::Outcome;
+use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
+
+/// The proven outcome of a toss that needs no motion, else `None`.
+#[inline]
+pub fn certain(toss: &Toss) -> Option<Outcome> {
+    let terms = TiltTerms::new(toss);
+    certain_by(&terms, phase_in_range(toss, &terms)?)
+}
+
+/// ωL T, if this and |q| T are surely below [`LARGEST_PHASE`] and no digit of them is lost.
+#[inline]
+pub(crate) fn phase_in_range(toss: &Toss, terms: &TiltTerms) -> Option<f64> {
+    const SMALLEST_TIME: f64 = 1e-200;
+    let time = toss.launch.flight_time();
+    let [phase, spin] = terms.phases(time);
+    // A smaller time may have lost digits that count at the largest rates. Also false for a phase that is not a number.
+    let in_range =
+        (time >= SMALLEST_TIME || time == 0.0) && phase < 0.99 * LARGEST_PHASE && spin < 0.99 * LARGEST_PHASE;
+    in_range.then_some(phase)
+}
+
+/// As [`certain`], from the terms of a toss and the phase of its landing (rad).
+///
+/// With u the [`UNIT_ROUNDOFF`] and each term off by at most 12u `size`:
+///
+/// ```text
+/// |A| - √(B² + C²)              29u size          12u (1 + √2)
+/// times |A| + √(B² + C²)        70u size²         which is at most 2.4 size
+/// A² - (B² + C²), as computed   78u size²         8u for its operations
+/// A + B                         25u size          two terms and one sum
+/// |C| φ                         19u φ size        12u of C, 6u of φ, one product
+/// ½ |B| φ²                      13u φ² size       6u of B, 6u of φ², two products
+/// ```
+#[inline]
+pub(crate) fn certain_by(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
+    let TiltTerms { mean, cosine, sine, size, .. } = *terms;
+    let amplitude_squared = cosine * cosine + sine * sine;
+    if mean * mean - amplitude_squared > 100.0 * UNIT_ROUNDOFF * (size * size) {
+        return Some(Outcome::of(mean, 0.0));
+    }
+    let (launch, change) = (mean + cosine, phase * (sine.abs() + 0.5 * cosine.abs() * phase));
+    let error = (32.0 + phase * (24.0 + 16.0 * phase)) * UNIT_ROUNDOFF * size;
+    (launch.abs() - change > error).then(|| Outcome::of(launch, 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::certified::by_multiprecision;
+    use crate::coin::Coin;
+    use crate::launch::{Launch, TimeOfFlight};
+
+    fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
+    }
+
+    #[test]
+    fn below_45_degrees_and_before_the_first_flip_the_outcome_is_certain() {
+        // tan ψ = Ω/(k ωz).
+        assert_eq!(certain(&toss(2.0, [1.999, 0.0, 1.0], 0.0, 1e9)), Some(Outcome::Heads));
+        assert_eq!(certain(&toss(2.0, [2.001, 0.0, 1.0], 0.0, 1e9)), None);
+        // End over end, the first flip is at a quarter of a turn; the certain time is √2 rad of it.
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, 1.414)), Some(Outcome::Heads));
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, 1.58)), None);
+        // Upside down, and at rest.
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 9.0], 3.1, 1e9)), Some(Outcome::Tails));
+        assert_eq!(certain(&toss(2.0, [0.0; 3], 2.0, 1.0)), Some(Outcome::Tails));
+        // A phase that means nothing is left to those who refuse it.
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 9.0], 0.0, 1e300)), None);
+    }
+
+    /// Launches around both limits, down to a few units in the last place: cones of nearly 45° that land at their lowest,
+    /// and coins nearly on edge that land as they pass it.
+    #[test]
+    fn what_is_certain_is_the_outcome_in_more_digits() {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let mut decided = [0, 0];
+        for index in 0..3000 {
+            let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
+            let nearness = 10f64.powi(-(index % 17)) * part(13f64.sqrt());
+            let (k, x, z) = (f64::from(1 + index % 4) * 0.5, 40.0 * part(2f64.sqrt()), 40.0 * part(5f64.sqrt()));
+            let across = k * z * (1.0 + nearness);
+            let graze = toss(k, [across, 0.0, z], 0.0, PI / across.hypot(k * z));
+            let edge = toss(
+                k,
+                [x, 0.0, 0.0],
+                FRAC_PI_2 + nearness,
+                nearness.abs() / x.abs() * (1.0 + 1e-3 * part(3f64.sqrt())),
+            );
+            for (toss, decided) in [graze, edge].iter().zip(&mut decided) {
+                let Some(outcome) = certain(toss) else { continue };
+                *decided += 1;
+                assert_eq!(outcome, by_multiprecision(toss), "{toss:?}");
+            }
+        }
+        assert!(decided.iter().all(|decided| *decided > 700), "{decided:?}");
+    }
+}
