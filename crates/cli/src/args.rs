@@ -2,12 +2,19 @@
 
 use clap::Args;
 use toss::catalogue::named_coin;
-use toss::launch::DEFAULT_GRAVITY;
+use toss::data::{NO_BOUNCE, NO_DRAG};
+use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{
     Coin, Formulation, InputError, Launch, Method, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3, named_solver,
 };
 
 use crate::failure::Failure;
+
+/// Reads numbers separated by commas.
+fn list(field: &'static str, text: &str, expected: &'static str) -> Result<Vec<f64>, InputError> {
+    let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    parts.map_err(|_| InputError::Malformed { field, value: text.to_owned(), expected })
+}
 
 /// Reads N numbers separated by commas.
 pub(crate) fn numbers<const N: usize>(
@@ -15,9 +22,8 @@ pub(crate) fn numbers<const N: usize>(
     text: &str,
     expected: &'static str,
 ) -> Result<[f64; N], InputError> {
-    let malformed = || InputError::Malformed { field, value: text.to_owned(), expected };
-    let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    parts.map_err(|_| malformed())?.try_into().map_err(|_| malformed())
+    let malformed = |_| InputError::Malformed { field, value: text.to_owned(), expected };
+    list(field, text, expected)?.try_into().map_err(malformed)
 }
 
 #[derive(Debug, Args)]
@@ -29,7 +35,7 @@ pub(crate) struct CoinArgs {
     /// A homogeneous cylinder (kg, m, m)
     #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
     cylinder: Option<String>,
-    /// Principal moments of inertia (kg m²)
+    /// Principal moments of inertia (kg m²); I1,I2,I3 with I2 = I1 is understood too
     #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
     moments: Option<String>,
 }
@@ -42,8 +48,7 @@ impl CoinArgs {
             return Coin::from_cylinder(mass, radius, thickness).map(Some);
         }
         if let Some(text) = &self.moments {
-            let [i1, i3] = numbers("moments", text, "I1,I3 [kg m²]")?;
-            return Coin::from_moments(i1, i3).map(Some);
+            return Coin::from_listed_moments(&list("moments", text, "I1,I3 [kg m²]")?).map(Some);
         }
         self.coin.as_deref().map(named_coin).transpose()
     }
@@ -71,21 +76,27 @@ struct TossArgs {
     /// Attitude at launch: a turn about the lab's x axis (rad)
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
     tilt: f64,
+    /// Outside the model, and refused with the reason
+    #[arg(long, value_name = "C", allow_hyphen_values = true)]
+    drag: Option<String>,
+    /// Outside the model, and refused with the reason
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    bounce: Option<String>,
 }
 
 impl TossArgs {
     fn toss(&self) -> Result<Toss, Failure> {
+        if self.drag.is_some() {
+            return Err(NO_DRAG.into());
+        }
+        if self.bounce.is_some() {
+            return Err(NO_BOUNCE.into());
+        }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
-            (Some(speed), None) => {
-                let gravity = self.gravity.unwrap_or(DEFAULT_GRAVITY);
-                match self.drop {
-                    None => TimeOfFlight::Ballistic { speed, gravity },
-                    Some(drop) => TimeOfFlight::BallisticTo { speed, gravity, drop },
-                }
-            }
+            (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
             (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
         };
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;

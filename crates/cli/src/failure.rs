@@ -73,6 +73,7 @@ impl Failure {
 
     fn kind(&self) -> &'static str {
         match self {
+            Self::Input(InputError::OutsideModel { .. }) => "outside_model",
             Self::Input(_) | Self::Usage(_) | Self::SpaceFile { .. } => "input",
             Self::Read { .. } => "read",
             Self::Write { .. } => "write",
@@ -106,7 +107,9 @@ impl Failure {
             Self::Input(InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. }) => {
                 json!({"field": field, "value": value})
             }
-            Self::Input(InputError::Missing { field, .. }) => json!({"field": field}),
+            Self::Input(InputError::Missing { field, .. } | InputError::OutsideModel { field, .. }) => {
+                json!({"field": field})
+            }
             Self::SpaceFile { path, source } => json!({"path": path, "line": source.line, "column": source.column}),
             Self::Read { path, .. } => json!({"path": path}),
             Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => json!({}),

@@ -60,7 +60,8 @@ mod tests {
     use super::*;
     use crate::certified::by_multiprecision;
     use crate::coin::Coin;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();

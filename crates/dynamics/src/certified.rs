@@ -39,9 +39,10 @@ use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
 use crate::keller::{keller_outcome, keller_phase};
-use crate::launch::{TimeOfFlight, Toss};
+use crate::launch::Toss;
 use crate::outcome::{Outcome, Stage};
 use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
+use crate::time_of_flight::TimeOfFlight;
 
 /// An outcome and the stage that proved it. It is undecided only for an exact tie: cos θ = 0 at landing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,12 +4,16 @@
 //! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
 //! For a free flight only the inertia ratio k = I3/I1 matters.
 
+use serde::{Deserialize, Serialize};
+
+use crate::data::CoinData;
 use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};
 use crate::scale::mantissa_and_exponent;
 
 /// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "CoinData", into = "CoinData")]
 pub struct Coin {
     i1: f64,
     i3: f64,
@@ -23,6 +27,10 @@ impl Coin {
 
     /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
     pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6 };
+
+    pub(crate) fn paper() -> Self {
+        Self::PAPER
+    }
 
     /// A homogeneous cylinder.
     ///
@@ -50,6 +58,26 @@ impl Coin {
         require("I1 [kg m²]", i1, "finite and > 0 (at least 2.3e-308)", i1 >= f64::MIN_POSITIVE)?;
         require("I3 [kg m²]", i3, "0 <= I3 <= 2 I1", (0.0..=2.0 * i1).contains(&i3))?;
         Ok(Self { i1, i3 })
+    }
+
+    /// A body with the principal moments `[I1, I3]` or `[I1, I2, I3]` (kg m²).
+    ///
+    /// # Errors
+    /// As [`Coin::from_moments`]; [`InputError::OutsideModel`] for I1 ≠ I2.
+    pub fn from_listed_moments(moments: &[f64]) -> Result<Self, InputError> {
+        match *moments {
+            [i1, i3] => Self::from_moments(i1, i3),
+            [i1, i2, i3] if i1 == i2 => Self::from_moments(i1, i3),
+            [_, _, _] => Err(InputError::OutsideModel {
+                field: "moments [kg m²]",
+                why: "with I1 ≠ I2 the coin is no body of revolution; its motion is another and is not approximated",
+            }),
+            _ => Err(InputError::Malformed {
+                field: "moments [kg m²]",
+                value: format!("{moments:?}"),
+                expected: "I1,I3 or I1,I2,I3",
+            }),
+        }
     }
 
     /// I1 = I2, the moment about any axis in the coin's middle plane (kg m²).

@@ -35,6 +35,14 @@ pub enum InputError {
         /// What was expected.
         expected: &'static str,
     },
+    /// Something that the model does not hold and that is not approximated by what it does hold.
+    #[error("{field} is outside the model: {why}")]
+    OutsideModel {
+        /// The field.
+        field: &'static str,
+        /// Why, in a sentence.
+        why: &'static str,
+    },
     /// A name that stands for nothing here.
     #[error("{field} = '{value}' is unknown; known: {known}")]
     UnknownName {
@@ -54,6 +62,7 @@ impl InputError {
             Self::OutOfRange { field, .. }
             | Self::Malformed { field, .. }
             | Self::Missing { field, .. }
+            | Self::OutsideModel { field, .. }
             | Self::UnknownName { field, .. } => field,
         }
     }

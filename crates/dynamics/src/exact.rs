@@ -23,9 +23,10 @@ use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
 use crate::euler_angles::{EulerAngles, continuous_polar, flat, half_turns};
 use crate::heads::HeadsPhases;
-use crate::launch::{ExactTime, Toss};
+use crate::launch::Toss;
 use crate::scale::{mantissa_and_exponent, power_of_two_scale};
 use crate::state::State;
+use crate::time_of_flight::ExactTime;
 
 /// 2^53 (rad): above it, neighbouring f64 phases are more than a radian apart.
 pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -197,7 +198,8 @@ mod tests {
 
     use super::*;
     use crate::coin::Coin;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();

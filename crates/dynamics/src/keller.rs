@@ -54,7 +54,8 @@ mod tests {
     use crate::certified::{by_multiprecision, certify};
     use crate::coin::Coin;
     use crate::exact::ExactMotion;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     fn toss(rate: [f64; 3], tilt: f64, time: f64) -> Toss {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();

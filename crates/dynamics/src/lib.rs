@@ -9,7 +9,7 @@
 //! | step | file |
 //! |---|---|
 //! | geometry → moments of inertia | [`coin`], [`catalogue`] |
-//! | coin + body rate + attitude + time of flight | [`launch`], [`state`] |
+//! | coin + body rate + attitude + time of flight; as plain data | [`launch`], [`mod@time_of_flight`], [`state`], [`data`] |
 //! | Euler's equations and what they conserve | [`body_rate`] |
 //! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
 //! | the exact motion, to the last bit | [`exact`], [`double_double`] |
@@ -33,6 +33,7 @@ pub mod catalogue;
 pub mod certain;
 pub mod certified;
 pub mod coin;
+pub mod data;
 pub mod double_double;
 pub mod error;
 pub mod euler_angles;
@@ -52,6 +53,7 @@ pub mod sensitivity;
 pub mod solver;
 pub mod state;
 pub mod tilt_terms;
+pub mod time_of_flight;
 
 pub use attitude::Attitude;
 pub use certain::certain;
@@ -63,7 +65,7 @@ pub use exact::ExactMotion;
 pub use exact_solver::ExactSolver;
 pub use flight::Flight;
 pub use heads::HeadsPhases;
-pub use launch::{Launch, TimeOfFlight, Toss};
+pub use launch::{Launch, Toss};
 pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
@@ -73,3 +75,4 @@ pub use sensitivity::Sensitivity;
 pub use solver::{Formulation, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;
 pub use tilt_terms::TiltTerms;
+pub use time_of_flight::TimeOfFlight;

@@ -6,8 +6,9 @@
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
 use crate::heads::HeadsPhases;
-use crate::launch::{TimeOfFlight, Toss};
+use crate::launch::Toss;
 use crate::sensitivity::Sensitivity;
+use crate::time_of_flight::TimeOfFlight;
 
 /// The smallest changes that flip the outcome, each of one input alone and with its sign; `None` where none does.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -153,7 +153,8 @@ mod tests {
 
     use super::*;
     use crate::coin::Coin;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     #[test]
     fn a_solver_answers_for_a_hundred_tolerances_a_radian_or_for_the_order_of_its_steps() {

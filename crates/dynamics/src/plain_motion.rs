@@ -48,7 +48,8 @@ mod tests {
     use super::*;
     use crate::coin::Coin;
     use crate::exact::ExactMotion;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     #[test]
     fn it_is_the_exact_motion_to_rounding() {

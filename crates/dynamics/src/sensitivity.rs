@@ -61,7 +61,8 @@ fn right_jacobian(turn: &Vector3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use crate::coin::Coin;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     fn toss([x, y, z]: [f64; 3], time: f64, tilt: f64) -> Toss {
         let launch = Launch::new(Vector3::new(x, y, z), TimeOfFlight::Given(time)).unwrap();

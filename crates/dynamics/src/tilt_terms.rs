@@ -115,7 +115,8 @@ mod tests {
 
     use super::*;
     use crate::coin::Coin;
-    use crate::launch::{Launch, TimeOfFlight};
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
 
     #[test]
     fn a_coin_that_does_not_precess_keeps_its_face() {

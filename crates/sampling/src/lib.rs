@@ -24,6 +24,7 @@ pub mod series;
 mod shares;
 pub mod sobol;
 pub mod space;
+mod space_data;
 pub mod space_file;
 
 pub use axis::{Axis, Distribution};

@@ -3,11 +3,13 @@
 use std::fmt;
 
 use dynamics::error::require;
-use dynamics::launch::DEFAULT_GRAVITY;
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use serde::{Deserialize, Serialize};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
+use crate::space_data::SpaceData;
 
 /// The values of one launch, in the order of [`Coordinate::ALL`].
 pub(crate) type Values = [f64; Coordinate::COUNT];
@@ -32,7 +34,8 @@ impl fmt::Display for AxisOrTie {
 }
 
 /// Launches of one coin over a box of coordinates, independent of each other but for ties.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SpaceData", into = "SpaceData")]
 pub struct Space {
     coin: Coin,
     axes: [AxisOrTie; Coordinate::COUNT],

@@ -13,7 +13,6 @@
 
 use std::ops::Range;
 
-use dynamics::catalogue::named_coin;
 use dynamics::error::find_named;
 use dynamics::{Coin, InputError};
 use serde::Deserialize;
@@ -21,6 +20,7 @@ use toml::Spanned;
 
 use crate::coordinate::Coordinate;
 use crate::space::Space;
+use crate::space_data::{Entry, paper};
 
 /// A space and what is said of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,38 +48,14 @@ pub struct SpaceFileError {
 struct File {
     #[serde(default)]
     description: String,
-    coin: Option<Spanned<CoinEntry>>,
+    #[serde(default = "paper")]
+    coin: Coin,
     rate_x: Option<Spanned<Entry>>,
     rate_y: Option<Spanned<Entry>>,
     rate_z: Option<Spanned<Entry>>,
     speed: Option<Spanned<Entry>>,
     gravity: Option<Spanned<Entry>>,
     tilt: Option<Spanned<Entry>>,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected a number, or a text like \"3:5:500\"")]
-enum Entry {
-    Number(f64),
-    Text(String),
-}
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
-enum CoinEntry {
-    Named(String),
-    Moments { moments: [f64; 2] },
-    Cylinder { cylinder: [f64; 3] },
-}
-
-impl CoinEntry {
-    fn coin(&self) -> Result<Coin, InputError> {
-        match self {
-            Self::Named(name) => named_coin(name),
-            Self::Moments { moments: [i1, i3] } => Coin::from_moments(*i1, *i3),
-            Self::Cylinder { cylinder: [mass, radius, thickness] } => Coin::from_cylinder(*mass, *radius, *thickness),
-        }
-    }
 }
 
 impl DescribedSpace {
@@ -90,11 +66,6 @@ impl DescribedSpace {
     pub fn from_toml(text: &str) -> Result<Self, SpaceFileError> {
         let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = toml::from_str(text)
             .map_err(|error: toml::de::Error| SpaceFileError::at(text, error.span(), error.message().to_owned()))?;
-        let located = |span, error: InputError| SpaceFileError::at(text, span, error.to_string());
-        let coin = match coin {
-            Some(entry) => entry.get_ref().coin().map_err(|error| located(Some(entry.span()), error))?,
-            None => Coin::PAPER,
-        };
         let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
         let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
             .into_iter()
@@ -104,19 +75,9 @@ impl DescribedSpace {
         let texts: Vec<(Coordinate, &str)> = given.iter().map(|(of, _, text)| (*of, text.as_str())).collect();
         let space = Space::parse(coin, &texts).map_err(|error| {
             let blamed = given.iter().find(|(of, ..)| of.field() == error.field());
-            located(blamed.map(|(_, span, _)| span.clone()), error)
+            SpaceFileError::at(text, blamed.map(|(_, span, _)| span.clone()), error.to_string())
         })?;
         Ok(Self { description, space })
-    }
-}
-
-impl Entry {
-    fn text(self) -> String {
-        match self {
-            // The shortest digits that read back as the same number.
-            Self::Number(number) => number.to_string(),
-            Self::Text(text) => text,
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use sampling::{Axis, Coordinate};
 use serde::Serialize;
-use toss::launch::DEFAULT_GRAVITY;
+use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
 
 use crate::args::{CoinArgs, numbers};

@@ -4,7 +4,7 @@
 //! flights up to its first flip at 1.3073 s, which covers the paper's speeds of 3 to 5 m/s. As a disc ψ = 15.8° ≤ 45°, and
 //! it is heads forever. Both are checked.
 
-use toss::launch::DEFAULT_GRAVITY;
+use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Coin, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss, Vector3};
 
 use crate::case::Case;

@@ -7,7 +7,7 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Space, random_tosses};
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::launch::DEFAULT_GRAVITY;
+use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::case::Case;

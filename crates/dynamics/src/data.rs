@@ -1,0 +1,197 @@
+//! Coins and launches as plain data, for serde: what a file or a message says, read into values that are valid.
+//!
+//! ```toml
+//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }; the paper's
+//!
+//! [launch]
+//! rate = [1.0, 1.0, 2.5]           # rad/s, BF
+//! speed = 3.0                      # m/s; or time = 0.6, s
+//! gravity = 9.81                   # m/s²; this and the next two are the defaults
+//! drop = 0.0                       # m, how far below the launch it lands
+//! tilt = 0.0                       # rad; or attitude = [w, x, y, z]
+//! ```
+//!
+//! What lies outside the model has its fields too, so that it is refused with a reason and not with "unknown field".
+
+use nalgebra::Vector3;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::Attitude;
+use crate::catalogue::named_coin;
+use crate::coin::Coin;
+use crate::error::InputError;
+use crate::launch::Launch;
+use crate::time_of_flight::{DEFAULT_GRAVITY, TimeOfFlight};
+
+/// Why drag is refused.
+pub const NO_DRAG: InputError = InputError::OutsideModel {
+    field: "drag",
+    why: "the flight is free of torque and drag, and a flight through air is not approximated by one without",
+};
+
+/// Why bouncing is refused.
+pub const NO_BOUNCE: InputError = InputError::OutsideModel {
+    field: "bounce",
+    why: "the flight ends at the first landing, and what the coin does on the floor is not solved",
+};
+
+/// A coin as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
+pub(crate) enum CoinData {
+    Named(String),
+    Moments { moments: Vec<f64> },
+    Cylinder { cylinder: [f64; 3] },
+}
+
+impl TryFrom<CoinData> for Coin {
+    type Error = InputError;
+
+    fn try_from(data: CoinData) -> Result<Self, InputError> {
+        match data {
+            CoinData::Named(name) => named_coin(&name),
+            CoinData::Moments { moments } => Self::from_listed_moments(&moments),
+            CoinData::Cylinder { cylinder: [mass, radius, thickness] } => Self::from_cylinder(mass, radius, thickness),
+        }
+    }
+}
+
+impl From<Coin> for CoinData {
+    fn from(coin: Coin) -> Self {
+        Self::Moments { moments: vec![coin.i1(), coin.i3()] }
+    }
+}
+
+/// A launch as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LaunchData {
+    rate: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    speed: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gravity: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drop: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tilt: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    attitude: Option<[f64; 4]>,
+    #[serde(skip_serializing)]
+    drag: Option<IgnoredAny>,
+    #[serde(skip_serializing)]
+    bounce: Option<IgnoredAny>,
+}
+
+impl TryFrom<LaunchData> for Launch {
+    type Error = InputError;
+
+    fn try_from(data: LaunchData) -> Result<Self, InputError> {
+        if data.drag.is_some() {
+            return Err(NO_DRAG);
+        }
+        if data.bounce.is_some() {
+            return Err(NO_BOUNCE);
+        }
+        let launch = Self::new(Vector3::from(data.rate), data.time_of_flight()?)?;
+        match (data.tilt, data.attitude) {
+            (tilt, None) => launch.with_tilt(tilt.unwrap_or(0.0)),
+            (None, Some(attitude)) => Ok(launch.with_attitude(Attitude::from_components(attitude)?)),
+            (Some(_), Some(_)) => Err(twice("tilt", "either tilt or attitude")),
+        }
+    }
+}
+
+impl LaunchData {
+    fn time_of_flight(&self) -> Result<TimeOfFlight, InputError> {
+        let thrown = self.speed.or(self.gravity).or(self.drop);
+        match (self.speed, self.time) {
+            (None, None) => Err(InputError::Missing { field: "speed [m/s]", expected: "a speed, or a time of flight" }),
+            (_, Some(_)) if thrown.is_some() => Err(twice("time [s]", "a time alone, without speed, gravity and drop")),
+            (_, Some(time)) => Ok(TimeOfFlight::Given(time)),
+            (Some(speed), None) => Ok(TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop)),
+        }
+    }
+}
+
+fn twice(field: &'static str, expected: &'static str) -> InputError {
+    InputError::Malformed { field, value: "given twice".to_owned(), expected }
+}
+
+impl From<Launch> for LaunchData {
+    fn from(launch: Launch) -> Self {
+        let (mut speed, mut gravity, mut drop, mut time) = (None, None, None, None);
+        match launch.time_of_flight() {
+            TimeOfFlight::Ballistic { speed: v, gravity: g } => (speed, gravity) = (Some(v), Some(g)),
+            TimeOfFlight::BallisticTo { speed: v, gravity: g, drop: h } => {
+                (speed, gravity, drop) = (Some(v), Some(g), Some(h));
+            }
+            TimeOfFlight::Given(t) => time = Some(t),
+        }
+        let attitude = Some(launch.attitude().components());
+        Self { rate: launch.rate().into(), speed, gravity, drop, time, tilt: None, attitude, drag: None, bounce: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::launch::Toss;
+
+    fn read(text: &str) -> Result<Toss, String> {
+        toml::from_str(text).map_err(|error| error.message().to_owned())
+    }
+
+    #[test]
+    fn a_toss_is_read_with_its_defaults() {
+        let toss = read("[launch]\nrate = [1.0, 1.0, 2.5]\nspeed = 3").unwrap();
+        assert_eq!(toss.coin, Coin::PAPER);
+        assert_eq!(toss.launch.time_of_flight(), TimeOfFlight::Ballistic { speed: 3.0, gravity: DEFAULT_GRAVITY });
+        assert_eq!(toss.launch.attitude(), Attitude::IDENTITY);
+        let toss = read("coin = 'disc'\n[launch]\nrate = [1, 1, 2.5]\ntime = 3\ntilt = 0.5").unwrap();
+        assert_eq!((toss.coin, toss.launch.flight_time()), (Coin::DISC, 3.0));
+        assert_eq!(toss.launch.attitude(), Attitude::about_x(0.5));
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let thrown = [
+            TimeOfFlight::Given(0.3),
+            TimeOfFlight::thrown(3.1, 9.78, None),
+            TimeOfFlight::thrown(3.1, 9.78, Some(-0.2)),
+        ];
+        for time in thrown {
+            let launch = Launch::new(Vector3::new(0.1, -7.0, 1e-300), time).unwrap().with_tilt(1.1).unwrap();
+            let toss = Toss { coin: Coin::from_moments(0.3, 0.1).unwrap(), launch };
+            let back = read(&toml::to_string(&toss).unwrap()).unwrap();
+            assert_eq!((back.coin, back.launch.rate()), (toss.coin, toss.launch.rate()));
+            assert_eq!(back.launch.time_of_flight(), time);
+            assert!(back.launch.attitude().angle_to(&toss.launch.attitude()) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_or_outside_the_model_is_named() {
+        let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
+        for (text, message) in [
+            (format!("coin = {{ moments = [1, 1.1, 2] }}\n{launch}"), "moments [kg m²] is outside the model: "),
+            (format!("coin = {{ moments = [1, 1, 3] }}\n{launch}"), "I3 [kg m²] = 3.0 is outside its valid range"),
+            (format!("coin = {{ moments = [1] }}\n{launch}"), "moments [kg m²] = '[1.0]' can't be used"),
+            (format!("{launch}drag = 0.4"), "drag is outside the model: the flight is free of torque and drag"),
+            (format!("{launch}bounce = true"), "bounce is outside the model: the flight ends at the first landing"),
+            (format!("{launch}time = 3"), "time [s] = 'given twice' can't be used"),
+            (format!("{launch}tilt = 1\nattitude = [1, 0, 0, 0]"), "tilt = 'given twice' can't be used"),
+            (format!("{launch}attitude = [0, 0, 0, 0]"), "attitude (largest component) = 0.0"),
+            (format!("{launch}drop = -1"), "drop [m] = -1.0 is outside its valid range"),
+            (format!("{launch}wind = 3"), "unknown field `wind`"),
+            ("[launch]\nrate = [1, 1, 2]".to_owned(), "speed [m/s] is missing"),
+        ] {
+            let found = read(&text).unwrap_err();
+            assert!(found.starts_with(message), "'{found}' for '{text}'");
+        }
+        assert!(read(&format!("coin = {{ moments = [1, 1, 2] }}\n{launch}")).is_ok());
+    }
+}

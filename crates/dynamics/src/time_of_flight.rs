@@ -1,0 +1,220 @@
+//! The time of flight: how long a toss lasts, to f64 and beyond.
+
+use crate::double_double::DoubleDouble;
+use crate::error::{InputError, require};
+use crate::scale::mantissa_and_exponent;
+
+/// Gravity used where none is given (m/s²). The paper gives no value.
+pub const DEFAULT_GRAVITY: f64 = 9.81;
+
+/// How long the coin flies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeOfFlight {
+    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught at the height of the launch: T = 2 v0/g.
+    Ballistic {
+        /// v0 (m/s), ≥ 0.
+        speed: f64,
+        /// g (m/s²), > 0.
+        gravity: f64,
+    },
+    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught, on its way down, `drop` (m) below the launch:
+    /// T = (v0 + √(v0² + 2 g h))/g.
+    BallisticTo {
+        /// v0 (m/s), ≥ 0.
+        speed: f64,
+        /// g (m/s²), > 0.
+        gravity: f64,
+        /// h (m); negative for a landing above the launch, down to -v0²/(2 g), the apex.
+        drop: f64,
+    },
+    /// Given directly (s), ≥ 0.
+    Given(f64),
+}
+
+impl TimeOfFlight {
+    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught `drop` (m) below, or at the same height.
+    pub fn thrown(speed: f64, gravity: f64, drop: Option<f64>) -> Self {
+        match drop {
+            None => Self::Ballistic { speed, gravity },
+            Some(drop) => Self::BallisticTo { speed, gravity, drop },
+        }
+    }
+
+    /// T (s).
+    #[inline]
+    pub fn seconds(&self) -> f64 {
+        match *self {
+            Self::Ballistic { speed, gravity } => 2.0 * speed / gravity,
+            Self::BallisticTo { .. } => self.exact().rounded(),
+            Self::Given(time) => time,
+        }
+    }
+
+    /// T as the quotient that it is, not rounded to f64.
+    pub fn exact(&self) -> ExactTime {
+        match *self {
+            Self::Ballistic { speed, gravity } => {
+                let ((speed, e_speed), (gravity, e_gravity)) =
+                    (mantissa_and_exponent(speed), mantissa_and_exponent(gravity));
+                ExactTime { mantissa: DoubleDouble::quotient(speed, gravity), exponent: 1 + e_speed - e_gravity }
+            }
+            Self::BallisticTo { speed, gravity, drop } => {
+                // (v0 + √d)/g, with d = v0² + 2 g h.
+                let (discriminant, exponent) = discriminant(speed, gravity, drop);
+                let ((speed, e_speed), (gravity, e_gravity)) =
+                    (mantissa_and_exponent(speed), mantissa_and_exponent(gravity));
+                let speed = DoubleDouble::from(speed).times_power_of_two(e_speed - exponent);
+                ExactTime::new((speed + discriminant.sqrt()) / gravity.into(), exponent - e_gravity)
+            }
+            Self::Given(time) => time.into(),
+        }
+    }
+
+    /// Whether the coin flies at all, also where T is below the range of f64.
+    pub fn is_positive(&self) -> bool {
+        match *self {
+            Self::Ballistic { speed, .. } => speed > 0.0,
+            Self::BallisticTo { speed, drop, .. } => speed > 0.0 || drop > 0.0,
+            Self::Given(time) => time > 0.0,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn validated(self) -> Result<Self, InputError> {
+        match self {
+            Self::Ballistic { speed, gravity } => {
+                require("speed [m/s]", speed, "finite and >= 0", speed >= 0.0)?;
+                require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
+                require("time of flight 2 v0/g [s]", self.seconds(), "finite", true)?;
+            }
+            Self::BallisticTo { speed, gravity, drop } => {
+                Self::Ballistic { speed, gravity }.validated()?;
+                require("drop [m]", drop, "finite", true)?;
+                let (discriminant, _) = discriminant(speed, gravity, drop);
+                let valid = ">= -v0²/(2 g), the height that the toss reaches";
+                require("drop [m]", drop, valid, discriminant.hi() >= 0.0)?;
+                require("time of flight [s]", self.seconds(), "finite", true)?;
+            }
+            Self::Given(time) => {
+                require("time [s]", time, "finite and >= 0", time >= 0.0)?;
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// v0² + 2 g h (m²/s²) to 3 u² as a number and the exponent e of its unit, 2^(2e). The unit is that of the larger term,
+/// so that only what does not count can underflow.
+fn discriminant(speed: f64, gravity: f64, drop: f64) -> (DoubleDouble, i32) {
+    let [(speed, e_speed), (gravity, e_gravity), (drop, e_drop)] = [speed, gravity, drop].map(mantissa_and_exponent);
+    let (e_square, e_fall) = (2 * e_speed, 1 + e_gravity + e_drop);
+    let larger = if speed == 0.0 || (drop != 0.0 && e_fall > e_square) { e_fall } else { e_square };
+    let exponent = larger.div_euclid(2);
+    let square = DoubleDouble::product(speed, speed).times_power_of_two(e_square - 2 * exponent);
+    let fall = DoubleDouble::product(gravity, drop).times_power_of_two(e_fall - 2 * exponent);
+    (square + fall, exponent)
+}
+
+/// A time (s) in twice the precision of f64: `mantissa` times 2^`exponent`, with a mantissa between ½ and 2, or 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactTime {
+    pub(crate) mantissa: DoubleDouble,
+    pub(crate) exponent: i32,
+}
+
+impl ExactTime {
+    /// `value` times 2^`exponent`.
+    fn new(value: DoubleDouble, exponent: i32) -> Self {
+        let (_, own) = mantissa_and_exponent(value.hi());
+        Self { mantissa: value.times_power_of_two(-own), exponent: exponent + own }
+    }
+
+    /// The nearest f64 (s).
+    fn rounded(self) -> f64 {
+        self.mantissa.times_power_of_two(self.exponent).hi()
+    }
+}
+
+impl From<f64> for ExactTime {
+    fn from(time: f64) -> Self {
+        let (mantissa, exponent) = mantissa_and_exponent(time);
+        Self { mantissa: mantissa.into(), exponent }
+    }
+}
+
+impl From<TimeOfFlight> for ExactTime {
+    fn from(time: TimeOfFlight) -> Self {
+        time.exact()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::launch::Launch;
+
+    #[test]
+    fn a_ballistic_flight_lasts_two_v_over_g() {
+        let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+        assert_eq!(thrown.seconds(), 6.0 / 9.81);
+    }
+
+    /// Against 200 digits, in units of the last place: short and long falls, at rest, at the apex and next to it.
+    #[test]
+    fn a_flight_to_another_height_lasts_until_its_later_crossing() {
+        use dashu_float::FBig;
+        use dashu_float::round::mode::HalfEven;
+        type Big = FBig<HalfEven>;
+        let big = |value: f64| Big::try_from(value).unwrap().with_precision(700).value();
+        let apex = -3.0 * 3.0 / (2.0 * 9.81);
+        let cases = [
+            [3.0, 9.81, 0.0],
+            [3.0, 9.81, 1.3],
+            [3.0, 9.81, -0.3],
+            [3.0, 9.81, apex * (1.0 - 1e-9)],
+            [4.0, 2.0, -4.0],
+            [0.0, 9.81, 1.0],
+            [1e-300, 9.81, 1.0],
+            [3.0, 9.81, 1e-300],
+            [1e200, 1e-20, -1.0],
+            [1e-160, 1e-3, 1e-310],
+            [0.0, 5e-324, 5e-324],
+            [5e-324, 1.0, 0.0],
+        ];
+        for [speed, gravity, drop] in cases {
+            let time = TimeOfFlight::BallisticTo { speed, gravity, drop }.validated().unwrap();
+            let [v, g, h] = [speed, gravity, drop].map(big);
+            let exact = (&v + (&v * &v + big(2.0) * &g * h).sqrt()) / g;
+            let ExactTime { mantissa, exponent } = time.exact();
+            assert!(exact == big(0.0) || (0.5..=2.0).contains(&mantissa.hi()), "{mantissa:?}");
+            let found = (big(mantissa.hi()) + big(mantissa.lo()))
+                * (Big::ONE << 1100 >> (1100 - isize::try_from(exponent).unwrap()));
+            let error = ((found - &exact) / &exact).to_f64().value().abs();
+            assert!(error < 25.0 * 2f64.powi(-106), "{speed} {gravity} {drop}: {error:e}");
+            assert_eq!(time.seconds(), exact.to_f64().value());
+        }
+    }
+
+    #[test]
+    fn a_height_that_is_never_reached_is_refused() {
+        for (drop, reached) in
+            [(-3.0 * 3.0 / (2.0 * 9.81), true), (-0.459, false), (f64::NEG_INFINITY, false), (f64::NAN, false)]
+        {
+            let thrown = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop };
+            let launch = Launch::new(Vector3::zeros(), thrown);
+            assert_eq!(launch.is_ok(), reached, "{drop}: {launch:?}");
+            assert!(launch.err().is_none_or(|error| error.field() == "drop [m]"));
+        }
+    }
+
+    #[test]
+    fn a_time_that_overflows_is_refused() {
+        let endless = TimeOfFlight::Ballistic { speed: 1e300, gravity: 1e-300 };
+        assert!(matches!(
+            Launch::new(Vector3::zeros(), endless),
+            Err(InputError::OutOfRange { field: "time of flight 2 v0/g [s]", .. })
+        ));
+    }
+}

@@ -1,0 +1,85 @@
+//! Spaces as plain data, for serde: the coin, and each coordinate by its name as a number or a text.
+
+use std::collections::BTreeMap;
+
+use dynamics::{Coin, InputError};
+use serde::{Deserialize, Serialize};
+
+use crate::coordinate::Coordinate;
+use crate::space::Space;
+
+/// A coordinate as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a number, or a text like \"3:5:500\"")]
+pub(crate) enum Entry {
+    Number(f64),
+    Text(String),
+}
+
+impl Entry {
+    pub(crate) fn text(self) -> String {
+        match self {
+            // The shortest digits that read back as the same number.
+            Self::Number(number) => number.to_string(),
+            Self::Text(text) => text,
+        }
+    }
+}
+
+/// The coin of a space that names none.
+pub(crate) fn paper() -> Coin {
+    Coin::PAPER
+}
+
+/// A space as it is written.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct SpaceData {
+    #[serde(default = "paper")]
+    coin: Coin,
+    #[serde(flatten)]
+    axes: BTreeMap<String, Entry>,
+}
+
+impl TryFrom<SpaceData> for Space {
+    type Error = InputError;
+
+    fn try_from(data: SpaceData) -> Result<Self, InputError> {
+        let text = |(name, entry): (String, Entry)| Coordinate::named(&name).map(|of| (of, entry.text()));
+        let texts = data.axes.into_iter().map(text).collect::<Result<Vec<_>, _>>()?;
+        let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
+        Self::parse(data.coin, &texts)
+    }
+}
+
+impl From<Space> for SpaceData {
+    fn from(space: Space) -> Self {
+        let entry = |of: Coordinate| (of.name().to_owned(), Entry::Text(space.axis_or_tie(of).to_string()));
+        Self { coin: space.coin(), axes: Coordinate::ALL.map(entry).into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space_file::named_spaces;
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        for (name, named) in named_spaces() {
+            let text = toml::to_string(&named.space).unwrap();
+            assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        for (text, message) in [
+            ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
+            ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1", "coordinate = 'spin' is unknown"),
+            ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),
+        ] {
+            let found = toml::from_str::<Space>(text).unwrap_err();
+            assert!(found.message().starts_with(message), "{found}");
+        }
+    }
+}
