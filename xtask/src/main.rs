@@ -10,7 +10,7 @@ const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--format text|json|junit]
+  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--fit] [--format text|json|junit]
       run the verification suite; writes report.html, report.json, junit.xml and charts to target/verify
   history
       draw the accuracy of the committed records over time";

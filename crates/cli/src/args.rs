@@ -1,6 +1,7 @@
 //! Options that several commands share: the coin, the toss, the solver.
 
 use clap::Args;
+use sampling::Space;
 use toss::catalogue::named_coin;
 use toss::data::{NO_BOUNCE, NO_DRAG};
 use toss::time_of_flight::DEFAULT_GRAVITY;
@@ -54,15 +55,16 @@ impl CoinArgs {
     }
 }
 
+/// A coin and its launch.
 #[derive(Debug, Args)]
-struct TossArgs {
+pub(crate) struct TossArgs {
     #[command(flatten)]
     coin: CoinArgs,
     /// Body rate at launch, body frame (rad/s)
     #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
-    rate: String,
+    rate: Option<String>,
     /// Launch speed v0 (m/s)
-    #[arg(long, value_name = "V0", allow_hyphen_values = true, required_unless_present = "time")]
+    #[arg(long, value_name = "V0", allow_hyphen_values = true)]
     speed: Option<f64>,
     /// Time of flight, instead of a speed (s)
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"])]
@@ -85,7 +87,12 @@ struct TossArgs {
 }
 
 impl TossArgs {
-    fn toss(&self) -> Result<Toss, Failure> {
+    /// `space` for the coin that was given, if one was.
+    pub(crate) fn with_coin(&self, space: Space) -> Result<Space, Failure> {
+        Ok(self.coin.given()?.map_or(space, |coin| space.with_coin(coin)))
+    }
+
+    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
         if self.drag.is_some() {
             return Err(NO_DRAG.into());
         }
@@ -93,7 +100,8 @@ impl TossArgs {
             return Err(NO_BOUNCE.into());
         }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
+        let rate = self.rate.as_deref().ok_or_else(|| Failure::Usage("--rate WX,WY,WZ is needed".to_owned()))?;
+        let rate = Vector3::from(numbers("rate", rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),

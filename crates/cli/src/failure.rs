@@ -137,6 +137,17 @@ impl From<toss::trace::TraceError> for Failure {
     }
 }
 
+impl From<toss::SceneError> for Failure {
+    fn from(error: toss::SceneError) -> Self {
+        match error {
+            toss::SceneError::Input(error) => error.into(),
+            toss::SceneError::Solve(error) => error.into(),
+            toss::SceneError::Sample(error) => error.into(),
+            not_reached @ toss::SceneError::NotReached { .. } => Self::Usage(not_reached.to_string()),
+        }
+    }
+}
+
 impl From<sampling::SampleError> for Failure {
     fn from(error: sampling::SampleError) -> Self {
         match error {

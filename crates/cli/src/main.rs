@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{convergence, errors, intervals, inverse, list, map, probability, toss, trace};
+use crate::commands::{convergence, errors, intervals, inverse, list, map, plan, probability, toss, trace};
 use crate::failure::Failure;
 use crate::output::{DataFormat, Format};
 
@@ -42,10 +42,14 @@ enum Command {
     Intervals(intervals::Args),
     /// Find the launch that lands heads with a wanted probability
     Inverse(inverse::Args),
+    /// Choose the cheapest model that serves a scene
+    Plan(plan::Args),
     /// List the coins that can be named
     Coins(list::Args),
     /// List the solvers
     Solvers(list::Args),
+    /// List the models that a plan chooses from, from the cheapest on
+    Models(list::Args),
     /// List the spaces of launches that can be named
     Spaces(list::Args),
 }
@@ -61,8 +65,10 @@ impl Command {
             Self::Map(args) => args.run(),
             Self::Intervals(args) => args.run(),
             Self::Inverse(args) => args.run(),
+            Self::Plan(args) => args.run(),
             Self::Coins(args) => list::coins(args),
             Self::Solvers(args) => list::solvers(args),
+            Self::Models(args) => list::models(args),
             Self::Spaces(args) => list::spaces(args),
         }
     }
@@ -77,7 +83,10 @@ impl Command {
             Self::Probability(args) => args.format == Format::Json,
             Self::Intervals(args) => args.format == Format::Json,
             Self::Inverse(args) => args.format == Format::Json,
-            Self::Coins(args) | Self::Solvers(args) | Self::Spaces(args) => args.format == Format::Json,
+            Self::Plan(args) => args.format == Format::Json,
+            Self::Coins(args) | Self::Solvers(args) | Self::Models(args) | Self::Spaces(args) => {
+                args.format == Format::Json
+            }
         }
     }
 }

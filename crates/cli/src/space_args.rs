@@ -42,7 +42,7 @@ impl SpaceArgs {
     pub(crate) fn space(&self) -> Result<Space, Failure> {
         let coin = self.coin.given()?;
         if let Some(name) = &self.space {
-            let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
+            let space = space_called(name)?;
             return Ok(coin.map_or(space, |coin| space.with_coin(coin)));
         }
         let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
@@ -55,6 +55,11 @@ impl SpaceArgs {
         }
         Ok(Space::parse(coin.unwrap_or(Coin::PAPER), &given)?)
     }
+}
+
+/// The space with this name, or in this file.
+pub(crate) fn space_called(name: &str) -> Result<Space, Failure> {
+    if name.ends_with(".toml") { space_file(Path::new(name)) } else { Ok(named_space(name)?) }
 }
 
 fn space_file(path: &Path) -> Result<Space, Failure> {

@@ -38,7 +38,7 @@ use crate::certain::{certain_by, phase_in_range};
 use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
-use crate::keller::{keller_outcome, keller_phase};
+use crate::keller::{KELLER_FIRST_FLIP, keller_outcome, keller_phase};
 use crate::launch::Toss;
 use crate::outcome::{Outcome, Stage};
 use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
@@ -69,8 +69,13 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
     let by = |stage| move |outcome| Certificate { outcome, stage };
-    if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
-        return Some(Certificate { outcome, stage: Stage::Keller });
+    if let Some(phase) = keller_phase(toss) {
+        if phase < KELLER_FIRST_FLIP {
+            return Some(by(Stage::Certain)(Outcome::Heads));
+        }
+        if let Some(outcome) = keller_outcome(phase) {
+            return Some(by(Stage::Keller)(outcome));
+        }
     }
     let terms = TiltTerms::new(toss);
     let phase = phase_in_range(toss, &terms)?;
@@ -93,8 +98,12 @@ fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     }
 }
 
+/// The stages with more digits than f64.
+///
+/// # Errors
+/// As [`certify`].
 #[cold]
-fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
+pub fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     let motion = ExactMotion::new(toss);
     let time = toss.launch.time_of_flight();
     motion.phase(time)?;

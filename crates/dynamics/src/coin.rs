@@ -17,16 +17,18 @@ use crate::scale::mantissa_and_exponent;
 pub struct Coin {
     i1: f64,
     i3: f64,
+    /// k, which every flight needs.
+    ratio: DoubleDouble,
 }
 
 impl Coin {
     /// The coin of the paper's figures, with the paper's own moments: I1 = 5e-7, I3 = I1/2.
     ///
     /// By the paper's formulas for a cylinder these are the moments of a rod with h = 3 r, not of a disc.
-    pub const PAPER: Self = Self { i1: 5e-7, i3: 2.5e-7 };
+    pub const PAPER: Self = Self { i1: 5e-7, i3: 2.5e-7, ratio: DoubleDouble::exactly(0.5) };
 
     /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
-    pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6 };
+    pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6, ratio: DoubleDouble::exactly(2.0) };
 
     pub(crate) fn paper() -> Self {
         Self::PAPER
@@ -57,7 +59,8 @@ impl Coin {
     pub fn from_moments(i1: f64, i3: f64) -> Result<Self, InputError> {
         require("I1 [kg m²]", i1, "finite and > 0 (at least 2.3e-308)", i1 >= f64::MIN_POSITIVE)?;
         require("I3 [kg m²]", i3, "0 <= I3 <= 2 I1", (0.0..=2.0 * i1).contains(&i3))?;
-        Ok(Self { i1, i3 })
+        let ((m1, e1), (m3, e3)) = (mantissa_and_exponent(i1), mantissa_and_exponent(i3));
+        Ok(Self { i1, i3, ratio: DoubleDouble::quotient(m3, m1).times_power_of_two(e3 - e1) })
     }
 
     /// A body with the principal moments `[I1, I3]` or `[I1, I2, I3]` (kg m²).
@@ -91,15 +94,15 @@ impl Coin {
     }
 
     /// The inertia ratio k in twice the precision of f64; the same for all moments that differ by a power of two.
+    #[inline]
     pub fn exact_inertia_ratio(&self) -> DoubleDouble {
-        let ((i1, e1), (i3, e3)) = (mantissa_and_exponent(self.i1), mantissa_and_exponent(self.i3));
-        DoubleDouble::quotient(i3, i1).times_power_of_two(e3 - e1)
+        self.ratio
     }
 
     /// The inertia ratio k = I3/I1, from 0 (rod) to 2 (flat disc).
     #[inline]
     pub fn inertia_ratio(&self) -> f64 {
-        self.i3 / self.i1
+        self.ratio.hi()
     }
 }
 
@@ -126,6 +129,7 @@ mod tests {
     fn the_presets_are_valid() {
         for coin in [Coin::PAPER, Coin::DISC] {
             assert_eq!(Coin::from_moments(coin.i1(), coin.i3()), Ok(coin));
+            assert_eq!(coin.inertia_ratio(), coin.i3() / coin.i1());
         }
     }
 }

@@ -16,7 +16,7 @@ pub struct DoubleDouble {
 
 /// a + b exactly, as the rounded sum and its error.
 #[inline]
-fn two_sum(a: f64, b: f64) -> DoubleDouble {
+pub(crate) fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     let b_rounded = hi - a;
     DoubleDouble { hi, lo: (a - (hi - b_rounded)) + (b - b_rounded) }
@@ -50,6 +50,18 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
 impl DoubleDouble {
     /// 0.
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
+
+    /// A number of f64.
+    pub const fn exactly(hi: f64) -> Self {
+        Self { hi, lo: 0.0 }
+    }
+
+    /// Half of it, exactly.
+    #[inline]
+    #[must_use]
+    pub(crate) fn half(self) -> Self {
+        Self { hi: 0.5 * self.hi, lo: 0.5 * self.lo }
+    }
 
     /// The nearest f64.
     #[inline]
@@ -125,7 +137,7 @@ impl DoubleDouble {
 impl From<f64> for DoubleDouble {
     #[inline]
     fn from(hi: f64) -> Self {
-        Self { hi, lo: 0.0 }
+        Self::exactly(hi)
     }
 }
 

@@ -4,11 +4,16 @@
 //! u each, and std's cosine to 2u, so that |Δ cos θ| ≤ 2u + 4u φ, rounded up in [`keller_bound`].
 
 use crate::attitude::Attitude;
+use crate::compensated::{root, turned};
+use crate::double_double::{DoubleDouble, two_sum};
 use crate::launch::Toss;
 use crate::outcome::Outcome;
 use crate::tilt_terms::UNIT_ROUNDOFF;
 
-/// Bound of the error of [`keller_cos_tilt`] at a `phase` Ω T (rad).
+/// A phase (rad) surely before the first flip of Keller's coin, at π/2.
+pub(crate) const KELLER_FIRST_FLIP: f64 = 1.570_796;
+
+/// Bound of the error of cos φ at a rounded `phase` φ (rad).
 #[inline]
 pub fn keller_bound(phase: f64) -> f64 {
     (3.0 + 5.0 * phase) * UNIT_ROUNDOFF
@@ -31,16 +36,22 @@ pub fn keller_phase(toss: &Toss) -> Option<f64> {
     Some(squared.sqrt() * time).filter(|phase| *phase < LONGEST)
 }
 
-/// cos θ at landing of a toss with this [phase](keller_phase).
+/// cos θ at landing of a toss of Keller's kind, with a [compensated](crate::compensated) phase; `None` for any other.
 #[inline]
-pub fn keller_cos_tilt(phase: f64) -> f64 {
-    phase.cos()
+pub fn keller_cos_tilt(toss: &Toss) -> Option<f64> {
+    keller_phase(toss)?;
+    let rate = toss.launch.rate();
+    let squares = [rate.x, rate.y].map(|part| DoubleDouble::product(part, part));
+    let sum = two_sum(squares[0].hi(), squares[1].hi());
+    let rate = root(sum.hi(), sum.lo() + (squares[0].lo() + squares[1].lo()));
+    let (_, cos) = turned(rate, toss, 1.0).ok()?.rounded_sin_cos();
+    Some(cos)
 }
 
 /// The proven outcome of a toss with this [phase](keller_phase); `None` where cos θ is too near 0 to tell.
 #[inline]
 pub fn keller_outcome(phase: f64) -> Option<Outcome> {
-    match Outcome::of(keller_cos_tilt(phase), keller_bound(phase)) {
+    match Outcome::of(phase.cos(), keller_bound(phase)) {
         Outcome::Undecided => None,
         decided => Some(decided),
     }
@@ -71,7 +82,9 @@ mod tests {
             let toss = toss(rate, 0.0, 10f64.powf(3.0 * part(5f64.sqrt())));
             let phase = keller_phase(&toss).unwrap();
             let exact = ExactMotion::new(&toss).cos_tilt(toss.launch.time_of_flight()).unwrap();
-            assert!((keller_cos_tilt(phase) - exact).abs() <= keller_bound(phase) + 2.0 * UNIT_ROUNDOFF);
+            assert!((phase.cos() - exact).abs() <= keller_bound(phase) + 2.0 * UNIT_ROUNDOFF);
+            let error = keller_cos_tilt(&toss).unwrap() - exact;
+            assert!(error.abs() <= 3.0 * UNIT_ROUNDOFF, "{toss:?}: {error:e}");
             let Some(outcome) = keller_outcome(phase) else { continue };
             decided += 1;
             assert_eq!(outcome, certify(&toss).unwrap().outcome);
@@ -106,7 +119,7 @@ mod tests {
             toss([7.0, 1.0, 0.0], 0.0, 1e-200),
             toss([7.0, 1.0, 0.0], 0.0, 1e30),
         ] {
-            assert_eq!(keller_phase(&other), None, "{other:?}");
+            assert_eq!((keller_phase(&other), keller_cos_tilt(&other)), (None, None), "{other:?}");
         }
     }
 }

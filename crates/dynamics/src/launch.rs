@@ -17,6 +17,8 @@ pub struct Launch {
     rate: Vector3<f64>,
     attitude: Attitude,
     time_of_flight: TimeOfFlight,
+    /// T (s), which every flight needs.
+    flight_time: f64,
 }
 
 impl Launch {
@@ -30,7 +32,8 @@ impl Launch {
         for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
             require(field, value, "finite", true)?;
         }
-        Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight: time_of_flight.validated()? })
+        let flight_time = time_of_flight.validated_seconds()?;
+        Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
     }
 
     /// The launch that goes on from `state`.
@@ -79,7 +82,7 @@ impl Launch {
     /// T (s).
     #[inline]
     pub fn flight_time(&self) -> f64 {
-        self.time_of_flight.seconds()
+        self.flight_time
     }
 }
 

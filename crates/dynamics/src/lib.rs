@@ -15,7 +15,7 @@
 //! | the exact motion, to the last bit | [`exact`], [`double_double`] |
 //! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
 //! | derivatives of the landing by the launch | [`sensitivity`] |
-//! | cheaper forms: without a motion, of Keller's coin, of the attitude in f64 | [`mod@certain`], [`keller`], [`plain_motion`] |
+//! | cheaper forms: without a motion, of Keller's coin, in compensated f64 | [`mod@certain`], [`keller`], [`compensated`] |
 //! | outcomes, and their proofs | [`outcome`], [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |
@@ -33,6 +33,7 @@ pub mod catalogue;
 pub mod certain;
 pub mod certified;
 pub mod coin;
+pub mod compensated;
 pub mod data;
 pub mod double_double;
 pub mod error;
@@ -47,7 +48,6 @@ pub mod launch;
 pub mod margin;
 pub mod method;
 pub mod outcome;
-pub mod plain_motion;
 pub mod scale;
 pub mod sensitivity;
 pub mod solver;
@@ -59,6 +59,7 @@ pub use attitude::Attitude;
 pub use certain::certain;
 pub use certified::{Certificate, certify};
 pub use coin::Coin;
+pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use error::{InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;
 pub use exact::ExactMotion;
@@ -70,7 +71,6 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use method::{Method, Scheme, StepControl};
 pub use nalgebra::Vector3;
 pub use outcome::{Outcome, Stage, Verdict};
-pub use plain_motion::plain_landing;
 pub use sensitivity::Sensitivity;
 pub use solver::{Formulation, Propagation, Settings, Solver, SolverEntry, Work};
 pub use state::State;

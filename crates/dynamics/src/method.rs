@@ -1,11 +1,14 @@
 //! Runge-Kutta methods and their step control, as settings.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{InputError, SolveError, find_named, require};
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
 
 /// A Runge-Kutta scheme of `ode_solvers`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Scheme {
     /// Dormand and Prince's method of order 8(5,3) (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
     Dop853,

@@ -7,6 +7,8 @@
 //! A = (m·L) Lz,   B = mz (Lx² + Ly²) - (mx Lx + my Ly) Lz,   C = (mx Ly - my Lx) |L|
 //! ```
 
+use nalgebra::Vector3;
+
 use crate::heads::HeadsPhases;
 use crate::launch::Toss;
 use crate::scale::power_of_two_scale;
@@ -59,31 +61,35 @@ impl TiltTerms {
     /// The terms of a toss.
     #[inline]
     pub fn new(toss: &Toss) -> Self {
-        let k = toss.coin.inertia_ratio();
         let rate = toss.launch.rate();
         let unit = power_of_two_scale(&rate);
-        let (x, y, spin) = (rate.x / unit, rate.y / unit, rate.z / unit);
-        let z = k * spin;
+        let momentum = Vector3::new(rate.x / unit, rate.y / unit, toss.coin.inertia_ratio() * (rate.z / unit));
+        let squared = (momentum.x * momentum.x + momentum.y * momentum.y) + momentum.z * momentum.z;
+        Self::of_momentum(toss, &momentum, squared, squared.sqrt(), unit)
+    }
+
+    /// The terms of a toss whose `momentum` (BF) is known in a `unit` (rad/s) with its square and size.
+    #[inline]
+    pub(crate) fn of_momentum(toss: &Toss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
+        let (x, y, z) = (momentum.x, momentum.y, momentum.z);
         let across = x * x + y * y;
-        let squared = across + z * z;
-        let momentum = squared.sqrt();
         let [w, i, j, l] = toss.launch.attitude().components();
         let (upright, inverted) = (w * w + l * l, i * i + j * j);
         let [m_x, m_y, m_z] = [2.0 * (i * l - w * j), 2.0 * (j * l + w * i), upright - inverted];
         let level = m_x * x + m_y * y;
         let norm = upright + inverted;
-        let rates = [momentum, ((k - 1.0) * spin).abs()];
+        let spin = ((toss.coin.inertia_ratio() - 1.0) * (toss.launch.rate().z / unit)).abs();
         if squared < SLOWEST_SQUARED {
             // At rest. Or precessing so slowly next to the spin, whose rate is above ½ then, that the spin's phase is too
             // large (2^53) when that of the precession is still below 1e-83.
-            return Self { mean: m_z, cosine: 0.0, sine: 0.0, size: norm, rates: [0.0, rates[1]], unit };
+            return Self { mean: m_z, cosine: 0.0, sine: 0.0, size: norm, rates: [0.0, spin], unit };
         }
         Self {
             mean: (level + m_z * z) * z,
             cosine: m_z * across - level * z,
-            sine: (m_x * y - m_y * x) * momentum,
+            sine: (m_x * y - m_y * x) * size,
             size: norm * squared,
-            rates,
+            rates: [size, spin],
             unit,
         }
     }
@@ -111,8 +117,6 @@ impl TiltTerms {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
     use crate::coin::Coin;
     use crate::launch::Launch;

@@ -70,6 +70,26 @@ impl TimeOfFlight {
         }
     }
 
+    /// T (s) as f64, and what that leaves of it, to first order.
+    #[inline]
+    pub(crate) fn compensated(&self) -> [f64; 2] {
+        match *self {
+            Self::Ballistic { speed, gravity } => {
+                let time = 2.0 * speed / gravity;
+                let product = DoubleDouble::product(time, gravity);
+                let rest = ((2.0 * speed - product.hi()) - product.lo()) / gravity;
+                // Where a product leaves the range of f64, its rest means nothing.
+                [time, if rest.abs() <= f64::EPSILON * time { rest } else { 0.0 }]
+            }
+            Self::BallisticTo { .. } => {
+                let ExactTime { mantissa, exponent } = self.exact();
+                let time = mantissa.times_power_of_two(exponent);
+                [time.hi(), time.lo()]
+            }
+            Self::Given(time) => [time, 0.0],
+        }
+    }
+
     /// Whether the coin flies at all, also where T is below the range of f64.
     pub fn is_positive(&self) -> bool {
         match *self {
@@ -79,28 +99,32 @@ impl TimeOfFlight {
         }
     }
 
+    /// T (s) of what makes sense.
     #[inline]
-    pub(crate) fn validated(self) -> Result<Self, InputError> {
+    pub(crate) fn validated_seconds(self) -> Result<f64, InputError> {
         match self {
             Self::Ballistic { speed, gravity } => {
-                require("speed [m/s]", speed, "finite and >= 0", speed >= 0.0)?;
-                require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
-                require("time of flight 2 v0/g [s]", self.seconds(), "finite", true)?;
+                require_throw(speed, gravity)?;
+                require("time of flight 2 v0/g [s]", self.seconds(), "finite", true)
             }
             Self::BallisticTo { speed, gravity, drop } => {
-                Self::Ballistic { speed, gravity }.validated()?;
+                require_throw(speed, gravity)?;
                 require("drop [m]", drop, "finite", true)?;
                 let (discriminant, _) = discriminant(speed, gravity, drop);
                 let valid = ">= -v0²/(2 g), the height that the toss reaches";
                 require("drop [m]", drop, valid, discriminant.hi() >= 0.0)?;
-                require("time of flight [s]", self.seconds(), "finite", true)?;
+                require("time of flight [s]", self.seconds(), "finite", true)
             }
-            Self::Given(time) => {
-                require("time [s]", time, "finite and >= 0", time >= 0.0)?;
-            }
+            Self::Given(time) => require("time [s]", time, "finite and >= 0", time >= 0.0),
         }
-        Ok(self)
     }
+}
+
+#[inline]
+fn require_throw(speed: f64, gravity: f64) -> Result<(), InputError> {
+    require("speed [m/s]", speed, "finite and >= 0", speed >= 0.0)?;
+    require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
+    Ok(())
 }
 
 /// v0² + 2 g h (m²/s²) to 3 u² as a number and the exponent e of its unit, 2^(2e). The unit is that of the larger term,
@@ -184,7 +208,8 @@ mod tests {
             [5e-324, 1.0, 0.0],
         ];
         for [speed, gravity, drop] in cases {
-            let time = TimeOfFlight::BallisticTo { speed, gravity, drop }.validated().unwrap();
+            let time = TimeOfFlight::BallisticTo { speed, gravity, drop };
+            assert!(time.validated_seconds().is_ok());
             let [v, g, h] = [speed, gravity, drop].map(big);
             let exact = (&v + (&v * &v + big(2.0) * &g * h).sqrt()) / g;
             let ExactTime { mantissa, exponent } = time.exact();

@@ -15,13 +15,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod fitted;
+mod integrator_plan;
+pub mod model;
+pub mod plan;
 pub mod registry;
+pub mod scene;
+pub mod solve;
+mod space_plan;
 pub mod trace;
 
 pub use dynamics::*;
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::{QuaternionSolver, QuaternionSystem};
+pub use model::Model;
+pub use plan::{Choice, Decision};
 pub use registry::{SOLVERS, named_solver};
+pub use scene::{Integrator, Scene, SceneError, Want};
+pub use solve::{Answer, Solution};
 pub use trace::{TracePoint, trace};
 
 /// The README's Rust is compiled and run.

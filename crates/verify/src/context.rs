@@ -13,6 +13,8 @@ use crate::atlas::expected::Expected;
 use crate::convergence::{Convergence, convergence};
 use crate::effort::Effort;
 use crate::long_flights::LongFlights;
+use crate::planner::Trial;
+use crate::planner::thrift::Thrift;
 use crate::reference_data::ReferenceData;
 use crate::reference_probability::ReferenceProbabilities;
 use crate::search::{Findings, search};
@@ -44,6 +46,7 @@ pub struct Context {
     search: OnceLock<Vec<Findings>>,
     sweep: OnceLock<Sweep>,
     convergence: OnceLock<Vec<Convergence>>,
+    trial: OnceLock<Trial>,
     probabilities: OnceLock<Vec<Probability>>,
     fig4: OnceLock<Vec<RunningStep>>,
 }
@@ -68,6 +71,7 @@ impl Context {
             search: OnceLock::new(),
             sweep: OnceLock::new(),
             convergence: OnceLock::new(),
+            trial: OnceLock::new(),
             probabilities: OnceLock::new(),
             fig4: OnceLock::new(),
         })
@@ -121,6 +125,14 @@ impl Context {
         once(&self.convergence, || convergence(&self.registry))
     }
 
+    /// Random scenes solved as planned and by every other rung; solved when first asked for.
+    ///
+    /// # Errors
+    /// As [`Trial::new`].
+    pub fn trial(&self) -> anyhow::Result<&Trial> {
+        once(&self.trial, || Trial::new(self.effort))
+    }
+
     /// Every named space by every method; estimated when first asked for.
     ///
     /// # Errors
@@ -144,6 +156,7 @@ impl Context {
             long_flights: self.long_flights.get(),
             sweep: self.sweep.get(),
             convergence: self.convergence.get(),
+            thrift: self.trial.get().map(Trial::thrift),
             probabilities: self.probabilities.get(),
             fig4: self.fig4.get(),
         }
@@ -151,7 +164,7 @@ impl Context {
 }
 
 /// Runs behind the rows, where a check asked for them.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Records<'a> {
     /// The atlas of failures.
     pub atlas: Option<&'a Atlas>,
@@ -159,6 +172,8 @@ pub struct Records<'a> {
     pub long_flights: Option<&'a LongFlights>,
     /// Error and work by tolerance or step.
     pub sweep: Option<&'a Sweep>,
+    /// How well the planner kept its word, and what each rung took.
+    pub thrift: Option<Thrift>,
     /// Error by fixed step.
     pub convergence: Option<&'a Vec<Convergence>>,
     /// P(heads) of the named spaces.

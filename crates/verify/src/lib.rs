@@ -23,6 +23,7 @@ pub mod judge;
 pub mod ledger;
 pub mod long_flights;
 pub mod measurement;
+pub mod planner;
 pub mod record;
 pub mod reference;
 pub mod reference_data;

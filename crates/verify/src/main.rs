@@ -18,7 +18,7 @@ use verify::ledger::{Direction, Ledger};
 use verify::record::{self, Host};
 use verify::report::charts::{self, Chart};
 use verify::report::{self, Report, html, junit, moves, runs, table, write_file};
-use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge};
+use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge, planner};
 
 /// Runs the checks and writes report.json and junit.xml.
 #[derive(Parser)]
@@ -42,6 +42,9 @@ struct Args {
     /// Take what is better or new into the baseline, and write a dated record; what is worse is not taken
     #[arg(long, conflicts_with_all = ["only", "replay"])]
     bless: bool,
+    /// Measure the planner's table alone, as --bless does with everything else
+    #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
+    fit: bool,
     /// Draw the accuracy of the committed records
     #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     history: bool,
@@ -100,6 +103,10 @@ fn run(args: &Args) -> anyhow::Result<u8> {
     if args.history {
         return history(args);
     }
+    if args.fit {
+        fit(args)?;
+        return Ok(0);
+    }
     let effort = effort(args);
     let bounds = Bounds::read(&args.validation.join("bounds.toml"))?;
     let context = Context::new(SOLVERS, effort, &args.validation)?;
@@ -117,9 +124,17 @@ fn run(args: &Args) -> anyhow::Result<u8> {
         write_file(&baseline_path, &baseline.ratcheted(&found).csv()?)?;
         if let Some(sweep) = context.records().sweep.filter(|_| effort == Effort::Standard) {
             record::write(&args.validation.join("record"), &Host::here(), &found, sweep)?;
+            fit(args)?;
         }
     }
     Ok(if moves.iter().any(|moved| moved.direction == Direction::Worse) { 3 } else { 0 })
+}
+
+/// Measures the planner's table and writes it where the library is built with it.
+fn fit(args: &Args) -> anyhow::Result<()> {
+    let Host { date, cpu, .. } = Host::here();
+    let fitted = planner::fit::fit(format!("{date} on {cpu}"))?;
+    write_file(&args.validation.join("fitted.toml"), &planner::fit::text(&fitted)?)
 }
 
 fn effort(args: &Args) -> Effort {

@@ -1,9 +1,11 @@
-//! `unfair-toss coins`, `solvers` and `spaces`: what can be named.
+//! `unfair-toss coins`, `solvers`, `models` and `spaces`: what can be named.
 
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::SOLVERS;
 use toss::catalogue::{Body, CATALOGUE};
+use toss::fitted::FITTED;
+use toss::model::LADDER;
 
 use crate::failure::Failure;
 use crate::output::{self, Format, table};
@@ -92,6 +94,32 @@ pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
     rows.extend(lines.iter().map(|line| {
         let methods = if line.integrates { "dop853, dopri5, rk4" } else { "-" };
         row([line.name, methods, line.summary])
+    }));
+    Ok(table(&rows))
+}
+
+#[derive(Serialize)]
+struct ModelLine {
+    name: &'static str,
+    assumes: &'static str,
+    gives: &'static str,
+    /// By the record, of a closed form.
+    cost_ns: Option<f64>,
+}
+
+pub(crate) fn models(args: &Args) -> Result<String, Failure> {
+    let cost = |model| FITTED.closed.iter().find(|fit| fit.model == model).map(|fit| fit.cost_ns);
+    let lines: Vec<ModelLine> = LADDER
+        .iter()
+        .map(|rung| ModelLine { name: rung.name, assumes: rung.assumes, gives: rung.gives, cost_ns: cost(rung.model) })
+        .collect();
+    if args.format == Format::Json {
+        return Ok(output::json(&lines));
+    }
+    let mut rows = vec![row(["name", "ns", "gives", "assumes"])];
+    rows.extend(lines.iter().map(|line| {
+        let cost = line.cost_ns.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.0}"));
+        row([line.name, &cost, line.gives, line.assumes])
     }));
     Ok(table(&rows))
 }

@@ -6,6 +6,7 @@ pub(crate) mod intervals;
 pub(crate) mod inverse;
 pub(crate) mod list;
 pub(crate) mod map;
+pub(crate) mod plan;
 pub(crate) mod probability;
 pub(crate) mod toss;
 pub(crate) mod trace;

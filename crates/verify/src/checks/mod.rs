@@ -12,6 +12,7 @@ mod methods;
 mod numbers;
 mod order;
 mod paper;
+mod planner;
 mod probability;
 mod random;
 mod sensitivity;
@@ -49,6 +50,10 @@ pub const CHECKS: &[Check] = &[
     sensitivity::DERIVATIVES,
     work_precision::PROMISE,
     order::ORDER,
+    planner::DELIVERS,
+    planner::EXPECTS,
+    planner::TIGHT,
+    planner::REGRET,
     paper::CHEATED_IN_FLIGHT,
     paper::CHEATED_FOREVER,
     paper::TAILS_IN_FLIGHT,

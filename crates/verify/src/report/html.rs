@@ -4,6 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::judge::{Row, Status};
 use crate::ledger::{Direction, Move};
+use crate::planner::thrift::Line;
 use crate::report::Report;
 use crate::report::charts::Chart;
 use crate::tables::Probability;
@@ -28,12 +29,14 @@ pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                 nav {
                     a href="#checks" { "Checks" }
                     @if report.records.probabilities.is_some() { a href="#probabilities" { "Probabilities" } }
+                    @if report.records.thrift.is_some() { a href="#planner" { "The planner" } }
                     @for section in &sections { a href={ "#" (section.id) } { (section.title) } }
                 }
                 (failures(report.rows))
                 (moves(report.moves))
                 (checks(report.rows))
                 @if let Some(lines) = report.records.probabilities { (probabilities(lines)) }
+                @if let Some(thrift) = &report.records.thrift { (regret(&thrift.lines)) }
                 @for section in &sections { (section.markup()) }
             }
         }
@@ -162,6 +165,29 @@ fn probabilities(lines: &[Probability]) -> Markup {
     }
 }
 
+fn regret(lines: &[Line]) -> Markup {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    html! {
+        h2 id="planner" { "The planner" }
+        p.faint { "Random scenes, solved as planned. Error: the largest in parts of what was asked, and of what was expected. Expected: \
+                   share of scenes whose expected error is at most 30 times the error. Thrifty: share of scenes, of those solved by \
+                   every rung, whose choice cost at most 1.2 times the cheapest that served." }
+        div.wide { table {
+            tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } th { "expected ≤ 30×" }
+                 th { "tried" } th { "thrifty, record" } th { "thrifty, clock" } th { "largest regret" } }
+            @for line in lines {
+                tr {
+                    td { (line.kind) } td { (line.scenes) } td { (line.refused) }
+                    td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
+                    td { (percent(line.within_30_of_one)) } td { (line.tried) }
+                    td { (percent(line.thrifty)) } td { (percent(line.thrifty_by_clock)) }
+                    td { (format!("{:.2}×", line.largest_regret_by_clock)) }
+                }
+            }
+        } }
+    }
+}
+
 /// A chapter of charts.
 struct Section<'a> {
     id: &'static str,
@@ -186,6 +212,12 @@ fn sections(charts: &[Chart]) -> Vec<Section<'_>> {
             "Each point is a run at one tolerance or step: the further right, the more \
           accurate; the lower, the cheaper. Left in calls, which repeat exactly, right in time on this machine. The grey band is \
           what no integrator beats; the exact motion calls nothing and is accurate to the last bit.",
+        ),
+        (
+            "ladder",
+            "The ladder of models",
+            "What each rung takes by the clock of this run, over the random scenes that it can serve: median, and the \
+          range of nine in ten. The planner takes the lowest rung that is accurate enough.",
         ),
         (
             "order",

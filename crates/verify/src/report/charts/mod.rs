@@ -3,6 +3,7 @@
 mod atlas_lines;
 mod atlas_matrix;
 mod history;
+mod ladder;
 mod long_flights;
 mod order;
 mod work_precision;
@@ -53,6 +54,9 @@ pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
     }
     if let Some(all) = records.convergence {
         charts.push(chart("order.svg", order::order(all)?));
+    }
+    if let Some(thrift) = &records.thrift {
+        charts.push(chart("ladder.svg", ladder::ladder(&thrift.t_costs_ns)?));
     }
     if let Some(sweep) = records.sweep {
         for (problem, stresses, launches) in &sweep.problems {

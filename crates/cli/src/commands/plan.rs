@@ -1,0 +1,185 @@
+//! `unfair-toss plan`: the cheapest model that serves a scene, and why none before it does.
+
+use std::path::{Path, PathBuf};
+
+use sampling::Plan;
+use serde::Serialize;
+use toss::plan::{Candidate, How, Nanoseconds, Reason};
+use toss::{Choice, Decision, Integrator, Scene, Scheme, StepControl, Want};
+
+use crate::args::TossArgs;
+use crate::failure::Failure;
+use crate::output::{self, Format, table};
+use crate::space_args::space_called;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    toss: TossArgs,
+    /// What is wanted
+    #[arg(long, value_enum, required_unless_present = "scene")]
+    want: Option<WantArg>,
+    /// The largest error that is good enough: of cos θ, an attitude (rad), a probability
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene")]
+    accuracy: Option<f64>,
+    /// Number of times of a trace, launch and landing included
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    points: usize,
+    /// A space for a probability, instead of a toss: a name (`spaces` lists them), or a file that ends in .toml
+    #[arg(long, value_name = "NAME|FILE.toml", conflicts_with_all = ["rate", "speed", "time", "gravity", "drop"])]
+    space: Option<String>,
+    /// An integrator to be used, as a cross-check
+    #[arg(long, value_name = "NAME")]
+    solver: Option<String>,
+    /// Its method, dop853 or dopri5 [default: the cheaper one]
+    #[arg(long, value_name = "NAME", requires = "solver")]
+    method: Option<String>,
+    /// The whole scene from a TOML file instead, or a JSON one if it ends in .json
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["want", "accuracy", "space", "solver", "rate", "speed", "time"])]
+    scene: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum WantArg {
+    /// Heads or tails
+    Outcome,
+    /// cos θ at landing
+    Tilt,
+    /// The attitude at landing
+    Attitude,
+    /// The flight
+    Trace,
+    /// The probability of heads in a space
+    Probability,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    model: &'static str,
+    solver: &'static str,
+    method: Option<&'static str>,
+    tolerance: Option<f64>,
+    /// Launches of a sample.
+    points: Option<u64>,
+    expected_error: f64,
+    expected_cost_ns: f64,
+    passed_over: Vec<PassedOver>,
+}
+
+#[derive(Serialize)]
+struct PassedOver {
+    model: String,
+    why: String,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let scene = match &self.scene {
+            Some(path) => scene_file(path)?,
+            None => self.scene()?,
+        };
+        let decision = scene.plan()?;
+        Ok(match self.format {
+            Format::Json => output::json(&Answer::new(&scene, &decision)?),
+            Format::Text => Answer::new(&scene, &decision)?.text(&decision.choice),
+        })
+    }
+
+    fn scene(&self) -> Result<Scene, Failure> {
+        let space = || {
+            let missing = || Failure::Usage("--space is needed for a probability".to_owned());
+            space_called(self.space.as_deref().ok_or_else(missing)?)
+        };
+        let want = match self.want {
+            Some(WantArg::Probability) => Want::Probability(self.toss.with_coin(space()?)?),
+            _ if self.space.is_some() => {
+                return Err(Failure::Usage("--space is for --want probability; a toss has --rate".to_owned()));
+            }
+            Some(WantArg::Outcome) => Want::Outcome(self.toss.toss()?),
+            Some(WantArg::Tilt) => Want::Tilt(self.toss.toss()?),
+            Some(WantArg::Attitude) => Want::Attitude(self.toss.toss()?),
+            Some(WantArg::Trace) | None => Want::Trace { toss: self.toss.toss()?, points: self.points },
+        };
+        let method = self.method.as_deref().map(Scheme::named).transpose()?;
+        let by = self.solver.clone().map(|solver| Integrator { solver, method });
+        Ok(Scene { want, accuracy: self.accuracy.unwrap_or(f64::NAN), by })
+    }
+}
+
+fn scene_file(path: &Path) -> Result<Scene, Failure> {
+    let shown = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown.clone(), source })?;
+    let scene = if path.extension().is_some_and(|extension| extension == "json") {
+        serde_json::from_str(&text).map_err(|error| error.to_string())
+    } else {
+        toml::from_str(&text).map_err(|error| error.to_string())
+    };
+    scene.map_err(|message| Failure::Usage(format!("{shown}: {message}")))
+}
+
+impl Answer {
+    fn new(scene: &Scene, decision: &Decision) -> Result<Self, Failure> {
+        let Choice { model, how, expected_error, expected_cost_ns } = decision.choice;
+        let (solver, method, tolerance, points) = match how {
+            How::ClosedForm => ("exact", None, None, None),
+            How::Integrator(entry, method) => {
+                let tolerance = match method.control() {
+                    StepControl::Tolerance(tolerance) => Some(tolerance),
+                    StepControl::Step(_) => None,
+                };
+                (entry.name, Some(method.scheme().name()), tolerance, None)
+            }
+            How::Sampling(plan) => {
+                let points = if let Want::Probability(space) = &scene.want { Some(plan.points(space)?) } else { None };
+                ("exact", Some(way_to_sample(plan)), None, points)
+            }
+        };
+        let passed_over = decision.passed_over.iter().map(PassedOver::new).collect();
+        Ok(Self {
+            model: model.name(),
+            solver,
+            method,
+            tolerance,
+            points,
+            expected_error,
+            expected_cost_ns,
+            passed_over,
+        })
+    }
+
+    fn text(&self, choice: &Choice) -> String {
+        let mut settings = self.solver.to_owned();
+        settings.extend(self.method.map(|method| format!(", {method}")));
+        settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
+        settings.extend(self.points.map(|points| format!(", {points} launches")));
+        let error = if self.expected_error == 0.0 { "none".to_owned() } else { format!("{:.1e}", self.expected_error) };
+        let mut rows = vec![
+            vec!["model".to_owned(), self.model.to_owned(), choice.model.rung().gives.to_owned()],
+            vec!["solver".to_owned(), settings, String::new()],
+            vec!["expected".to_owned(), format!("error {error}"), format!("in {}", Nanoseconds(self.expected_cost_ns))],
+        ];
+        let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
+        let others = self.passed_over.iter().zip(heading);
+        rows.extend(others.map(|(other, heading)| vec![heading.to_owned(), other.model.clone(), other.why.clone()]));
+        table(&rows)
+    }
+}
+
+impl PassedOver {
+    fn new((candidate, reason): &(Candidate, Reason)) -> Self {
+        Self { model: candidate.to_string(), why: reason.to_string() }
+    }
+}
+
+/// As `probability --method` calls it.
+fn way_to_sample(plan: Plan) -> &'static str {
+    match plan {
+        Plan::Grid => "grid",
+        Plan::Random { .. } => "random",
+        Plan::Sobol(_) => "sobol",
+        Plan::ExactSpeed(_) => "exact-speed",
+    }
+}

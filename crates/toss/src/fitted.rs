@@ -1,0 +1,257 @@
+//! What models cost and how far they are off, as measured: the planner's only source.
+//!
+//! The table is `validation/fitted.toml`. `cargo xtask verify --bless` measures it anew, on whatever machine it runs; costs
+//! are of one core of that machine, errors are the largest that were met, times a factor of safety.
+
+use std::sync::LazyLock;
+
+use dynamics::Scheme;
+use serde::{Deserialize, Serialize};
+
+use crate::model::Model;
+
+/// The table that this library was built with.
+///
+/// # Panics
+/// Never: a test reads it.
+pub static FITTED: LazyLock<Fitted> =
+    LazyLock::new(|| toml::from_str(include_str!("../../../validation/fitted.toml")).expect("a test reads it"));
+
+/// Errors and costs of all models.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Fitted {
+    /// When and on what it was measured.
+    pub measured: String,
+    /// The models without steps or samples.
+    pub closed: Vec<ClosedFit>,
+    /// Upper ends of the bins of |q|/ωL, spin over precession, of the integrators; the last one is open.
+    pub spins: Vec<f64>,
+    /// Upper ends of their bins of phases (rad).
+    pub phases: Vec<f64>,
+    /// Their tolerances, from rough to fine.
+    pub tolerances: Vec<f64>,
+    /// Integrators by method.
+    pub integrators: Vec<IntegratorFit>,
+    /// The ways to sample a space.
+    pub sampling: Vec<SamplingFit>,
+}
+
+/// A model in closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ClosedFit {
+    /// The model.
+    pub model: Model,
+    /// Its cost (ns), that of a trace for each point.
+    pub cost_ns: f64,
+    /// Its error, at any phase.
+    pub error: f64,
+}
+
+/// A solver and its method: tables by spin, phase and tolerance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct IntegratorFit {
+    /// The solver's name in the registry.
+    pub solver: String,
+    /// The method.
+    pub method: Scheme,
+    /// Cost of a flight apart from its calls (ns).
+    pub cost_ns: f64,
+    /// Cost of a call of the right-hand side, with all that belongs to it (ns).
+    pub call_ns: f64,
+    /// Error of cos θ at the end of a bin of phases.
+    pub tilt_errors: Vec<Vec<Vec<f64>>>,
+    /// Error of the attitude there (rad).
+    pub errors: Vec<Vec<Vec<f64>>>,
+    /// Mean calls of the right-hand side over 1 + phase.
+    pub calls: Vec<Vec<Vec<f64>>>,
+}
+
+/// A way to sample a space: the error after N launches is `error` N^-`power`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SamplingFit {
+    /// The model.
+    pub model: Model,
+    /// Cost of an estimate apart from its launches (ns).
+    pub cost_ns: f64,
+    /// Cost of a launch (ns).
+    pub launch_ns: f64,
+    /// Error of one launch.
+    pub error: f64,
+    /// How fast it falls.
+    pub power: f64,
+}
+
+/// How far a flight turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// The larger of ωL T and |q| T (rad).
+    pub phase: f64,
+    /// |q|/ωL; infinite without a precession.
+    pub spin: f64,
+}
+
+/// A tolerance and what it leads to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// The tolerance.
+    pub tolerance: f64,
+    /// The error, of cos θ or the attitude (rad).
+    pub error: f64,
+    /// Its cost (ns).
+    pub cost_ns: f64,
+}
+
+impl Fitted {
+    /// The fit of a model in closed form.
+    ///
+    /// # Panics
+    /// For a model that has none.
+    pub fn closed(&self, model: Model) -> &ClosedFit {
+        self.closed.iter().find(|fit| fit.model == model).expect("a test looks for each")
+    }
+
+    /// The fit of an integrator's method, if it is in the record.
+    pub fn integrator(&self, solver: &str, method: Scheme) -> Option<&IntegratorFit> {
+        self.integrators.iter().find(|fit| fit.solver == solver && fit.method == method)
+    }
+
+    /// The fit of a way to sample.
+    ///
+    /// # Panics
+    /// For a model that has none.
+    pub fn sampling(&self, model: Model) -> &SamplingFit {
+        self.sampling.iter().find(|fit| fit.model == model).expect("a test looks for each")
+    }
+
+    /// The roughest tolerance at which `fit` stays within `accuracy` over `turn`, in cos θ or else in the attitude (rad),
+    /// interpolated in phase and tolerance.
+    ///
+    /// # Errors
+    /// The smallest error that it reaches.
+    pub fn setting(&self, fit: &IntegratorFit, of_tilt: bool, turn: &Turn, accuracy: f64) -> Result<Setting, f64> {
+        let last = self.spins.len() - 1;
+        let spin = self.spins.iter().position(|end| turn.spin <= *end).unwrap_or(last);
+        let place = self.place(turn.phase);
+        let errors = if of_tilt { &fit.tilt_errors } else { &fit.errors };
+        let error = |index: usize| place.of(&errors[spin], index);
+        let tolerances = 0..self.tolerances.len();
+        let Some(fine) = tolerances.clone().find(|index| error(*index) <= accuracy) else {
+            return Err(tolerances.map(error).fold(f64::INFINITY, f64::min));
+        };
+        let rough = fine.saturating_sub(1);
+        let part = if rough == fine { 1.0 } else { (accuracy / error(rough)).ln() / (error(fine) / error(rough)).ln() };
+        let calls = |index: usize| fit.calls[spin][place.bin][index] * (1.0 + turn.phase);
+        Ok(Setting {
+            tolerance: between(self.tolerances[rough], self.tolerances[fine], part),
+            error: between(error(rough), error(fine), part),
+            cost_ns: fit.cost_ns + between(calls(rough), calls(fine), part) * fit.call_ns,
+        })
+    }
+
+    fn place(&self, phase: f64) -> Place {
+        let last = self.phases.len() - 1;
+        let bin = self.phases.iter().position(|end| phase <= *end).unwrap_or(last);
+        let end = self.phases[bin];
+        let part = if bin == 0 { 1.0 } else { (phase / self.phases[bin - 1]).ln() / (end / self.phases[bin - 1]).ln() };
+        Place { bin, part: part.min(1.0), beyond: (phase / end).max(1.0) }
+    }
+}
+
+/// Where a phase lies among the bins.
+struct Place {
+    bin: usize,
+    /// How far into its bin, from 0 to 1, by the logarithm.
+    part: f64,
+    /// How far beyond the last bin: errors grow with the phase there, which tightens the tolerance as much.
+    beyond: f64,
+}
+
+impl Place {
+    /// The entry of a table by phase and tolerance, between the ends of its bin.
+    fn of(&self, table: &[Vec<f64>], tolerance: usize) -> f64 {
+        let from = table[self.bin.saturating_sub(1)][tolerance];
+        between(from, table[self.bin][tolerance], self.part) * self.beyond
+    }
+}
+
+/// Between `rough` and `fine`, by the logarithm.
+fn between(rough: f64, fine: f64, part: f64) -> f64 {
+    rough * (part * (fine / rough).ln()).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::SOLVERS;
+
+    #[test]
+    fn the_table_has_a_fit_for_everything() {
+        let fitted = &*FITTED;
+        for model in [
+            Model::Certain,
+            Model::Keller,
+            Model::Heads,
+            Model::KellerTilt,
+            Model::Tilt,
+            Model::Attitude,
+            Model::TiltExact,
+        ] {
+            assert!(fitted.closed(model).cost_ns > 0.0);
+        }
+        for model in [Model::HeadsExact, Model::Trace, Model::Share] {
+            assert!(fitted.closed(model).cost_ns > 0.0);
+        }
+        for model in [Model::ShareSobol, Model::Sobol, Model::Random] {
+            assert!(fitted.sampling(model).launch_ns > 0.0);
+        }
+        for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
+            for scheme in Scheme::ALL.into_iter().filter(|scheme| scheme.is_adaptive()) {
+                let fit = fitted.integrator(entry.name, scheme).unwrap();
+                for table in [&fit.tilt_errors, &fit.errors, &fit.calls] {
+                    assert_eq!(table.len(), fitted.spins.len());
+                    assert!(table.iter().all(|rows| rows.len() == fitted.phases.len()));
+                    assert!(table.iter().flatten().all(|row| row.len() == fitted.tolerances.len()));
+                    assert!(table.iter().flatten().flatten().all(|value| *value > 0.0));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn phases_and_tolerances_between_those_of_the_record_are_interpolated() {
+        let calls = vec![vec![8.0, 16.0, 32.0]; 2];
+        let fit = IntegratorFit {
+            solver: "gamma".to_owned(),
+            method: Scheme::Dop853,
+            cost_ns: 100.0,
+            call_ns: 10.0,
+            tilt_errors: vec![vec![vec![1e-3, 1e-5, 1e-7]; 2]; 2],
+            errors: vec![vec![vec![1e-2, 1e-4, 1e-6], vec![4e-2, 4e-4, 4e-6]], vec![vec![1.0; 3], vec![1.0; 3]]],
+            calls: vec![calls.clone(), calls],
+        };
+        let fitted = Fitted {
+            measured: String::new(),
+            closed: Vec::new(),
+            spins: vec![0.5, 1.0],
+            phases: vec![1.0, 9.0],
+            tolerances: vec![1e-3, 1e-5, 1e-7],
+            integrators: Vec::new(),
+            sampling: Vec::new(),
+        };
+        let near =
+            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found}, not {expected}");
+        let setting = |phase, spin, accuracy| fitted.setting(&fit, false, &Turn { phase, spin }, accuracy);
+        let rough = setting(1.0, 0.1, 0.5).unwrap();
+        assert_eq!((rough.tolerance, rough.error, rough.cost_ns), (1e-3, 1e-2, 260.0));
+        // Half of the way from 1 to 9 rad, and from 1e-5 to 1e-7.
+        let middle = setting(3.0, 0.5, 2e-5).unwrap();
+        near(middle.tolerance, 1e-6);
+        near(middle.error, 2e-5);
+        near(middle.cost_ns, 100.0 + 16.0 * 2f64.sqrt() * 4.0 * 10.0);
+        let beyond = setting(900.0, 0.0, 4e-4).unwrap();
+        near(beyond.tolerance, 1e-7);
+        near(fitted.setting(&fit, true, &Turn { phase: 3.0, spin: 0.5 }, 1e-4).unwrap().tolerance, 1e-4);
+        near(setting(0.5, 0.0, 1e-7).unwrap_err(), 1e-6);
+        near(setting(0.5, f64::INFINITY, 1e-3).unwrap_err(), 1.0);
+    }
+}

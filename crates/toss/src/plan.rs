@@ -1,0 +1,283 @@
+//! From a scene to the cheapest model that serves it.
+//!
+//! The rungs of the [ladder](crate::model) are asked from the cheapest on whether they give what is wanted within the
+//! accuracy, by the [record](crate::fitted) of what they were measured to do.
+
+use std::fmt;
+
+use dynamics::certified::by_f64;
+use dynamics::error::require;
+use dynamics::keller::{keller_outcome, keller_phase};
+use dynamics::{InputError, Method, Scheme, SolveError, SolverEntry, TiltTerms, Toss, certain};
+
+use crate::fitted::{FITTED, Turn};
+use crate::integrator_plan::{Flights, integrators};
+use crate::model::Model;
+use crate::scene::{Scene, SceneError, Want};
+use crate::space_plan;
+
+/// A model with its settings, and what to expect of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice {
+    /// The model.
+    pub model: Model,
+    /// Its settings.
+    pub how: How,
+    /// Its error, as the record has it; 0 for an outcome that is proven.
+    pub expected_error: f64,
+    /// Its cost on one core of the machine of the record (ns).
+    pub expected_cost_ns: f64,
+}
+
+/// How a model is to be used.
+#[derive(Debug, Clone, Copy)]
+pub enum How {
+    /// It has no settings.
+    ClosedForm,
+    /// By an integrator with this method and tolerance.
+    Integrator(&'static SolverEntry, Method),
+    /// With these launches.
+    Sampling(sampling::Plan),
+}
+
+/// Why a model is passed over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reason {
+    /// It answers another question.
+    GivesOnly(&'static str),
+    /// The motion can show both faces within the flight.
+    NotCertain,
+    /// ωz ≠ 0, or not launched flat, or numbers beyond its range.
+    NotKellers,
+    /// cos θ is too near 0 for it.
+    OnEdge,
+    /// Its error is larger than what is wanted.
+    TooRough {
+        /// The error.
+        expected_error: f64,
+    },
+    /// An integrator was asked for by name.
+    NotAskedFor,
+    /// It serves, but costs more.
+    Dearer {
+        /// Its cost (ns).
+        expected_cost_ns: f64,
+    },
+    /// The speed is fixed.
+    SpeedIsFixed,
+    /// More than the speed is free.
+    MoreIsFree,
+    /// It tells no error.
+    TellsNoError,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::GivesOnly(what) => write!(f, "gives only {what}"),
+            Self::NotCertain => f.write_str("the motion shows both faces, and the flight may be long enough for it"),
+            Self::NotKellers => f.write_str("needs ωz = 0 and a launch from horizontal"),
+            Self::OnEdge => f.write_str("cos θ is too near 0 to be sure of its sign"),
+            Self::TooRough { expected_error } => write!(f, "its expected error is {expected_error:.1e}"),
+            Self::NotAskedFor => f.write_str("an integrator was asked for"),
+            Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),
+            Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
+            Self::MoreIsFree => f.write_str("more than the speed is free"),
+            Self::TellsNoError => f.write_str("tells no error"),
+        }
+    }
+}
+
+/// A time (ns), written with the unit that suits it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nanoseconds(pub f64);
+
+impl fmt::Display for Nanoseconds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            ns if ns < 1e3 => write!(f, "{ns:.0} ns"),
+            ns if ns < 1e6 => write!(f, "{:.1} µs", ns / 1e3),
+            ns if ns < 1e9 => write!(f, "{:.1} ms", ns / 1e6),
+            ns => write!(f, "{:.1} s", ns / 1e9),
+        }
+    }
+}
+
+/// A rung's answer to a scene.
+pub type Verdict = Result<Choice, Reason>;
+
+/// The chosen model, and why others were not.
+#[derive(Debug, Clone)]
+pub struct Decision {
+    /// The choice.
+    pub choice: Choice,
+    /// Every cheaper model, and every other way of the chosen kind, with the reason.
+    pub passed_over: Vec<(Candidate, Reason)>,
+}
+
+/// What was asked: a model, and the solver and method if it is an integrator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Candidate {
+    /// The model.
+    pub model: Model,
+    /// The integrator's solver and method.
+    pub integrator: Option<(&'static str, Scheme)>,
+}
+
+impl From<Model> for Candidate {
+    fn from(model: Model) -> Self {
+        Self { model, integrator: None }
+    }
+}
+
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.integrator {
+            None => f.write_str(self.model.name()),
+            Some((solver, scheme)) => write!(f, "{solver}/{}", scheme.name()),
+        }
+    }
+}
+
+impl Scene {
+    /// The cheapest model that serves the scene.
+    ///
+    /// # Errors
+    /// [`SceneError::Input`] if the scene makes no sense or no model is that accurate; [`SceneError::Solve`] for a phase that
+    /// is too large to mean anything.
+    pub fn plan(&self) -> Result<Decision, SceneError> {
+        require("accuracy", self.accuracy, "finite and > 0", self.accuracy > 0.0)?;
+        match (self.want.toss(), &self.by) {
+            (Some(toss), None) => self.first_closed_form(toss),
+            (Some(toss), Some(by)) => {
+                let passed_over = CLOSED_FORMS.map(|model| (model.into(), Reason::NotAskedFor)).to_vec();
+                let candidates = integrators(Some(by), self.flights(toss)?)?;
+                let valid = "at least what the integrator reaches at its finest tolerance";
+                cheapest(passed_over, candidates).ok_or_else(|| self.too_accurate(valid))
+            }
+            (None, _) => {
+                let valid = "at least what rounding leaves of a share of speeds, or 2^36 launches of a sample";
+                cheapest(Vec::new(), space_plan::candidates(self)?).ok_or_else(|| self.too_accurate(valid))
+            }
+        }
+    }
+
+    /// Every rung's answer to the scene, in the order of the ladder and whatever was asked for.
+    ///
+    /// # Errors
+    /// As [`Scene::plan`].
+    pub fn candidates(&self) -> Result<Vec<(Candidate, Verdict)>, SceneError> {
+        let Some(toss) = self.want.toss() else { return Ok(space_plan::candidates(self)?.collect()) };
+        let closed_forms = CLOSED_FORMS.map(|model| (model.into(), self.closed_form(model, toss)));
+        Ok(closed_forms.into_iter().chain(integrators(None, self.flights(toss)?)?).collect())
+    }
+
+    fn first_closed_form(&self, toss: &Toss) -> Result<Decision, SceneError> {
+        // No model says anything of a phase beyond 2^53.
+        turn(toss)?;
+        let mut passed_over = Vec::with_capacity(CLOSED_FORMS.len());
+        for model in CLOSED_FORMS {
+            match self.closed_form(model, toss) {
+                Ok(choice) => return Ok(Decision { choice, passed_over }),
+                Err(reason) => passed_over.push((model.into(), reason)),
+            }
+        }
+        Err(self.too_accurate("at least 2.3e-16 for cos θ, 1.2e-15 rad for attitudes"))
+    }
+
+    fn too_accurate(&self, valid: &'static str) -> SceneError {
+        InputError::OutOfRange { field: "accuracy", value: self.accuracy, valid }.into()
+    }
+
+    /// The flights that an integrator makes for the scene.
+    fn flights(&self, toss: &Toss) -> Result<Flights, SceneError> {
+        let legs = if let Want::Trace { points, .. } = self.want { points.saturating_sub(1).max(1) } else { 1 };
+        let of_tilt = matches!(self.want, Want::Outcome(_) | Want::Tilt(_));
+        Ok(Flights { turn: turn(toss)?, accuracy: self.accuracy, of_tilt, legs })
+    }
+
+    fn closed_form(&self, model: Model, toss: &Toss) -> Verdict {
+        let fit = FITTED.closed(model);
+        let chosen = |expected_error: f64, points: usize| {
+            #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
+            let expected_cost_ns = fit.cost_ns * points as f64;
+            Ok(Choice { model, how: How::ClosedForm, expected_error, expected_cost_ns })
+        };
+        let proven = |serves: bool, reason: Reason| if serves { chosen(0.0, 1) } else { Err(reason) };
+        let measured = |points: usize| {
+            let expected_error = fit.error;
+            if expected_error <= self.accuracy {
+                chosen(expected_error, points)
+            } else {
+                Err(Reason::TooRough { expected_error })
+            }
+        };
+        match (model, &self.want) {
+            (Model::Certain, Want::Outcome(_)) => proven(certain(toss).is_some(), Reason::NotCertain),
+            (Model::Keller, Want::Outcome(_)) | (Model::KellerTilt, Want::Tilt(_)) if keller_phase(toss).is_none() => {
+                Err(Reason::NotKellers)
+            }
+            (Model::Keller, Want::Outcome(_)) => {
+                proven(keller_phase(toss).and_then(keller_outcome).is_some(), Reason::OnEdge)
+            }
+            (Model::Heads, Want::Outcome(_)) => proven(by_f64(toss).is_some(), Reason::OnEdge),
+            (Model::HeadsExact, Want::Outcome(_)) => proven(true, Reason::OnEdge),
+            (Model::KellerTilt | Model::Tilt | Model::TiltExact, Want::Tilt(_))
+            | (Model::Attitude, Want::Attitude(_)) => measured(1),
+            (Model::Trace, Want::Trace { points, .. }) => measured(*points),
+            // cos θ too, but to no more digits than `tilt` and for more.
+            (Model::Attitude, Want::Tilt(_)) => Err(Reason::TooRough { expected_error: fit.error }),
+            (Model::Certain | Model::Keller | Model::Heads | Model::HeadsExact, _) => {
+                Err(Reason::GivesOnly("the outcome"))
+            }
+            (Model::KellerTilt | Model::Tilt | Model::TiltExact, _) => Err(Reason::GivesOnly("cos θ")),
+            _ => Err(Reason::GivesOnly("one landing")),
+        }
+    }
+}
+
+/// The rungs for a toss that take no steps, in the order of the ladder.
+pub const CLOSED_FORMS: [Model; 9] = [
+    Model::Certain,
+    Model::Keller,
+    Model::Heads,
+    Model::KellerTilt,
+    Model::Tilt,
+    Model::Attitude,
+    Model::TiltExact,
+    Model::HeadsExact,
+    Model::Trace,
+];
+
+/// How far the motion of `toss` turns.
+fn turn(toss: &Toss) -> Result<Turn, SolveError> {
+    use dynamics::exact::LARGEST_PHASE;
+    let [precession, spin] = TiltTerms::new(toss).phases(toss.launch.flight_time());
+    let phase = precession.max(spin);
+    let in_range = phase <= LARGEST_PHASE;
+    // A motion that does neither is as good as one that only precesses.
+    let turn = Turn { phase, spin: if spin == 0.0 { 0.0 } else { spin / precession } };
+    in_range.then_some(turn).ok_or(SolveError::PhaseTooLarge { phase })
+}
+
+/// The cheapest of the candidates that serve, and what is said of the others after `passed_over`.
+fn cheapest(
+    mut passed_over: Vec<(Candidate, Reason)>,
+    candidates: impl Iterator<Item = (Candidate, Verdict)>,
+) -> Option<Decision> {
+    let mut best: Option<(Candidate, Choice)> = None;
+    let dearer = |choice: &Choice| Reason::Dearer { expected_cost_ns: choice.expected_cost_ns };
+    for (candidate, verdict) in candidates {
+        match (verdict, &best) {
+            (Err(reason), _) => passed_over.push((candidate, reason)),
+            (Ok(choice), Some((_, cheapest))) if choice.expected_cost_ns >= cheapest.expected_cost_ns => {
+                passed_over.push((candidate, dearer(&choice)));
+            }
+            (Ok(choice), _) => {
+                passed_over.extend(best.map(|(candidate, choice)| (candidate, dearer(&choice))));
+                best = Some((candidate, choice));
+            }
+        }
+    }
+    best.map(|(_, choice)| Decision { choice, passed_over })
+}

@@ -1,0 +1,73 @@
+//! Whether the planner keeps its word.
+
+use std::cmp::Ordering;
+
+use crate::check::{Basis, Check};
+use crate::context::Context;
+use crate::measurement::Measurement;
+use crate::planner::thrift::Line;
+use crate::planner::trial::Outcome;
+
+pub(super) const DELIVERS: Check = Check {
+    id: "plan-delivers",
+    claim: "a scene solved as planned is as accurate as was asked (measured: the largest error in parts of the accuracy)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| largest(context, DELIVERS.id, Outcome::error_by_accuracy),
+};
+
+pub(super) const EXPECTS: Check = Check {
+    id: "plan-expects",
+    claim: "no error is larger than the plan expects (measured: the largest in parts of it, on tosses of the same kind too)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| largest(context, EXPECTS.id, Outcome::error_by_expected),
+};
+
+pub(super) const TIGHT: Check = Check {
+    id: "plan-tight",
+    claim: "the plan expects at most 30 times the error that there is (measured: share of scenes where it expects more)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| {
+        share(
+            context,
+            TIGHT.id,
+            &[("of the toss", |line| line.within_30_of_one), ("of its kind", |line| line.within_30)],
+        )
+    },
+};
+
+pub(super) const REGRET: Check = Check {
+    id: "plan-regret",
+    claim: "by the recorded costs the chosen rung is at most 1.2 times as dear as the cheapest that serves, of all that were tried \
+            (measured: share of scenes where it is dearer; what the clock says of it is in the report)",
+    basis: Basis::CrossMethod,
+    unit: "1",
+    measure: |context| share(context, REGRET.id, &[("all", |line| line.thrifty)]),
+};
+
+/// The largest `part` of each kind of scenes.
+fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow::Result<Vec<Measurement>> {
+    let trial = context.trial()?;
+    let row = |kind: &'static str| {
+        let outcomes = trial.outcomes.iter().filter(|outcome| outcome.kind == kind && outcome.model.is_some());
+        let larger = |a: &&Outcome, b: &&Outcome| part(a).partial_cmp(&part(b)).unwrap_or(Ordering::Greater);
+        let number = outcomes.clone().count() as u64;
+        let worst = outcomes.max_by(larger);
+        let input = worst.map_or_else(String::new, |outcome| outcome.input.clone());
+        Measurement::figure(check, kind, worst.map_or(f64::INFINITY, part), number, input)
+    };
+    Ok(trial.kinds().into_iter().map(row).collect())
+}
+
+/// What is missing to 1 in shares of all scenes.
+fn share(context: &Context, check: &str, shares: &[(&str, fn(&Line) -> f64)]) -> anyhow::Result<Vec<Measurement>> {
+    let lines = context.trial()?.lines();
+    let all = lines.last().expect("there is a line for all scenes");
+    let row = |(subject, share): &(&str, fn(&Line) -> f64)| {
+        let cases = if check == REGRET.id { all.tried } else { all.scenes };
+        Measurement::figure(check, subject, 1.0 - share(all), cases as u64, "all scenes".to_owned())
+    };
+    Ok(shares.iter().map(row).collect())
+}

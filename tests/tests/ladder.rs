@@ -1,0 +1,93 @@
+//! The rungs of the ladder agree where they overlap, and a plan keeps its order.
+
+use blackbox::{config, tosses};
+use proptest::prelude::*;
+use toss::model::LADDER;
+use toss::plan::How;
+use toss::{Answer, Choice, Model, Outcome, Scene, Toss, Want};
+
+/// What every rung that can says of a scene, with its bound: the expected error, which is none for an integrator, whose errors
+/// have a long tail; four times that is.
+fn answers(want: Want) -> Vec<(Model, Answer, f64)> {
+    let scene = Scene::new(want, 1e-6);
+    let choices = scene.candidates().unwrap().into_iter().filter_map(|(_, verdict)| verdict.ok());
+    let bound = |choice: &Choice| if choice.model == Model::Integrator { 4.0 } else { 1.0 } * choice.expected_error;
+    // An integrator may refuse; what it says otherwise has to agree.
+    choices.filter_map(|choice| Some((choice.model, choice.run(&scene).ok()?, bound(&choice)))).collect()
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn outcomes_are_identical(toss in tosses()) {
+        let said: Vec<(Model, Outcome)> = answers(Want::Outcome(toss))
+            .into_iter()
+            .filter_map(|(model, answer, _)| match answer {
+                Answer::Outcome(verdict) if model != Model::Integrator || verdict.outcome != Outcome::Undecided => {
+                    Some((model, verdict.outcome))
+                }
+                _ => None,
+            })
+            .collect();
+        prop_assert!(!said.is_empty());
+        prop_assert!(said.iter().all(|(_, outcome)| *outcome == said[0].1), "{toss:?}: {said:?}");
+    }
+
+    #[test]
+    fn cos_tilt_is_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+        let said = answers(Want::Tilt(toss));
+        for (model, a, error_a) in &said {
+            for (other, b, error_b) in &said {
+                let (Answer::Tilt(x), Answer::Tilt(y)) = (a, b) else { continue };
+                prop_assert!((x - y).abs() <= error_a + error_b, "{toss:?}: {model:?} {x}, {other:?} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn attitudes_are_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+        let said = answers(Want::Attitude(toss));
+        for (model, a, error_a) in &said {
+            for (other, b, error_b) in &said {
+                let (Answer::Attitude(x), Answer::Attitude(y)) = (a, b) else { continue };
+                let angle = x.attitude.angle_to(&y.attitude);
+                prop_assert!(angle <= error_a + error_b, "{toss:?}: {model:?}, {other:?}: {angle:e}");
+            }
+        }
+    }
+
+    /// What is passed over stands before the choice on the ladder, and `solve` does as planned.
+    #[test]
+    fn a_plan_takes_the_first_rung_that_serves(toss in tosses(), decade in 1..15_i32) {
+        for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 3 }] {
+            let scene = Scene::new(want, 10f64.powi(-decade));
+            let decision = scene.plan().unwrap();
+            prop_assert!(matches!(decision.choice.how, How::ClosedForm));
+            prop_assert!(decision.choice.expected_error <= scene.accuracy);
+            let before: Vec<Model> = LADDER.iter().map(|rung| rung.model).take_while(|model| *model != decision.choice.model).collect();
+            let passed_over: Vec<Model> = decision.passed_over.iter().map(|(candidate, _)| candidate.model).collect();
+            prop_assert_eq!(before, passed_over);
+            prop_assert_eq!(scene.solve().unwrap().model, decision.choice.model);
+        }
+    }
+}
+
+/// Six scenes of one question each, down the ladder.
+#[test]
+fn six_scenes_end_on_six_rungs() {
+    let toss = |rate: &str| -> Toss { toml::from_str(&format!("[launch]\nrate = {rate}\nspeed = 3")).unwrap() };
+    let paper = toss("[1.0, 1.0, 2.5]");
+    for (scene, model) in [
+        (Scene::new(Want::Outcome(paper), 1e-9), Model::Certain),
+        (Scene::new(Want::Outcome(toss("[20.0, 3.0, 0.0]")), 1e-9), Model::Keller),
+        (Scene::new(Want::Outcome(toss("[20.0, 3.0, 1.0]")), 1e-9), Model::Heads),
+        (Scene::new(Want::Tilt(paper), 1e-9), Model::Tilt),
+        (Scene::new(Want::Tilt(paper), 3e-16), Model::TiltExact),
+        (Scene::new(Want::Attitude(paper), 1e-9), Model::Attitude),
+        (Scene::new(Want::Trace { toss: paper, points: 50 }, 1e-9), Model::Trace),
+        (Scene::new(Want::Attitude(paper), 1e-9).by("quaternion", None), Model::Integrator),
+    ] {
+        assert_eq!(scene.plan().unwrap().choice.model, model, "{scene:?}");
+    }
+}
