@@ -6,12 +6,16 @@ use toss::model::LADDER;
 use toss::plan::How;
 use toss::{Answer, Choice, Model, Outcome, Scene, Toss, Want};
 
-/// What every rung that can says of a scene, with its bound: the expected error, which is none for an integrator, whose errors
-/// have a long tail; four times that is.
+/// What every rung that can says of a scene, with its bound: the expected error, but of an integrator what it answers for,
+/// because its errors have a long tail.
 fn answers(want: Want) -> Vec<(Model, Answer, f64)> {
+    let toss = *want.toss().unwrap();
     let scene = Scene::new(want, 1e-6);
+    let bound = |choice: &Choice| match choice.how {
+        How::Integrator(_, method) => 10.0 * method.resolution(&toss).unwrap(),
+        _ => choice.expected_error,
+    };
     let choices = scene.candidates().unwrap().into_iter().filter_map(|(_, verdict)| verdict.ok());
-    let bound = |choice: &Choice| if choice.model == Model::Integrator { 4.0 } else { 1.0 } * choice.expected_error;
     // An integrator may refuse; what it says otherwise has to agree.
     choices.filter_map(|choice| Some((choice.model, choice.run(&scene).ok()?, bound(&choice)))).collect()
 }

@@ -129,8 +129,7 @@ impl Fitted {
     /// # Errors
     /// The smallest error that it reaches.
     pub fn setting(&self, fit: &IntegratorFit, of_tilt: bool, turn: &Turn, accuracy: f64) -> Result<Setting, f64> {
-        let last = self.spins.len() - 1;
-        let spin = self.spins.iter().position(|end| turn.spin <= *end).unwrap_or(last);
+        let spin = self.spin_bin(turn.spin);
         let place = self.place(turn.phase);
         let errors = if of_tilt { &fit.tilt_errors } else { &fit.errors };
         let error = |index: usize| place.of(&errors[spin], index);
@@ -140,12 +139,23 @@ impl Fitted {
         };
         let rough = fine.saturating_sub(1);
         let part = if rough == fine { 1.0 } else { (accuracy / error(rough)).ln() / (error(fine) / error(rough)).ln() };
-        let calls = |index: usize| fit.calls[spin][place.bin][index] * (1.0 + turn.phase);
-        Ok(Setting {
-            tolerance: between(self.tolerances[rough], self.tolerances[fine], part),
-            error: between(error(rough), error(fine), part),
-            cost_ns: fit.cost_ns + between(calls(rough), calls(fine), part) * fit.call_ns,
-        })
+        let tolerance = between(self.tolerances[rough], self.tolerances[fine], part);
+        let error = between(error(rough), error(fine), part);
+        Ok(Setting { tolerance, error, cost_ns: self.cost_ns(fit, turn, tolerance) })
+    }
+
+    /// What a flight by `fit` over `turn` costs at a `tolerance` (ns).
+    pub fn cost_ns(&self, fit: &IntegratorFit, turn: &Turn, tolerance: f64) -> f64 {
+        let calls = &fit.calls[self.spin_bin(turn.spin)][self.place(turn.phase).bin];
+        let last = self.tolerances.len() - 1;
+        let fine = self.tolerances.iter().position(|finer| *finer <= tolerance).unwrap_or(last).max(1);
+        let [rough, fine] = [fine - 1, fine];
+        let part = (tolerance / self.tolerances[rough]).ln() / (self.tolerances[fine] / self.tolerances[rough]).ln();
+        fit.cost_ns + between(calls[rough], calls[fine], part) * (1.0 + turn.phase) * fit.call_ns
+    }
+
+    fn spin_bin(&self, spin: f64) -> usize {
+        self.spins.iter().position(|end| spin <= *end).unwrap_or(self.spins.len() - 1)
     }
 
     fn place(&self, phase: f64) -> Place {

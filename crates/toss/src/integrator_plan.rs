@@ -2,7 +2,7 @@
 
 use dynamics::{InputError, Method, Scheme, SolverEntry};
 
-use crate::fitted::{FITTED, Fitted, IntegratorFit, Turn};
+use crate::fitted::{FITTED, Fitted, IntegratorFit, Setting, Turn};
 use crate::model::Model;
 use crate::plan::{Candidate, Choice, How, Reason, Verdict};
 use crate::registry::{SOLVERS, named_solver};
@@ -13,12 +13,23 @@ use crate::scene::Integrator;
 pub(crate) struct Flights {
     /// How far they turn in all.
     pub(crate) turn: Turn,
+    /// What they are for.
+    pub(crate) aim: Aim,
     /// The error that is allowed at the end of any of them.
     pub(crate) accuracy: f64,
-    /// Whether it is that of cos θ; else of the attitude (rad).
-    pub(crate) of_tilt: bool,
-    /// Their number: a trace goes on from point to point.
-    pub(crate) legs: usize,
+}
+
+/// What flights are for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// An outcome, decided where |cos θ| exceeds the accuracy.
+    Outcome,
+    /// cos θ.
+    Tilt,
+    /// An attitude.
+    Attitude,
+    /// As many attitudes, one after the other.
+    Trace(usize),
 }
 
 /// Every adaptive method of the integrator that was asked for, or of all.
@@ -56,24 +67,58 @@ fn integrator(name: &str) -> Result<&'static SolverEntry, InputError> {
 }
 
 impl Flights {
-    /// Each leg of a trace hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much
-    /// again.
     fn by(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Verdict {
+        match self.aim {
+            Aim::Outcome => self.decided(fitted, entry, fit),
+            Aim::Tilt => self.flown(fitted, entry, fit, true),
+            Aim::Attitude => self.flown(fitted, entry, fit, false),
+            Aim::Trace(legs) => self.traced(fitted, entry, fit, legs),
+        }
+    }
+
+    /// With the tolerance at which the solver answers for the accuracy, see [`Method::resolution`]: a decided outcome is right.
+    fn decided(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Verdict {
+        let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
+        let answered_for =
+            |tolerance: f64| Reason::TooRough { expected_error: 100.0 * tolerance * (1.0 + self.turn.phase) };
+        let method = Method::adaptive(fit.method, tolerance).map_err(|_| answered_for(f64::EPSILON))?;
+        Ok(choice(entry, method, 0.0, fitted.cost_ns(fit, &self.turn, tolerance)))
+    }
+
+    /// Tolerances are not rougher than those of the record.
+    const ROUGHEST: f64 = 1e-3;
+
+    fn flown(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, of_tilt: bool) -> Verdict {
+        let too_rough = |expected_error: f64| Reason::TooRough { expected_error };
+        let Setting { tolerance, error, cost_ns } =
+            fitted.setting(fit, of_tilt, &self.turn, self.accuracy).map_err(too_rough)?;
+        let method = Method::adaptive(fit.method, tolerance).map_err(|_| too_rough(error))?;
+        Ok(choice(entry, method, error, cost_ns))
+    }
+
+    /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much again.
+    fn traced(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, legs: usize) -> Verdict {
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
-        let legs = self.legs as f64;
-        let handed_on = if self.legs == 1 { 1.0 } else { 2.0 * legs };
-        let leg = Turn { phase: self.turn.phase / legs, ..self.turn };
-        let too_rough = |error: f64| Reason::TooRough { expected_error: error * handed_on };
-        let setting = fitted.setting(fit, self.of_tilt, &leg, self.accuracy / handed_on).map_err(too_rough)?;
-        let method = Method::adaptive(fit.method, setting.tolerance).map_err(|_| too_rough(setting.error))?;
+        let legs = legs as f64;
+        let handed_on = 2.0 * legs;
+        let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
+        let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
         // A trace has its own cost for each point.
         let tracing_ns = fitted.closed(Model::Trace).cost_ns - fitted.closed(Model::Attitude).cost_ns;
-        let leg_ns = setting.cost_ns + if self.legs == 1 { 0.0 } else { tracing_ns };
-        Ok(Choice {
-            model: Model::Integrator,
-            how: How::Integrator(entry, method),
-            expected_error: setting.error * handed_on,
-            expected_cost_ns: leg_ns * legs,
-        })
+        match leg.by(fitted, entry, fit) {
+            Ok(leg) => Ok(Choice {
+                expected_error: leg.expected_error * handed_on,
+                expected_cost_ns: (leg.expected_cost_ns + tracing_ns) * legs,
+                ..leg
+            }),
+            Err(Reason::TooRough { expected_error }) => {
+                Err(Reason::TooRough { expected_error: expected_error * handed_on })
+            }
+            Err(other) => Err(other),
+        }
     }
+}
+
+fn choice(entry: &'static SolverEntry, method: Method, expected_error: f64, expected_cost_ns: f64) -> Choice {
+    Choice { model: Model::Integrator, how: How::Integrator(entry, method), expected_error, expected_cost_ns }
 }

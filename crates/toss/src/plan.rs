@@ -11,7 +11,7 @@ use dynamics::keller::{keller_outcome, keller_phase};
 use dynamics::{InputError, Method, Scheme, SolveError, SolverEntry, TiltTerms, Toss, certain};
 
 use crate::fitted::{FITTED, Turn};
-use crate::integrator_plan::{Flights, integrators};
+use crate::integrator_plan::{Aim, Flights, integrators};
 use crate::model::Model;
 use crate::scene::{Scene, SceneError, Want};
 use crate::space_plan;
@@ -23,7 +23,7 @@ pub struct Choice {
     pub model: Model,
     /// Its settings.
     pub how: How,
-    /// Its error, as the record has it; 0 for an outcome that is proven.
+    /// Its error, as the record has it; 0 for an outcome, which is right or undecided.
     pub expected_error: f64,
     /// Its cost on one core of the machine of the record (ns).
     pub expected_cost_ns: f64,
@@ -191,9 +191,13 @@ impl Scene {
 
     /// The flights that an integrator makes for the scene.
     fn flights(&self, toss: &Toss) -> Result<Flights, SceneError> {
-        let legs = if let Want::Trace { points, .. } = self.want { points.saturating_sub(1).max(1) } else { 1 };
-        let of_tilt = matches!(self.want, Want::Outcome(_) | Want::Tilt(_));
-        Ok(Flights { turn: turn(toss)?, accuracy: self.accuracy, of_tilt, legs })
+        let aim = match self.want {
+            Want::Outcome(_) => Aim::Outcome,
+            Want::Tilt(_) => Aim::Tilt,
+            Want::Trace { points, .. } => Aim::Trace(points.saturating_sub(1).max(1)),
+            Want::Attitude(_) | Want::Probability(_) => Aim::Attitude,
+        };
+        Ok(Flights { turn: turn(toss)?, aim, accuracy: self.accuracy })
     }
 
     fn closed_form(&self, model: Model, toss: &Toss) -> Verdict {

@@ -3,8 +3,8 @@
 use dynamics::certified::{by_f64, with_more_digits};
 use dynamics::keller::{keller_cos_tilt, keller_outcome, keller_phase};
 use dynamics::{
-    Certificate, ExactSolver, InputError, Method, Outcome, Settings, Solver, SolverEntry, Stage, State, Toss, Verdict,
-    certain, certify, compensated_cos_tilt, compensated_landing,
+    Certificate, ExactSolver, InputError, Method, Settings, Solver, SolverEntry, Stage, State, Toss, Verdict, certain,
+    certify, compensated_cos_tilt, compensated_landing,
 };
 use sampling::{Estimate, Plan, Rest, Scrambled, Space, estimate};
 
@@ -76,7 +76,7 @@ impl Choice {
             (How::ClosedForm, Want::Tilt(toss)) => self.tilt(toss),
             (How::ClosedForm, Want::Attitude(toss)) => Ok(Answer::Attitude(compensated_landing(toss)?)),
             (How::ClosedForm, Want::Trace { toss, points }) => Ok(Answer::Trace(trace(&ExactSolver, toss, *points)?)),
-            (How::Integrator(entry, method), want) => integrated(entry, method, want, scene.accuracy),
+            (How::Integrator(entry, method), want) => integrated(entry, method, want),
             (How::Sampling(plan), Want::Probability(space)) => {
                 Ok(Answer::Probability(Box::new(sampled(space, plan, scene.accuracy)?)))
             }
@@ -114,12 +114,10 @@ impl Choice {
     }
 }
 
-fn integrated(entry: &SolverEntry, method: Method, want: &Want, accuracy: f64) -> Result<Answer, SceneError> {
+fn integrated(entry: &SolverEntry, method: Method, want: &Want) -> Result<Answer, SceneError> {
     let solver = (entry.build)(&Settings { method, ..Settings::default() });
     Ok(match want {
-        Want::Outcome(toss) => {
-            Answer::Outcome(Verdict { outcome: Outcome::of(solver.cos_tilt(toss)?, accuracy), proof: None })
-        }
+        Want::Outcome(toss) => Answer::Outcome(solver.verdict(toss)?),
         Want::Tilt(toss) => Answer::Tilt(solver.cos_tilt(toss)?),
         Want::Attitude(toss) => Answer::Attitude(solver.propagate(toss)?.state),
         Want::Trace { toss, points } => Answer::Trace(trace(solver.as_ref(), toss, *points)?),

@@ -101,7 +101,7 @@ fn cell(solver: &dyn Solver, flights: &[Flight]) -> [f64; 3] {
 fn safely(mut errors: Vec<f64>) -> f64 {
     errors.sort_unstable_by(f64::total_cmp);
     let (Some(largest), Some(ninth)) = (errors.last(), errors.get(errors.len() * 9 / 10)) else { return f64::EPSILON };
-    1.25 * SAFETY * largest * (largest / ninth).sqrt().min(100.0)
+    1.5 * SAFETY * largest * (largest / ninth).sqrt().min(100.0)
 }
 
 /// Costs (ns) of a flight and of each of its calls, on one core, from short and long flights.

@@ -117,13 +117,7 @@ fn solve(scene: &TossScene) -> anyhow::Result<Outcome> {
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name(), solution.model.name());
     outcome.model = Some(choice.model);
     outcome.expected = choice.expected_error;
-    let truth = Truth::new(&scene.case.toss);
-    outcome.error = truth.error(&scene.scene, &solution.answer)?;
-    if let (Want::Outcome(toss), Some(_)) = (&scene.scene.want, &scene.scene.by) {
-        // An integrator's outcome is as good as its cos θ.
-        let tilt = Scene { want: Want::Tilt(*toss), ..scene.scene.clone() };
-        outcome.error = outcome.error.max(truth.error(&tilt, &choice.run(&tilt)?)?);
-    }
+    outcome.error = Truth::new(&scene.case.toss).error(&scene.scene, &solution.answer)?;
     outcome.error_of_family = outcome.error;
     if !outcome.is_within_30(outcome.error) {
         outcome.error_of_family = outcome.error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0));
