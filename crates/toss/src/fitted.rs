@@ -134,7 +134,8 @@ impl Fitted {
         let errors = if of_tilt { &fit.tilt_errors } else { &fit.errors };
         let error = |index: usize| place.of(&errors[spin], index);
         let tolerances = 0..self.tolerances.len();
-        let Some(fine) = tolerances.clone().find(|index| error(*index) <= accuracy) else {
+        let serves = |index: &usize| place.is_within(&errors[spin], *index, accuracy);
+        let Some(fine) = tolerances.clone().find(serves) else {
             return Err(tolerances.map(error).fold(f64::INFINITY, f64::min));
         };
         let rough = fine.saturating_sub(1);
@@ -179,8 +180,18 @@ struct Place {
 impl Place {
     /// The entry of a table by phase and tolerance, between the ends of its bin.
     fn of(&self, table: &[Vec<f64>], tolerance: usize) -> f64 {
-        let from = table[self.bin.saturating_sub(1)][tolerance];
-        between(from, table[self.bin][tolerance], self.part) * self.beyond
+        let [from, to] = self.ends(table, tolerance);
+        between(from, to, self.part)
+    }
+
+    /// Whether that entry is at most `accuracy`; mostly told without a logarithm.
+    fn is_within(&self, table: &[Vec<f64>], tolerance: usize, accuracy: f64) -> bool {
+        let [from, to] = self.ends(table, tolerance);
+        from.min(to) <= accuracy && (from.max(to) <= accuracy || self.of(table, tolerance) <= accuracy)
+    }
+
+    fn ends(&self, table: &[Vec<f64>], tolerance: usize) -> [f64; 2] {
+        [table[self.bin.saturating_sub(1)][tolerance], table[self.bin][tolerance]].map(|error| error * self.beyond)
     }
 }
 

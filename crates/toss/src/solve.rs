@@ -46,22 +46,29 @@ impl Scene {
     #[inline]
     pub fn solve(&self) -> Result<Solution, SceneError> {
         match &self.want {
-            // The stages of a proof are the rungs for an outcome, so that to plan is to answer.
-            Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => {
-                let Certificate { outcome, stage } = certify(toss)?;
-                let model = match stage {
-                    Stage::Certain => Model::Certain,
-                    Stage::Keller => Model::Keller,
-                    Stage::F64 => Model::Heads,
-                    Stage::DoubleDouble | Stage::Multiprecision => Model::HeadsExact,
-                };
-                Ok(Solution { answer: Answer::Outcome(Verdict { outcome, proof: Some(stage) }), model })
-            }
-            _ => {
-                let choice = self.plan()?.choice;
-                Ok(Solution { answer: choice.run(self)?, model: choice.model })
-            }
+            Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => Ok(Solution::of_outcome(certify(toss)?)),
+            _ => self.solve_as_planned(),
         }
+    }
+
+    #[inline(never)]
+    fn solve_as_planned(&self) -> Result<Solution, SceneError> {
+        let choice = self.plan()?.choice;
+        Ok(Solution { answer: choice.run(self)?, model: choice.model })
+    }
+}
+
+impl Solution {
+    /// The stages of a proof are the rungs for an outcome, so that to plan it is to answer it.
+    #[inline]
+    fn of_outcome(Certificate { outcome, stage }: Certificate) -> Self {
+        let model = match stage {
+            Stage::Certain => Model::Certain,
+            Stage::Keller => Model::Keller,
+            Stage::F64 => Model::Heads,
+            Stage::DoubleDouble | Stage::Multiprecision => Model::HeadsExact,
+        };
+        Self { answer: Answer::Outcome(Verdict { outcome, proof: Some(stage) }), model }
     }
 }
 

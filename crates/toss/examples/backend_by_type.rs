@@ -1,0 +1,34 @@
+//! A backend that is chosen when the program is compiled: generic code over [`Solver`], without a box or a look-up.
+//!
+//! `cargo run --release --example backend_by_type`
+
+use toss::{Coin, ExactSolver, InputError, Launch, Method, QuaternionSolver, Scheme, SolveError, Solver};
+use toss::{Formulation, TimeOfFlight, Toss, Vector3};
+
+/// How often a coin lands heads when the hand's spin varies, by whichever backend the caller named as `S`.
+fn heads_by<S: Solver>(solver: &S, tosses: &[Toss]) -> Result<usize, SolveError> {
+    let mut heads = 0;
+    for toss in tosses {
+        heads += usize::from(solver.cos_tilt(toss)? > 0.0);
+    }
+    Ok(heads)
+}
+
+/// The paper's coin, thrown at 4 m/s with ω = (10, 10, ωz), ωz from 0 to 49 rad/s.
+fn tosses() -> Result<Vec<Toss>, InputError> {
+    let thrown = TimeOfFlight::thrown(4.0, 9.81, None);
+    let toss = |spin: u32| {
+        let launch = Launch::new(Vector3::new(10.0, 10.0, f64::from(spin)), thrown)?;
+        Ok(Toss { coin: Coin::PAPER, launch })
+    };
+    (0..50).map(toss).collect()
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let tosses = tosses()?;
+    let quaternion = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, 1e-9)?, Formulation::default());
+    let (exact, integrated) = (heads_by(&ExactSolver, &tosses)?, heads_by(&quaternion, &tosses)?);
+    println!("heads of {}: {exact} by the exact motion, {integrated} by the quaternion", tosses.len());
+    assert_eq!(exact, integrated);
+    Ok(())
+}
