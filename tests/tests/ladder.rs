@@ -9,13 +9,13 @@ use toss::{Answer, Choice, Model, Outcome, Scene, Toss, Want};
 /// What every rung that can says of a scene, with its bound: the expected error, but of an integrator what it answers for,
 /// because its errors have a long tail.
 fn answers(want: Want) -> Vec<(Model, Answer, f64)> {
-    let toss = *want.toss().unwrap();
+    let toss = *want.toss().expect("a want of a toss");
     let scene = Scene::new(want, 1e-6);
     let bound = |choice: &Choice| match choice.how {
-        How::Integrator(_, method) => 10.0 * method.resolution(&toss).unwrap(),
+        How::Integrator(_, method) => 10.0 * method.resolution(&toss).expect("a small phase"),
         _ => choice.expected_error,
     };
-    let choices = scene.candidates().unwrap().into_iter().filter_map(|(_, verdict)| verdict.ok());
+    let choices = scene.candidates().expect("a valid scene").into_iter().filter_map(|(_, verdict)| verdict.ok());
     // An integrator may refuse; what it says otherwise has to agree.
     choices.filter_map(|choice| Some((choice.model, choice.run(&scene).ok()?, bound(&choice)))).collect()
 }

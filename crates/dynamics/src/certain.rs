@@ -3,11 +3,10 @@
 //! By [`TiltTerms`], `size` cos θ = G(φ) = A + B cos φ + C sin φ. The outcome is certain
 //!
 //! - at any time, if |A| > √(B² + C²): from horizontal this is ψ < 45°. It is the sign of A;
-//! - within a flight too short to flip, if |A + B| > |C| φ + ½ |B| φ² ≥ |G(φ) - G(0)|: the outcome of the launch. That is
-//!   from horizontal a phase of √2 or more; of [Keller's coin](crate::keller), which has no terms, one of π/2.
+//! - within a flight too short to flip, if |A + B| > |C| φ + ½ |B| φ² ≥ |G(φ) - G(0)|: the outcome of the launch. From
+//!   horizontal that is a phase of √2 or more.
 
 use crate::exact::LARGEST_PHASE;
-use crate::keller::{KELLER_FIRST_FLIP, keller_phase};
 use crate::launch::Toss;
 use crate::outcome::Outcome;
 use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
@@ -15,9 +14,6 @@ use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
 /// The proven outcome of a toss that needs no motion, else `None`.
 #[inline]
 pub fn certain(toss: &Toss) -> Option<Outcome> {
-    if keller_phase(toss).is_some_and(|phase| phase < KELLER_FIRST_FLIP) {
-        return Some(Outcome::Heads);
-    }
     let terms = TiltTerms::new(toss);
     certain_by(&terms, phase_in_range(toss, &terms)?)
 }
@@ -60,6 +56,8 @@ pub(crate) fn certain_by(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+
     use nalgebra::Vector3;
 
     use super::*;
@@ -78,11 +76,9 @@ mod tests {
         // tan ψ = Ω/(k ωz).
         assert_eq!(certain(&toss(2.0, [1.999, 0.0, 1.0], 0.0, 1e9)), Some(Outcome::Heads));
         assert_eq!(certain(&toss(2.0, [2.001, 0.0, 1.0], 0.0, 1e9)), None);
-        // End over end, the first flip is at a quarter of a turn; next to it the certain time is √2 rad.
-        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, 1.5707)), Some(Outcome::Heads));
-        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, 1.5708)), None);
-        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 1e-9], 0.0, 1.4142)), Some(Outcome::Heads));
-        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 1e-9], 0.0, 1.4143)), None);
+        // End over end, the first flip is at a quarter of a turn; the certain time is √2 rad of it.
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, SQRT_2 - 1e-8)), Some(Outcome::Heads));
+        assert_eq!(certain(&toss(2.0, [1.0, 0.0, 0.0], 0.0, SQRT_2 + 1e-8)), None);
         // Upside down, and at rest.
         assert_eq!(certain(&toss(2.0, [1.0, 0.0, 9.0], 3.1, 1e9)), Some(Outcome::Tails));
         assert_eq!(certain(&toss(2.0, [0.0; 3], 2.0, 1.0)), Some(Outcome::Tails));
@@ -94,7 +90,6 @@ mod tests {
     /// and coins nearly on edge that land as they pass it.
     #[test]
     fn what_is_certain_is_the_outcome_in_more_digits() {
-        use std::f64::consts::{FRAC_PI_2, PI};
         let mut decided = [0, 0];
         for index in 0..3000 {
             let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;

@@ -1,8 +1,8 @@
 //! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed and
 //! gravity.
 //!
-//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it: what is
-//! [certain](mod@crate::certain) and [Keller's coin](crate::keller). Three have more digits, one than the other, after the
+//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
+//! [Keller's coin](crate::keller) and what is [certain](mod@crate::certain). Three have more digits, one than the other, after the
 //! adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
 //!
 //! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units of
@@ -38,7 +38,7 @@ use crate::certain::{certain_by, phase_in_range};
 use crate::double_double::DoubleDouble;
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
-use crate::keller::{KELLER_FIRST_FLIP, keller_outcome, keller_phase};
+use crate::keller::{keller_outcome, keller_phase};
 use crate::launch::Toss;
 use crate::outcome::{Outcome, Stage};
 use crate::tilt_terms::{TiltTerms, UNIT_ROUNDOFF};
@@ -69,13 +69,8 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
     let by = |stage| move |outcome| Certificate { outcome, stage };
-    if let Some(phase) = keller_phase(toss) {
-        if phase < KELLER_FIRST_FLIP {
-            return Some(by(Stage::Certain)(Outcome::Heads));
-        }
-        if let Some(outcome) = keller_outcome(phase) {
-            return Some(by(Stage::Keller)(outcome));
-        }
+    if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
+        return Some(by(Stage::Keller)(outcome));
     }
     let terms = TiltTerms::new(toss);
     let phase = phase_in_range(toss, &terms)?;

@@ -10,9 +10,6 @@ use crate::launch::Toss;
 use crate::outcome::Outcome;
 use crate::tilt_terms::UNIT_ROUNDOFF;
 
-/// A phase (rad) surely before the first flip of Keller's coin, at π/2.
-pub(crate) const KELLER_FIRST_FLIP: f64 = 1.570_796;
-
 /// Bound of the error of cos φ at a rounded `phase` φ (rad).
 #[inline]
 pub fn keller_bound(phase: f64) -> f64 {
@@ -51,6 +48,10 @@ pub fn keller_cos_tilt(toss: &Toss) -> Option<f64> {
 /// The proven outcome of a toss with this [phase](keller_phase); `None` where cos θ is too near 0 to tell.
 #[inline]
 pub fn keller_outcome(phase: f64) -> Option<Outcome> {
+    const BEFORE_THE_FIRST_FLIP: f64 = std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9);
+    if phase < BEFORE_THE_FIRST_FLIP {
+        return Some(Outcome::Heads);
+    }
     match Outcome::of(phase.cos(), keller_bound(phase)) {
         Outcome::Undecided => None,
         decided => Some(decided),

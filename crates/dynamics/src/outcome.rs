@@ -37,10 +37,10 @@ impl Outcome {
 /// Which stage of a proof decided, from the cheapest on: see [`certified`](crate::certified).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// No motion was evaluated: the face never changes, or the flight is too short for it.
-    Certain,
     /// The one cosine of Keller's coin.
     Keller,
+    /// No motion was evaluated: the face never changes, or the flight is too short for it.
+    Certain,
     /// f64.
     F64,
     /// Double-double.
@@ -51,7 +51,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in their order.
-    pub const ALL: [Self; 5] = [Self::Certain, Self::Keller, Self::F64, Self::DoubleDouble, Self::Multiprecision];
+    pub const ALL: [Self; 5] = [Self::Keller, Self::Certain, Self::F64, Self::DoubleDouble, Self::Multiprecision];
 }
 
 /// An outcome, and what it rests on.

@@ -25,10 +25,10 @@ pub struct Counts {
 /// How many outcomes each stage of the proof decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Proven {
-    /// Without evaluating the motion.
-    pub certain: u64,
     /// By the cosine of Keller's coin.
     pub keller: u64,
+    /// Without evaluating the motion.
+    pub certain: u64,
     /// By f64.
     pub f64: u64,
     /// By double-double.

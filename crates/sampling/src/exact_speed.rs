@@ -49,7 +49,7 @@ impl Share {
 }
 
 /// The share of heads over the speeds of `space`, for the launch with `values` but for its speed.
-pub(crate) fn share(space: &Space, values: &Values) -> Result<Share, (Toss, SolveError)> {
+pub(crate) fn share(space: &Space, values: &Values) -> Result<Share, (Box<Toss>, SolveError)> {
     let speeds = space.axis(Coordinate::Speed);
     let toss = |speed: f64| {
         let mut values = *values;
@@ -57,7 +57,7 @@ pub(crate) fn share(space: &Space, values: &Values) -> Result<Share, (Toss, Solv
         space.toss(&values)
     };
     let [slowest, fastest] = speeds.bounds().map(toss);
-    let failed = |error| (fastest, error);
+    let failed = |error| (Box::new(fastest), error);
     let terms = TiltTerms::new(&fastest);
     let [to, spin] = terms.phases(fastest.launch.flight_time());
     let [from, _] = terms.phases(slowest.launch.flight_time());

@@ -53,7 +53,7 @@ pub(crate) fn add_shares(
     fold(range, progress, |block| {
         let mut shares = Shares::default();
         for (index, values) in block.clone().zip(launches.values(block)) {
-            shares.add(share(space, &values).map_err(|(toss, error)| (index, Box::new(toss), error))?);
+            shares.add(share(space, &values).map_err(|(toss, error)| (index, toss, error))?);
         }
         Ok(shares)
     })

@@ -16,10 +16,13 @@ fn tosses() -> Vec<Toss> {
     (0..1000).map(toss).collect()
 }
 
+/// How a scene is made of a toss.
+type Make = fn(Toss) -> Scene;
+
 fn plans(criterion: &mut Criterion) {
     let tosses = tosses();
     let mut group = criterion.benchmark_group("plans of 1000 scenes");
-    let kinds: [(&str, fn(Toss) -> Scene); 5] = [
+    let kinds: [(&str, Make); 5] = [
         ("outcome", |toss| Scene::new(Want::Outcome(toss), 1e-9)),
         ("tilt", |toss| Scene::new(Want::Tilt(toss), 1e-9)),
         ("attitude", |toss| Scene::new(Want::Attitude(toss), 1e-9)),

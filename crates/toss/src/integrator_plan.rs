@@ -103,12 +103,12 @@ impl Flights {
         let handed_on = 2.0 * legs;
         let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
         let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
-        // A trace has its own cost for each point.
+        // A trace has its own cost for each point, of which there is one more than legs.
         let tracing_ns = fitted.closed(Model::Trace).cost_ns - fitted.closed(Model::Attitude).cost_ns;
         match leg.by(fitted, entry, fit) {
             Ok(leg) => Ok(Choice {
                 expected_error: leg.expected_error * handed_on,
-                expected_cost_ns: (leg.expected_cost_ns + tracing_ns) * legs,
+                expected_cost_ns: leg.expected_cost_ns * legs + tracing_ns * (legs + 1.0),
                 ..leg
             }),
             Err(Reason::TooRough { expected_error }) => {

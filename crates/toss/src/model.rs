@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
+    /// Heads or tails by the cosine of Keller's coin. It comes first because the test for it costs nothing.
+    Keller,
     /// The face that no motion can change.
     Certain,
-    /// Heads or tails by the cosine of Keller's coin.
-    Keller,
     /// Heads or tails by the phases that show heads, in f64.
     Heads,
     /// The cosine of Keller's coin with a compensated phase.
@@ -57,13 +57,13 @@ const fn rung(model: Model, name: &'static str, assumes: &'static str, gives: &'
 
 /// All rungs, in the order of [`Model`].
 pub const LADDER: [Rung; 15] = [
+    rung(Model::Keller, "keller", "ωz = 0, launched flat", "outcome, proven"),
     rung(
         Model::Certain,
         "certain",
         "a cone that never shows the other face, or a flight too short to",
         "outcome, proven",
     ),
-    rung(Model::Keller, "keller", "ωz = 0, launched flat", "outcome, proven"),
     rung(Model::Heads, "heads", "cos θ further from 0 than f64 may be off", "outcome, proven"),
     rung(Model::KellerTilt, "keller-tilt", "ωz = 0, launched flat", "cos θ to the last bits"),
     rung(Model::Tilt, "tilt", "nothing", "cos θ to the last bits"),

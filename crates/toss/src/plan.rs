@@ -242,8 +242,8 @@ impl Scene {
 
 /// The rungs for a toss that take no steps, in the order of the ladder.
 pub const CLOSED_FORMS: [Model; 9] = [
-    Model::Certain,
     Model::Keller,
+    Model::Certain,
     Model::Heads,
     Model::KellerTilt,
     Model::Tilt,

@@ -120,7 +120,7 @@ fn text(found: &Estimate, solver: &str) -> String {
         && counts.are_certified()
     {
         let Proven { certain, keller, f64, double_double, multiprecision } = counts.proven;
-        lines.push(format!("proven by    no motion {certain}, Keller's cosine {keller}, f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
+        lines.push(format!("proven by    Keller's cosine {keller}, no motion {certain}, f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
     }
     lines.join("\n")
 }

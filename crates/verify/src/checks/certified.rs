@@ -226,7 +226,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let sum: Result<f64, SolveError> = wrong.iter().cloned().sum();
             let mut worst = Measurement::largest(&subject(name), wrong, |index| cases[index]);
             if let Some(worst) = &mut worst.worst {
-                worst.input = format!("decided without the motion, by Keller's cosine, by f64, double-double, more digits: {stages:?}; {}", worst.input);
+                worst.input = format!("decided by Keller's cosine, without the motion, by f64, double-double, more digits: {stages:?}; {}", worst.input);
             }
             Ok(Measurement { measured: sum.unwrap_or(f64::INFINITY), ..worst })
         })

@@ -47,6 +47,9 @@ pub(super) const REGRET: Check = Check {
     measure: |context| share(context, REGRET.id, &[("all", |line| line.thrifty)]),
 };
 
+/// A share of the scenes, from 0 to 1.
+type Share = fn(&Line) -> f64;
+
 /// The largest `part` of each kind of scenes.
 fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let trial = context.trial()?;
@@ -62,10 +65,10 @@ fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow:
 }
 
 /// What is missing to 1 in shares of all scenes.
-fn share(context: &Context, check: &str, shares: &[(&str, fn(&Line) -> f64)]) -> anyhow::Result<Vec<Measurement>> {
+fn share(context: &Context, check: &str, shares: &[(&str, Share)]) -> anyhow::Result<Vec<Measurement>> {
     let lines = context.trial()?.lines();
     let all = lines.last().expect("there is a line for all scenes");
-    let row = |(subject, share): &(&str, fn(&Line) -> f64)| {
+    let row = |(subject, share): &(&str, Share)| {
         let cases = if check == REGRET.id { all.tried } else { all.scenes };
         Measurement::figure(check, subject, 1.0 - share(all), cases as u64, "all scenes".to_owned())
     };

@@ -53,7 +53,7 @@ pub fn text(fitted: &Fitted) -> anyhow::Result<String> {
 
 /// A number of many zeros as a power of ten, which TOML reads too.
 fn briefly(piece: &str) -> String {
-    let end = piece.find(&[' ', ',', '[', ']', '\n']).unwrap_or(piece.len());
+    let end = piece.find([' ', ',', '[', ']', '\n']).unwrap_or(piece.len());
     match piece[..end].parse::<f64>() {
         Ok(value) if end > 7 => format!("{value:e}{}", &piece[end..]),
         _ => piece.to_owned(),
