@@ -4,6 +4,8 @@ use chart::{BLUE, ChartError, FAINT, GREEN, GREY, Panel, TEXT, VERMILION, svg};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use toss::plan::Nanoseconds;
+
 use crate::planner::thrift::Cost;
 
 const LEFT: i32 = 330;
@@ -56,15 +58,11 @@ fn bar(root: &Panel<'_>, y: i32, cost: &Cost) -> chart::Drawn {
     text(root, cost.model, (LEFT - 24, y), HPos::Right, &BLACK)?;
     root.draw(&Rectangle::new([(low, y - 12), (high.max(low + 2), y + 12)], colour.mix(0.35).filled()))?;
     root.draw(&Circle::new((median, y), 9, colour.filled()))?;
-    text(root, &in_words(cost.median), (high.max(median) + 24, y), HPos::Left, &colour)
-}
-
-fn in_words(ns: f64) -> String {
-    match ns {
-        ns if ns < 1e3 => format!("{ns:.0} ns"),
-        ns if ns < 1e6 => format!("{:.1} µs", ns / 1e3),
-        ns => format!("{:.1} ms", ns / 1e6),
-    }
+    let (label, x) = (Nanoseconds(cost.median).to_string(), high.max(median) + 24);
+    // Nothing behind the words: a line of the grid would strike them through.
+    let width = 17 * i32::try_from(label.chars().count()).unwrap_or(0);
+    root.draw(&Rectangle::new([(x - 6, y - 18), (x + width, y + 18)], WHITE.filled()))?;
+    text(root, &label, (x, y), HPos::Left, &colour)
 }
 
 fn text(root: &Panel<'_>, words: &str, at: (i32, i32), anchor: HPos, colour: &RGBColor) -> chart::Drawn {
