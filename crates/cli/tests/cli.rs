@@ -332,6 +332,7 @@ fn what_the_model_does_not_hold_is_refused_with_the_reason() {
     for options in ["--accuracy 0", "--accuracy nan", "--accuracy 1e-17", "--accuracy 1e-9 --solver exact"] {
         json(&format!("plan --rate 1,1,2.5 --speed 3 --want tilt {options}"), 2);
     }
+    json("plan --rate 1,1,2.5 --speed 3 --want trace --points 1 --accuracy 1e-9", 2);
     json("plan --want tilt --accuracy 1e-9", 2);
     json("plan --want probability --accuracy 1e-9", 2);
     json("plan --space cheated --want tilt --accuracy 1e-9", 2);

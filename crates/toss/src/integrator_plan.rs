@@ -4,7 +4,7 @@ use dynamics::{InputError, Method, Scheme, SolverEntry};
 
 use crate::fitted::{FITTED, Fitted, IntegratorFit, Setting, Turn};
 use crate::model::Model;
-use crate::plan::{Candidate, Choice, How, Reason, Verdict};
+use crate::plan::{Candidate, Choice, How, Offer, Reason};
 use crate::registry::{SOLVERS, named_solver};
 use crate::scene::Integrator;
 
@@ -39,7 +39,7 @@ pub(crate) enum Aim {
 pub(crate) fn integrators(
     by: Option<&Integrator>,
     flights: Flights,
-) -> Result<impl Iterator<Item = (Candidate, Verdict)>, InputError> {
+) -> Result<impl Iterator<Item = (Candidate, Offer)>, InputError> {
     let entries = match by {
         None => SOLVERS,
         Some(by) => std::slice::from_ref(integrator(&by.solver)?),
@@ -67,7 +67,7 @@ fn integrator(name: &str) -> Result<&'static SolverEntry, InputError> {
 }
 
 impl Flights {
-    fn by(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Verdict {
+    fn by(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Offer {
         match self.aim {
             Aim::Outcome => self.decided(fitted, entry, fit),
             Aim::Tilt => self.flown(fitted, entry, fit, true),
@@ -77,7 +77,7 @@ impl Flights {
     }
 
     /// With the tolerance at which the solver answers for the accuracy, see [`Method::resolution`]: a decided outcome is right.
-    fn decided(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Verdict {
+    fn decided(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Offer {
         let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
         let answered_for =
             |tolerance: f64| Reason::TooRough { expected_error: 100.0 * tolerance * (1.0 + self.turn.phase) };
@@ -88,7 +88,7 @@ impl Flights {
     /// Tolerances are not rougher than those of the record.
     const ROUGHEST: f64 = 1e-3;
 
-    fn flown(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, of_tilt: bool) -> Verdict {
+    fn flown(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, of_tilt: bool) -> Offer {
         let too_rough = |expected_error: f64| Reason::TooRough { expected_error };
         let Setting { tolerance, error, cost_ns } =
             fitted.setting(fit, of_tilt, &self.turn, self.accuracy).map_err(too_rough)?;
@@ -97,7 +97,7 @@ impl Flights {
     }
 
     /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much again.
-    fn traced(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, legs: usize) -> Verdict {
+    fn traced(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, legs: usize) -> Offer {
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
         let legs = legs as f64;
         let handed_on = 2.0 * legs;

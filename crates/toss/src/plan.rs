@@ -15,6 +15,7 @@ use crate::integrator_plan::{Aim, Flights, integrators};
 use crate::model::Model;
 use crate::scene::{Scene, SceneError, Want};
 use crate::space_plan;
+use crate::trace::require_points;
 
 /// A model with its settings, and what to expect of it.
 #[derive(Debug, Clone, Copy)]
@@ -103,8 +104,8 @@ impl fmt::Display for Nanoseconds {
     }
 }
 
-/// A rung's answer to a scene.
-pub type Verdict = Result<Choice, Reason>;
+/// What a rung has to offer to a scene, or why it has nothing.
+pub type Offer = Result<Choice, Reason>;
 
 /// The chosen model, and why others were not.
 #[derive(Debug, Clone)]
@@ -146,7 +147,7 @@ impl Scene {
     /// [`SceneError::Input`] if the scene makes no sense or no model is that accurate; [`SceneError::Solve`] for a phase that
     /// is too large to mean anything.
     pub fn plan(&self) -> Result<Decision, SceneError> {
-        require("accuracy", self.accuracy, "finite and > 0", self.accuracy > 0.0)?;
+        self.validate()?;
         match (self.want.toss(), &self.by) {
             (Some(toss), None) => self.first_closed_form(toss),
             (Some(toss), Some(by)) => {
@@ -166,10 +167,17 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::plan`].
-    pub fn candidates(&self) -> Result<Vec<(Candidate, Verdict)>, SceneError> {
+    pub fn candidates(&self) -> Result<Vec<(Candidate, Offer)>, SceneError> {
+        self.validate()?;
         let Some(toss) = self.want.toss() else { return Ok(space_plan::candidates(self)?.collect()) };
         let closed_forms = CLOSED_FORMS.map(|model| (model.into(), self.closed_form(model, toss)));
         Ok(closed_forms.into_iter().chain(integrators(None, self.flights(toss)?)?).collect())
+    }
+
+    /// A toss and a space are valid by themselves.
+    fn validate(&self) -> Result<(), InputError> {
+        require("accuracy", self.accuracy, "finite and > 0", self.accuracy > 0.0)?;
+        if let Want::Trace { points, .. } = self.want { require_points(points) } else { Ok(()) }
     }
 
     fn first_closed_form(&self, toss: &Toss) -> Result<Decision, SceneError> {
@@ -200,7 +208,7 @@ impl Scene {
         Ok(Flights { turn: turn(toss)?, aim, accuracy: self.accuracy })
     }
 
-    fn closed_form(&self, model: Model, toss: &Toss) -> Verdict {
+    fn closed_form(&self, model: Model, toss: &Toss) -> Offer {
         let fit = FITTED.closed(model);
         let chosen = |expected_error: f64, points: usize| {
             #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
@@ -267,12 +275,12 @@ fn turn(toss: &Toss) -> Result<Turn, SolveError> {
 /// The cheapest of the candidates that serve, and what is said of the others after `passed_over`.
 fn cheapest(
     mut passed_over: Vec<(Candidate, Reason)>,
-    candidates: impl Iterator<Item = (Candidate, Verdict)>,
+    candidates: impl Iterator<Item = (Candidate, Offer)>,
 ) -> Option<Decision> {
     let mut best: Option<(Candidate, Choice)> = None;
     let dearer = |choice: &Choice| Reason::Dearer { expected_cost_ns: choice.expected_cost_ns };
-    for (candidate, verdict) in candidates {
-        match (verdict, &best) {
+    for (candidate, offer) in candidates {
+        match (offer, &best) {
             (Err(reason), _) => passed_over.push((candidate, reason)),
             (Ok(choice), Some((_, cheapest))) if choice.expected_cost_ns >= cheapest.expected_cost_ns => {
                 passed_over.push((candidate, dearer(&choice)));

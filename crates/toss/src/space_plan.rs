@@ -6,7 +6,7 @@ use sampling::{Coordinate, Plan, Rest, Scrambled, Space};
 
 use crate::fitted::FITTED;
 use crate::model::Model;
-use crate::plan::{Candidate, Choice, How, Reason, Verdict};
+use crate::plan::{Candidate, Choice, How, Offer, Reason};
 use crate::scene::{Scene, Want};
 
 /// Seed of what is sampled; any other would do.
@@ -19,14 +19,14 @@ const MOST_LAUNCHES: f64 = 68_719_476_736.0; // 2^36
 ///
 /// # Errors
 /// [`InputError`] where an integrator is asked for: outcomes are proven, and shares follow from the exact motion.
-pub(crate) fn candidates(scene: &Scene) -> Result<impl Iterator<Item = (Candidate, Verdict)>, InputError> {
+pub(crate) fn candidates(scene: &Scene) -> Result<impl Iterator<Item = (Candidate, Offer)>, InputError> {
     if scene.by.is_some() {
         return Err(no_integrator_for_a_space());
     }
     let space = if let Want::Probability(space) = scene.want { Some(space) } else { None };
     let models = [Model::Share, Model::ShareSobol, Model::Sobol, Model::Grid, Model::Random];
     let accuracy = scene.accuracy;
-    let ask = move |space: Space| models.into_iter().map(move |model| (model.into(), verdict(model, &space, accuracy)));
+    let ask = move |space: Space| models.into_iter().map(move |model| (model.into(), offer(model, &space, accuracy)));
     Ok(space.into_iter().flat_map(ask))
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn no_integrator_for_a_space() -> InputError {
     }
 }
 
-fn verdict(model: Model, space: &Space, accuracy: f64) -> Verdict {
+fn offer(model: Model, space: &Space, accuracy: f64) -> Offer {
     let speed_is_free = space.free().any(|of| of == Coordinate::Speed);
     let rest_is_free = space.free().any(|of| of != Coordinate::Speed);
     match model {
@@ -51,7 +51,7 @@ fn verdict(model: Model, space: &Space, accuracy: f64) -> Verdict {
 }
 
 /// One share, exact to rounding.
-fn share(accuracy: f64) -> Verdict {
+fn share(accuracy: f64) -> Offer {
     let fit = FITTED.closed(Model::Share);
     if fit.error > accuracy {
         return Err(Reason::TooRough { expected_error: fit.error });
@@ -65,7 +65,7 @@ fn share(accuracy: f64) -> Verdict {
 }
 
 /// As many launches as the fitted error needs.
-fn sampled(model: Model, accuracy: f64) -> Verdict {
+fn sampled(model: Model, accuracy: f64) -> Offer {
     let fit = FITTED.sampling(model);
     let needed = (fit.error / accuracy).powf(1.0 / fit.power).max(1.0);
     if needed > MOST_LAUNCHES {

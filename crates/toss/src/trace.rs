@@ -43,10 +43,7 @@ pub enum TraceError {
 /// # Errors
 /// [`TraceError`]: fewer than 2 or more than [`MOST_POINTS`] points, or what the solver says.
 pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, TraceError> {
-    if !(2..=MOST_POINTS).contains(&points) {
-        let value = points.to_string();
-        return Err(InputError::Malformed { field: "points", value, expected: "2 to 1000000" }.into());
-    }
+    require_points(points)?;
     let motion = ExactMotion::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let mut last = (0.0, launch);
@@ -61,6 +58,13 @@ pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<Trac
         last = (time, state);
     }
     Ok(trace)
+}
+
+/// # Errors
+/// [`InputError`] for fewer than 2 points, and more than [`MOST_POINTS`].
+pub(crate) fn require_points(points: usize) -> Result<(), InputError> {
+    let malformed = || InputError::Malformed { field: "points", value: points.to_string(), expected: "2 to 1000000" };
+    (2..=MOST_POINTS).contains(&points).then_some(()).ok_or_else(malformed)
 }
 
 impl TracePoint {
