@@ -2,8 +2,8 @@
 
 use blackbox::{config, tosses};
 use proptest::prelude::*;
+use toss::choice::How;
 use toss::model::LADDER;
-use toss::plan::How;
 use toss::{Answer, Choice, Model, Outcome, Scene, Toss, Want};
 
 /// What every rung that can says of a scene, with its bound: the expected error, but of an integrator what it answers for,

@@ -253,6 +253,10 @@ mod tests {
         }
         // A momentum that is not level makes no tie, though m is along its part across the normal.
         assert_ne!(by_multiprecision(&toss(1.5, [0.0, 7.0, 3.0], on_edge(), 1.0)), Outcome::Undecided);
+        // Dropped, not thrown, it does not land at once.
+        let dropped = TimeOfFlight::BallisticTo { speed: 0.0, gravity: 9.81, drop: 1.0 };
+        let launch = Launch::new(Vector3::new(1.0, 2.0, 3.0), dropped).unwrap().with_attitude(on_edge());
+        assert_ne!(by_multiprecision(&Toss { coin: Coin::PAPER, launch }), Outcome::Undecided);
         // cos θ = (mx Ly - my Lx) t to first order, here -ωx t.
         for (rate, time, outcome) in [
             ([1e-300, 7.0, 0.0], 1.0, Outcome::Tails),

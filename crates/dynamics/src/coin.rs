@@ -4,16 +4,12 @@
 //! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
 //! For a free flight only the inertia ratio k = I3/I1 matters.
 
-use serde::{Deserialize, Serialize};
-
-use crate::data::CoinData;
 use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};
 use crate::scale::mantissa_and_exponent;
 
 /// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "CoinData", into = "CoinData")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coin {
     i1: f64,
     i3: f64,

@@ -14,8 +14,8 @@
 //! What lies outside the model has its fields too, so that it is refused with a reason and not with "unknown field".
 
 use nalgebra::Vector3;
-use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error, IgnoredAny};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::attitude::Attitude;
 use crate::catalogue::named_coin;
@@ -39,7 +39,7 @@ pub const NO_BOUNCE: InputError = InputError::OutsideModel {
 /// A coin as it is written.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
-pub(crate) enum CoinData {
+enum CoinData {
     Named(String),
     Moments { moments: Vec<f64> },
     Cylinder { cylinder: [f64; 3] },
@@ -63,10 +63,34 @@ impl From<Coin> for CoinData {
     }
 }
 
+impl<'de> Deserialize<'de> for Coin {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        CoinData::deserialize(from)?.try_into().map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Coin {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        CoinData::from(*self).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Launch {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        LaunchData::deserialize(from)?.try_into().map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Launch {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        LaunchData::from(*self).serialize(to)
+    }
+}
+
 /// A launch as it is written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct LaunchData {
+struct LaunchData {
     rate: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<f64>,

@@ -197,9 +197,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
     use super::*;
-    use crate::coin::Coin;
-    use crate::launch::Launch;
-    use crate::time_of_flight::TimeOfFlight;
+    use crate::{Coin, Launch, TimeOfFlight};
 
     fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();

@@ -5,14 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
-use crate::data::LaunchData;
 use crate::error::{InputError, require};
 use crate::state::State;
 use crate::time_of_flight::TimeOfFlight;
 
 /// What the hand gives the coin. Every component is finite; no other launch can be made.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "LaunchData", into = "LaunchData")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
     rate: Vector3<f64>,
     attitude: Attitude,

@@ -5,11 +5,9 @@ use std::fmt;
 use dynamics::error::require;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
-use serde::{Deserialize, Serialize};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
-use crate::space_data::SpaceData;
 
 /// The values of one launch, in the order of [`Coordinate::ALL`].
 pub(crate) type Values = [f64; Coordinate::COUNT];
@@ -34,8 +32,7 @@ impl fmt::Display for AxisOrTie {
 }
 
 /// Launches of one coin over a box of coordinates, independent of each other but for ties.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SpaceData", into = "SpaceData")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space {
     coin: Coin,
     axes: [AxisOrTie; Coordinate::COUNT],

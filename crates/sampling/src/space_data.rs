@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use dynamics::{Coin, InputError};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::coordinate::Coordinate;
 use crate::space::Space;
@@ -33,11 +34,23 @@ pub(crate) fn paper() -> Coin {
 
 /// A space as it is written.
 #[derive(Serialize, Deserialize)]
-pub(crate) struct SpaceData {
+struct SpaceData {
     #[serde(default = "paper")]
     coin: Coin,
     #[serde(flatten)]
     axes: BTreeMap<String, Entry>,
+}
+
+impl<'de> Deserialize<'de> for Space {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        SpaceData::deserialize(from)?.try_into().map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Space {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        SpaceData::from(*self).serialize(to)
+    }
 }
 
 impl TryFrom<SpaceData> for Space {

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example backend_by_plan`
 
-use toss::plan::Nanoseconds;
+use toss::choice::Nanoseconds;
 use toss::{Answer, Coin, Launch, Scene, TimeOfFlight, Toss, Vector3, Want};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

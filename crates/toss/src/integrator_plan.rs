@@ -2,9 +2,9 @@
 
 use dynamics::{InputError, Method, Scheme, SolverEntry};
 
+use crate::choice::{Candidate, Choice, How, Offer, Reason};
 use crate::fitted::{FITTED, Fitted, IntegratorFit, Setting, Turn};
 use crate::model::Model;
-use crate::plan::{Candidate, Choice, How, Offer, Reason};
 use crate::registry::{SOLVERS, named_solver};
 use crate::scene::Integrator;
 

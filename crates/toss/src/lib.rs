@@ -15,6 +15,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod choice;
 pub mod fitted;
 mod integrator_plan;
 pub mod model;
@@ -25,11 +26,11 @@ pub mod solve;
 mod space_plan;
 pub mod trace;
 
+pub use choice::{Choice, Decision};
 pub use dynamics::*;
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 pub use model::Model;
-pub use plan::{Choice, Decision};
 pub use registry::{SOLVERS, named_solver};
 pub use scene::{Integrator, Scene, SceneError, Want};
 pub use solve::{Answer, Solution};

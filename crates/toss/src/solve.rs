@@ -8,8 +8,8 @@ use dynamics::{
 };
 use sampling::{Estimate, Plan, Rest, Scrambled, Space, estimate};
 
+use crate::choice::{Choice, How};
 use crate::model::Model;
-use crate::plan::{Choice, How};
 use crate::scene::{Scene, SceneError, Want};
 use crate::space_plan::no_integrator_for_a_space;
 use crate::trace::{TracePoint, trace};

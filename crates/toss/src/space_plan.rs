@@ -4,9 +4,9 @@ use dynamics::InputError;
 use sampling::plan::SCRAMBLES;
 use sampling::{Coordinate, Plan, Rest, Scrambled, Space};
 
+use crate::choice::{Candidate, Choice, How, Offer, Reason};
 use crate::fitted::FITTED;
 use crate::model::Model;
-use crate::plan::{Candidate, Choice, How, Offer, Reason};
 use crate::scene::{Scene, Want};
 
 /// Seed of what is sampled; any other would do.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sampling::Plan;
 use serde::Serialize;
-use toss::plan::{Candidate, How, Nanoseconds, Reason};
+use toss::choice::{Candidate, How, Nanoseconds, Reason};
 use toss::{Choice, Decision, Integrator, Scene, Scheme, StepControl, Want};
 
 use crate::args::TossArgs;

@@ -1,20 +1,16 @@
 //! The planner's table: what models cost and how far they are off, measured on random tosses and spaces.
 
+use toss::choice::How;
 use toss::fitted::{ClosedFit, Fitted};
-use toss::plan::{CLOSED_FORMS, Choice, How};
+use toss::plan::CLOSED_FORMS;
 use toss::{Answer, Model, SOLVERS, Scene, Scheme, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::{Truth, true_probability};
+use super::figures::{SAFETY, SEED, rounded};
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
 use super::fit_sampling::sampling;
-use super::scenes;
-
-/// Seed of the tosses and spaces that the table is fitted to; the scenes that it is tried on have another.
-pub(super) const SEED: u64 = 11;
-
-/// Expected errors are the largest that were met, times this.
-pub(super) const SAFETY: f64 = 2.0;
+use super::scenes::{self, served};
 
 /// Measures the whole table; `measured` says when and where.
 ///
@@ -88,11 +84,6 @@ fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
     Ok(CLOSED_FORMS.map(of).into_iter().chain([share()?]).collect())
 }
 
-/// What serves a scene.
-pub(super) fn served(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
-    Ok(scene.candidates()?.into_iter().filter_map(|(_, verdict)| verdict.ok()).collect())
-}
-
 fn closed_form<'a>(model: Model, flown: impl Iterator<Item = &'a Flown> + Clone) -> ClosedFit {
     let costs = flown.clone().map(|flown| flown.cost_ns).filter(|cost| !cost.is_nan()).collect();
     let error = flown.map(|flown| flown.error).fold(0.0, f64::max);
@@ -114,9 +105,4 @@ fn share() -> anyhow::Result<ClosedFit> {
     }
     let error = errors.into_iter().fold(0.0, f64::max);
     Ok(ClosedFit { model: Model::Share, cost_ns: rounded(median(costs)), error: rounded(SAFETY * error) })
-}
-
-/// Three digits are all that a measurement of this kind is good for.
-pub(super) fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -5,7 +5,7 @@ use toss::fitted::IntegratorFit;
 use toss::{ExactMotion, Launch, Method, Scheme, Settings, Solver, SolverEntry, TimeOfFlight, Toss};
 
 use super::clock::nanoseconds;
-use super::fit::{SAFETY, SEED, rounded};
+use super::figures::{SAFETY, SEED, rounded};
 use super::scenes;
 use crate::reference::Reference;
 

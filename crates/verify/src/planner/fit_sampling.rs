@@ -8,8 +8,8 @@ use toss::{ExactSolver, Model, Scene, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::true_probability;
-use super::fit::{SAFETY, SEED, rounded, served};
-use super::scenes;
+use super::figures::{SAFETY, SEED, rounded};
+use super::scenes::{self, served};
 
 pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
     let mut spaces = Vec::new();

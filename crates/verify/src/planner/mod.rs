@@ -2,6 +2,7 @@
 
 pub mod clock;
 pub mod delivered;
+mod figures;
 pub mod fit;
 mod fit_integrators;
 mod fit_sampling;

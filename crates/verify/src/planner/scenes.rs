@@ -6,6 +6,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use sampling::{Coordinate, Space};
 use toss::catalogue::CATALOGUE;
+use toss::choice::Choice;
 use toss::{Coin, InputError, Launch, SOLVERS, Scene, Scheme, TimeOfFlight, Toss, Vector3, Want};
 
 use crate::case::Case;
@@ -104,6 +105,11 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
         Scene::new(want, decades(&mut rng, -14.7, -2.0))
     };
     Ok(TossScene { kind, scene, case })
+}
+
+/// What serves a scene.
+pub(super) fn served(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
+    Ok(scene.candidates()?.into_iter().filter_map(|(_, verdict)| verdict.ok()).collect())
 }
 
 /// Space `index` of the sequence of `seed`: rates and a tilt that are fixed or vary, a range of speeds in four of five.

@@ -2,13 +2,12 @@
 
 use anyhow::ensure;
 use rayon::prelude::*;
-use toss::plan::{Choice, How};
+use toss::choice::{Choice, How};
 use toss::{Answer, InputError, Model, Scene, SceneError, Want};
 
 use super::clock::nanoseconds;
 use super::delivered::{Truth, true_probability};
-use super::fit::served;
-use super::scenes::{self, TossScene};
+use super::scenes::{self, TossScene, served};
 use crate::effort::Effort;
 
 /// Seed of the scenes.

@@ -4,7 +4,7 @@ use chart::{BLUE, ChartError, FAINT, GREEN, GREY, Panel, TEXT, VERMILION, svg};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use toss::plan::Nanoseconds;
+use toss::choice::Nanoseconds;
 
 use crate::planner::thrift::Cost;
 
