@@ -95,3 +95,41 @@ fn six_scenes_end_on_six_rungs() {
         assert_eq!(scene.plan().unwrap().choice.model, model, "{scene:?}");
     }
 }
+
+#[test]
+fn an_integrator_decides_outcomes_down_to_the_accuracy() {
+    for rate in ["[1.0, 1.0, 2.5]", "[20.0, 3.0, 1.0]", "[50.0, 40.0, 30.0]"] {
+        let toss: Toss = toml::from_str(&format!("[launch]\nrate = {rate}\nspeed = 3")).unwrap();
+        for accuracy in [1e-3, 1e-6, 1e-9] {
+            let scene = Scene::new(Want::Outcome(toss), accuracy).by("quaternion", None);
+            let How::Integrator(_, method) = scene.plan().unwrap().choice.how else {
+                panic!("an integrator was asked for")
+            };
+            let resolution = method.resolution(&toss).unwrap();
+            assert!((0.5..1.0 + 1e-9).contains(&(resolution / accuracy)), "{rate} {accuracy:e}: {resolution:e}");
+        }
+    }
+}
+
+#[test]
+fn a_probability_is_planned_and_sampled_to_its_accuracy() {
+    let space = sampling::named_space("paper-fig4").unwrap();
+    for accuracy in [1e-1, 1e-2, 1e-3, 1e-6] {
+        let scene = Scene::new(Want::Probability(space), accuracy);
+        for (candidate, offer) in scene.candidates().unwrap() {
+            let Ok(choice) = offer else { continue };
+            assert!(choice.expected_error <= accuracy, "{candidate} to {accuracy:e}: {:e}", choice.expected_error);
+        }
+    }
+    // A plan that turns out too rough is doubled until its interval is narrow enough.
+    let fine = Scene::new(Want::Probability(space), 1e-4);
+    for (candidate, offer) in Scene::new(Want::Probability(space), 0.1).candidates().unwrap() {
+        let Ok(choice) = offer else { continue };
+        if choice.model != Model::ShareSobol {
+            continue;
+        }
+        let Answer::Probability(found) = choice.run(&fine).unwrap() else { panic!("a probability was asked for") };
+        assert!(found.half_width().is_some_and(|reached| reached <= 1e-4), "{candidate}: {found:?}");
+        assert!((found.probability - 0.661_452).abs() < 3e-4);
+    }
+}
