@@ -2,11 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A rung of the ladder. In their order they cost more, within a toss and within a space.
+/// A rung of the ladder, from the cheapest on, within a toss and within a space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
-    /// Heads or tails by the cosine of Keller's coin. It comes first because the test for it costs nothing.
+    /// Heads or tails by the cosine of Keller's coin. It stands before `certain`, though that costs less where it serves,
+    /// because a toss is known to be Keller's or not at once.
     Keller,
     /// The face that no motion can change.
     Certain,
