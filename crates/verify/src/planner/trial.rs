@@ -58,7 +58,7 @@ impl Trial {
         let (solved, tried, spaces) = match effort {
             Effort::Quick => (1000, 100, 6),
             Effort::Standard => (10_000, 500, 24),
-            Effort::Deep => (10_000, 10_000, 300),
+            Effort::Deep => (10_000, 10_000, 100),
         };
         let tosses: Vec<Outcome> = (0..solved)
             .into_par_iter()
