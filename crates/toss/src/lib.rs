@@ -23,7 +23,7 @@ pub mod plan;
 pub mod registry;
 pub mod scene;
 pub mod solve;
-mod space_plan;
+pub mod space_plan;
 pub mod trace;
 
 pub use choice::{Choice, Decision};

@@ -78,17 +78,17 @@ fn sampled(model: Model, accuracy: f64) -> Offer {
     let launches = points as f64;
     Ok(Choice {
         model,
-        how: How::Sampling(plan(model, points)),
+        how: How::Sampling(plan(model, points, SEED)),
         expected_error: fit.error * launches.powf(-fit.power),
         expected_cost_ns: fit.cost_ns + fit.launch_ns * launches,
     })
 }
 
-/// The plan of a model with so many launches.
-pub(crate) fn plan(model: Model, points: u64) -> Plan {
+/// The plan of a way to sample, with so many launches and this seed; any other model is taken for random launches.
+pub fn plan(model: Model, points: u64, seed: u64) -> Plan {
     match model {
-        Model::ShareSobol => Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, SEED))),
-        Model::Sobol => Plan::Sobol(Scrambled::new(points, SEED)),
-        _ => Plan::Random { points, seed: SEED },
+        Model::ShareSobol => Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, seed))),
+        Model::Sobol => Plan::Sobol(Scrambled::new(points, seed)),
+        _ => Plan::Random { points, seed },
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 100)]
     points: usize,
     /// A space for a probability, instead of a toss: a name (`spaces` lists them), or a file that ends in .toml
-    #[arg(long, value_name = "NAME|FILE.toml", conflicts_with_all = ["rate", "speed", "time", "gravity", "drop"])]
+    #[arg(long, value_name = "NAME|FILE.toml", conflicts_with_all = ["rate", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
     /// An integrator to be used, as a cross-check
     #[arg(long, value_name = "NAME")]
@@ -35,7 +35,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", requires = "solver")]
     method: Option<String>,
     /// The whole scene from a TOML file instead, or a JSON one if it ends in .json
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["want", "accuracy", "space", "solver", "rate", "speed", "time"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate", "speed", "time",
+              "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -1,9 +1,9 @@
 //! How far ways to sample a space are off and what they cost, by the number of launches.
 
 use anyhow::Context;
-use sampling::plan::Rest;
-use sampling::{Plan, Scrambled, Space, estimate};
+use sampling::{Space, estimate};
 use toss::fitted::SamplingFit;
+use toss::space_plan::plan;
 use toss::{ExactSolver, Model, Scene, Want};
 
 use super::clock::{median, nanoseconds};
@@ -38,7 +38,7 @@ fn way_to_sample(model: Model, spaces: &[(Space, bool, f64)], pool: &rayon::Thre
     for size in sizes {
         let mut squares = 0.0;
         for (space, _, truth) in &spaces {
-            let error = (estimate(space, plan(model, size), &ExactSolver, &|_| {})?.probability - truth).abs();
+            let error = (estimate(space, plan(model, size, SEED), &ExactSolver, &|_| {})?.probability - truth).abs();
             squares += error * error;
             all.push((size, error));
         }
@@ -50,7 +50,7 @@ fn way_to_sample(model: Model, spaces: &[(Space, bool, f64)], pool: &rayon::Thre
     let error = all.iter().map(|(size, error)| error * (*size as f64).powf(power)).fold(0.0, f64::max);
     let cost = |size| {
         let costs = spaces.iter().take(12).map(|(space, ..)| {
-            pool.install(|| nanoseconds(|| estimate(space, plan(model, size), &ExactSolver, &|_| {})))
+            pool.install(|| nanoseconds(|| estimate(space, plan(model, size, SEED), &ExactSolver, &|_| {})))
         });
         median(costs.collect())
     };
@@ -58,14 +58,6 @@ fn way_to_sample(model: Model, spaces: &[(Space, bool, f64)], pool: &rayon::Thre
     let launch_ns = rounded((many - few) / f64::from((1 << 12) - 16));
     let cost_ns = rounded((few - 16.0 * launch_ns).max(0.0));
     Ok(SamplingFit { model, cost_ns, launch_ns, error: rounded(SAFETY * error), power: rounded(power) })
-}
-
-fn plan(model: Model, points: u64) -> Plan {
-    match model {
-        Model::ShareSobol => Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, SEED))),
-        Model::Sobol => Plan::Sobol(Scrambled::new(points, SEED)),
-        _ => Plan::Random { points, seed: SEED },
-    }
 }
 
 /// Slope of the line through `points` by least squares.
