@@ -140,7 +140,7 @@ impl Trial {
     /// Runs every rung that can answer the scene, and compares what those cost that serve it.
     fn try_all(&mut self, index: usize, scene: &TossScene) -> anyhow::Result<()> {
         let truth = Truth::new(&scene.case.toss);
-        let mut serving: Vec<(f64, f64)> = Vec::new();
+        let mut serving: Vec<Costs> = Vec::new();
         let mut chosen = None;
         if self.outcomes[index].model.is_none() {
             return Ok(());
@@ -151,18 +151,18 @@ impl Trial {
             let cost_ns = nanoseconds(|| choice.run(&scene.scene));
             self.note(choice.model, cost_ns, &scene.scene);
             let is_planned = same(&choice, &planned);
+            let costs = [choice.expected_cost_ns, cost_ns];
             if is_planned {
-                chosen = Some((choice.expected_cost_ns, cost_ns));
+                chosen = Some(costs);
             }
             let error = truth.error(&scene.scene, &answer)?;
             if is_planned || (error <= scene.scene.accuracy && serves_family(&choice, scene)?) {
-                serving.push((choice.expected_cost_ns, cost_ns));
+                serving.push(costs);
             }
         }
-        let (by_record, by_clock) = chosen.unwrap_or((f64::INFINITY, f64::INFINITY));
-        let cheapest = |of: fn(&(f64, f64)) -> f64| serving.iter().map(of).fold(f64::INFINITY, f64::min);
-        self.outcomes[index].regret = Some(by_record / cheapest(|costs| costs.0));
-        self.outcomes[index].regret_by_clock = Some(by_clock / cheapest(|costs| costs.1));
+        let [by_record, by_clock] = regret(chosen, &serving);
+        self.outcomes[index].regret = Some(by_record);
+        self.outcomes[index].regret_by_clock = Some(by_clock);
         Ok(())
     }
 
@@ -183,24 +183,23 @@ impl Trial {
         let planned = scene.plan()?.choice;
         let truth = true_probability(&space, POINTS)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-        let mut serving: Vec<(f64, f64)> = Vec::new();
-        let mut found = None;
+        let mut serving: Vec<Costs> = Vec::new();
+        let (mut error, mut chosen) = (f64::INFINITY, None);
         // What is expected to cost far more is not the cheapest, and would take minutes.
         let most_ns = 30.0 * planned.expected_cost_ns;
         for choice in served(&scene)?.into_iter().filter(|choice| choice.expected_cost_ns <= most_ns) {
             let Answer::Probability(estimate) = choice.run(&scene)? else { continue };
             let cost_ns = pool.install(|| nanoseconds(|| choice.run(&scene)));
             self.note(choice.model, cost_ns, &scene);
-            let error = (estimate.probability - truth).abs();
+            let (this, costs) = ((estimate.probability - truth).abs(), [choice.expected_cost_ns, cost_ns]);
             if choice.model == planned.model {
-                found = Some((error, choice.expected_cost_ns, cost_ns));
+                (error, chosen) = (this, Some(costs));
             }
-            if error <= scene.accuracy {
-                serving.push((choice.expected_cost_ns, cost_ns));
+            if this <= scene.accuracy {
+                serving.push(costs);
             }
         }
-        let (error, by_record, by_clock) = found.unwrap_or((f64::INFINITY, f64::INFINITY, f64::INFINITY));
-        let cheapest = |of: fn(&(f64, f64)) -> f64| serving.iter().map(of).fold(f64::INFINITY, f64::min);
+        let [by_record, by_clock] = regret(chosen, &serving);
         self.outcomes.push(Outcome {
             kind: "probability",
             accuracy: scene.accuracy,
@@ -208,12 +207,22 @@ impl Trial {
             error,
             error_of_family: error,
             expected: planned.expected_error,
-            regret: Some(by_record / cheapest(|costs| costs.0)),
-            regret_by_clock: Some(by_clock / cheapest(|costs| costs.1)),
+            regret: Some(by_record),
+            regret_by_clock: Some(by_clock),
             input: input(&scene, &format!("space {index} of seed {SEED}")),
         });
         Ok(())
     }
+}
+
+/// What an answer costs by the record and by the clock (ns).
+type Costs = [f64; 2];
+
+/// The costs of the choice in parts of those of the cheapest that serve.
+fn regret(chosen: Option<Costs>, serving: &[Costs]) -> [f64; 2] {
+    let cheapest = |of: usize| serving.iter().map(|costs| costs[of]).fold(f64::INFINITY, f64::min);
+    let chosen = chosen.unwrap_or([f64::INFINITY; 2]);
+    [chosen[0] / cheapest(0), chosen[1] / cheapest(1)]
 }
 
 fn same(a: &Choice, b: &Choice) -> bool {
