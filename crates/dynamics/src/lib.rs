@@ -44,6 +44,7 @@ pub mod flight;
 pub mod heads;
 pub mod integrate;
 pub mod keller;
+pub mod lanes;
 pub mod launch;
 pub mod margin;
 pub mod method;

@@ -1,0 +1,61 @@
+//! Vectors of f64 numbers, as wide as the machine has them, with the same bits on every machine.
+//!
+//! A kernel is written once over [`Real`], and compiled for each instruction set that [`Path`] can choose from at run time.
+//! Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane. A fused
+//! multiply-add is used only where the product is exact, or where its rounding error is the result
+//! ([`Real::product`]), so that a machine without the instruction gets the same bits by other means, and no slow call.
+
+mod real;
+
+pub use pulp::{Simd, WithSimd};
+
+pub use real::{Mask, Real};
+
+/// An instruction set for which kernels are compiled.
+#[derive(Debug, Clone, Copy)]
+pub struct Path(pulp::Arch);
+
+impl Path {
+    /// The widest that this machine has.
+    #[inline]
+    pub fn widest() -> Self {
+        Self(pulp::Arch::new())
+    }
+
+    /// Every one that this machine has, the plain one first.
+    pub fn all() -> Vec<Self> {
+        let plain = Self(pulp::Arch::Scalar);
+        #[cfg(target_arch = "x86_64")]
+        let others = [
+            pulp::x86::V3::try_new().map(pulp::Arch::V3), // AVX2 and FMA
+            pulp::x86::V4::try_new().map(pulp::Arch::V4), // AVX-512
+        ];
+        #[cfg(not(target_arch = "x86_64"))]
+        let others = [Some(pulp::Arch::new()).filter(|arch| *arch as u8 != plain.0 as u8)];
+        std::iter::once(plain).chain(others.into_iter().flatten().map(Self)).collect()
+    }
+
+    /// Its name, as `avx512 (8 lanes)`.
+    pub fn name(self) -> String {
+        struct Lanes;
+        impl WithSimd for Lanes {
+            type Output = usize;
+            fn with_simd<S: Simd>(self, _: S) -> usize {
+                S::F64_LANES
+            }
+        }
+        let set = match self.run(Lanes) {
+            1 => "plain",
+            2 => "neon",
+            4 => "avx2",
+            _ => "avx512",
+        };
+        set.to_owned()
+    }
+
+    /// Runs `kernel` with these instructions.
+    #[inline]
+    pub fn run<K: WithSimd>(self, kernel: K) -> K::Output {
+        self.0.dispatch(kernel)
+    }
+}

@@ -1,0 +1,204 @@
+//! A vector of f64 with the operators of a number.
+
+use std::any::TypeId;
+use std::ops::{Add, BitAnd, Div, Mul, Neg, Sub};
+
+use pulp::{Scalar, Simd};
+
+/// As many numbers as a register of `S` holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Real<S: Simd> {
+    simd: S,
+    value: S::f64s,
+}
+
+/// Which lanes a condition holds in.
+#[derive(Debug, Clone, Copy)]
+pub struct Mask<S: Simd> {
+    simd: S,
+    value: S::m64s,
+}
+
+impl<S: Simd> Real<S> {
+    /// Number of lanes.
+    pub const LANES: usize = S::F64_LANES;
+
+    /// `value` in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Self {
+        Self { simd, value: simd.splat_f64s(value) }
+    }
+
+    /// As `self`, with `value` in every lane.
+    #[inline(always)]
+    pub fn constant(self, value: f64) -> Self {
+        Self::splat(self.simd, value)
+    }
+
+    /// The first numbers of `slice`, and 0 where it has fewer than there are lanes.
+    #[inline(always)]
+    pub fn load(simd: S, slice: &[f64]) -> Self {
+        let value = match S::as_simd_f64s(slice).0 {
+            [first, ..] => *first,
+            [] => simd.partial_load_f64s(slice),
+        };
+        Self { simd, value }
+    }
+
+    /// Writes as many numbers as `slice` has room for.
+    #[inline(always)]
+    pub fn store(self, slice: &mut [f64]) {
+        if slice.len() < Self::LANES {
+            return self.simd.partial_store_f64s(slice, self.value);
+        }
+        if let [first, ..] = S::as_mut_simd_f64s(slice).0 {
+            *first = self.value;
+        }
+    }
+
+    /// √.
+    #[inline(always)]
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        Self { value: self.simd.sqrt_f64s(self.value), ..self }
+    }
+
+    /// |self|.
+    #[inline(always)]
+    #[must_use]
+    pub fn abs(self) -> Self {
+        Self { value: self.simd.abs_f64s(self.value), ..self }
+    }
+
+    /// `self` × `factor` + `term` where the product is exact: fused or not, it is the same number.
+    #[inline(always)]
+    #[must_use]
+    pub fn exact_product_plus(self, factor: Self, term: Self) -> Self {
+        if Self::is_fused() {
+            Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
+        } else {
+            self * factor + term
+        }
+    }
+
+    /// `self` × `factor` + `term`, rounded once: a call of a library where it is no instruction.
+    #[inline(always)]
+    #[must_use]
+    pub fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
+    }
+
+    /// `self` × `factor` exactly, as the rounded product and its error. Without a fused multiply-add by Dekker's splitting.
+    #[inline(always)]
+    pub fn product(self, factor: Self) -> [Self; 2] {
+        let product = self * factor;
+        if Self::is_fused() {
+            let error = self.simd.mul_add_f64s(self.value, factor.value, (-product).value);
+            return [product, Self { value: error, ..self }];
+        }
+        let ([a1, a2], [b1, b2]) = (self.split(), factor.split());
+        [product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2]
+    }
+
+    /// `self` + `other` exactly, as the rounded sum and its error.
+    #[inline(always)]
+    pub fn sum(self, other: Self) -> [Self; 2] {
+        let sum = self + other;
+        let rounded = sum - self;
+        [sum, (self - (sum - rounded)) + (other - rounded)]
+    }
+
+    #[inline(always)]
+    fn split(self) -> [Self; 2] {
+        let c = self.constant(134_217_729.0) * self; // 2^27 + 1
+        let upper = c - (c - self);
+        [upper, self - upper]
+    }
+
+    /// Whether a fused multiply-add is an instruction.
+    #[inline(always)]
+    fn is_fused() -> bool {
+        cfg!(target_feature = "fma") || cfg!(target_arch = "aarch64") || TypeId::of::<S>() != TypeId::of::<Scalar>()
+    }
+
+    /// Nearest integer to `self`, whose size is below 2^51.
+    #[inline(always)]
+    pub fn round(self) -> Self {
+        let magic = self.constant(6_755_399_441_055_744.0); // 1.5 · 2^52
+        (self + magic) - magic
+    }
+
+    /// Where `self` < `other`; false for a number that is none.
+    #[inline(always)]
+    pub fn less_than(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, value: self.simd.less_than_f64s(self.value, other.value) }
+    }
+
+    /// Where `self` ≤ `other`; false for a number that is none.
+    #[inline(always)]
+    pub fn at_most(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, value: self.simd.less_than_or_equal_f64s(self.value, other.value) }
+    }
+}
+
+impl<S: Simd> Mask<S> {
+    /// Whether it holds in every lane.
+    #[inline(always)]
+    pub fn holds_everywhere(self) -> bool {
+        self.simd.first_true_m64s(self.simd.not_m64s(self.value)) == S::F64_LANES
+    }
+
+    /// `yes` where it holds, else `no`.
+    #[inline(always)]
+    pub fn choose(self, yes: Real<S>, no: Real<S>) -> Real<S> {
+        Real { simd: self.simd, value: self.simd.select_f64s(self.value, yes.value, no.value) }
+    }
+}
+
+impl<S: Simd> BitAnd for Mask<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self { value: self.simd.and_m64s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Add for Real<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { value: self.simd.add_f64s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Sub for Real<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { value: self.simd.sub_f64s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Mul for Real<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self { value: self.simd.mul_f64s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Div for Real<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self { value: self.simd.div_f64s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Neg for Real<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { value: self.simd.neg_f64s(self.value), ..self }
+    }
+}
