@@ -28,6 +28,7 @@
 //! All quantities are f64 in SI units. There is no random number, no clock and no input or output in this crate.
 
 pub mod attitude;
+pub mod batch;
 pub mod body_rate;
 pub mod catalogue;
 pub mod certain;

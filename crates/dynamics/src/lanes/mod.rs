@@ -6,10 +6,15 @@
 //! ([`Real::product`]), so that a machine without the instruction gets the same bits by other means, and no slow call.
 
 mod real;
+mod trigonometry;
 
 pub use pulp::{Simd, WithSimd};
 
 pub use real::{Mask, Real};
+pub use trigonometry::{
+    MOST_TURNS, ROUGH_ERROR, cosine_as_sine, rough_cos_of_half, rough_sin_of_half, sin_cos, sin_cos_to_sign,
+    sin_of_turns,
+};
 
 /// An instruction set for which kernels are compiled.
 #[derive(Debug, Clone, Copy)]

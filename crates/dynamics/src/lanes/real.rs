@@ -1,7 +1,7 @@
 //! A vector of f64 with the operators of a number.
 
 use std::any::TypeId;
-use std::ops::{Add, BitAnd, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::{Scalar, Simd};
 
@@ -35,25 +35,31 @@ impl<S: Simd> Real<S> {
         Self::splat(self.simd, value)
     }
 
-    /// The first numbers of `slice`, and 0 where it has fewer than there are lanes.
+    /// The first [`Real::LANES`] numbers of `slice`.
     #[inline(always)]
     pub fn load(simd: S, slice: &[f64]) -> Self {
-        let value = match S::as_simd_f64s(slice).0 {
-            [first, ..] => *first,
-            [] => simd.partial_load_f64s(slice),
-        };
-        Self { simd, value }
+        Self { simd, value: S::as_simd_f64s(&slice[..Self::LANES]).0[0] }
     }
 
-    /// Writes as many numbers as `slice` has room for.
+    /// Writes the numbers into the first [`Real::LANES`] of `slice`.
     #[inline(always)]
     pub fn store(self, slice: &mut [f64]) {
-        if slice.len() < Self::LANES {
-            return self.simd.partial_store_f64s(slice, self.value);
+        S::as_mut_simd_f64s(&mut slice[..Self::LANES]).0[0] = self.value;
+    }
+
+    /// Writes as many of the numbers as `slice` has room for.
+    #[inline(always)]
+    pub fn store_up_to(self, slice: &mut [f64]) {
+        if slice.len() >= Self::LANES {
+            return self.store(slice);
         }
-        if let [first, ..] = S::as_mut_simd_f64s(slice).0 {
-            *first = self.value;
-        }
+        self.simd.partial_store_f64s(slice, self.value);
+    }
+
+    /// Sum of all lanes.
+    #[inline(always)]
+    pub fn total(self) -> f64 {
+        self.simd.reduce_sum_f64s(self.value)
     }
 
     /// √.
@@ -68,17 +74,6 @@ impl<S: Simd> Real<S> {
     #[must_use]
     pub fn abs(self) -> Self {
         Self { value: self.simd.abs_f64s(self.value), ..self }
-    }
-
-    /// `self` × `factor` + `term` where the product is exact: fused or not, it is the same number.
-    #[inline(always)]
-    #[must_use]
-    pub fn exact_product_plus(self, factor: Self, term: Self) -> Self {
-        if Self::is_fused() {
-            Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
-        } else {
-            self * factor + term
-        }
     }
 
     /// `self` × `factor` + `term`, rounded once: a call of a library where it is no instruction.
@@ -121,17 +116,35 @@ impl<S: Simd> Real<S> {
         cfg!(target_feature = "fma") || cfg!(target_arch = "aarch64") || TypeId::of::<S>() != TypeId::of::<Scalar>()
     }
 
+    /// `self` with the sign of `other` multiplied in.
+    #[inline(always)]
+    #[must_use]
+    pub fn times_sign_of(self, other: Self) -> Self {
+        let (one, two) = (self.simd.transmute_u64s_f64s(self.value), self.simd.transmute_u64s_f64s(other.value));
+        let sign = self.simd.and_u64s(two, self.simd.splat_u64s(1 << 63));
+        Self { value: self.simd.transmute_f64s_u64s(self.simd.xor_u64s(one, sign)), ..self }
+    }
+
+    /// A number that is negative, or -0, where `self` or `other` is.
+    #[inline(always)]
+    #[must_use]
+    pub fn either_sign(self, other: Self) -> Self {
+        let (one, two) = (self.simd.transmute_u64s_f64s(self.value), self.simd.transmute_u64s_f64s(other.value));
+        Self { value: self.simd.transmute_f64s_u64s(self.simd.or_u64s(one, two)), ..self }
+    }
+
+    /// The larger of `self` and `other`, neither of which is NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self { value: self.simd.max_f64s(self.value, other.value), ..self }
+    }
+
     /// Nearest integer to `self`, whose size is below 2^51.
     #[inline(always)]
     pub fn round(self) -> Self {
         let magic = self.constant(6_755_399_441_055_744.0); // 1.5 · 2^52
         (self + magic) - magic
-    }
-
-    /// Where `self` < `other`; false for a number that is none.
-    #[inline(always)]
-    pub fn less_than(self, other: Self) -> Mask<S> {
-        Mask { simd: self.simd, value: self.simd.less_than_f64s(self.value, other.value) }
     }
 
     /// Where `self` ≤ `other`; false for a number that is none.
@@ -144,7 +157,7 @@ impl<S: Simd> Real<S> {
 impl<S: Simd> Mask<S> {
     /// Whether it holds in every lane.
     #[inline(always)]
-    pub fn holds_everywhere(self) -> bool {
+    pub fn everywhere(self) -> bool {
         self.simd.first_true_m64s(self.simd.not_m64s(self.value)) == S::F64_LANES
     }
 
@@ -152,14 +165,6 @@ impl<S: Simd> Mask<S> {
     #[inline(always)]
     pub fn choose(self, yes: Real<S>, no: Real<S>) -> Real<S> {
         Real { simd: self.simd, value: self.simd.select_f64s(self.value, yes.value, no.value) }
-    }
-}
-
-impl<S: Simd> BitAnd for Mask<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self { value: self.simd.and_m64s(self.value, other.value), ..self }
     }
 }
 

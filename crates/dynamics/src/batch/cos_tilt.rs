@@ -1,0 +1,83 @@
+//! cos θ at landing.
+
+use super::kernel::{Kernel, Run};
+use super::momentum::{Constants, Extent, TiltTerms};
+use super::{BatchError, Tosses};
+use crate::compensated::compensated_cos_tilt;
+use crate::error::SolveError;
+use crate::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
+use crate::launch::Toss;
+
+impl Tosses<'_> {
+    /// cos θ at landing of each toss.
+    ///
+    /// # Errors
+    /// [`BatchError`] for the first toss that has none; what is in `out` then means nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than [`Tosses::len`].
+    pub fn cos_tilts(&self, out: &mut [f64]) -> Result<(), BatchError> {
+        assert_eq!(out.len(), self.len(), "one result a toss");
+        let constants = Constants::new(self);
+        if self.is_flat() {
+            self.path.run(Run { kernel: &Flat(constants), tosses: *self, out: [out] })
+        } else {
+            let kernel = &Tilted(constants, TiltTerms::new(self));
+            self.path.run(Run { kernel, tosses: *self, out: [out] })
+        }
+    }
+}
+
+/// (Lz² + Ω² cos φ)/|L|²: from horizontal.
+struct Flat(Constants);
+
+impl Kernel<4, 1> for Flat {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
+        let motion = self.0.motion(rates, speed, extent);
+        let [turns, rest] = motion.turns;
+        [cosine_as_sine(turns, rest), motion.across_squared, motion.along_squared, motion.half_inverse]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [left, across_squared, along_squared, half_inverse]: [Real<S>; 4]) -> [Real<S>; 1] {
+        let height = across_squared.mul_add(sin_of_turns(left), along_squared);
+        [(height + height) * half_inverse]
+    }
+
+    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
+    }
+}
+
+/// (A + B cos φ + C sin φ)/|L|²: from any attitude.
+struct Tilted(Constants, TiltTerms);
+
+impl Kernel<6, 1> for Tilted {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 6] {
+        let motion = self.0.motion(rates, speed, extent);
+        let [mean, cosine, sine] = self.1.terms(rates, motion.along, motion.across_squared, motion.size);
+        let [turns, rest] = motion.turns;
+        [turns, rest, mean, cosine, sine, motion.half_inverse * turns.constant(2.0 / self.1.norm)]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, rest, mean, cosine, sine, inverse]: [Real<S>; 6]) -> [Real<S>; 1] {
+        let four = turns.constant(4.0);
+        let [sin, cos] = sin_cos(turns * four, rest * four);
+        [(mean + cosine.mul_add(cos, sine * sin)) * inverse]
+    }
+
+    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
+    }
+}

@@ -1,0 +1,179 @@
+//! Angular momenta and phases of as many tosses as a register holds, with what rounding lost of them.
+//!
+//! As [`compensated`](crate::compensated), but with phases in turns and without a unit of rates: what could leave the range
+//! of f64 is no ordinary toss.
+
+use super::Tosses;
+use crate::double_double::DoubleDouble;
+use crate::lanes::{MOST_TURNS, Real, Simd};
+
+/// Largest |L|² ((rad/s)²), and inverse of the smallest.
+const LARGEST_SQUARE: f64 = 1e100;
+
+/// 1/π.
+const INVERSE_PI: [f64; 2] = [std::f64::consts::FRAC_1_PI, -1.967_867_667_518_248_6e-17];
+
+/// What is the same for all tosses of a batch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Constants {
+    pub(super) ratio: [f64; 2],
+    /// 1/(π g), turns of ωL T by a unit of ωL v0, and what f64 leaves of it, relative.
+    turns: [f64; 2],
+    /// (k - 1)/(π g), turns of q T by a unit of ωz v0, and what f64 leaves of it.
+    spin_turns: [f64; 2],
+    most_turns: f64,
+}
+
+/// The motion of tosses.
+pub(super) struct Motion<S: Simd> {
+    /// Lz = k ωz (rad/s).
+    pub(super) along: Real<S>,
+    /// Lz² ((rad/s)²).
+    pub(super) along_squared: Real<S>,
+    /// Ω² = Lx² + Ly².
+    pub(super) across_squared: Real<S>,
+    /// |L| = ωL (rad/s).
+    pub(super) size: Real<S>,
+    /// ½/|L|².
+    pub(super) half_inverse: Real<S>,
+    /// ωL T (turns).
+    pub(super) turns: [Real<S>; 2],
+}
+
+/// Sums over many tosses that tell whether all of them are ordinary.
+pub(super) struct Extent<S: Simd> {
+    squared: Real<S>,
+    inverse: Real<S>,
+    turns: Real<S>,
+    sign: Real<S>,
+}
+
+impl Constants {
+    pub(super) fn new(tosses: &Tosses<'_>) -> Self {
+        let k = tosses.coin.exact_inertia_ratio();
+        let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
+        let turns = inverse_pi / tosses.gravity.into();
+        let spin_turns = turns * (k - 1.0.into());
+        // In this range no product of a gravity loses digits.
+        let is_ordinary = (1e-50..1e50).contains(&tosses.gravity);
+        Self {
+            ratio: [k.hi(), k.lo()],
+            turns: [turns.hi(), turns.lo() / turns.hi()],
+            spin_turns: [spin_turns.hi(), spin_turns.lo()],
+            // The spin turns by at most 1/k times as much.
+            most_turns: if is_ordinary { MOST_TURNS * k.hi().min(1.0) } else { 0.0 },
+        }
+    }
+
+    /// The motion after launches with these rates (rad/s) and speeds (m/s).
+    #[inline(always)]
+    pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
+        let [along, along_rest] = x.constant(self.ratio[0]).product(z);
+        let along_rest = x.constant(self.ratio[1]).mul_add(z, along_rest);
+        let (x_squared, y_squared, along_squared) = (x.product(x), y.product(y), along.product(along));
+        let along_squared_rest = (along + along).mul_add(along_rest, along_squared[1]);
+        let [across, across_rest] = x_squared[0].sum(y_squared[0]);
+        let [squared, squared_rest] = across.sum(along_squared[0]);
+        let squared_rest = (squared_rest + along_squared_rest) + (across_rest + (x_squared[1] + y_squared[1]));
+        let size = squared.sqrt();
+        let half_inverse = x.constant(0.5) / squared;
+        // Relative, and so for all that is proportional to |L|.
+        let size_rest = ((-size).mul_add(size, squared) + squared_rest) * half_inverse;
+        let [path, path_rest] = size.product(speed);
+        let [turns, turns_rest] = path.product(x.constant(self.turns[0]));
+        let turns_rest = path_rest.mul_add(x.constant(self.turns[0]), turns_rest);
+        let turns_rest = turns.mul_add(size_rest + x.constant(self.turns[1]), turns_rest);
+        extent.add(squared, half_inverse, turns, speed);
+        Motion {
+            along,
+            along_squared: along_squared[0],
+            across_squared: across,
+            size,
+            half_inverse,
+            turns: [turns, turns_rest],
+        }
+    }
+
+    /// Turns of q T, and the rest, for ωz (rad/s) and v0 (m/s).
+    #[inline(always)]
+    pub(super) fn spin_turns<S: Simd>(&self, z: Real<S>, speed: Real<S>) -> [Real<S>; 2] {
+        let [path, path_rest] = z.product(speed);
+        let [turns, turns_rest] = path.product(z.constant(self.spin_turns[0]));
+        let turns_rest = path_rest.mul_add(z.constant(self.spin_turns[0]), turns_rest);
+        [turns, path.mul_add(z.constant(self.spin_turns[1]), turns_rest)]
+    }
+
+    /// ωL T (turns) in plain f64, for |L| (rad/s) and v0 (m/s).
+    #[inline(always)]
+    pub(super) fn plain_turns<S: Simd>(&self, size: Real<S>, speed: Real<S>) -> Real<S> {
+        size * (speed * size.constant(self.turns[0]))
+    }
+
+    /// Whether a toss with these rates (rad/s) and this speed (m/s) is ordinary: no square and no phase leaves its range.
+    pub(super) fn is_ordinary(&self, [x, y, z, speed]: [f64; 4]) -> bool {
+        let simd = pulp::Scalar;
+        let mut extent = Extent::new(simd);
+        self.motion([x, y, z].map(|rate| Real::splat(simd, rate)), Real::splat(simd, speed), &mut extent);
+        extent.is_ordinary(self)
+    }
+}
+
+impl<S: Simd> Extent<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        let zero = Real::splat(simd, 0.0);
+        Self { squared: zero, inverse: zero, turns: zero, sign: zero }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, squared: Real<S>, half_inverse: Real<S>, turns: Real<S>, speed: Real<S>) {
+        self.squared = self.squared + squared;
+        self.inverse = self.inverse + half_inverse;
+        self.turns = self.turns + turns;
+        self.sign = self.sign.either_sign(speed);
+    }
+
+    /// Whether all tosses are ordinary. Sums are compared, of which no part is negative, or else the sign tells: so one
+    /// toss that is not ordinary is always seen, and ordinary ones may together be taken for one that is not.
+    #[inline(always)]
+    pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
+        let Self { squared, inverse, turns, sign } = *self;
+        let scale = squared.constant(1.0 / LARGEST_SQUARE);
+        let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
+        extent.at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
+    }
+}
+
+/// A, B and C of [`TiltTerms`](crate::TiltTerms) for tosses from one attitude.
+pub(super) struct TiltTerms {
+    /// The vertical seen from the body at launch, times |q|².
+    vertical: [f64; 3],
+    /// |q|².
+    pub(super) norm: f64,
+}
+
+impl TiltTerms {
+    pub(super) fn new(tosses: &Tosses<'_>) -> Self {
+        let [w, x, y, z] = tosses.attitude.components();
+        let (upright, inverted) = (w * w + z * z, x * x + y * y);
+        let vertical = [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), upright - inverted];
+        Self { vertical, norm: upright + inverted }
+    }
+
+    /// A, B and C ((rad/s)²) for these rates (BF, rad/s), Lz, Ω² and |L|.
+    #[inline(always)]
+    pub(super) fn terms<S: Simd>(
+        &self,
+        [x, y, _]: [Real<S>; 3],
+        along: Real<S>,
+        across_squared: Real<S>,
+        size: Real<S>,
+    ) -> [Real<S>; 3] {
+        let [m_x, m_y, m_z] = self.vertical;
+        let (m_x, m_y, m_z) = (x.constant(m_x), x.constant(m_y), x.constant(m_z));
+        let level = m_x.mul_add(x, m_y * y);
+        let mean = m_z.mul_add(along, level) * along;
+        let cosine = m_z.mul_add(across_squared, -(level * along));
+        [mean, cosine, m_x.mul_add(y, -(m_y * x)) * size]
+    }
+}

@@ -1,0 +1,240 @@
+//! Proven outcomes: a filter in f64 decides nearly all of them, and [`certify`] the rest.
+//!
+//! With x half the phase φ = 2πτ, in turns reduced to |x| ≤ ½, s and c its sine and cosine, G = A + B cos φ + C sin φ of
+//! [`TiltTerms`](crate::TiltTerms) is
+//!
+//! ```text
+//! G = (A + B) + 2 s (C c - B s)
+//! ```
+//!
+//! whatever the common sign of s and c. In units of `size`, with u = 2^-53 and ε the error of the rough s and c, which have
+//! no need of many digits where G is far from 0:
+//!
+//! ```text
+//! A, B, C            41u          12u (1 + √2 + 1), as derived there; fused products round less
+//! s, c               7ε           2|C|(ε|c| + ε|s|) + 4|B| ε|s|
+//! φ                  44u τ        7u φ: |L| 4u, 1/(πg) 1.5u, two products; |dG/dφ| ≤ size
+//! operations         12u          six, of numbers below 4
+//! ```
+//!
+//! [`THRESHOLD`] is more than twice the sum without φ, and the part of φ is rounded up. What underflows is below 2^-1000, and
+//! [`SMALLEST`] is above it.
+
+use super::kernel::{Kernel, Run};
+use super::momentum::{Constants, Extent, TiltTerms};
+use super::{BatchError, TossError, Tosses};
+use crate::certified::{Certificate, certify};
+use crate::error::SolveError;
+use crate::lanes::{ROUGH_ERROR, Real, Simd, WithSimd, rough_cos_of_half, rough_sin_of_half};
+use crate::launch::Toss;
+use crate::outcome::Outcome;
+use crate::tilt_terms::UNIT_ROUNDOFF;
+
+/// How near to 0 the filter leaves a G/size undecided, beside what the phase adds.
+const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
+
+/// What a turn adds to it.
+const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
+
+/// How near to 0 a G is left undecided that is not measured in its size ((rad/s)²).
+const SMALLEST: f64 = 1e-200;
+
+/// Tosses that are filtered before the rest of them is proven otherwise.
+const BLOCK: usize = 512;
+
+/// Outcomes that the filter decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Filtered {
+    /// Heads.
+    pub heads: u64,
+    /// Tails.
+    pub tails: u64,
+}
+
+impl Tosses<'_> {
+    /// How each toss lands, proven. It is undecided only for an exact tie.
+    ///
+    /// # Errors
+    /// [`BatchError`] for the first toss that has no outcome; what is in `out` then means nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than [`Tosses::len`].
+    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), BatchError> {
+        assert_eq!(out.len(), self.len(), "one result a toss");
+        let filter = Filter::new(self);
+        let mut heights = Column([0.0; BLOCK]);
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            let start = block * BLOCK;
+            let heights = &mut heights.0[..out.len()];
+            filter.run(self.part(start..start + out.len()), heights)?;
+            for (index, (height, out)) in heights.iter().zip(out).enumerate() {
+                // Which face is chance: a table, since the branch would be foreseen wrongly every other time.
+                const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
+                *out = OF_SIGNS[usize::from(*height > 0.0) + 2 * usize::from(*height < 0.0)];
+                if *out == Outcome::Undecided {
+                    *out = self.certified(start + index)?.outcome;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts proven outcomes. `rest` is told those that the filter leaves to [`certify`].
+    ///
+    /// # Errors
+    /// [`BatchError`] for the first toss that has no outcome.
+    pub fn count(&self, mut rest: impl FnMut(Certificate)) -> Result<Filtered, BatchError> {
+        let filter = Filter::new(self);
+        let mut heights = Column([0.0; BLOCK]);
+        let mut filtered = Filtered::default();
+        for start in (0..self.len()).step_by(BLOCK) {
+            let heights = &mut heights.0[..(self.len() - start).min(BLOCK)];
+            filter.run(self.part(start..start + heights.len()), heights)?;
+            let decided = self.path.run(Signs(heights));
+            filtered.heads += decided.heads;
+            filtered.tails += decided.tails;
+            if decided.heads + decided.tails < heights.len() as u64 {
+                for (index, _) in heights.iter().enumerate().filter(|(_, height)| **height == 0.0) {
+                    rest(self.certified(start + index)?);
+                }
+            }
+        }
+        Ok(filtered)
+    }
+
+    fn certified(&self, index: usize) -> Result<Certificate, BatchError> {
+        let certificate = self.toss(index).map_err(TossError::from).and_then(|toss| Ok(certify(&toss)?));
+        certificate.map_err(|source| BatchError { index, source })
+    }
+}
+
+/// As registers are loaded and stored best.
+#[repr(align(64))]
+struct Column([f64; BLOCK]);
+
+/// The kernel for a batch.
+enum Filter {
+    Flat(Flat),
+    Tilted(Tilted),
+}
+
+impl Filter {
+    fn new(tosses: &Tosses<'_>) -> Self {
+        let constants = Constants::new(tosses);
+        if tosses.is_flat() {
+            Self::Flat(Flat(constants))
+        } else {
+            Self::Tilted(Tilted(constants, TiltTerms::new(tosses)))
+        }
+    }
+
+    /// What G exceeds its threshold by, with its sign; 0 where it does not.
+    fn run(&self, tosses: Tosses<'_>, heights: &mut [f64]) -> Result<(), BatchError> {
+        match self {
+            Self::Flat(kernel) => tosses.path.run(Run { kernel, tosses, out: [heights] }),
+            Self::Tilted(kernel) => tosses.path.run(Run { kernel, tosses, out: [heights] }),
+        }
+    }
+}
+
+/// From horizontal, where A + B = |L|², B = Ω² and C = 0.
+struct Flat(Constants);
+
+/// From any attitude.
+struct Tilted(Constants, TiltTerms);
+
+impl Kernel<4, 1> for Flat {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
+        let along = z * z.constant(self.0.ratio[0]);
+        let across_squared = x.mul_add(x, y * y);
+        let squared = along.mul_add(along, across_squared);
+        let turns = self.0.plain_turns(squared.sqrt(), speed);
+        extent.add(squared, squared.constant(0.0), turns, speed);
+        [turns, squared, threshold(turns, squared), across_squared + across_squared]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, squared, threshold, twice_across_squared]: [Real<S>; 4]) -> [Real<S>; 1] {
+        let sin = rough_sin_of_half(turns - turns.round());
+        [beyond(squared - twice_across_squared * (sin * sin), threshold)]
+    }
+
+    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
+    }
+}
+
+impl Kernel<5, 1> for Tilted {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 5] {
+        let along = z * z.constant(self.0.ratio[0]);
+        let across_squared = x.mul_add(x, y * y);
+        let squared = along.mul_add(along, across_squared);
+        let size = squared.sqrt();
+        let turns = self.0.plain_turns(size, speed);
+        extent.add(squared, squared.constant(0.0), turns, speed);
+        let [mean, cosine, sine] = self.1.terms([x, y, z], along, across_squared, size);
+        [turns, threshold(turns, squared * x.constant(self.1.norm)), mean, cosine, sine]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, threshold, mean, cosine, sine]: [Real<S>; 5]) -> [Real<S>; 1] {
+        let part = turns - turns.round();
+        let (sin, cos) = (rough_sin_of_half(part), rough_cos_of_half(part));
+        let change = sin * sine.mul_add(cos, -(cosine * sin));
+        [beyond((mean + cosine) + (change + change), threshold)]
+    }
+
+    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
+    }
+}
+
+/// How near to 0 a G of this `size` is left undecided.
+#[inline(always)]
+fn threshold<S: Simd>(turns: Real<S>, size: Real<S>) -> Real<S> {
+    let relative = turns.mul_add(turns.constant(THRESHOLD_OF_TURN), turns.constant(THRESHOLD));
+    relative.mul_add(size, turns.constant(SMALLEST))
+}
+
+/// |`height`| - `threshold` with the sign of `height`, or 0.
+#[inline(always)]
+fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
+    (height.abs() - threshold).max(height.constant(0.0)).times_sign_of(height)
+}
+
+/// Counts the signs of numbers.
+struct Signs<'a>(&'a [f64]);
+
+impl WithSimd for Signs<'_> {
+    type Output = Filtered;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Filtered {
+        let (zero, one) = (Real::splat(simd, 0.0), Real::splat(simd, 1.0));
+        let smallest = Real::splat(simd, f64::from_bits(1));
+        let (mut heads, mut tails) = (zero, zero);
+        let (whole, rest) = self.0.split_at(self.0.len() - self.0.len() % Real::<S>::LANES);
+        for at in (0..whole.len()).step_by(Real::<S>::LANES) {
+            let height = Real::load(simd, &whole[at..]);
+            heads = heads + smallest.at_most(height).choose(one, zero);
+            tails = tails + height.at_most(-smallest).choose(one, zero);
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts below 2^53")]
+        let mut decided = Filtered { heads: heads.total() as u64, tails: tails.total() as u64 };
+        for height in rest {
+            decided.heads += u64::from(*height > 0.0);
+            decided.tails += u64::from(*height < 0.0);
+        }
+        decided
+    }
+}
