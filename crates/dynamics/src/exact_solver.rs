@@ -1,5 +1,6 @@
 //! The exact motion as a solver, beside the numerical ones. Its outcomes are proven.
 
+use crate::batch::{BatchError, Filtered, Tosses};
 use crate::certified::{Certificate, certify};
 use crate::error::SolveError;
 use crate::exact::{COS_TILT_ERROR, ExactMotion};
@@ -43,6 +44,10 @@ impl Solver for ExactSolver {
     fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
         let Certificate { outcome, stage } = certify(toss)?;
         Ok(Verdict { outcome, proof: Some(stage) })
+    }
+
+    fn count(&self, tosses: &Tosses<'_>, rest: &mut dyn FnMut(Verdict)) -> Result<Filtered, BatchError> {
+        tosses.count(|Certificate { outcome, stage }| rest(Verdict { outcome, proof: Some(stage) }))
     }
 
     fn verdict_at(&self, toss: &Toss, _: f64) -> Result<Verdict, SolveError> {

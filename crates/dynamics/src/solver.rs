@@ -3,6 +3,7 @@
 //! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
 //! has one entry; every test and every check runs over the registry of entries.
 
+use crate::batch::{BatchError, Filtered, Tosses};
 use crate::error::{InputError, SolveError, find_named};
 use crate::launch::Toss;
 use crate::method::Method;
@@ -86,6 +87,15 @@ pub trait Solver: Send + Sync {
     /// As [`Solver::propagate`].
     fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
         self.verdict_at(toss, self.cos_tilt(toss)?)
+    }
+
+    /// Counts the outcomes of many tosses: those that are proven in a batch, while `rest` is told the others one by one.
+    ///
+    /// # Errors
+    /// [`BatchError`] for the first toss that has no outcome.
+    fn count(&self, tosses: &Tosses<'_>, rest: &mut dyn FnMut(Verdict)) -> Result<Filtered, BatchError> {
+        (0..tosses.len()).try_for_each(|index| tosses.solve(index, |toss| self.verdict(toss)).map(&mut *rest))?;
+        Ok(Filtered::default())
     }
 
     /// How the toss lands.

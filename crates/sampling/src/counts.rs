@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use dynamics::batch::{BatchError, Filtered, TossError, Tosses};
 use dynamics::{Outcome, Solver, Stage, Verdict};
 use serde::Serialize;
 
-use crate::fold::{Progress, SampleError, Tally, fold};
+use crate::fold::{Failure, Progress, SampleError, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -53,6 +54,15 @@ impl Counts {
     pub fn are_certified(&self) -> bool {
         let Proven { certain, keller, f64, double_double, multiprecision } = self.proven;
         certain + keller + f64 + double_double + multiprecision == self.points()
+    }
+
+    /// Adds the outcomes of a batch.
+    fn add_batch(&mut self, solver: &dyn Solver, tosses: &Tosses<'_>) -> Result<(), BatchError> {
+        let Filtered { heads, tails } = solver.count(tosses, &mut |verdict| self.add(verdict))?;
+        self.heads += heads;
+        self.tails += tails;
+        self.proven.f64 += heads + tails;
+        Ok(())
     }
 
     #[inline]
@@ -104,12 +114,26 @@ pub(crate) fn count(
     solver: &dyn Solver,
     progress: Progress<'_>,
 ) -> Result<Counts, SampleError> {
-    fold(range, progress, |block| {
+    fold(space, launches, range, progress, |first, block| {
         let mut counts = Counts::default();
-        for (index, values) in block.clone().zip(launches.values(block)) {
-            let toss = space.toss(&values);
-            counts.add(solver.verdict(&toss).map_err(|error| (index, Box::new(toss), error))?);
+        match space.tosses(block) {
+            Some(tosses) => counts.add_batch(solver, &tosses).map_err(|error| failure(first, &tosses, error))?,
+            None => {
+                for (index, values) in (first..).zip(block.all_values()) {
+                    let toss = space.toss(&values);
+                    counts.add(solver.verdict(&toss).map_err(|error| (index, Box::new(toss), error))?);
+                }
+            }
         }
         Ok(counts)
     })
+}
+
+/// What stands for an error in a batch whose first launch has the number `first`.
+fn failure(first: u64, tosses: &Tosses<'_>, BatchError { index, source }: BatchError) -> Failure {
+    let toss = tosses.toss(index).expect("every axis was checked when the space was made");
+    match source {
+        TossError::Solve(error) => (first + index as u64, Box::new(toss), error),
+        TossError::Input(_) => unreachable!("every axis was checked when the space was made"),
+    }
 }

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use dynamics::{InputError, SolveError, Toss};
 use rayon::prelude::*;
 
-/// Launches that one thread takes at a time: their values stay in the first-level cache.
-const BLOCK: u64 = 512;
+use crate::block::{BLOCK, Block};
+use crate::launches::Launches;
+use crate::space::Space;
 
 /// Why a probability could not be estimated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,33 +51,36 @@ pub(crate) type Failure = (u64, Box<Toss>, SolveError);
 /// Is told how many launches (or nodes of a map) were done since it was last called.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
 
-/// Merges what `block` makes of all blocks of the launches `range`, on the threads of the current pool.
+/// Merges what `add` makes of all blocks of the launches `range` of `space`, on the threads of the current pool. It is told
+/// the number of a block's first launch.
 ///
 /// # Errors
 /// [`SampleError::Solve`]; of several failing launches always the first.
 pub(crate) fn fold<T: Tally>(
+    space: &Space,
+    launches: &Launches,
     range: Range<u64>,
     progress: Progress<'_>,
-    block: impl Fn(Range<u64>) -> Result<T, Failure> + Sync,
+    add: impl Fn(u64, &Block) -> Result<T, Failure> + Sync,
 ) -> Result<T, SampleError> {
+    const LENGTH: u64 = BLOCK as u64;
     let lowest_failure = AtomicU64::new(u64::MAX);
-    let run = |number: u64| -> Result<T, Failure> {
-        let start = range.start + number * BLOCK;
+    let run = |block: &mut Block, number: u64| -> Result<T, Failure> {
+        let start = range.start + number * LENGTH;
         // A block above the lowest failing launch so far can't hold the first.
         if start > lowest_failure.load(Ordering::Relaxed) {
             return Ok(T::default());
         }
-        let launches = start..range.end.min(start.saturating_add(BLOCK));
-        let done = launches.end - launches.start;
-        let tally = block(launches).inspect_err(|(index, ..)| {
+        launches.write(start..range.end.min(start.saturating_add(LENGTH)), block);
+        let tally = add(start, block).inspect_err(|(index, ..)| {
             lowest_failure.fetch_min(*index, Ordering::Relaxed);
         })?;
-        progress(done);
+        progress(block.len() as u64);
         Ok(tally)
     };
-    (0..(range.end - range.start).div_ceil(BLOCK))
+    (0..(range.end - range.start).div_ceil(LENGTH))
         .into_par_iter()
-        .map(run)
+        .map_init(|| Block::new(space), run)
         .reduce(
             || Ok(T::default()),
             |a, b| match (a, b) {

@@ -1,12 +1,11 @@
 //! Method A: a grid over a space.
 
-use std::ops::Range;
-
 use dynamics::InputError;
 
 use crate::axis::Axis;
+use crate::block::Block;
 use crate::coordinate::Coordinate;
-use crate::space::{Space, Values};
+use crate::space::Space;
 
 /// The coordinates from the slowest to the fastest. With the speed last, neighbouring launches share their motion.
 const ORDER: [Coordinate; Coordinate::COUNT] =
@@ -15,10 +14,43 @@ const ORDER: [Coordinate; Coordinate::COUNT] =
 /// The grid over a space, or over all its coordinates but the speed.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
-    fixed: Values,
-    /// The coordinates that are not fixed, in the order of [`ORDER`], with their numbers of points.
-    axes: Vec<(Coordinate, Axis, u64)>,
+    /// The coordinates that are not fixed, in the order of [`ORDER`].
+    sides: Vec<Side>,
     points: u64,
+}
+
+/// One coordinate of a grid.
+#[derive(Debug, Clone)]
+struct Side {
+    of: Coordinate,
+    axis: Axis,
+    count: u64,
+    /// Its points, if they are few.
+    points: Vec<f64>,
+}
+
+impl Side {
+    /// Points above this number are made when they are needed.
+    const FEW: u64 = 1 << 16;
+
+    fn new(of: Coordinate, axis: Axis, count: u64) -> Self {
+        let few = if count <= Self::FEW { count } else { 0 };
+        Self { of, axis, count, points: (0..few).map(|index| axis.grid_point(index, count)).collect() }
+    }
+
+    fn point(&self, index: u64) -> f64 {
+        let known = usize::try_from(index).ok().and_then(|index| self.points.get(index));
+        known.copied().unwrap_or_else(|| self.axis.grid_point(index, self.count))
+    }
+
+    /// Writes the points from number `from` on.
+    fn write(&self, from: u64, to: &mut [f64]) {
+        let known = usize::try_from(from).ok().and_then(|from| self.points.get(from..from + to.len()));
+        match known {
+            Some(known) => to.copy_from_slice(known),
+            None => to.iter_mut().zip(from..).for_each(|(to, index)| *to = self.axis.grid_point(index, self.count)),
+        }
+    }
 }
 
 impl Grid {
@@ -39,8 +71,9 @@ impl Grid {
     }
 
     fn over(space: &Space, includes: impl Fn(Coordinate) -> bool) -> Result<Self, InputError> {
-        let mut grid = Self { fixed: space.fixed_values(), axes: Vec::new(), points: 1 };
+        let mut grid = Self { sides: Vec::new(), points: 1 };
         let free: Vec<Coordinate> = space.free().collect();
+        let mut sides = Vec::new();
         for of in ORDER.into_iter().filter(|of| free.contains(of) && includes(*of)) {
             let axis = space.axis(of);
             let refused = |expected| InputError::Malformed { field: of.field(), value: axis.to_string(), expected };
@@ -49,8 +82,10 @@ impl Grid {
                 .ok_or_else(|| refused("a number of points for a grid: LO:HI:POINTS or normal:MEAN:SD:POINTS"))?;
             let points = grid.points.checked_mul(count);
             grid.points = points.ok_or_else(|| refused("a grid of fewer than 2^64 points in all"))?;
-            grid.axes.push((of, axis, count));
+            sides.push((of, axis, count));
         }
+        // Not before the number of all points is known to be sensible.
+        grid.sides = sides.into_iter().map(|(of, axis, count)| Side::new(of, axis, count)).collect();
         Ok(grid)
     }
 
@@ -58,37 +93,23 @@ impl Grid {
         self.points
     }
 
-    /// The launches `range` of the grid.
-    pub(crate) fn values(&self, range: Range<u64>) -> Vec<Values> {
-        let mut values = self.fixed;
-        let mut digits = vec![0; self.axes.len()];
-        let mut rest = range.start;
-        for (digit, (of, axis, count)) in digits.iter_mut().zip(&self.axes).rev() {
-            (*digit, rest) = (rest % count, rest / count);
-            values[*of as usize] = axis.grid_point(*digit, *count);
-        }
-        let next = |values: &mut Values| {
-            for (digit, (of, axis, count)) in digits.iter_mut().zip(&self.axes).rev() {
-                *digit = if *digit + 1 == *count { 0 } else { *digit + 1 };
-                values[*of as usize] = axis.grid_point(*digit, *count);
-                if *digit != 0 {
-                    break;
-                }
+    /// Writes the launches from number `start` on: run by run of those that differ in the last coordinate only.
+    pub(crate) fn write(&self, start: u64, block: &mut Block) {
+        let Some((last, others)) = self.sides.split_last() else { return };
+        let mut done = 0;
+        while done < block.len() {
+            let at = start + done as u64;
+            let (first, mut rest) = (at % last.count, at / last.count);
+            let left = usize::try_from(last.count - first).unwrap_or(usize::MAX);
+            let run = done..done + left.min(block.len() - done);
+            last.write(first, &mut block.column_mut(last.of)[run.clone()]);
+            for side in others.iter().rev() {
+                block.column_mut(side.of)[run.clone()].fill(side.point(rest % side.count));
+                rest /= side.count;
             }
-        };
-        collect(range, values, next)
+            done = run.end;
+        }
     }
-}
-
-/// A launch for each index of `range`: `values`, and what `next` makes of it.
-fn collect(range: Range<u64>, mut values: Values, mut next: impl FnMut(&mut Values)) -> Vec<Values> {
-    range
-        .map(|_| {
-            let launch = values;
-            next(&mut values);
-            launch
-        })
-        .collect()
 }
 
 impl Space {
@@ -141,9 +162,16 @@ mod tests {
 
     #[test]
     fn the_grid_covers_the_box_corner_to_corner_with_the_speed_fastest() {
-        let grid = Grid::new(&space(["0:1:2", "5:6:2", "7:8:2", "3:5:3"])).unwrap();
+        let space = space(["0:1:2", "5:6:2", "7:8:2", "3:5:3"]);
+        let grid = Grid::new(&space).unwrap();
         assert_eq!(grid.points(), 24);
-        let all = grid.values(0..24);
+        let values = |start: u64, end: u64| {
+            let mut block = Block::new(&space);
+            block.start((end - start) as usize);
+            grid.write(start, &mut block);
+            block.all_values().collect::<Vec<_>>()
+        };
+        let all = values(0, 24);
         for (index, rates_and_speed) in [
             (0, [0.0, 5.0, 7.0, 3.0]),
             (1, [0.0, 5.0, 7.0, 4.0]),
@@ -154,7 +182,7 @@ mod tests {
             assert_eq!(all[index][..4], rates_and_speed);
         }
         for (start, end) in [(0, 1), (5, 9), (11, 24), (23, 24)] {
-            assert_eq!(grid.values(start..end), all[start as usize..end as usize]);
+            assert_eq!(values(start, end), all[start as usize..end as usize]);
         }
     }
 

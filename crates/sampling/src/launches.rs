@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use crate::block::Block;
 use crate::grid::Grid;
-use crate::random::random_values;
+use crate::random::write_random;
 use crate::sobol::ScrambledSobol;
-use crate::space::{Cube, Values};
+use crate::space::Cube;
 
 /// A sequence of launches; launch i does not depend on how many others are asked for.
 #[derive(Debug, Clone)]
@@ -22,15 +23,20 @@ impl Launches {
         Self::Sobol { cube, sequence: sequence.expect("a space has six coordinates, the sequence eight dimensions") }
     }
 
-    /// The launches `range`.
-    pub(crate) fn values(&self, range: Range<u64>) -> Vec<Values> {
+    /// Writes the launches `range` into `block`.
+    pub(crate) fn write(&self, range: Range<u64>, block: &mut Block) {
+        block.start(usize::try_from(range.end - range.start).expect("a block at most"));
         match self {
-            Self::Grid(grid) => grid.values(range),
-            Self::Random { cube, seed } => random_values(cube, *seed, range),
+            Self::Grid(grid) => grid.write(range.start, block),
+            Self::Random { cube, seed } => write_random(cube, *seed, range.start, block),
             Self::Sobol { cube, sequence } => {
-                let mut all = Vec::new();
-                sequence.for_each(range, |point| all.push(cube.values(|dimension| point[dimension])));
-                all
+                let mut index = 0;
+                sequence.for_each(range, |point| {
+                    for ((of, axis), coordinate) in cube.axes().iter().zip(point) {
+                        block.column_mut(*of)[index] = axis.quantile(*coordinate);
+                    }
+                    index += 1;
+                });
             }
         }
     }

@@ -8,6 +8,7 @@
 //! integers and do not depend on the number of threads. This is the only crate that knows a random number generator.
 
 pub mod axis;
+mod block;
 pub mod coordinate;
 pub mod counts;
 pub mod estimate;

@@ -6,29 +6,77 @@
 use std::ops::Range;
 
 use dynamics::Toss;
-use rand::distr::Open01;
+use dynamics::lanes::Path;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::space::{Cube, Space, Values};
+use crate::axis::Distribution;
+use crate::block::{BLOCK, Block};
+use crate::space::{Cube, Space};
 
-/// The launches `range` of the random sequence of `seed` over `cube`.
-pub(crate) fn random_values(cube: &Cube, seed: u64, range: Range<u64>) -> Vec<Values> {
+/// Writes the launches from number `start` on of the random sequence of `seed` over `cube`.
+pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block) {
     const WORDS_PER_NUMBER: u128 = 2;
+    let dimensions = cube.dimensions();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_word_pos(u128::from(range.start) * cube.dimensions() as u128 * WORDS_PER_NUMBER);
-    range.map(|_| cube.values(|_| rng.sample::<f64, _>(Open01))).collect()
+    rng.set_word_pos(u128::from(start) * dimensions as u128 * WORDS_PER_NUMBER);
+    let numbers = block.len() * dimensions;
+    rng.fill(&mut block.words[..numbers]);
+    for (dimension, (of, axis)) in cube.axes().iter().enumerate() {
+        let (column, words) = block.column_and_words(*of);
+        uniform(column, &words[..numbers], dimension, dimensions);
+        match axis.distribution() {
+            // In one loop, which the compiler makes vectors of.
+            Distribution::Uniform { lo, hi } => column.iter_mut().for_each(|part| *part = lo + *part * (hi - lo)),
+            Distribution::Normal { .. } => column.iter_mut().for_each(|part| *part = axis.quantile(*part)),
+        }
+    }
+}
+
+/// Numbers between 0 and 1, exclusively, from every `dimensions`th of `words`.
+fn uniform(column: &mut [f64], words: &[u64], dimension: usize, dimensions: usize) {
+    Path::widest().run(|| match dimensions {
+        1 => from_rows::<1>(column, words, dimension),
+        2 => from_rows::<2>(column, words, dimension),
+        3 => from_rows::<3>(column, words, dimension),
+        4 => from_rows::<4>(column, words, dimension),
+        5 => from_rows::<5>(column, words, dimension),
+        _ => from_rows::<6>(column, words, dimension),
+    });
+}
+
+/// As [`uniform`], for a number of dimensions that the compiler knows.
+#[inline(always)]
+fn from_rows<const DIMENSIONS: usize>(column: &mut [f64], words: &[u64], dimension: usize) {
+    for (part, row) in column.iter_mut().zip(words.as_chunks::<DIMENSIONS>().0) {
+        *part = between_0_and_1(row[dimension]);
+    }
+}
+
+/// The middle of one of 2^52 equal parts of the interval, as [`rand::distr::Open01`] has it.
+#[inline(always)]
+fn between_0_and_1(word: u64) -> f64 {
+    const ONE: u64 = 0x3ff0_0000_0000_0000;
+    f64::from_bits(word >> 12 | ONE) - (1.0 - 0.5 * f64::EPSILON)
 }
 
 /// The launches `range` of the random sequence of `seed` over `space`.
 pub fn random_tosses(space: &Space, seed: u64, range: Range<u64>) -> Vec<Toss> {
     let cube = Cube::new(space, space.free());
-    random_values(&cube, seed, range).iter().map(|values| space.toss(values)).collect()
+    let mut block = Block::new(space);
+    let mut tosses = Vec::new();
+    for start in range.clone().step_by(BLOCK) {
+        block.start(usize::try_from(range.end - start).unwrap_or(BLOCK).min(BLOCK));
+        write_random(&cube, seed, start, &mut block);
+        tosses.extend(block.all_values().map(|values| space.toss(&values)));
+    }
+    tosses
 }
 
 #[cfg(test)]
 mod tests {
     use dynamics::Coin;
+    use rand::distr::Open01;
 
     use super::*;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
@@ -37,10 +85,23 @@ mod tests {
     fn launch_i_depends_on_seed_and_i_only() {
         let texts = [(RateX, "0:50"), (RateY, "normal:0:5"), (RateZ, "30"), (Speed, "3:5")];
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
-        let all = random_tosses(&space, 7, 0..1000);
-        for (start, end) in [(0, 1), (1, 4), (511, 513), (999, 1000)] {
+        let all = random_tosses(&space, 7, 0..3000);
+        for (start, end) in [(0, 1), (1, 4), (511, 513), (1000, 2100), (2999, 3000)] {
             assert_eq!(random_tosses(&space, 7, start..end), all[start as usize..end as usize]);
         }
         assert_ne!(random_tosses(&space, 8, 0..1)[0], all[0]);
+    }
+
+    #[test]
+    fn the_numbers_are_those_of_the_generator_in_their_order() {
+        let texts = [(RateX, "0:50"), (RateY, "1:2"), (RateZ, "-3:3"), (Speed, "3:5")];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        let mut rng = ChaCha8Rng::seed_from_u64(9);
+        for toss in random_tosses(&space, 9, 0..1500) {
+            let mut draw = |lo: f64, hi: f64| lo + rng.sample::<f64, _>(Open01) * (hi - lo);
+            let (rate, found) = ([draw(0.0, 50.0), draw(1.0, 2.0), draw(-3.0, 3.0)], toss.launch.rate());
+            assert_eq!([found.x, found.y, found.z], rate);
+            assert_eq!(toss.launch.flight_time(), 2.0 * draw(3.0, 5.0) / 9.81);
+        }
     }
 }

@@ -50,9 +50,9 @@ pub(crate) fn add_shares(
     range: Range<u64>,
     progress: Progress<'_>,
 ) -> Result<Shares, SampleError> {
-    fold(range, progress, |block| {
+    fold(space, launches, range, progress, |first, block| {
         let mut shares = Shares::default();
-        for (index, values) in block.clone().zip(launches.values(block)) {
+        for (index, values) in (first..).zip(block.all_values()) {
             shares.add(share(space, &values).map_err(|(toss, error)| (index, toss, error))?);
         }
         Ok(shares)

@@ -36,8 +36,8 @@ impl fmt::Display for AxisOrTie {
 pub struct Space {
     coin: Coin,
     axes: [AxisOrTie; Coordinate::COUNT],
-    /// Where each coordinate has its value: in its own place, or in that of the one it is tied to.
-    places: [usize; Coordinate::COUNT],
+    /// Which coordinate each has its value from: itself, or the one it is tied to.
+    places: [Coordinate; Coordinate::COUNT],
 }
 
 impl Space {
@@ -48,8 +48,8 @@ impl Space {
     /// may last for ever, and for a tie to anything but a rate with an axis of its own.
     pub fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
         let places = Coordinate::ALL.map(|of| match axes[of as usize] {
-            AxisOrTie::Axis(_) => of as usize,
-            AxisOrTie::SameAs(other) => other as usize,
+            AxisOrTie::Axis(_) => of,
+            AxisOrTie::SameAs(other) => other,
         });
         let space = Self { coin, axes, places };
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
@@ -135,9 +135,14 @@ impl Space {
         Coordinate::ALL.map(|of| self.axis(of).bounds()[0])
     }
 
+    /// The coordinate that `of` has its values from: itself, or the one it is tied to.
+    pub(crate) fn place(&self, of: Coordinate) -> Coordinate {
+        self.places[of as usize]
+    }
+
     /// The toss with these values; those of tied coordinates are taken from their partners.
     pub(crate) fn toss(&self, values: &Values) -> Toss {
-        let value = |of: Coordinate| values[self.places[of as usize]];
+        let value = |of: Coordinate| values[self.place(of) as usize];
         let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
         let time = TimeOfFlight::Ballistic { speed: value(Coordinate::Speed), gravity: value(Coordinate::Gravity) };
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
@@ -162,28 +167,22 @@ fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Res
 /// The unit cube over some coordinates of a space: each point of it is a launch.
 #[derive(Debug, Clone)]
 pub(crate) struct Cube {
-    fixed: Values,
     axes: Vec<(Coordinate, Axis)>,
 }
 
 impl Cube {
     /// The cube over the coordinates `free` of `space`.
     pub(crate) fn new(space: &Space, free: impl Iterator<Item = Coordinate>) -> Self {
-        Self { fixed: space.fixed_values(), axes: free.map(|of| (of, space.axis(of))).collect() }
+        Self { axes: free.map(|of| (of, space.axis(of))).collect() }
     }
 
     pub(crate) fn dimensions(&self) -> usize {
         self.axes.len()
     }
 
-    /// The launch at a point, whose coordinates lie between 0 and 1, exclusively; only the first
-    /// [`Cube::dimensions`] of them are asked for.
-    pub(crate) fn values(&self, mut coordinate: impl FnMut(usize) -> f64) -> Values {
-        let mut values = self.fixed;
-        for (dimension, (of, axis)) in self.axes.iter().enumerate() {
-            values[*of as usize] = axis.quantile(coordinate(dimension));
-        }
-        values
+    /// The coordinates with their axes, a dimension each.
+    pub(crate) fn axes(&self) -> &[(Coordinate, Axis)] {
+        &self.axes
     }
 }
 
@@ -221,12 +220,10 @@ mod tests {
     }
 
     #[test]
-    fn a_cube_spans_the_space_from_corner_to_corner() {
+    fn a_cube_spans_the_free_coordinates() {
         let space = parse(&with(Gravity, "9:10")).unwrap();
         let cube = Cube::new(&space, space.free());
-        assert_eq!(cube.dimensions(), 3);
-        assert_eq!(cube.values(|_| 0.5), [25.0, 0.0, 30.0, 4.0, 9.5, 0.0]);
-        assert_eq!(cube.values(|dimension| [0.0, 1.0, 0.25][dimension]), [0.0, 0.0, 30.0, 5.0, 9.25, 0.0]);
+        assert_eq!(cube.axes(), [RateX, Speed, Gravity].map(|of| (of, space.axis(of))));
     }
 
     #[test]

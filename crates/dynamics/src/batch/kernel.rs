@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::momentum::{Constants, Extent};
-use super::{BatchError, TossError, Tosses};
+use super::{BatchError, Tosses};
 use crate::error::SolveError;
 use crate::lanes::{Real, Simd, WithSimd};
 use crate::launch::Toss;
@@ -86,9 +86,7 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> Run<'_, '_, K, MID
             if self.kernel.constants().is_ordinary(launch) {
                 continue;
             }
-            let solve = |toss: Toss| self.kernel.solve_one(&toss).map_err(TossError::from);
-            let solved = self.tosses.toss(index).map_err(TossError::from).and_then(solve);
-            let results = solved.map_err(|source| BatchError { index, source })?;
+            let results = self.tosses.solve(index, |toss| self.kernel.solve_one(toss))?;
             for (out, result) in self.out.iter_mut().zip(results) {
                 out[index] = result;
             }

@@ -111,6 +111,19 @@ impl<'a> Tosses<'a> {
         Ok(Toss { coin: self.coin, launch })
     }
 
+    /// What `solve` says of toss `index`.
+    ///
+    /// # Errors
+    /// [`BatchError`] with that index.
+    pub(crate) fn solve<T>(
+        &self,
+        index: usize,
+        solve: impl Fn(&Toss) -> Result<T, SolveError>,
+    ) -> Result<T, BatchError> {
+        let solved = self.toss(index).map_err(TossError::from).and_then(|toss| Ok(solve(&toss)?));
+        solved.map_err(|source| BatchError { index, source })
+    }
+
     /// Some of the tosses.
     fn part(&self, range: Range<usize>) -> Tosses<'a> {
         let rates = self.rates.map(|column| &column[range.clone()]);

@@ -22,7 +22,7 @@
 
 use super::kernel::{Kernel, Run};
 use super::momentum::{Constants, Extent, TiltTerms};
-use super::{BatchError, TossError, Tosses};
+use super::{BatchError, Tosses};
 use crate::certified::{Certificate, certify};
 use crate::error::SolveError;
 use crate::lanes::{ROUGH_ERROR, Real, Simd, WithSimd, rough_cos_of_half, rough_sin_of_half};
@@ -72,7 +72,7 @@ impl Tosses<'_> {
                 const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
                 *out = OF_SIGNS[usize::from(*height > 0.0) + 2 * usize::from(*height < 0.0)];
                 if *out == Outcome::Undecided {
-                    *out = self.certified(start + index)?.outcome;
+                    *out = self.solve(start + index, certify)?.outcome;
                 }
             }
         }
@@ -95,16 +95,11 @@ impl Tosses<'_> {
             filtered.tails += decided.tails;
             if decided.heads + decided.tails < heights.len() as u64 {
                 for (index, _) in heights.iter().enumerate().filter(|(_, height)| **height == 0.0) {
-                    rest(self.certified(start + index)?);
+                    rest(self.solve(start + index, certify)?);
                 }
             }
         }
         Ok(filtered)
-    }
-
-    fn certified(&self, index: usize) -> Result<Certificate, BatchError> {
-        let certificate = self.toss(index).map_err(TossError::from).and_then(|toss| Ok(certify(&toss)?));
-        certificate.map_err(|source| BatchError { index, source })
     }
 }
 
