@@ -12,6 +12,8 @@ usage: cargo xtask TASK
 tasks:
   verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--fit] [--format text|json|junit]
       run the verification suite; writes report.html, report.json, junit.xml and charts to target/verify
+  bench
+      print what a toss costs, in ns and beside a reference in C
   history
       draw the accuracy of the committed records over time";
 
@@ -19,6 +21,7 @@ fn main() -> ExitCode {
     let mut args = env::args().skip(1);
     match args.next().as_deref() {
         Some("verify") => verify(args),
+        Some("bench") => verify(std::iter::once("--bench".to_owned()).chain(args)),
         Some("history") => verify(std::iter::once("--history".to_owned()).chain(args)),
         Some("help" | "--help" | "-h") => {
             println!("{USAGE}");

@@ -11,6 +11,7 @@
 
 pub mod adversary;
 pub mod atlas;
+pub mod bench;
 pub mod bounds;
 pub mod case;
 pub mod check;

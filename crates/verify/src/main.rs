@@ -11,6 +11,7 @@ use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
 use verify::atlas::conditioning::Conditioning;
+use verify::bench::Table;
 use verify::bounds::Bounds;
 use verify::case::Case;
 use verify::judge::unused_bounds;
@@ -45,6 +46,9 @@ struct Args {
     /// Measure the planner's table alone, as --bless does with everything else
     #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     fit: bool,
+    /// Measure what a toss costs
+    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless", "fit"])]
+    bench: bool,
     /// Draw the accuracy of the committed records
     #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     history: bool,
@@ -98,6 +102,10 @@ fn listing() -> String {
 fn run(args: &Args) -> anyhow::Result<u8> {
     if let Some(case) = &args.replay {
         print!("{}", runs::text(&atlas::replay(SOLVERS, case)?, Conditioning::new(&case.toss)?));
+        return Ok(0);
+    }
+    if args.bench {
+        print!("{}", Table::measure()?);
         return Ok(0);
     }
     if args.history {

@@ -75,7 +75,7 @@ fn exact_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
 }
 
 /// Tosses in a set; a check has three sets or so.
-fn tries(context: &Context) -> u64 {
+pub(super) fn tries(context: &Context) -> u64 {
     match context.effort {
         Effort::Quick => 1000,
         Effort::Standard => 8000,
@@ -84,7 +84,7 @@ fn tries(context: &Context) -> u64 {
 }
 
 /// Tosses of five coins, half of them tilted, whose phases go up to `phase` (rad).
-fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
+pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
     let fastest = format!("{0:?}:{1:?}", -phase / 2.0, phase / 2.0);
     let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
     let space = Space::parse(Coin::PAPER, &axes)?;
@@ -98,7 +98,7 @@ fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
 }
 
 /// Pure spin, no spin, spheres, rods, discs, slow and subnormal rates, all at several tilts and for short and long times.
-fn corners() -> anyhow::Result<Vec<Case>> {
+pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
     let rates = [
         [0.0, 0.0, 0.0],
         [0.0, 0.0, 7.0],
@@ -128,7 +128,7 @@ fn corners() -> anyhow::Result<Vec<Case>> {
 
 /// Tosses that land within 3 ulp of the speed at which the outcome changes: of random launches, of launches within 3 ulp
 /// of ψ = 45° at half a turn, and of tilted ones whose cone touches the horizontal.
-fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
+pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
     const GRAVITY: f64 = 9.81;
     let mut cases = Vec::new();
     for (index, case) in random(number, 100.0, 77)?.into_iter().enumerate() {
@@ -180,7 +180,7 @@ fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
     if height > 1.0 { 0.3 } else { ulps(rate.y.atan2(spin) + height.acos(), turn) }
 }
 
-fn subject(name: &str) -> Subject {
+pub(super) fn subject(name: &str) -> Subject {
     Subject { name: name.to_owned(), ..Subject::new(ExactSolver::ENTRY, None, Formulation::default()) }
 }
 
@@ -204,7 +204,7 @@ fn last_bit(
 }
 
 /// A phase above 2^53 is refused, which is another check's business.
-fn is_in_range(result: &Result<f64, SolveError>) -> bool {
+pub(super) fn is_in_range(result: &Result<f64, SolveError>) -> bool {
     !matches!(result, Err(SolveError::PhaseTooLarge { .. }))
 }
 

@@ -2,6 +2,7 @@
 
 mod adversarial;
 mod atlas;
+mod batch;
 mod certified;
 mod detest;
 mod figures;
@@ -33,6 +34,10 @@ pub const CHECKS: &[Check] = &[
     certified::EULER_ANGLES,
     certified::OUTCOMES,
     certified::BOUNDS,
+    batch::COS_TILT,
+    batch::ATTITUDE,
+    batch::OUTCOMES,
+    batch::PATHS,
     first_return::ATTITUDE,
     invariants::MOMENTUM,
     invariants::ENERGY,

@@ -1,0 +1,58 @@
+//! Contestants, and how they are timed.
+
+use std::time::{Duration, Instant};
+
+use super::reference::Reference;
+
+/// Something to be timed.
+pub(super) struct Contest<'a> {
+    pub(super) group: &'static str,
+    pub(super) name: String,
+    /// Its largest error, if it has one.
+    pub(super) error: Option<f64>,
+    /// Tosses that it solves in a run.
+    pub(super) tosses: usize,
+    pub(super) run: Box<dyn FnMut() + 'a>,
+}
+
+/// The shortest times of a toss (ns).
+pub(super) struct Times {
+    pub(super) reference: f64,
+    pub(super) contests: Vec<f64>,
+}
+
+/// Times all contests in turn, many times over. Without a process for it the first contest is the reference.
+///
+/// # Errors
+/// If the reference ends.
+pub(super) fn race(contests: &mut [Contest<'_>], mut reference: Option<&mut Reference>) -> anyhow::Result<Times> {
+    const ROUNDS: usize = 40;
+    let mut times = Times { reference: f64::INFINITY, contests: vec![f64::INFINITY; contests.len()] };
+    for _ in 0..ROUNDS {
+        for (contest, shortest) in contests.iter_mut().zip(&mut times.contests) {
+            *shortest = shortest.min(contest.nanoseconds());
+            // The machine's clock may change while others run.
+            if let Some(reference) = &mut reference {
+                times.reference = times.reference.min(reference.nanoseconds()?);
+            }
+        }
+    }
+    if reference.is_none() {
+        times.reference = times.contests[0];
+    }
+    Ok(times)
+}
+
+impl Contest<'_> {
+    /// The shortest time of a toss (ns) of some runs.
+    fn nanoseconds(&mut self) -> f64 {
+        const BUDGET: Duration = Duration::from_micros(500);
+        let (start, mut shortest) = (Instant::now(), Duration::MAX);
+        while shortest == Duration::MAX || start.elapsed() < BUDGET {
+            let begin = Instant::now();
+            (self.run)();
+            shortest = shortest.min(begin.elapsed());
+        }
+        shortest.as_secs_f64() * 1e9 / self.tosses as f64
+    }
+}

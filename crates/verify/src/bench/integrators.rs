@@ -1,0 +1,69 @@
+//! Integrators at the same errors.
+
+use toss::{Attitude, ExactMotion, Formulation, Method, QuaternionSolver, Scheme, Solver, Toss};
+
+use super::contest::Contest;
+use super::tosses::Columns;
+
+/// Number of flights.
+pub(super) const FLOWN: usize = 256;
+
+/// Errors that are asked for.
+const ERRORS: [f64; 4] = [1e-5, 1e-8, 1e-11, 5e-14];
+
+/// Lands all tosses.
+type Fly = fn(&[Toss], Method) -> Vec<Attitude>;
+
+/// Each integrator with the loosest tolerance that keeps each error, or the smallest error that it reaches.
+pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>> {
+    let tosses = columns.each();
+    let integrators: [(&str, Scheme, Fly); 2] =
+        [("dopri5, one by one", Scheme::Dopri5, one_by_one), ("dop853, one by one", Scheme::Dop853, one_by_one)];
+    let mut contests = Vec::new();
+    for (name, scheme, fly) in integrators {
+        for asked in ERRORS {
+            let (method, error) = loosest(&tosses, scheme, fly, asked)?;
+            let tosses = tosses.clone();
+            let run = move || drop(std::hint::black_box(fly(&tosses, method)));
+            contests.push(Contest {
+                group: "attitude of a toss by integration, quaternion",
+                name: format!("{name}, asked {asked:.0e}"),
+                error: Some(error),
+                tosses: FLOWN,
+                run: Box::new(run),
+            });
+        }
+    }
+    Ok(contests)
+}
+
+/// The method with the loosest tolerance that keeps the error, and its error.
+fn loosest(tosses: &[Toss], scheme: Scheme, fly: Fly, asked: f64) -> anyhow::Result<(Method, f64)> {
+    const A_DECADE: i32 = 5;
+    let mut best: Option<(Method, f64)> = None;
+    for step in 3 * A_DECADE..=15 * A_DECADE {
+        let method = Method::adaptive(scheme, 10f64.powf(-f64::from(step) / f64::from(A_DECADE)))?;
+        let error = error(tosses, &fly(tosses, method));
+        if best.is_none_or(|(_, smallest)| error < smallest) {
+            best = Some((method, error));
+        }
+        if error <= asked {
+            break;
+        }
+    }
+    anyhow::Context::context(best, "a tolerance was tried")
+}
+
+fn one_by_one(tosses: &[Toss], method: Method) -> Vec<Attitude> {
+    let solver = QuaternionSolver::new(method, Formulation::default());
+    tosses.iter().map(|toss| solver.propagate(toss).expect("an ordinary flight").state.attitude).collect()
+}
+
+/// The largest angle to the exact attitude (rad).
+fn error(tosses: &[Toss], found: &[Attitude]) -> f64 {
+    let error = |(toss, found): (&Toss, &Attitude)| {
+        let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight());
+        exact.map_or(f64::NAN, |exact| found.angle_to(&exact.attitude))
+    };
+    tosses.iter().zip(found).map(error).fold(0.0, f64::max)
+}

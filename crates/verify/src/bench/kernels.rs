@@ -1,0 +1,111 @@
+//! Landings by the exact motion: one by one and in batches, on every path that the machine has.
+
+use toss::batch::Tosses;
+use toss::lanes::Path;
+use toss::{
+    Attitude, ExactMotion, ExactSolver, Outcome, Solver, Toss, certify, compensated_cos_tilt, compensated_landing,
+};
+
+use super::contest::Contest;
+use super::reference::{Reference, scalar};
+use super::tosses::{Columns, TOSSES};
+
+const COS_TILT: &str = "cos θ of a toss";
+const OUTCOME: &str = "proven outcome of a toss";
+const ATTITUDE: &str = "attitude of a toss";
+
+/// The reference's loop in Rust.
+pub(super) fn scalar_reference(columns: &Columns) -> Vec<Contest<'_>> {
+    let mut out = vec![0.0; TOSSES];
+    scalar(columns, &mut out);
+    let error = cos_tilt_error(columns, &out);
+    vec![contest(COS_TILT, "plain f64, one by one", Some(error), move || scalar(columns, &mut out))]
+}
+
+/// A row for the compiled reference, which measures itself: its error.
+pub(super) fn compiled_reference<'a>(columns: &Columns, reference: &Reference) -> Contest<'a> {
+    contest(COS_TILT, "(error of the reference)", Some(cos_tilt_error(columns, &reference.cos_tilts)), || ())
+}
+
+/// All kernels.
+pub(super) fn contests(columns: &Columns) -> Vec<Contest<'_>> {
+    let mut contests = one_by_one(columns);
+    contests.extend(Path::all().into_iter().flat_map(|path| batches(columns, path)));
+    contests.sort_by_key(|contest| [COS_TILT, OUTCOME, ATTITUDE].iter().position(|group| *group == contest.group));
+    contests
+}
+
+fn contest<'a>(group: &'static str, name: &str, error: Option<f64>, run: impl FnMut() + 'a) -> Contest<'a> {
+    Contest { group, name: name.to_owned(), error, tosses: TOSSES, run: Box::new(run) }
+}
+
+fn one_by_one<'a>(columns: &Columns) -> Vec<Contest<'a>> {
+    let tosses = columns.each();
+    let over_all = |solve: fn(&Toss) -> f64| {
+        let tosses = tosses.clone();
+        move || {
+            for toss in &tosses {
+                std::hint::black_box(solve(std::hint::black_box(toss)));
+            }
+        }
+    };
+    let cos_tilt =
+        |solve: fn(&Toss) -> f64| Some(cos_tilt_error(columns, &tosses.iter().map(solve).collect::<Vec<_>>()));
+    let compensated = |toss: &Toss| compensated_cos_tilt(toss).unwrap_or(f64::NAN);
+    let exact = |toss: &Toss| ExactSolver.cos_tilt(toss).unwrap_or(f64::NAN);
+    let certified = |toss: &Toss| certify(toss).map_or(f64::NAN, |found| f64::from(found.outcome as u8));
+    let landing = |toss: &Toss| compensated_landing(toss).map_or(f64::NAN, |landing| landing.rate.x);
+    vec![
+        contest(COS_TILT, "compensated, one by one", cos_tilt(compensated), over_all(compensated)),
+        contest(COS_TILT, "to the last bit, one by one", cos_tilt(exact), over_all(exact)),
+        contest(OUTCOME, "one by one", None, over_all(certified)),
+        contest(ATTITUDE, "compensated, one by one", None, over_all(landing)),
+    ]
+}
+
+fn batches<'a>(columns: &'a Columns, path: Path) -> Vec<Contest<'a>> {
+    let tosses = columns.tosses(path);
+    let name = format!("batch, {}", path.name());
+    let (mut cos_tilts, mut outcomes) = (vec![0.0; TOSSES], vec![Outcome::Undecided; TOSSES]);
+    let mut attitudes: [Vec<f64>; 4] = std::array::from_fn(|_| vec![0.0; TOSSES]);
+    solve_cos_tilts(&tosses, &mut cos_tilts);
+    solve_attitudes(&tosses, &mut attitudes);
+    let errors = [cos_tilt_error(columns, &cos_tilts), attitude_error(columns, &attitudes)];
+    vec![
+        contest(COS_TILT, &name, Some(errors[0]), move || solve_cos_tilts(&tosses, &mut cos_tilts)),
+        contest(OUTCOME, &format!("{name}, counted"), None, move || {
+            std::hint::black_box(tosses.count(|_| ()).expect("valid tosses"));
+        }),
+        contest(OUTCOME, &format!("{name}, each"), None, move || {
+            tosses.outcomes(&mut outcomes).expect("valid tosses");
+        }),
+        contest(ATTITUDE, &name, Some(errors[1]), move || solve_attitudes(&tosses, &mut attitudes)),
+    ]
+}
+
+fn solve_cos_tilts(tosses: &Tosses<'_>, out: &mut [f64]) {
+    tosses.cos_tilts(out).expect("valid tosses");
+}
+
+fn solve_attitudes(tosses: &Tosses<'_>, out: &mut [Vec<f64>; 4]) {
+    tosses.attitudes(out.each_mut().map(Vec::as_mut_slice)).expect("valid tosses");
+}
+
+/// The largest error against the exact motion in double-double.
+fn cos_tilt_error(columns: &Columns, found: &[f64]) -> f64 {
+    let error = |(toss, found): (&Toss, &f64)| {
+        let parts = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight());
+        parts.map_or(f64::NAN, |(exact, _)| ((found - exact.hi()) - exact.lo()).abs())
+    };
+    columns.each().iter().zip(found).map(error).fold(0.0, f64::max)
+}
+
+/// The largest angle to the exact attitude (rad).
+fn attitude_error(columns: &Columns, found: &[Vec<f64>; 4]) -> f64 {
+    let error = |(index, toss): (usize, &Toss)| {
+        let found = Attitude::from_components(found.each_ref().map(|column| column[index]));
+        let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight());
+        found.ok().zip(exact.ok()).map_or(f64::NAN, |(found, exact)| found.angle_to(&exact.attitude))
+    };
+    columns.each().iter().enumerate().map(error).fold(0.0, f64::max)
+}

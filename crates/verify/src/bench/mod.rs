@@ -1,0 +1,87 @@
+//! What a toss costs: `cargo xtask bench`.
+//!
+//! Times are in nanoseconds, and in xR, parts of the time of a [reference](reference) that is measured beside them, so that
+//! they can be compared across machines. Each is the shortest of many runs in turn, so that a machine that slows down
+//! favours nobody. None is judged: they are for those who choose.
+
+mod contest;
+mod integrators;
+mod kernels;
+mod launches;
+mod reference;
+mod tosses;
+
+use std::fmt;
+
+use crate::record::Host;
+use contest::{Contest, race};
+use reference::Reference;
+
+/// The table of all contestants.
+pub struct Table {
+    host: Host,
+    reference: String,
+    rows: Vec<Row>,
+}
+
+/// One contestant.
+struct Row {
+    group: &'static str,
+    name: String,
+    error: Option<f64>,
+    nanoseconds: f64,
+    by_reference: f64,
+}
+
+impl Table {
+    /// Measures.
+    ///
+    /// # Errors
+    /// If the reference ends, or a contestant fails.
+    pub fn measure() -> anyhow::Result<Self> {
+        let (columns, mut reference) = (tosses::Columns::new(tosses::TOSSES), Reference::start().ok());
+        let flown = tosses::Columns::new(integrators::FLOWN);
+        let mut contests = kernels::scalar_reference(&columns);
+        if let Some(reference) = &reference {
+            contests.push(kernels::compiled_reference(&columns, reference));
+        }
+        contests.extend(kernels::contests(&columns));
+        contests.extend(launches::contests()?);
+        contests.extend(integrators::contests(&flown)?);
+        let times = race(&mut contests, reference.as_mut())?;
+        let row = |contest: &Contest<'_>, nanoseconds: f64| Row {
+            group: contest.group,
+            name: contest.name.clone(),
+            error: contest.error,
+            nanoseconds,
+            by_reference: nanoseconds / times.reference,
+        };
+        Ok(Self {
+            host: Host::here(),
+            reference: reference
+                .map_or("the same loop in Rust, one by one (no C compiler with libmvec)".to_owned(), |it| {
+                    format!("cos θ by the closed form in f64, cc {}, libmvec", it.flags)
+                }),
+            rows: contests.iter().zip(&times.contests).map(|(contest, time)| row(contest, *time)).collect(),
+        })
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Host { cpu, cores, rustc, commit, .. } = &self.host;
+        writeln!(f, "host       {cpu}, {cores} cores, {rustc}, {commit}")?;
+        writeln!(f, "reference  {}", self.reference)?;
+        let mut group = "";
+        for row in &self.rows {
+            if row.group != group {
+                group = row.group;
+                writeln!(f, "\n{group:<44} {:>10} {:>10} {:>10}", "ns", "xR", "error")?;
+            }
+            let error = row.error.map_or(String::new(), |error| format!("{error:.1e}"));
+            let Row { name, nanoseconds, by_reference, .. } = row;
+            writeln!(f, "  {name:<42} {nanoseconds:>10.2} {by_reference:>10.2} {error:>10}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,36 @@
+//! The tosses that benchmarks solve.
+
+use toss::batch::Tosses;
+use toss::lanes::Path;
+use toss::{Attitude, Coin, Toss};
+
+/// Number of tosses: their columns stay in the second-level cache.
+pub(super) const TOSSES: usize = 4096;
+
+/// Rates of 1 to 60 rad/s on each axis and speeds of 3 to 5 m/s, by Weyl's sequence.
+pub(super) struct Columns {
+    pub(super) rates: [Vec<f64>; 3],
+    pub(super) speeds: Vec<f64>,
+}
+
+impl Columns {
+    pub(super) fn new(number: usize) -> Self {
+        let column = |from: f64, length: f64, square: f64| {
+            (0..number).map(|index| from + length * (index as f64 * square.sqrt()).fract()).collect()
+        };
+        Self { rates: [2.0, 3.0, 5.0].map(|square| column(1.0, 59.0, square)), speeds: column(3.0, 2.0, 7.0) }
+    }
+
+    /// The tosses of the paper's coin from horizontal.
+    pub(super) fn tosses(&self, path: Path) -> Tosses<'_> {
+        let [x, y, z] = &self.rates;
+        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
+        tosses.expect("columns of one length").on(path)
+    }
+
+    /// The same one by one.
+    pub(super) fn each(&self) -> Vec<Toss> {
+        let tosses = self.tosses(Path::widest());
+        (0..tosses.len()).map(|index| tosses.toss(index).expect("a valid toss")).collect()
+    }
+}
