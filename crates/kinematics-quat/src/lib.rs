@@ -8,9 +8,15 @@
 //! [`Flight`] has them.
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
+mod compensated;
+mod lockstep;
+mod taylor;
+
 use dynamics::integrate::OdeSystem;
+use dynamics::lanes::Path;
 use dynamics::{
-    Attitude, Flight, Formulation, Method, Propagation, Settings, SolveError, Solver, SolverEntry, State, Toss,
+    Attitude, Flight, Formulation, Method, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
+    StepControl, Toss, Work,
 };
 use nalgebra::SVector;
 
@@ -27,6 +33,7 @@ impl QuaternionSolver {
         name: "quaternion",
         summary: "Q' = ½ Q ⊗ (0, ω): no singular attitude",
         formulations: &[Formulation::Momentum, Formulation::Raw],
+        schemes: &Scheme::ALL,
         build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 
@@ -47,15 +54,71 @@ impl Solver for QuaternionSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        if let Some(tolerance) = self.taylor_tolerance() {
+            let mut landing = Err(SolveError::NotFinite { time: 0.0 });
+            self.fly(std::slice::from_ref(toss), tolerance, Path::for_one_lane(), |_, found| landing = found);
+            return landing;
+        }
         let flight = Flight::new(toss)?;
         let system = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.method)?;
+        let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
+        self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
+    }
+}
+
+/// A flight at its end.
+#[derive(Debug, Clone, Copy)]
+struct Landed {
+    flight: Flight,
+    /// P, as integrated.
+    turn: [f64; 4],
+    /// ωx and ωy in the flight's unit.
+    rate: [f64; 2],
+    work: Work,
+}
+
+impl QuaternionSolver {
+    /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
+    /// [`Scheme::Taylor`] as many fly at once as a vector of `path` has lanes; by the others one after the other.
+    pub fn propagate_all(&self, tosses: &[Toss], path: Path) -> Vec<Result<Propagation, SolveError>> {
+        let Some(tolerance) = self.taylor_tolerance() else {
+            return tosses.iter().map(|toss| self.propagate(toss)).collect();
+        };
+        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        self.fly(tosses, tolerance, path, |index, landing| landings[index] = landing);
+        landings
+    }
+
+    /// The tolerance of Taylor series, which have no fixed steps; `None` for a Runge-Kutta method.
+    fn taylor_tolerance(&self) -> Option<f64> {
+        match (self.method.scheme(), self.method.control()) {
+            (Scheme::Taylor, StepControl::Tolerance(tolerance)) => Some(tolerance),
+            _ => None,
+        }
+    }
+
+    /// Hands the number and the landing of each of `tosses` to `land`, by Taylor series.
+    fn fly(
+        &self,
+        tosses: &[Toss],
+        tolerance: f64,
+        path: Path,
+        mut land: impl FnMut(usize, Result<Propagation, SolveError>),
+    ) {
+        lockstep::fly(tosses, tolerance, path, |index, landed| {
+            land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
+        });
+    }
+
+    fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
+        let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
         // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
         // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
-        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).map_err(|_| flight.not_finite())?;
-        let norm = end.fixed_rows::<4>(0).norm();
-        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
+        let norm = SVector::from(turn).norm();
+        let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
+        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
         let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
         Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
     }
