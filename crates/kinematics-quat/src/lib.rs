@@ -5,19 +5,21 @@
 //!
 //! The state is (P, ωx, ωy): the body rate comes from Euler's equations (1), integrated along with the attitude, never
 //! from their closed-form solution. Rates are dimensionless, as a
-//! [`Flight`] has them.
+//! [`Flight`] has them. `dynamics::integrate` steps it by Runge and Kutta's methods; Taylor series, which need more of a
+//! system than its right-hand side, are here: `taylor.rs` has a step, `lockstep.rs` the flights.
 
-use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 mod compensated;
 mod lockstep;
 mod taylor;
 
+use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::lanes::Path;
 use dynamics::{
     Attitude, Flight, Formulation, Method, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
     StepControl, Toss, Work,
 };
+use lockstep::Plans;
 use nalgebra::SVector;
 
 /// The quaternion's solver.
@@ -25,6 +27,8 @@ use nalgebra::SVector;
 pub struct QuaternionSolver {
     method: Method,
     projects: bool,
+    /// `None` for a Runge-Kutta method.
+    taylor: Option<Plans>,
 }
 
 impl QuaternionSolver {
@@ -40,7 +44,46 @@ impl QuaternionSolver {
     /// A solver that steps by `method`. All formulations are the same but [`Formulation::Raw`], whose cos θ is that of
     /// the quaternion as it was integrated, without projection onto unit norm.
     pub fn new(method: Method, formulation: Formulation) -> Self {
-        Self { method, projects: formulation != Formulation::Raw }
+        let taylor = match (method.scheme(), method.control()) {
+            (Scheme::Taylor, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
+            _ => None,
+        };
+        Self { method, projects: formulation != Formulation::Raw, taylor }
+    }
+
+    /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
+    /// [`Scheme::Taylor`] as many fly at once as a vector of `path` has lanes; by the others one after the other.
+    pub fn propagate_all(&self, tosses: &[Toss], path: Path) -> Vec<Result<Propagation, SolveError>> {
+        let Some(plans) = &self.taylor else {
+            return tosses.iter().map(|toss| self.propagate(toss)).collect();
+        };
+        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        self.fly(tosses, plans, path, |index, landing| landings[index] = landing);
+        landings
+    }
+
+    /// Hands the number and the landing of each of `tosses` to `land`, by Taylor series.
+    fn fly(
+        &self,
+        tosses: &[Toss],
+        plans: &Plans,
+        path: Path,
+        mut land: impl FnMut(usize, Result<Propagation, SolveError>),
+    ) {
+        plans.fly(tosses, path, |index, landed| {
+            land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
+        });
+    }
+
+    fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
+        let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
+        // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
+        // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
+        let norm = SVector::from(turn).norm();
+        let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
+        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
+        let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
+        Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
     }
 }
 
@@ -54,9 +97,9 @@ impl Solver for QuaternionSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        if let Some(tolerance) = self.taylor_tolerance() {
+        if let Some(plans) = &self.taylor {
             let mut landing = Err(SolveError::NotFinite { time: 0.0 });
-            self.fly(std::slice::from_ref(toss), tolerance, Path::for_one_lane(), |_, found| landing = found);
+            self.fly(std::slice::from_ref(toss), plans, Path::for_one_lane(), |_, found| landing = found);
             return landing;
         }
         let flight = Flight::new(toss)?;
@@ -77,51 +120,6 @@ struct Landed {
     /// ωx and ωy in the flight's unit.
     rate: [f64; 2],
     work: Work,
-}
-
-impl QuaternionSolver {
-    /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
-    /// [`Scheme::Taylor`] as many fly at once as a vector of `path` has lanes; by the others one after the other.
-    pub fn propagate_all(&self, tosses: &[Toss], path: Path) -> Vec<Result<Propagation, SolveError>> {
-        let Some(tolerance) = self.taylor_tolerance() else {
-            return tosses.iter().map(|toss| self.propagate(toss)).collect();
-        };
-        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        self.fly(tosses, tolerance, path, |index, landing| landings[index] = landing);
-        landings
-    }
-
-    /// The tolerance of Taylor series, which have no fixed steps; `None` for a Runge-Kutta method.
-    fn taylor_tolerance(&self) -> Option<f64> {
-        match (self.method.scheme(), self.method.control()) {
-            (Scheme::Taylor, StepControl::Tolerance(tolerance)) => Some(tolerance),
-            _ => None,
-        }
-    }
-
-    /// Hands the number and the landing of each of `tosses` to `land`, by Taylor series.
-    fn fly(
-        &self,
-        tosses: &[Toss],
-        tolerance: f64,
-        path: Path,
-        mut land: impl FnMut(usize, Result<Propagation, SolveError>),
-    ) {
-        lockstep::fly(tosses, tolerance, path, |index, landed| {
-            land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
-        });
-    }
-
-    fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
-        let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
-        // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
-        // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
-        let norm = SVector::from(turn).norm();
-        let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
-        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
-        let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
-        Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
-    }
 }
 
 /// The right-hand side over (w, x, y, z, ωx, ωy); all rates in one unit, whose inverse is the unit of time.

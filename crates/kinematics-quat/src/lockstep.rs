@@ -25,8 +25,8 @@ const FASTEST: f64 = 4.0;
 /// Tolerances below it ask for compensated rates: without them an error of ε |ω| a step comes to 1e-13 in a flight of 100 rad.
 const ROUNDING: f64 = 5e-13;
 
-/// How flights are stepped.
-#[derive(Debug, Clone, Copy)]
+/// How a step is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
     tolerance: f64,
     /// Even.
@@ -68,25 +68,33 @@ fn order(tolerance: f64) -> usize {
     (2 * half as usize).min(LARGEST_ORDER)
 }
 
-/// Flies `tosses`, each to the number and the landing that `land` is given, at a local error of `tolerance`. Long flights
-/// come after the others, with the order of the finest tolerance and compensated rates.
-pub(crate) fn fly(
-    tosses: &[Toss],
-    tolerance: f64,
-    path: Path,
-    mut land: impl FnMut(usize, Result<Landed, SolveError>),
-) {
-    let land: &mut dyn FnMut(usize, Result<Landed, SolveError>) = &mut land;
-    let plan = Plan::new(tolerance);
-    if path.run(Queue { plan, long: false, tosses, next: 0, skipped: false, land: &mut *land }) {
-        let plan = Plan { tolerance, ..Plan::new(f64::EPSILON) };
-        path.run(Queue { plan, long: true, tosses, next: 0, skipped: false, land });
+/// How flights of one tolerance are stepped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plans {
+    short: Plan,
+    /// Long flights have a tighter tolerance each: they take the order of the finest one, and compensated rates.
+    long: Plan,
+}
+
+impl Plans {
+    /// For local errors of `tolerance`.
+    pub(crate) fn new(tolerance: f64) -> Self {
+        Self { short: Plan::new(tolerance), long: Plan { tolerance, ..Plan::new(f64::EPSILON) } }
+    }
+
+    /// Flies `tosses`, the long flights after all others, and gives `land` the number and the landing of each.
+    pub(crate) fn fly(&self, tosses: &[Toss], path: Path, mut land: impl FnMut(usize, Result<Landed, SolveError>)) {
+        let mut run = |plan, long| path.run(Queue { plan, long, tosses, next: 0, skipped: false, land: &mut land });
+        let skipped = run(&self.short, false);
+        if skipped {
+            run(&self.long, true);
+        }
     }
 }
 
 /// Flights to be made.
 struct Queue<'a> {
-    plan: Plan,
+    plan: &'a Plan,
     /// Whether the long flights are wanted, or all others; and whether such were skipped as are not.
     long: bool,
     skipped: bool,
@@ -126,9 +134,9 @@ impl WithSimd for Queue<'_> {
             self.start(&mut lanes, lane);
         }
         while lanes.flying.iter().any(Option::is_some) {
-            lanes.advance(simd, &self.plan, &mut series);
+            lanes.advance(simd, self.plan, &mut series);
             for lane in 0..S::F64_LANES {
-                if let Some((index, landed)) = lanes.landed(lane, &self.plan) {
+                if let Some((index, landed)) = lanes.landed(lane, self.plan) {
                     (self.land)(index, landed);
                     self.start(&mut lanes, lane);
                 }
@@ -146,12 +154,12 @@ impl Queue<'_> {
             self.next += 1;
             match Flight::new(toss) {
                 Ok(flight) if flight.is_long() == self.long => {
-                    lanes.launch(lane, &self.plan, toss, flight);
+                    lanes.launch(lane, self.plan, toss, flight);
                     if lanes.left[lane] > 0.0 && flight.rate.amax() > 0.0 {
                         lanes.flying[lane] = Some((index, flight));
                         return;
                     }
-                    (self.land)(index, Ok(lanes.landing(lane, flight, &self.plan)));
+                    (self.land)(index, Ok(lanes.landing(lane, flight, self.plan)));
                 }
                 Err(error) if self.long => (self.land)(index, Err(error)),
                 _ => self.skipped = true,

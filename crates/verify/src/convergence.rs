@@ -107,8 +107,8 @@ impl Convergence {
     }
 }
 
-/// The sum over `flights`.
-fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
+/// The sum over `flights` of the errors of the whole state.
+pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
     let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
         let Propagation { state: State { attitude, rate }, defect, .. } = solver.propagate(toss)?;
         Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + defect)
