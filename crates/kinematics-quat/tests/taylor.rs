@@ -8,12 +8,12 @@ use dynamics::{
 use kinematics_quat::QuaternionSolver;
 
 fn taylor(tolerance: f64) -> QuaternionSolver {
-    QuaternionSolver::new(Method::adaptive(Scheme::Taylor, tolerance).unwrap(), Formulation::default())
+    QuaternionSolver::new(Method::adaptive(Scheme::Taylor, tolerance).expect("valid"), Formulation::default())
 }
 
 fn toss(k: f64, rate: [f64; 3], time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-    Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_tilt(0.3).unwrap() }
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).expect("valid");
+    Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_tilt(0.3).expect("valid") }
 }
 
 /// Flights of all lengths, among them long ones, some that end at once, and one that means nothing.
@@ -40,7 +40,7 @@ fn tosses() -> Vec<Toss> {
 }
 
 fn error(toss: &Toss, attitude: &Attitude) -> f64 {
-    let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight()).unwrap().attitude;
+    let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight()).expect("valid").attitude;
     exact.angle_to(attitude)
 }
 

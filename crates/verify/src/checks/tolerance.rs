@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Space, random_tosses};
-use toss::{Coin, Formulation, Method};
+use toss::{Coin, Formulation, InputError, Method};
 
 use crate::check::{Basis, Check};
 use crate::context::Context;
@@ -38,14 +38,16 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let mut measurements = Vec::new();
     for entry in &context.registry {
         for scheme in entry.schemes.iter().filter(|scheme| scheme.is_adaptive()) {
-            let point = |step: i32| -> anyhow::Result<[f64; 2]> {
+            let point = |step: i32| -> Result<Option<[f64; 2]>, InputError> {
                 let tolerance = 10f64.powf(-3.0 - f64::from(step) / f64::from(PER_DECADE));
-                let solver =
-                    Subject::new(*entry, Some(Method::adaptive(*scheme, tolerance)?), Formulation::default()).solver;
-                Ok([tolerance.ln(), error(solver.as_ref(), &flights)?.ln()])
+                let method = Method::adaptive(*scheme, tolerance)?;
+                let solver = Subject::new(*entry, Some(method), Formulation::default()).solver;
+                // A solver that fails has no error; one that always does has no slope.
+                let found = error(solver.as_ref(), &flights).ok().filter(|error| *error > ROUNDING);
+                Ok(found.map(|error| [tolerance.ln(), error.ln()]))
             };
-            let mut points = (0..=8 * PER_DECADE).into_par_iter().map(point).collect::<anyhow::Result<Vec<_>>>()?;
-            points.retain(|[_, error]| *error > ROUNDING.ln());
+            let found: Vec<_> = (0..=8 * PER_DECADE).into_par_iter().map(point).collect::<Result<_, _>>()?;
+            let points: Vec<[f64; 2]> = found.into_iter().flatten().collect();
             let slope = slope(&points);
             let subject = Subject::new(*entry, Some(usual(*scheme)?), Formulation::default()).name;
             let input = format!("slope {slope:.4}");
