@@ -12,7 +12,7 @@ use crate::state::State;
 /// What a propagation cost, as counts that repeat exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side; of Taylor series, a coefficient of the whole state for each order of each step.
     pub rhs_calls: u64,
     /// Steps that were kept.
     pub accepted_steps: u64,

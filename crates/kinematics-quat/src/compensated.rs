@@ -56,18 +56,14 @@ fn normal<S: Simd>(a: Double<Real<S>>) -> Double<Real<S>> {
     [rounded, a[1] - (rounded - a[0])]
 }
 
-/// The modulus and the direction of `a`, which is 1 for 0. No square underflows.
+/// The modulus and the direction of `a`, which is 1 for 0, and where the square of the modulus underflows.
 #[inline(always)]
 pub(crate) fn polar<S: Simd>([x, y]: Complex<Real<S>>) -> (Real<S>, Complex<Real<S>>) {
     let one = x.constant(1.0);
-    let tiny = (x.abs() + y.abs()).less_than(x.constant(f64::exp2(-400.0)));
-    let unit = tiny.choose(x.constant(f64::exp2(600.0)), one);
-    let inverse_unit = tiny.choose(x.constant(f64::exp2(-600.0)), one);
-    let (x, y) = (x * unit, y * unit);
     let size = x.mul_add(x, y * y).sqrt();
     let turns = x.constant(0.0).less_than(size);
     let inverse = one / turns.choose(size, one);
-    (size * inverse_unit, [turns.choose(x * inverse, one), y * inverse])
+    (size, [turns.choose(x * inverse, one), y * inverse])
 }
 
 /// P ⊗ R of a quaternion and a turn by its u = w + i z and v = x + i y.
