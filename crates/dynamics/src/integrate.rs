@@ -12,7 +12,7 @@ use ode_solvers::dop_shared::{IntegrationError, OutputType, SolverResult, System
 use ode_solvers::{Dop853, Dopri5, Rk4};
 
 use crate::error::{Singularity, SolveError};
-use crate::method::{Method, Scheme, StepControl};
+use crate::method::{Method, RungeKutta, StepControl};
 use crate::solver::Work;
 
 /// A flight may take this many steps; all of them are held in memory while it runs.
@@ -44,7 +44,7 @@ pub fn integrate<const N: usize>(
     scale: f64,
     method: &Method,
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
-    let scheme = RungeKutta::of(method.scheme())?;
+    let scheme = method.scheme().runge_kutta()?;
     let end = duration * scale;
     if end == 0.0 {
         return Ok((start, Work::default()));
@@ -63,25 +63,6 @@ pub fn integrate<const N: usize>(
             Ok((*last, work(calls.get(), times.len() as u64 - 1, scheme, method)))
         }
         _ => Err(SolveError::NotFinite { time: duration }),
-    }
-}
-
-/// What `ode_solvers` has.
-#[derive(Debug, Clone, Copy)]
-enum RungeKutta {
-    Dop853,
-    Dopri5,
-    Rk4,
-}
-
-impl RungeKutta {
-    fn of(scheme: Scheme) -> Result<Self, SolveError> {
-        match scheme {
-            Scheme::Dop853 => Ok(Self::Dop853),
-            Scheme::Dopri5 => Ok(Self::Dopri5),
-            Scheme::Rk4 => Ok(Self::Rk4),
-            Scheme::Taylor => Err(SolveError::NotOffered { method: scheme.name() }),
-        }
     }
 }
 
@@ -207,6 +188,7 @@ mod tests {
     use nalgebra::{Vector1, Vector2};
 
     use super::*;
+    use crate::method::Scheme;
 
     /// y' = i y as a real system: after t, a turn by t.
     struct Circle;

@@ -60,10 +60,28 @@ impl Scheme {
         self != Self::Rk4
     }
 
+    /// Which Runge-Kutta scheme it is.
+    pub(crate) fn runge_kutta(self) -> Result<RungeKutta, SolveError> {
+        match self {
+            Self::Dop853 => Ok(RungeKutta::Dop853),
+            Self::Dopri5 => Ok(RungeKutta::Dopri5),
+            Self::Rk4 => Ok(RungeKutta::Rk4),
+            Self::Taylor => Err(SolveError::NotOffered { method: self.name() }),
+        }
+    }
+
     /// Whether it can keep to equal steps of a given length.
     pub fn takes_steps(self) -> bool {
         self != Self::Taylor
     }
+}
+
+/// The schemes of `ode_solvers`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum RungeKutta {
+    Dop853,
+    Dopri5,
+    Rk4,
 }
 
 /// What sets the size of the steps.
