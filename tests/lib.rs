@@ -13,13 +13,14 @@ pub fn config() -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() }
 }
 
-/// Every solver of the registry, each integrator by both adaptive methods.
+/// Every solver of the registry, each integrator by every adaptive method.
 pub fn solvers() -> Vec<Box<dyn Solver>> {
-    let methods = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, TOLERANCE).expect("valid"));
     let mut solvers = Vec::new();
     for entry in SOLVERS {
-        for method in methods.iter().take(if entry.integrates() { 2 } else { 1 }) {
-            solvers.push((entry.build)(&Settings { method: *method, ..Settings::default() }));
+        let schemes = if entry.integrates() { entry.schemes } else { &[Scheme::Dop853] };
+        for scheme in schemes.iter().filter(|scheme| scheme.is_adaptive()) {
+            let method = Method::adaptive(*scheme, TOLERANCE).expect("valid");
+            solvers.push((entry.build)(&Settings { method, ..Settings::default() }));
         }
     }
     solvers

@@ -1,7 +1,8 @@
 //! No integrator allocates memory per step: what it allocates grows with the logarithm of the number of steps.
 
 use allocation_counter::measure;
-use toss::{Method, SOLVERS, Scheme, Settings};
+use toss::lanes::Path;
+use toss::{Formulation, Method, QuaternionSolver, SOLVERS, Scheme, Settings, Solver};
 
 /// The stages, and two vectors of results that double when full.
 fn allowed(steps: u64) -> u64 {
@@ -18,6 +19,14 @@ fn the_exact_motion_allocates_nothing() {
         solver.outcome(&toss).unwrap();
     });
     assert_eq!(count.count_total, 0);
+}
+
+#[test]
+fn taylor_series_allocate_nothing_but_their_results() {
+    let tosses = [blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0); 20];
+    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Taylor, 1e-12).unwrap(), Formulation::default());
+    assert_eq!(measure(|| assert!(solver.propagate(&tosses[0]).is_ok())).count_total, 0);
+    assert_eq!(measure(|| assert_eq!(solver.propagate_all(&tosses, Path::widest()).len(), 20)).count_total, 1);
 }
 
 #[test]

@@ -62,6 +62,8 @@ fn what_is_out_of_range_is_refused_with_the_range() {
         (Method::adaptive(Scheme::Dopri5, 2e-16).err(), "tolerance = 2e-16 is outside"),
         (Method::adaptive(Scheme::Rk4, 1e-9).err(), "method with a tolerance = 'rk4'"),
         (Method::fixed(Scheme::Rk4, 0.0).err(), "step [s] = 0.0 is outside"),
+        (Method::adaptive(Scheme::Taylor, 2e-16).err(), "tolerance = 2e-16 is outside"),
+        (Method::fixed(Scheme::Taylor, 1e-3).err(), "method with a step = 'taylor' can't be used: expected dop853"),
     ] {
         let found = result.unwrap_or_else(|| panic!("accepted what should give: {message}")).to_string();
         assert!(found.starts_with(message), "'{found}' for '{message}'");
@@ -88,12 +90,13 @@ fn a_coin_that_does_not_move_shows_heads_by_every_solver() {
     }
 }
 
-/// In both guarded formulations, the paper's vertical frame included, by both adaptive methods; raw promises nothing.
+/// In both guarded formulations, the paper's vertical frame included, by every adaptive method; raw promises nothing.
 fn every_guarded_formulation() -> Vec<Box<dyn Solver>> {
     let guarded = [Formulation::Momentum, Formulation::Vertical];
     let mut all = Vec::new();
     for entry in SOLVERS {
-        for scheme in [Scheme::Dop853, Scheme::Dopri5] {
+        let schemes = [Scheme::Dop853, Scheme::Dopri5, Scheme::Taylor].into_iter();
+        for scheme in schemes.filter(|scheme| entry.require_scheme(*scheme).is_ok()) {
             let method = Method::adaptive(scheme, 1e-10).expect("valid");
             all.extend(guarded.map(|formulation| (entry.build)(&Settings { method, formulation })));
         }
@@ -215,11 +218,30 @@ fn a_step_limit_is_an_error_and_no_partial_result() {
 }
 
 #[test]
+fn a_method_that_a_solver_does_not_offer_is_refused_and_never_flown() {
+    let flown = toss(0.5, [1.0, 2.0, 3.0], 0.0, 1.0);
+    for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
+        for scheme in Scheme::ALL {
+            let method = Method::adaptive(scheme, 1e-9).or_else(|_| Method::fixed(scheme, 1e-3)).unwrap();
+            let settings = Settings { method, ..Settings::default() };
+            let (made, landing) = (entry.solver(&settings), (entry.build)(&settings).propagate(&flown));
+            if entry.schemes.contains(&scheme) {
+                assert!(made.is_ok() && landing.is_ok(), "{} by {}", entry.name, scheme.name());
+            } else {
+                let refused = made.err().unwrap().to_string();
+                assert_eq!(refused, "method of this solver = 'taylor' is unknown; known: dop853, dopri5, rk4");
+                assert_eq!(landing, Err(SolveError::NotOffered { method: "taylor" }), "{}", entry.name);
+            }
+        }
+    }
+}
+
+#[test]
 fn unknown_names_are_answered_with_the_known_ones() {
     for (error, known) in [
         (toss::named_solver("newton").unwrap_err(), "exact, gamma, euler, quaternion"),
         (toss::catalogue::named_coin("doubloon").unwrap_err(), "paper, disc, us-cent"),
-        (Scheme::named("euler").unwrap_err(), "dop853, dopri5, rk4"),
+        (Scheme::named("euler").unwrap_err(), "dop853, dopri5, rk4, taylor"),
         (sampling::named_space("moon").unwrap_err(), "paper-fig4, cheated, tails"),
     ] {
         assert!(error.to_string().contains(known), "{error}");

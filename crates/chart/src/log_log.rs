@@ -19,6 +19,8 @@ pub enum Marker {
     Ring,
     /// A triangle.
     Triangle,
+    /// A square.
+    Square,
     /// Nothing.
     None,
 }
@@ -160,6 +162,7 @@ fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBCol
     match marker {
         Marker::Disc => panel.draw(&Circle::new(at, 6, colour.filled()))?,
         Marker::Ring => panel.draw(&Circle::new(at, 8, colour.stroke_width(3)))?,
+        Marker::Square => panel.draw(&Rectangle::new([(at.0 - 6, at.1 - 6), (at.0 + 6, at.1 + 6)], colour.filled()))?,
         Marker::Triangle => panel.draw(&TriangleMarker::new(at, 9, colour.filled()))?,
         Marker::None => {}
     }

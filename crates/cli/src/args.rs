@@ -112,14 +112,14 @@ impl TossArgs {
     }
 }
 
-/// One toss, and the solver with its Runge-Kutta method.
+/// One toss, and the solver with its method of integration.
 #[derive(Debug, Args)]
 pub(crate) struct FlightArgs {
     #[command(flatten)]
     toss: TossArgs,
     #[command(flatten)]
     solver: SolverArgs,
-    /// Runge-Kutta method: dop853, dopri5 or rk4
+    /// Method of integration: dop853, dopri5, rk4 or, by the quaternion, taylor
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     method: String,
 }
@@ -135,7 +135,7 @@ impl FlightArgs {
 pub(crate) struct SamplingSolverArgs {
     #[command(flatten)]
     solver: SolverArgs,
-    /// Runge-Kutta method of the solver: dop853, dopri5 or rk4
+    /// Method of integration of the solver: dop853, dopri5, rk4 or, by the quaternion, taylor
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     scheme: String,
 }
@@ -151,7 +151,7 @@ struct SolverArgs {
     /// The solver: exact, gamma, euler or quaternion
     #[arg(long, value_name = "NAME", default_value = "exact")]
     solver: String,
-    /// Local error per step, absolute and relative (dop853, dopri5) [default: 1e-10]
+    /// Local error per step, absolute and relative (dop853, dopri5, taylor) [default: 1e-10]
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Step of rk4 (s) [default: 0.001]
@@ -164,12 +164,13 @@ struct SolverArgs {
 }
 
 impl SolverArgs {
-    /// The solver, with the Runge-Kutta scheme called `scheme`.
+    /// The solver, with the scheme called `scheme`.
     fn solver(&self, scheme: &str) -> Result<Box<dyn Solver>, Failure> {
         let entry = named_solver(&self.solver)?;
         let scheme = Scheme::named(scheme)?;
+        entry.require_scheme(scheme)?;
         let formulation = Formulation::named(&self.formulation)?;
-        Ok((entry.build)(&Settings { method: self.method(scheme)?, formulation }))
+        Ok(entry.solver(&Settings { method: self.method(scheme)?, formulation })?)
     }
 
     fn method(&self, scheme: Scheme) -> Result<Method, Failure> {

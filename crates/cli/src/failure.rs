@@ -121,6 +121,7 @@ fn solve_details(source: &SolveError) -> Value {
     match source {
         SolveError::PhaseTooLarge { phase } => json!({"phase": phase}),
         SolveError::Singular { point, time } => json!({"point": point.to_string(), "time": time}),
+        SolveError::NotOffered { method } => json!({"method": method}),
         SolveError::StepLimit { time, limit } => json!({"time": time, "limit": limit}),
         SolveError::StepSizeUnderflow { time } | SolveError::NotFinite { time } => {
             json!({"time": time})

@@ -46,6 +46,7 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(answer["certified"], true);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --method rk4", 0)["method"], "rk4");
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --method taylor", 0)["method"], "taylor");
 }
 
 #[test]
@@ -110,6 +111,23 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
             ["--tolerance", "rk4 takes --step"],
         ),
         ("toss --rate 1,1,1 --time 1 --solver gamma --step 1e-3", ["--step is for rk4", "dop853"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --method taylor", ["method of this solver", "dop853, dopri5, rk4"]),
+        (
+            "trace --rate 1,1,1 --time 1 --points 3 --solver euler --method taylor",
+            ["method of this solver", "dop853, dopri5, rk4"],
+        ),
+        (
+            "probability --space paper-fig4 --method grid --solver euler --scheme taylor",
+            ["method of this solver", "dop853, dopri5, rk4"],
+        ),
+        (
+            "plan --rate 1,1,1 --time 1 --want tilt --accuracy 1e-6 --solver gamma --method taylor",
+            ["method of this solver", "dop853, dopri5, rk4"],
+        ),
+        (
+            "toss --rate 1,1,1 --time 1 --solver quaternion --method taylor --step 1e-3",
+            ["--step is for rk4", "taylor takes --tolerance"],
+        ),
         ("trace --rate 1,1,1 --time 1 --points 1", ["points = '1'", "2 to 1000000"]),
         (
             "trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg",

@@ -130,6 +130,12 @@ pub enum SolveError {
         /// When: the end of the step that met it (s).
         time: f64,
     },
+    /// The solver has no such method; [`SolverEntry::solver`](crate::SolverEntry::solver) refuses it beforehand.
+    #[error("the solver does not offer the method {method}")]
+    NotOffered {
+        /// The method's name.
+        method: &'static str,
+    },
     /// More steps would have been needed than a flight is allowed.
     #[error("more than {limit} steps needed, stopped at t = {time} s")]
     StepLimit {
@@ -157,7 +163,7 @@ impl SolveError {
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
         match &mut self {
-            Self::PhaseTooLarge { .. } => {}
+            Self::PhaseTooLarge { .. } | Self::NotOffered { .. } => {}
             Self::Singular { time, .. }
             | Self::StepLimit { time, .. }
             | Self::StepSizeUnderflow { time }
@@ -171,6 +177,7 @@ impl SolveError {
         match self {
             Self::PhaseTooLarge { .. } => "phase_too_large",
             Self::Singular { .. } => "singular",
+            Self::NotOffered { .. } => "not_offered",
             Self::StepLimit { .. } => "step_limit",
             Self::StepSizeUnderflow { .. } => "step_size_underflow",
             Self::NotFinite { .. } => "not_finite",

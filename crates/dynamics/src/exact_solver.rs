@@ -18,6 +18,7 @@ impl ExactSolver {
         name: "exact",
         summary: "closed form of the motion: precession about S, spin about n",
         formulations: &[],
+        schemes: &[],
         build: |_: &Settings| Box::new(Self),
     };
 }

@@ -2,11 +2,12 @@
 
 use nalgebra::{SVector, Vector3};
 
+use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
 use crate::exact::ExactMotion;
 use crate::integrate::{OdeSystem, integrate};
 use crate::launch::Toss;
-use crate::method::Method;
+use crate::method::{Method, tightened};
 use crate::scale::power_of_two_scale;
 use crate::solver::Work;
 
@@ -36,10 +37,13 @@ impl Flight {
     /// [`SolveError::PhaseTooLarge`].
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let duration = toss.launch.flight_time();
-        let phase = ExactMotion::new(toss).phase(duration)?;
-        let rate = toss.launch.rate();
-        let scale = power_of_two_scale(&rate);
-        Ok(Self { rate: rate / scale, rate_z: rate.z, scale, duration, phase })
+        let launched = toss.launch.rate();
+        let scale = power_of_two_scale(&launched);
+        let rate = launched / scale;
+        // No digit matters of a phase that is not long, and those of the exact motion take longer than many a flight.
+        let rough = rough_phase(&rate, toss.coin.inertia_ratio(), duration * scale);
+        let phase = if rough < 0.999 * LONG_FLIGHT { rough } else { ExactMotion::new(toss).phase(duration)? };
+        Ok(Self { rate, rate_z: launched.z, scale, duration, phase })
     }
 
     /// Follows `system`, whose rates are in the flight's unit, from `start` to landing; see [`integrate`]. The tolerance of
@@ -57,6 +61,26 @@ impl Flight {
         integrate(system, start, self.duration, self.scale, &method)
     }
 
+    /// Dimensionless time from launch to landing.
+    pub fn span(&self) -> f64 {
+        self.duration * self.scale
+    }
+
+    /// A dimensionless time in seconds.
+    pub fn in_seconds(&self, time: f64) -> f64 {
+        time / self.scale
+    }
+
+    /// Whether it turns so far that its tolerance is tightened.
+    pub fn is_long(&self) -> bool {
+        self.phase > LONG_FLIGHT
+    }
+
+    /// `tolerance` divided by the phase in units of 100 rad, where that is above 1; at least ε.
+    pub fn tightened(&self, tolerance: f64) -> f64 {
+        tightened(tolerance, self.phase / LONG_FLIGHT)
+    }
+
     /// The body rate (BF, rad/s) of transverse components in the flight's unit.
     pub fn rate_at(&self, x: f64, y: f64) -> Vector3<f64> {
         Vector3::new(x * self.scale, y * self.scale, self.rate_z)
@@ -65,5 +89,35 @@ impl Flight {
     /// The error of a landing that is not finite.
     pub fn not_finite(&self) -> SolveError {
         SolveError::NotFinite { time: self.duration }
+    }
+}
+
+/// The larger of ωL t and |q| t (rad), to some roundings.
+fn rough_phase(rate: &Vector3<f64>, inertia_ratio: f64, time: f64) -> f64 {
+    let momentum = Vector3::new(rate.x, rate.y, inertia_ratio * rate.z);
+    let spin = body_precession_rate(inertia_ratio, rate.z);
+    momentum.norm().max(spin.abs()) * time
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coin::Coin;
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
+
+    #[test]
+    fn a_rough_phase_is_the_exact_one_up_to_rounding_and_tightens_nothing() {
+        for (k, rate) in [(0.0, [0.0, 1e-200, 3.0]), (0.5, [4.0, -5.0, 7.0]), (2.0, [1e-5, 0.0, 60.0]), (1.0, [3.0; 3])]
+        {
+            for time in [0.0, 0.1, 0.9, 1.3, 1.7, 30.0, 1e6] {
+                let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+                let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+                let (flight, exact) = (Flight::new(&toss).unwrap(), ExactMotion::new(&toss).phase(time).unwrap());
+                assert!((flight.phase - exact).abs() <= 1e-14 * exact, "{k}, {rate:?}, {time}");
+                assert_eq!(flight.is_long(), exact > LONG_FLIGHT);
+                assert_eq!(flight.tightened(1e-3), tightened(1e-3, exact / LONG_FLIGHT));
+            }
+        }
     }
 }

@@ -12,7 +12,7 @@ use ode_solvers::dop_shared::{IntegrationError, OutputType, SolverResult, System
 use ode_solvers::{Dop853, Dopri5, Rk4};
 
 use crate::error::{Singularity, SolveError};
-use crate::method::{Method, Scheme, StepControl};
+use crate::method::{Method, RungeKutta, StepControl};
 use crate::solver::Work;
 
 /// A flight may take this many steps; all of them are held in memory while it runs.
@@ -35,7 +35,8 @@ pub trait OdeSystem<const N: usize> {
 /// [`power_of_two_scale`](crate::scale::power_of_two_scale).
 ///
 /// # Errors
-/// [`SolveError`] with the time (s) at which the integration stopped.
+/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a method that is not
+/// Runge and Kutta's.
 pub fn integrate<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
@@ -43,6 +44,7 @@ pub fn integrate<const N: usize>(
     scale: f64,
     method: &Method,
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
+    let scheme = method.scheme().runge_kutta()?;
     let end = duration * scale;
     if end == 0.0 {
         return Ok((start, Work::default()));
@@ -51,14 +53,14 @@ pub fn integrate<const N: usize>(
     let calls = Cell::new(0);
     let met = Cell::new(None);
     let counted = Counted { system, calls: &calls, met: &met, last: start };
-    let run = step_through(counted, start, end, method.scheme(), &steps).map_err(|error| in_seconds(&error, scale))?;
+    let run = step_through(counted, start, end, scheme, &steps).map_err(|error| in_seconds(&error, scale))?;
     if let Some((point, time)) = met.get() {
         return Err(SolveError::Singular { point, time: time / scale });
     }
     let (times, states) = run.get();
     match states.last() {
         Some(last) if last.iter().all(|part| part.is_finite()) => {
-            Ok((*last, work(calls.get(), times.len() as u64 - 1, method)))
+            Ok((*last, work(calls.get(), times.len() as u64 - 1, scheme, method)))
         }
         _ => Err(SolveError::NotFinite { time: duration }),
     }
@@ -95,7 +97,7 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     system: Counted<'_, N, S>,
     start: SVector<f64, N>,
     end: f64,
-    scheme: Scheme,
+    scheme: RungeKutta,
     steps: &Steps,
 ) -> Result<SolverResult<f64, SVector<f64, N>>, IntegrationError> {
     const SAFETY: f64 = 0.9;
@@ -127,9 +129,9 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
         }};
     }
     match scheme {
-        Scheme::Dop853 => adaptive!(Dop853, beta: 0.0, factors: 0.333, 6.0),
-        Scheme::Dopri5 => adaptive!(Dopri5, beta: 0.04, factors: 0.2, 10.0),
-        Scheme::Rk4 => {
+        RungeKutta::Dop853 => adaptive!(Dop853, beta: 0.0, factors: 0.333, 6.0),
+        RungeKutta::Dopri5 => adaptive!(Dopri5, beta: 0.04, factors: 0.2, 10.0),
+        RungeKutta::Rk4 => {
             // It takes ⌈end/step⌉ steps: half a step less keeps rounding from adding one.
             let mut stepper = Rk4::new(system, 0.0, start, end - 0.5 * first, first);
             stepper.integrate()?;
@@ -160,14 +162,14 @@ impl<const N: usize, S: OdeSystem<N>> System<f64, SVector<f64, N>> for Counted<'
 }
 
 /// Tried steps follow from the calls: `ode_solvers` itself misses the rejections before its first accepted step.
-fn work(rhs_calls: u64, accepted_steps: u64, method: &Method) -> Work {
+fn work(rhs_calls: u64, accepted_steps: u64, scheme: RungeKutta, method: &Method) -> Work {
     let first_derivative = 1;
     let choice_of_first_step = if matches!(method.control(), StepControl::Tolerance(_)) { 2 } else { 0 };
     let setup = first_derivative + choice_of_first_step;
-    let tried_steps = match method.scheme() {
-        Scheme::Dop853 => (rhs_calls - setup - accepted_steps) / 11,
-        Scheme::Dopri5 => (rhs_calls - setup) / 6,
-        Scheme::Rk4 => rhs_calls / 4,
+    let tried_steps = match scheme {
+        RungeKutta::Dop853 => (rhs_calls - setup - accepted_steps) / 11,
+        RungeKutta::Dopri5 => (rhs_calls - setup) / 6,
+        RungeKutta::Rk4 => rhs_calls / 4,
     };
     Work { rhs_calls, accepted_steps, rejected_steps: tried_steps - accepted_steps }
 }
@@ -186,6 +188,7 @@ mod tests {
     use nalgebra::{Vector1, Vector2};
 
     use super::*;
+    use crate::method::Scheme;
 
     /// y' = i y as a real system: after t, a turn by t.
     struct Circle;
@@ -242,7 +245,7 @@ mod tests {
 
     #[test]
     fn a_fixed_step_is_kept_by_every_scheme() {
-        for scheme in Scheme::ALL {
+        for scheme in Scheme::RUNGE_KUTTA {
             for steps in 1..200_u32 {
                 let method = Method::fixed(scheme, 3.0 / f64::from(steps)).unwrap();
                 let (_, work) = integrate(&Circle, Vector2::x(), 3.0, 1.0, &method).unwrap();
@@ -260,6 +263,13 @@ mod tests {
                 "{method:?}: {result:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_method_that_is_not_runge_and_kuttas_is_refused() {
+        let method = Method::adaptive(Scheme::Taylor, 1e-9).unwrap();
+        let refused = Err(SolveError::NotOffered { method: "taylor" });
+        assert_eq!(integrate(&Circle, Vector2::x(), 1.0, 1.0, &method), refused);
     }
 
     #[test]

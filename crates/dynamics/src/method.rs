@@ -1,4 +1,4 @@
-//! Runge-Kutta methods and their step control, as settings.
+//! Methods of integration and their step control, as settings.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::error::{InputError, SolveError, find_named, require};
 use crate::exact::ExactMotion;
 use crate::launch::Toss;
 
-/// A Runge-Kutta scheme of `ode_solvers`.
+/// A way to integrate: a Runge-Kutta scheme of `ode_solvers`, or Taylor series, which only the quaternion offers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scheme {
@@ -16,11 +16,16 @@ pub enum Scheme {
     Dopri5,
     /// The classical method of order 4, without an error estimate.
     Rk4,
+    /// Taylor series of an order that follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
+    Taylor,
 }
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 3] = [Self::Dop853, Self::Dopri5, Self::Rk4];
+    pub const ALL: [Self; 4] = [Self::Dop853, Self::Dopri5, Self::Rk4, Self::Taylor];
+
+    /// The Runge-Kutta schemes, which need no more of a system than its right-hand side.
+    pub const RUNGE_KUTTA: [Self; 3] = [Self::Dop853, Self::Dopri5, Self::Rk4];
 
     /// The scheme called `name`.
     ///
@@ -36,15 +41,17 @@ impl Scheme {
             Self::Dop853 => "dop853",
             Self::Dopri5 => "dopri5",
             Self::Rk4 => "rk4",
+            Self::Taylor => "taylor",
         }
     }
 
-    /// Order of the global error.
-    pub fn order(self) -> u32 {
+    /// Order of the global error; `None` where it is chosen by the tolerance.
+    pub fn order(self) -> Option<u32> {
         match self {
-            Self::Dop853 => 8,
-            Self::Dopri5 => 5,
-            Self::Rk4 => 4,
+            Self::Dop853 => Some(8),
+            Self::Dopri5 => Some(5),
+            Self::Rk4 => Some(4),
+            Self::Taylor => None,
         }
     }
 
@@ -52,6 +59,29 @@ impl Scheme {
     pub fn is_adaptive(self) -> bool {
         self != Self::Rk4
     }
+
+    /// Which Runge-Kutta scheme it is.
+    pub(crate) fn runge_kutta(self) -> Result<RungeKutta, SolveError> {
+        match self {
+            Self::Dop853 => Ok(RungeKutta::Dop853),
+            Self::Dopri5 => Ok(RungeKutta::Dopri5),
+            Self::Rk4 => Ok(RungeKutta::Rk4),
+            Self::Taylor => Err(SolveError::NotOffered { method: self.name() }),
+        }
+    }
+
+    /// Whether it can keep to equal steps of a given length.
+    pub fn takes_steps(self) -> bool {
+        self != Self::Taylor
+    }
+}
+
+/// The schemes of `ode_solvers`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum RungeKutta {
+    Dop853,
+    Dopri5,
+    Rk4,
 }
 
 /// What sets the size of the steps.
@@ -90,7 +120,7 @@ impl Method {
             return Err(InputError::Malformed {
                 field: "method with a tolerance",
                 value: scheme.name().to_owned(),
-                expected: "dop853 or dopri5; rk4 takes a step",
+                expected: "dop853, dopri5 or taylor; rk4 takes a step",
             });
         }
         let valid = (f64::EPSILON..1.0).contains(&tolerance);
@@ -98,11 +128,18 @@ impl Method {
         Ok(Self { scheme, control: StepControl::Tolerance(tolerance) })
     }
 
-    /// `scheme` with equal steps of at most `step` (s); every scheme can do this, and its error is not estimated.
+    /// `scheme` with equal steps of at most `step` (s); every Runge-Kutta scheme can do this, and its error is not estimated.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if the step is not positive and finite.
+    /// [`InputError`] if the scheme chooses its steps itself, or the step is not positive and finite.
     pub fn fixed(scheme: Scheme, step: f64) -> Result<Self, InputError> {
+        if !scheme.takes_steps() {
+            return Err(InputError::Malformed {
+                field: "method with a step",
+                value: scheme.name().to_owned(),
+                expected: "dop853, dopri5 or rk4; taylor chooses its order and steps by a tolerance",
+            });
+        }
         require("step [s]", step, "finite and > 0", step > 0.0)?;
         Ok(Self { scheme, control: StepControl::Step(step) })
     }
@@ -121,9 +158,7 @@ impl Method {
     #[must_use]
     pub(crate) fn tightened(self, factor: f64) -> Self {
         let control = match self.control {
-            StepControl::Tolerance(tolerance) => {
-                StepControl::Tolerance((tolerance / factor.max(1.0)).max(f64::EPSILON))
-            }
+            StepControl::Tolerance(tolerance) => StepControl::Tolerance(tightened(tolerance, factor)),
             fixed @ StepControl::Step(_) => fixed,
         };
         Self { control, ..self }
@@ -143,11 +178,18 @@ impl Method {
         Ok(match self.control {
             StepControl::Tolerance(tolerance) => 100.0 * tolerance * turned,
             StepControl::Step(step) => {
-                let truncation = (toss.launch.turn_rate() * step).powf(f64::from(self.scheme.order()));
+                // A scheme without an order takes no steps.
+                let order = self.scheme.order().unwrap_or(0);
+                let truncation = (toss.launch.turn_rate() * step).powf(f64::from(order));
                 truncation * turned + 4.0 * f64::EPSILON * (turned + toss.launch.flight_time() / step)
             }
         })
     }
+}
+
+/// `tolerance` divided by `factor`, down to ε; unchanged for a factor below 1.
+pub(crate) fn tightened(tolerance: f64, factor: f64) -> f64 {
+    (tolerance / factor.max(1.0)).max(f64::EPSILON)
 }
 
 #[cfg(test)]

@@ -6,14 +6,14 @@
 use crate::batch::{BatchError, Filtered, Tosses};
 use crate::error::{InputError, SolveError, find_named};
 use crate::launch::Toss;
-use crate::method::Method;
+use crate::method::{Method, Scheme};
 use crate::outcome::{Outcome, Verdict};
 use crate::state::State;
 
 /// What a propagation cost, as counts that repeat exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side; of Taylor series, a coefficient of the whole state for each order of each step.
     pub rhs_calls: u64,
     /// Steps that were kept.
     pub accepted_steps: u64,
@@ -46,7 +46,7 @@ pub trait Solver: Send + Sync {
     /// Its name in the registry.
     fn name(&self) -> &'static str;
 
-    /// Its Runge-Kutta method; `None` for a closed form.
+    /// Its method of integration; `None` for a closed form.
     fn method(&self) -> Option<Method> {
         None
     }
@@ -148,7 +148,7 @@ impl Formulation {
 /// What a solver can be told at run time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Runge-Kutta method and step control.
+    /// Method of integration and step control.
     pub method: Method,
     /// How the kinematics are set up.
     pub formulation: Formulation,
@@ -169,13 +169,35 @@ pub struct SolverEntry {
     pub summary: &'static str,
     /// The formulations that differ for it; none for a closed form, which takes no steps.
     pub formulations: &'static [Formulation],
-    /// Makes the solver.
+    /// The schemes that it can step by; none for a closed form.
+    pub schemes: &'static [Scheme],
+    /// Makes the solver. With a scheme that it does not offer, each flight is a [`SolveError::NotOffered`].
     pub build: fn(&Settings) -> Box<dyn Solver>,
 }
 
 impl SolverEntry {
-    /// Whether it steps through time with a Runge-Kutta method.
+    /// Whether it steps through time.
     pub fn integrates(&self) -> bool {
-        !self.formulations.is_empty()
+        !self.schemes.is_empty()
+    }
+
+    /// Refuses a scheme that the solver does not offer; a closed form has no use for one, and takes any.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`] with the names of those that it offers.
+    pub fn require_scheme(&self, scheme: Scheme) -> Result<(), InputError> {
+        if !self.integrates() {
+            return Ok(());
+        }
+        find_named("method of this solver", scheme.name(), self.schemes, |offered| offered.name()).map(|_| ())
+    }
+
+    /// The solver with `settings`.
+    ///
+    /// # Errors
+    /// As [`SolverEntry::require_scheme`].
+    pub fn solver(&self, settings: &Settings) -> Result<Box<dyn Solver>, InputError> {
+        self.require_scheme(settings.method.scheme())?;
+        Ok((self.build)(settings))
     }
 }

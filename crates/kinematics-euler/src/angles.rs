@@ -12,7 +12,8 @@ use std::f64::consts::PI;
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, Toss,
+    EulerAngles, Flight, Formulation, Method, Propagation, Scheme, Settings, Singularity, SolveError, Solver,
+    SolverEntry, Toss,
 };
 use nalgebra::SVector;
 
@@ -32,6 +33,7 @@ impl EulerAnglesSolver {
         name: "euler",
         summary: "the three Euler angles (5)",
         formulations: &Formulation::ALL,
+        schemes: &Scheme::RUNGE_KUTTA,
         build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 

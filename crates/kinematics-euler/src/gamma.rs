@@ -13,7 +13,8 @@
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Method, Propagation, Settings, Singularity, SolveError, Solver, SolverEntry, Toss,
+    EulerAngles, Flight, Formulation, Method, Propagation, Scheme, Settings, Singularity, SolveError, Solver,
+    SolverEntry, Toss,
 };
 use nalgebra::SVector;
 
@@ -40,6 +41,7 @@ impl GammaSolver {
         name: "gamma",
         summary: "the γ-ODE (10), the paper's equation for the spin angle",
         formulations: &Formulation::ALL,
+        schemes: &Scheme::RUNGE_KUTTA,
         build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 

@@ -5,13 +5,21 @@
 //!
 //! The state is (P, ωx, ωy): the body rate comes from Euler's equations (1), integrated along with the attitude, never
 //! from their closed-form solution. Rates are dimensionless, as a
-//! [`Flight`] has them.
+//! [`Flight`] has them. `dynamics::integrate` steps it by Runge and Kutta's methods; Taylor series, which need more of a
+//! system than its right-hand side, are here: `taylor.rs` has a step, `lockstep.rs` the flights.
+
+mod compensated;
+mod lockstep;
+mod taylor;
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
+use dynamics::lanes::Path;
 use dynamics::{
-    Attitude, Flight, Formulation, Method, Propagation, Settings, SolveError, Solver, SolverEntry, State, Toss,
+    Attitude, Flight, Formulation, Method, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
+    StepControl, Toss, Work,
 };
+use lockstep::Plans;
 use nalgebra::SVector;
 
 /// The quaternion's solver.
@@ -19,6 +27,8 @@ use nalgebra::SVector;
 pub struct QuaternionSolver {
     method: Method,
     projects: bool,
+    /// `None` for a Runge-Kutta method.
+    taylor: Option<Plans>,
 }
 
 impl QuaternionSolver {
@@ -27,13 +37,53 @@ impl QuaternionSolver {
         name: "quaternion",
         summary: "Q' = ½ Q ⊗ (0, ω): no singular attitude",
         formulations: &[Formulation::Momentum, Formulation::Raw],
+        schemes: &Scheme::ALL,
         build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
     };
 
     /// A solver that steps by `method`. All formulations are the same but [`Formulation::Raw`], whose cos θ is that of
     /// the quaternion as it was integrated, without projection onto unit norm.
     pub fn new(method: Method, formulation: Formulation) -> Self {
-        Self { method, projects: formulation != Formulation::Raw }
+        let taylor = match (method.scheme(), method.control()) {
+            (Scheme::Taylor, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
+            _ => None,
+        };
+        Self { method, projects: formulation != Formulation::Raw, taylor }
+    }
+
+    /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
+    /// [`Scheme::Taylor`] as many fly at once as a vector of `path` has lanes; by the others one after the other.
+    pub fn propagate_all(&self, tosses: &[Toss], path: Path) -> Vec<Result<Propagation, SolveError>> {
+        let Some(plans) = &self.taylor else {
+            return tosses.iter().map(|toss| self.propagate(toss)).collect();
+        };
+        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        self.fly(tosses, plans, path, |index, landing| landings[index] = landing);
+        landings
+    }
+
+    /// Hands the number and the landing of each of `tosses` to `land`, by Taylor series.
+    fn fly(
+        &self,
+        tosses: &[Toss],
+        plans: &Plans,
+        path: Path,
+        mut land: impl FnMut(usize, Result<Propagation, SolveError>),
+    ) {
+        plans.fly(tosses, path, |index, landed| {
+            land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
+        });
+    }
+
+    fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
+        let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
+        // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
+        // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
+        let norm = SVector::from(turn).norm();
+        let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
+        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
+        let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
+        Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
     }
 }
 
@@ -47,18 +97,29 @@ impl Solver for QuaternionSolver {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        if let Some(plans) = &self.taylor {
+            let mut landing = Err(SolveError::NotFinite { time: 0.0 });
+            self.fly(std::slice::from_ref(toss), plans, Path::for_one_lane(), |_, found| landing = found);
+            return landing;
+        }
         let flight = Flight::new(toss)?;
         let system = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.method)?;
-        // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
-        // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
-        let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).map_err(|_| flight.not_finite())?;
-        let norm = end.fixed_rows::<4>(0).norm();
-        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
-        let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
-        Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
+        let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
+        self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
     }
+}
+
+/// A flight at its end.
+#[derive(Debug, Clone, Copy)]
+struct Landed {
+    flight: Flight,
+    /// P, as integrated.
+    turn: [f64; 4],
+    /// ωx and ωy in the flight's unit.
+    rate: [f64; 2],
+    work: Work,
 }
 
 /// The right-hand side over (w, x, y, z, ωx, ωy); all rates in one unit, whose inverse is the unit of time.

@@ -1,6 +1,6 @@
 //! Which integrator, method and tolerance.
 
-use dynamics::{InputError, Method, Scheme, SolverEntry};
+use dynamics::{InputError, Method, SolverEntry};
 
 use crate::choice::{Candidate, Choice, How, Offer, Reason};
 use crate::fitted::{FITTED, Fitted, IntegratorFit, Setting, Turn};
@@ -35,7 +35,8 @@ pub(crate) enum Aim {
 /// Every adaptive method of the integrator that was asked for, or of all.
 ///
 /// # Errors
-/// [`InputError`] for a name that is unknown, the exact solver, and a method without an error estimate.
+/// [`InputError`] for a name that is unknown, the exact solver, and a method that the integrator does not offer or that has
+/// no error estimate.
 pub(crate) fn integrators(
     by: Option<&Integrator>,
     flights: Flights,
@@ -46,10 +47,11 @@ pub(crate) fn integrators(
     };
     let asked = by.and_then(|by| by.method);
     if let Some(scheme) = asked {
+        entries.iter().try_for_each(|entry| entry.require_scheme(scheme))?;
         Method::adaptive(scheme, Method::DEFAULT_TOLERANCE)?;
     }
     let methods = move |entry: &'static SolverEntry| {
-        let schemes = Scheme::ALL.into_iter().filter(move |scheme| asked.is_none_or(|asked| asked == *scheme));
+        let schemes = entry.schemes.iter().copied().filter(move |scheme| asked.is_none_or(|asked| asked == *scheme));
         schemes.filter_map(move |scheme| {
             let fit = FITTED.integrator(entry.name, scheme)?;
             let candidate = Candidate { model: Model::Integrator, integrator: Some((entry.name, scheme)) };

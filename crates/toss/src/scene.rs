@@ -55,7 +55,7 @@ pub enum Want {
 pub struct Integrator {
     /// Its solver's name in the [registry](crate::registry).
     pub solver: String,
-    /// Its Runge-Kutta method, one with an error estimate; the cheaper one if it is open.
+    /// Its method, one with an error estimate; the cheapest one if it is open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<Scheme>,
 }

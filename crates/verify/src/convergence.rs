@@ -40,7 +40,7 @@ pub struct Convergence {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Every integrator of `registry` by every method.
+/// Every integrator of `registry` by every method that has an order.
 ///
 /// # Errors
 /// If no regular flights are found, which the fixed space of launches does not let happen.
@@ -48,9 +48,10 @@ pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>>
     let tosses = regular_flights()?;
     let flights: Vec<(Toss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
     let integrators = registry.iter().filter(|entry| entry.integrates());
-    let subjects: Vec<(&SolverEntry, Scheme)> =
-        integrators.flat_map(|entry| Scheme::ALL.map(|scheme| (entry, scheme))).collect();
-    let all = subjects.into_par_iter().map(|(entry, scheme)| Convergence::new(entry, scheme, &flights));
+    let subjects: Vec<(&SolverEntry, Scheme, u32)> = integrators
+        .flat_map(|entry| entry.schemes.iter().filter_map(move |scheme| Some((entry, *scheme, scheme.order()?))))
+        .collect();
+    let all = subjects.into_par_iter().map(|(entry, scheme, order)| Convergence::new(entry, scheme, order, &flights));
     Ok(all.collect::<Result<_, _>>()?)
 }
 
@@ -82,7 +83,7 @@ fn window(scheme: Scheme) -> Range<f64> {
 }
 
 impl Convergence {
-    fn new(entry: &SolverEntry, scheme: Scheme, flights: &[(Toss, Reference)]) -> Result<Self, InputError> {
+    fn new(entry: &SolverEntry, scheme: Scheme, order: u32, flights: &[(Toss, Reference)]) -> Result<Self, InputError> {
         let mut points = Vec::new();
         for eighth_octave in 0..120 {
             let step = TIME / (2.0 * 2f64.powf(0.125 * f64::from(eighth_octave))).round();
@@ -98,7 +99,7 @@ impl Convergence {
         let halvings = asymptotic.first().zip(asymptotic.last()).map_or(0.0, |(first, last)| (first.0 / last.0).log2());
         Ok(Self {
             subject: format!("{}/{}", entry.name, scheme.name()),
-            order: scheme.order(),
+            order,
             observed: observed_order(&asymptotic),
             halvings,
             points,
@@ -106,8 +107,8 @@ impl Convergence {
     }
 }
 
-/// The sum over `flights`.
-fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
+/// The sum over `flights` of the errors of the whole state.
+pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
     let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
         let Propagation { state: State { attitude, rate }, defect, .. } = solver.propagate(toss)?;
         Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + defect)

@@ -32,6 +32,7 @@ pub mod reference_probability;
 pub mod report;
 pub mod run;
 pub mod search;
+mod slope;
 pub mod subject;
 pub mod survey;
 pub mod tables;

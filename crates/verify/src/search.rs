@@ -72,7 +72,7 @@ type Contestant = (SolverEntry, Option<Scheme>);
 
 fn contestants(registry: &[SolverEntry]) -> Vec<Contestant> {
     let schemes = |entry: &SolverEntry| {
-        if entry.integrates() { Scheme::ALL.map(Some).to_vec() } else { vec![None] }
+        if entry.integrates() { entry.schemes.iter().copied().map(Some).collect() } else { vec![None] }
     };
     registry.iter().flat_map(|entry| schemes(entry).into_iter().map(|scheme| (*entry, scheme))).collect()
 }

@@ -1,4 +1,4 @@
-//! What is verified: each solver of the registry with each Runge-Kutta method.
+//! What is verified: each solver of the registry with each method that it offers.
 
 use toss::{Formulation, InputError, Method, Scheme, Settings, Solver, SolverEntry, StepControl};
 
@@ -102,5 +102,6 @@ pub fn by_every_scheme(
     if !entry.integrates() {
         return Ok(vec![Subject::new(entry, None, formulation)]);
     }
-    Scheme::ALL.into_iter().map(|scheme| Ok(Subject::new(entry, Some(method(scheme)?), formulation))).collect()
+    let subject = |scheme: &Scheme| Ok(Subject::new(entry, Some(method(*scheme)?), formulation));
+    entry.schemes.iter().map(subject).collect()
 }

@@ -54,7 +54,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
     assert_eq!(printed, written);
     assert_eq!(printed["passed"], true);
     let rows = printed["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), 10, "the exact motion, and three integrators by three methods");
+    assert_eq!(rows.len(), 11, "the exact motion, three integrators by three methods, and the quaternion by one more");
     for row in rows {
         for field in ["claim", "basis", "measured", "bound", "margin", "worst_input", "replay"] {
             assert!(!row[field].is_null(), "{field} of {row}");
@@ -62,7 +62,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
         assert!(row["worst_input"].as_str().unwrap().contains("i1=0x1."), "{row}");
     }
     let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
-    assert!(junit.contains("tests=\"10\"") && junit.contains("failures=\"0\""));
+    assert!(junit.contains("tests=\"11\"") && junit.contains("failures=\"0\""));
 }
 
 #[test]
@@ -74,7 +74,10 @@ fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
     let output = run(&["--only", CHECK], folder.path(), out.path());
     assert_eq!(output.status.code(), Some(1));
     let table = String::from_utf8(output.stdout).unwrap();
-    assert!(table.contains("FAIL: reference-cos-tilt / exact") && table.contains("FAIL: 9 of 10 rows pass"), "{table}");
+    assert!(
+        table.contains("FAIL: reference-cos-tilt / exact") && table.contains("FAIL: 10 of 11 rows pass"),
+        "{table}"
+    );
     assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
     let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
     assert!(junit.contains("failures=\"1\""));

@@ -8,8 +8,8 @@ use std::path::Path;
 use nalgebra::SVector;
 use toss::integrate::OdeSystem;
 use toss::{
-    Attitude, Coin, EulerAngles, ExactSolver, Flight, Formulation, Method, Propagation, QuaternionSolver, SolveError,
-    Solver, SolverEntry, State, Toss, Vector3, Work,
+    Attitude, Coin, EulerAngles, ExactSolver, Flight, Formulation, Method, Propagation, QuaternionSolver, Scheme,
+    SolveError, Solver, SolverEntry, State, Toss, Vector3, Work,
 };
 use verify::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, judge};
@@ -159,7 +159,8 @@ impl<S: Solver> Solver for Swapped<S> {
 
 const fn entry(name: &'static str, integrates: bool, build: fn(&toss::Settings) -> Box<dyn Solver>) -> SolverEntry {
     let formulations: &[Formulation] = if integrates { &[Formulation::Momentum] } else { &[] };
-    SolverEntry { name, summary: "", formulations, build }
+    let schemes: &[Scheme] = if integrates { &Scheme::RUNGE_KUTTA } else { &[] };
+    SolverEntry { name, summary: "", formulations, schemes, build }
 }
 
 /// The checks that fail with `solver` beside the exact motion. Two checks need the vertical frame, which the copies lack,

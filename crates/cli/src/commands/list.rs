@@ -80,20 +80,26 @@ struct SolverLine {
     name: &'static str,
     summary: &'static str,
     integrates: bool,
+    methods: Vec<&'static str>,
 }
 
 pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
     let lines: Vec<SolverLine> = SOLVERS
         .iter()
-        .map(|entry| SolverLine { name: entry.name, summary: entry.summary, integrates: entry.integrates() })
+        .map(|entry| SolverLine {
+            name: entry.name,
+            summary: entry.summary,
+            integrates: entry.integrates(),
+            methods: entry.schemes.iter().map(|scheme| scheme.name()).collect(),
+        })
         .collect();
     if args.format == Format::Json {
         return Ok(output::json(&lines));
     }
     let mut rows = vec![row(["name", "methods", "what"])];
     rows.extend(lines.iter().map(|line| {
-        let methods = if line.integrates { "dop853, dopri5, rk4" } else { "-" };
-        row([line.name, methods, line.summary])
+        let methods = if line.integrates { line.methods.join(", ") } else { "-".to_owned() };
+        row([line.name, &methods, line.summary])
     }));
     Ok(table(&rows))
 }

@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// An integrator to be used, as a cross-check
     #[arg(long, value_name = "NAME")]
     solver: Option<String>,
-    /// Its method, dop853 or dopri5 [default: the cheaper one]
+    /// Its method, dop853, dopri5 or, of the quaternion, taylor [default: the cheapest one]
     #[arg(long, value_name = "NAME", requires = "solver")]
     method: Option<String>,
     /// The whole scene from a TOML file instead, or a JSON one if it ends in .json

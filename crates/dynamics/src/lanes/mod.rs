@@ -27,6 +27,17 @@ impl Path {
         Self(pulp::Arch::new())
     }
 
+    /// The best for a kernel that fills one lane: among those with a fused multiply-add the narrowest, whose vectors pass
+    /// through the units of the machine the fastest.
+    #[inline]
+    pub fn for_one_lane() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(narrow) = pulp::x86::V3::try_new() {
+            return Self(pulp::Arch::V3(narrow));
+        }
+        Self::widest()
+    }
+
     /// Every one that this machine has, the plain one first.
     pub fn all() -> Vec<Self> {
         let plain = Self(pulp::Arch::Scalar);

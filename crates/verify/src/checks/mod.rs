@@ -17,6 +17,7 @@ mod planner;
 mod probability;
 mod random;
 mod sensitivity;
+mod tolerance;
 mod work_precision;
 
 use crate::check::Check;
@@ -55,6 +56,7 @@ pub const CHECKS: &[Check] = &[
     sensitivity::DERIVATIVES,
     work_precision::PROMISE,
     order::ORDER,
+    tolerance::PROPORTION,
     planner::DELIVERS,
     planner::EXPECTS,
     planner::TIGHT,

@@ -3,7 +3,7 @@
 use toss::choice::How;
 use toss::fitted::{ClosedFit, Fitted};
 use toss::plan::CLOSED_FORMS;
-use toss::{Answer, Model, SOLVERS, Scene, Scheme, Want};
+use toss::{Answer, Model, SOLVERS, Scene, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::{Truth, true_probability};
@@ -21,7 +21,7 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
     let mut integrators = Vec::new();
     let tosses = tosses_by_turn()?;
     for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
-        for method in Scheme::ALL.into_iter().filter(|scheme| scheme.is_adaptive()) {
+        for method in entry.schemes.iter().copied().filter(|scheme| scheme.is_adaptive()) {
             integrators.push(integrator(entry, method, &tolerances, &tosses)?);
         }
     }

@@ -10,6 +10,7 @@ use super::clock::{median, nanoseconds};
 use super::delivered::true_probability;
 use super::figures::{SAFETY, SEED, rounded};
 use super::scenes::{self, served};
+use crate::slope::slope;
 
 pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
     let mut spaces = Vec::new();
@@ -58,17 +59,4 @@ fn way_to_sample(model: Model, spaces: &[(Space, bool, f64)], pool: &rayon::Thre
     let launch_ns = rounded((many - few) / f64::from((1 << 12) - 16));
     let cost_ns = rounded((few - 16.0 * launch_ns).max(0.0));
     Ok(SamplingFit { model, cost_ns, launch_ns, error: rounded(SAFETY * error), power: rounded(power) })
-}
-
-/// Slope of the line through `points` by least squares.
-fn slope(points: &[[f64; 2]]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a handful")]
-    let mean = |part: usize| points.iter().map(|point| point[part]).sum::<f64>() / points.len() as f64;
-    let [x, y] = [mean(0), mean(1)];
-    let (mut across, mut along) = (0.0, 0.0);
-    for point in points {
-        across += (point[0] - x) * (point[1] - y);
-        along += (point[0] - x) * (point[0] - x);
-    }
-    across / along
 }

@@ -29,7 +29,7 @@ pub struct Sample {
     pub solver: &'static str,
     /// The method's name; null for a closed form.
     pub method: Option<&'static str>,
-    /// The method's order.
+    /// The method's order; null if it is variable.
     pub order: Option<u32>,
     /// The tolerance, if it has one.
     pub tol: Option<f64>,
@@ -143,7 +143,7 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
                 push(None);
                 continue;
             }
-            for scheme in Scheme::ALL {
+            for &scheme in entry.schemes {
                 let settings = if scheme.is_adaptive() { decades } else { octaves };
                 for setting in (0..settings).step_by(stride) {
                     push(Some(if scheme.is_adaptive() {
@@ -172,7 +172,7 @@ impl Job {
             problem: problem.name.clone(),
             solver: subject.entry.name,
             method: subject.scheme().map(Scheme::name),
-            order: subject.scheme().map(Scheme::order),
+            order: subject.scheme().and_then(Scheme::order),
             tol: control.and_then(|control| if let StepControl::Tolerance(tol) = control { Some(tol) } else { None }),
             step: control.and_then(|control| if let StepControl::Step(step) = control { Some(step) } else { None }),
             inputs: problem.inputs(),

@@ -89,6 +89,7 @@ fn line(subject: &str, label: String, points: Vec<(f64, f64)>, failures: Vec<f64
     let (marker, dashed) = match subject.split('/').nth(1) {
         Some("dopri5") => (Marker::Triangle, false),
         Some("rk4") => (Marker::Ring, true),
+        Some("taylor") => (Marker::Square, false),
         _ => (Marker::Disc, false),
     };
     Series { label, colour: colour(subject), width: LINE_WIDTH, dashed, marker, points, failures }

@@ -1,0 +1,228 @@
+//! One step by Taylor series of any order, in every lane of a vector.
+//!
+//! With u = w + i z, v = x + i y, η = ½ (ωx + i ωy) and c = ½ ωz, the system Q' = ½ Q ⊗ (0, ω) with Euler's equations is
+//!
+//! ```text
+//! u' = -v η̄ + i c u,   v' = u η - i c v,   η' = i q η.
+//! ```
+//!
+//! A step looks for the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1, v = 0, in
+//! body axes turned about z so that η is real at the start; the coin is symmetric, so they are as good as any others. Then
+//! the coefficients are real up to powers of i: u = Σ iᵏ Uₖ tᵏ, v = -i Σ (-i)ᵏ Wₖ tᵏ, η = |η| Σ iᵏ rₖ tᵏ with
+//!
+//! ```text
+//! (k + 1) Uₖ₊₁ = (-1)ᵏ |η| Σ Wₘ rₖ₋ₘ + c Uₖ,   (k + 1) Wₖ₊₁ = -(-1)ᵏ |η| Σ Uₘ rₖ₋ₘ + c Wₖ,   (k + 1) rₖ₊₁ = q rₖ.
+//! ```
+//!
+//! Two convolutions stand for the eight products of components. Nothing is taken from the closed form of the motion: every
+//! step starts from the attitude and the rates that the one before it found.
+
+use dynamics::lanes::{Real, Simd};
+
+use crate::compensated::{Double, inverse, sum, times};
+
+/// The highest order of a step.
+pub(crate) const LARGEST_ORDER: usize = 26;
+
+/// Orders up to which η is carried with twice as many digits, where it is compensated. Beyond them a term is so small that its
+/// rounding does not matter.
+const COMPENSATED: usize = 10;
+
+/// 1/(k + 1).
+const INVERSES: [Double<f64>; LARGEST_ORDER] = {
+    let mut inverses = [[1.0, 0.0]; LARGEST_ORDER];
+    let mut k = 0;
+    while k < LARGEST_ORDER {
+        inverses[k] = inverse(k + 1);
+        k += 1;
+    }
+    inverses
+};
+
+/// A complex number, as its real and imaginary part.
+pub(crate) type Complex<R> = [R; 2];
+
+/// The coefficients of a step. Aligned, since a vector across two lines of the cache takes two loads.
+#[repr(align(64))]
+pub(crate) struct Series<S: Simd> {
+    u: [Real<S>; LARGEST_ORDER + 1],
+    w: [Real<S>; LARGEST_ORDER + 1],
+    r: [Real<S>; LARGEST_ORDER + 1],
+    /// What rounding took from the first of r.
+    r_low: [Real<S>; COMPENSATED],
+}
+
+impl<S: Simd> Series<S> {
+    /// No coefficients yet.
+    #[inline(always)]
+    pub(crate) fn new(simd: S) -> Self {
+        let zero = Real::splat(simd, 0.0);
+        let none = [zero; LARGEST_ORDER + 1];
+        Self { u: none, w: none, r: none, r_low: [zero; COMPENSATED] }
+    }
+
+    /// The coefficients up to the even `order` for |η| = `modulus` and c = `half_z`, after those of η.
+    #[inline(always)]
+    pub(crate) fn expand(&mut self, order: usize, modulus: Real<S>, half_z: Real<S>) {
+        let Self { u, w, r, .. } = self;
+        (u[0], w[0]) = (modulus.constant(1.0), modulus.constant(0.0));
+        for k in (0..order).step_by(2) {
+            let [[u_even, w_even], [u_odd, w_odd]] = products(&u[..k], &w[..k], &r[..k + 2]);
+            // The products with the newest coefficients come last, so that the next ones wait for no more than these.
+            let inverse = modulus.constant(INVERSES[k][0]);
+            let (a, c) = (modulus * inverse, half_z * inverse);
+            u[k + 1] = u[k].mul_add(c, w[k].mul_add(a, w_even * a));
+            w[k + 1] = w[k].mul_add(c, -u[k].mul_add(a, u_even * a));
+            let inverse = modulus.constant(INVERSES[k + 1][0]);
+            let (a, c) = (modulus * inverse, half_z * inverse);
+            let (u_odd, w_odd) = (u[k].mul_add(r[1], u_odd) * a, w[k].mul_add(r[1], w_odd) * a);
+            u[k + 2] = u[k + 1].mul_add(c, -w[k + 1].mul_add(a, w_odd));
+            w[k + 2] = w[k + 1].mul_add(c, u[k + 1].mul_add(a, u_odd));
+        }
+    }
+
+    /// The coefficients of η up to `order`.
+    #[inline(always)]
+    pub(crate) fn expand_eta(&mut self, order: usize, q: Real<S>) {
+        self.r[0] = q.constant(1.0);
+        for (k, [inverse, _]) in INVERSES[..order].iter().enumerate() {
+            self.r[k + 1] = self.r[k] * (q * q.constant(*inverse));
+        }
+    }
+
+    /// The coefficients of η up to `order`, the first ones with what rounding takes from them.
+    #[inline(always)]
+    pub(crate) fn expand_eta_compensated(&mut self, order: usize, q: Real<S>) {
+        let (r, low) = (&mut self.r, &mut self.r_low);
+        r[0] = q.constant(1.0);
+        for (k, [inverse, inverse_low]) in INVERSES[..order].iter().enumerate() {
+            let (inverse, inverse_low) = (q.constant(*inverse), q.constant(*inverse_low));
+            if k + 1 < COMPENSATED {
+                let [factor, error] = q.product(inverse);
+                let factor = [factor, q.mul_add(inverse_low, error)];
+                [r[k + 1], low[k + 1]] = times([r[k], low[k]], factor);
+            } else {
+                r[k + 1] = r[k] * (q * inverse);
+            }
+        }
+    }
+
+    /// |Uₖ| + |Wₖ| + |rₖ|.
+    #[inline(always)]
+    pub(crate) fn size(&self, k: usize) -> Real<S> {
+        self.u[k].abs() + self.w[k].abs() + self.r[k].abs()
+    }
+
+    /// u and v of R by the terms up to `order`, at `h` after the start.
+    #[inline(always)]
+    pub(crate) fn turn(&self, order: usize, h: Real<S>) -> [Complex<Real<S>>; 2] {
+        let y = -(h * h);
+        let [even_u, odd_u] = horner(&self.u[..=order], y);
+        let [even_w, odd_w] = horner(&self.w[..=order], y);
+        [[even_u, odd_u * h], [-(odd_w * h), -even_w]]
+    }
+
+    /// η/|η| by the terms up to `order`, at `h` after the start.
+    #[inline(always)]
+    pub(crate) fn turn_of_eta(&self, order: usize, h: Real<S>) -> Complex<Real<S>> {
+        let [even, odd] = horner(&self.r[..=order], -(h * h));
+        [even, odd * h]
+    }
+
+    /// [`Series::turn_of_eta`] with twice as many digits.
+    #[inline(always)]
+    pub(crate) fn turn_of_eta_compensated(&self, order: usize, h: Real<S>) -> Complex<Double<Real<S>>> {
+        let zero = h.constant(0.0);
+        let [square, error] = h.product(h);
+        let y = [-square, -error];
+        let both = COMPENSATED.min(order);
+        let [even, odd] = horner(&self.r[both..=order], y[0]);
+        let (mut even, mut odd) = ([even, zero], [odd, zero]);
+        for (r, low) in self.r[..both].rchunks_exact(2).zip(self.r_low[..both].rchunks_exact(2)) {
+            odd = sum([r[1], low[1]], times(odd, y));
+            even = sum([r[0], low[0]], times(even, y));
+        }
+        [even, times(odd, [h, zero])]
+    }
+}
+
+/// Σ uₘ r₋ₘ and Σ wₘ r₋ₘ, with r counted from its last but one, and from its last. The number of terms is even; even and
+/// odd ones are added up apart, so that fewer additions wait for each other.
+#[inline(always)]
+fn products<S: Simd>(u: &[Real<S>], w: &[Real<S>], r: &[Real<S>]) -> [[Real<S>; 2]; 2] {
+    let zero = r[0].constant(0.0);
+    let [mut u_even, mut w_even, mut u_odd, mut w_odd] = [[zero; 2]; 4];
+    let (mut upper, rest) = (r[r.len() - 1], &r[..r.len() - 1]);
+    for ((u, w), r) in u.chunks_exact(2).zip(w.chunks_exact(2)).zip(rest.rchunks_exact(2)) {
+        let (middle, lower) = (r[1], r[0]);
+        u_even = [u[0].mul_add(middle, u_even[0]), u[1].mul_add(lower, u_even[1])];
+        w_even = [w[0].mul_add(middle, w_even[0]), w[1].mul_add(lower, w_even[1])];
+        u_odd = [u[0].mul_add(upper, u_odd[0]), u[1].mul_add(middle, u_odd[1])];
+        w_odd = [w[0].mul_add(upper, w_odd[0]), w[1].mul_add(middle, w_odd[1])];
+        upper = lower;
+    }
+    [[u_even[0] + u_even[1], w_even[0] + w_even[1]], [u_odd[0] + u_odd[1], w_odd[0] + w_odd[1]]]
+}
+
+/// Σ a₂ⱼ yʲ and Σ a₂ⱼ₊₁ yʲ of an odd number of coefficients a.
+#[inline(always)]
+fn horner<S: Simd>(coefficients: &[Real<S>], y: Real<S>) -> [Real<S>; 2] {
+    let last = coefficients.len() - 1;
+    let (mut even, mut odd) = (coefficients[last], y.constant(0.0));
+    for pair in coefficients[..last].rchunks_exact(2) {
+        odd = odd.mul_add(y, pair[1]);
+        even = even.mul_add(y, pair[0]);
+    }
+    [even, odd]
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::lanes::{Path, WithSimd};
+
+    use super::*;
+
+    /// u, v and η/|η| after a step of some order and length, from |η| = 0.8, c = 0.6 and q = -0.9.
+    struct Step(usize, f64);
+
+    impl WithSimd for Step {
+        type Output = [f64; 6];
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 6] {
+            let Self(order, h) = self;
+            let [modulus, half_z, q, h] = [0.8, 0.6, -0.9, h].map(|value| Real::splat(simd, value));
+            let mut series = Series::new(simd);
+            series.expand_eta(order, q);
+            series.expand(order, modulus, half_z);
+            let [u, v] = series.turn(order, h);
+            let mut numbers = [0.0; 6];
+            for (number, part) in numbers.iter_mut().zip([u, v, series.turn_of_eta(order, h)].as_flattened()) {
+                part.store(std::slice::from_mut(number));
+            }
+            numbers
+        }
+    }
+
+    fn local_error(order: usize, h: f64) -> f64 {
+        let [rough, fine] = [order, LARGEST_ORDER].map(|order| Path::widest().run(Step(order, h)));
+        rough.iter().zip(fine).map(|(rough, fine)| (rough - fine).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_local_error_falls_with_the_power_after_the_order() {
+        for order in (2..=10).step_by(2) {
+            let ratio = local_error(order, 0.5) / local_error(order, 0.25);
+            let expected = f64::exp2(order as f64 + 1.0);
+            assert!((ratio / expected - 1.0).abs() < 0.1, "order {order}: {ratio}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn a_step_is_a_turn() {
+        let [w, z, x, y, cos, sin] = Path::widest().run(Step(LARGEST_ORDER, 1.0));
+        assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-15);
+        assert!((cos * cos + sin * sin - 1.0).abs() < 1e-15);
+        assert!((cos - 0.9_f64.cos()).abs() < 1e-15 && (sin + 0.9_f64.sin()).abs() < 1e-15);
+    }
+}

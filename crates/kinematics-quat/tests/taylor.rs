@@ -1,0 +1,131 @@
+//! Taylor series: the same bits in any company and on any instruction set, right to the tolerance and down to rounding.
+
+use dynamics::lanes::Path;
+use dynamics::{
+    Attitude, Coin, ExactMotion, Formulation, Launch, Method, Propagation, Scheme, SolveError, Solver, TimeOfFlight,
+    Toss, Vector3, Work,
+};
+use kinematics_quat::QuaternionSolver;
+
+fn taylor(tolerance: f64) -> QuaternionSolver {
+    QuaternionSolver::new(Method::adaptive(Scheme::Taylor, tolerance).expect("valid"), Formulation::default())
+}
+
+fn toss(k: f64, rate: [f64; 3], time: f64) -> Toss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).expect("valid");
+    Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_tilt(0.3).expect("valid") }
+}
+
+/// Flights of all lengths, among them long ones, some that end at once, and one that means nothing.
+fn tosses() -> Vec<Toss> {
+    let mut tosses = vec![
+        toss(0.5, [0.0; 3], 1e300),
+        toss(0.5, [3.0, 4.0, 5.0], 0.0),
+        toss(0.5, [3.0, 4.0, 5.0], 1e300),
+        toss(0.5, [30.0, 40.0, 50.0], 20.0),
+        toss(2.0, [3.0, -4.0, 5.0], 1e-9),
+        toss(0.0, [0.0, 0.0, 60.0], 1.0),
+        toss(0.5, [0.0, 60.0, 0.0], 1.0),
+        toss(1.0, [1e-200, 0.0, 60.0], 1.0),
+        toss(0.5, [5e-324, 0.0, 0.0], 1.0),
+        toss(1.9, [1e300, -1e300, 1e299], 1e-299),
+    ];
+    let turn = |n: u32, step: f64| 60.0 * (2.0 * (f64::from(n) * step).fract() - 1.0);
+    for n in 0..60 {
+        let rate = [turn(n, 0.618), turn(n, 0.414), turn(n, 0.732)];
+        tosses.push(toss(0.03 * f64::from(n), rate, 0.02 * f64::from(n)));
+    }
+    tosses.push(toss(0.5, [9.0, 1.0, -3.0], 300.0));
+    tosses
+}
+
+fn error(toss: &Toss, attitude: &Attitude) -> f64 {
+    let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight()).expect("valid").attitude;
+    exact.angle_to(attitude)
+}
+
+#[test]
+fn landings_have_the_same_bits_in_any_company_and_on_any_path() {
+    let tosses = tosses();
+    for tolerance in [1e-3, 1e-9, 1e-12, f64::EPSILON] {
+        let solver = taylor(tolerance);
+        let alone: Vec<Result<Propagation, SolveError>> = tosses.iter().map(|toss| solver.propagate(toss)).collect();
+        for path in Path::all() {
+            for size in [1, 2, 3, 4, 5, 8, 9, 17, tosses.len()] {
+                let flown: Vec<_> = tosses.chunks(size).flat_map(|some| solver.propagate_all(some, path)).collect();
+                assert_eq!(flown, alone, "{tolerance:e} by {} in {size}", path.name());
+            }
+            let reversed: Vec<Toss> = tosses.iter().rev().copied().collect();
+            let mut flown = solver.propagate_all(&reversed, path);
+            flown.reverse();
+            assert_eq!(flown, alone, "{tolerance:e} by {}, reversed", path.name());
+            assert_eq!(solver.propagate_all(&[], path), []);
+        }
+    }
+}
+
+#[test]
+fn every_flight_is_within_what_the_solver_answers_for() {
+    for tolerance in [1e-2, 1e-4, 1e-7, 1e-10, 1e-12, 1e-14] {
+        let solver = taylor(tolerance);
+        for toss in tosses() {
+            let Ok(landing) = solver.propagate(&toss) else {
+                assert_eq!(toss.launch.flight_time(), 1e300);
+                continue;
+            };
+            let (found, allowed) = (error(&toss, &landing.state.attitude), solver.resolution(&toss).unwrap());
+            assert!(found <= allowed, "{found:e} > {allowed:e} at {tolerance:e}: {toss:?}");
+            let exact = ExactMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().rate;
+            let (found, size) = ((landing.state.rate - exact).amax(), exact.amax());
+            assert!(found <= 10.0 * allowed * size, "{found:e} of {size:e} at {tolerance:e}: {toss:?}");
+        }
+    }
+}
+
+#[test]
+fn short_flights_are_right_to_rounding() {
+    let solver = taylor(f64::EPSILON);
+    for toss in tosses().into_iter().filter(|toss| toss.launch.flight_time() < 1.3) {
+        let found = error(&toss, &solver.propagate(&toss).unwrap().state.attitude);
+        assert!(found < 4e-14, "{found:e}: {toss:?}");
+    }
+}
+
+#[test]
+fn rates_do_not_drift_in_long_flights() {
+    for (k, rate) in [(0.5, [1.0, 1.0, 2.5]), (0.5, [40.0, 30.0, 20.0]), (1.9, [50.0, 1.0, 50.0])] {
+        let toss = toss(k, rate, 1e4);
+        let landing = taylor(1e-12).propagate(&toss).unwrap();
+        // Half a bit of a phase of up to 10⁶ rad is 6e-11.
+        let found = error(&toss, &landing.state.attitude);
+        assert!(found < 4e-10, "{found:e} after 10⁴ s at {rate:?}");
+    }
+}
+
+#[test]
+fn flights_that_end_where_they_start_take_no_step() {
+    for toss in [toss(0.5, [3.0, 4.0, 5.0], 0.0), toss(0.5, [0.0; 3], 1e300)] {
+        let landing = taylor(1e-9).propagate(&toss).unwrap();
+        assert_eq!(landing.work, Work::default());
+        assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15);
+        assert_eq!(landing.state.rate, toss.launch.rate());
+    }
+}
+
+#[test]
+fn a_call_is_an_order_of_a_step_and_no_step_is_rejected() {
+    for (tolerance, order) in [(0.5, 14), (1e-3, 18), (1e-6, 24), (1e-12, 26)] {
+        let work = taylor(tolerance).propagate(&toss(0.5, [30.0, 20.0, 10.0], 1.0)).unwrap().work;
+        assert!(work.accepted_steps > 1);
+        assert_eq!((work.rhs_calls, work.rejected_steps), (order * work.accepted_steps, 0), "{tolerance:e}");
+    }
+}
+
+#[test]
+fn what_cannot_be_flown_is_a_typed_error() {
+    let solver = taylor(1e-12);
+    let alone = |time| solver.propagate(&toss(0.5, [30.0, 40.0, 50.0], time));
+    assert!(matches!(alone(1e18), Err(SolveError::PhaseTooLarge { .. })));
+    let Err(SolveError::StepLimit { time, limit: 1_000_000 }) = alone(1e10) else { panic!("it has too many steps") };
+    assert!(1e4 < time && time < 1e6, "{time}");
+}
