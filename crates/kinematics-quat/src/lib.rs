@@ -12,12 +12,13 @@ mod compensated;
 mod lockstep;
 mod taylor;
 
+use dynamics::batch::{BatchError, Filtered, Tosses};
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::lanes::Path;
 use dynamics::{
     Attitude, Flight, Formulation, Method, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
-    StepControl, Toss, Work,
+    StepControl, Toss, Verdict, Work,
 };
 use lockstep::Plans;
 use nalgebra::SVector;
@@ -108,6 +109,17 @@ impl Solver for QuaternionSolver {
         let (end, work) = flight.integrate(&system, start, &self.method)?;
         let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
         self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
+    }
+
+    /// By Taylor series as many fly at once as a vector has lanes.
+    fn count(&self, tosses: &Tosses<'_>, rest: &mut dyn FnMut(Verdict)) -> Result<Filtered, BatchError> {
+        let each = (0..tosses.len()).map(|index| tosses.solve(index, |toss| Ok(*toss)));
+        let each = each.collect::<Result<Vec<Toss>, _>>()?;
+        for (index, (toss, landing)) in each.iter().zip(self.propagate_all(&each, Path::widest())).enumerate() {
+            let verdict = landing.and_then(|landing| self.verdict_at(toss, landing.cos_tilt));
+            rest(verdict.map_err(|error| BatchError { index, source: error.into() })?);
+        }
+        Ok(Filtered::default())
     }
 }
 

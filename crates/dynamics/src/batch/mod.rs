@@ -115,7 +115,7 @@ impl<'a> Tosses<'a> {
     ///
     /// # Errors
     /// [`BatchError`] with that index.
-    pub(crate) fn solve<T>(
+    pub fn solve<T>(
         &self,
         index: usize,
         solve: impl Fn(&Toss) -> Result<T, SolveError>,

@@ -1,9 +1,12 @@
 //! Vectors of f64 numbers, as wide as the machine has them, with the same bits on every machine.
 //!
 //! A kernel is written once over [`Real`], and compiled for each instruction set that [`Path`] can choose from at run time.
-//! Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane. A fused
-//! multiply-add is used only where the product is exact, or where its rounding error is the result
-//! ([`Real::product`]), so that a machine without the instruction gets the same bits by other means, and no slow call.
+//! Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane, and each fused
+//! multiply-add is written as one. Where the machine has no such instruction it is a call of the mathematical library, right
+//! but slow.
+//!
+//! Everything here is inlined always, and closures and iterators that hide a loop are avoided in kernels: the compiler
+//! does not inline the instructions of a set into a function that does not promise them.
 
 mod real;
 mod trigonometry;
@@ -51,7 +54,7 @@ impl Path {
         std::iter::once(plain).chain(others.into_iter().flatten().map(Self)).collect()
     }
 
-    /// Its name, as `avx512 (8 lanes)`.
+    /// Its name, as `avx512`.
     pub fn name(self) -> String {
         struct Lanes;
         impl WithSimd for Lanes {

@@ -147,6 +147,12 @@ impl<S: Simd> Real<S> {
         (self + magic) - magic
     }
 
+    /// Where `self` < `other`; false for a number that is none.
+    #[inline(always)]
+    pub fn less_than(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, value: self.simd.less_than_f64s(self.value, other.value) }
+    }
+
     /// Where `self` ≤ `other`; false for a number that is none.
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S> {

@@ -1,29 +1,38 @@
 //! Integrators at the same errors.
 
+use std::rc::Rc;
+
+use toss::lanes::Path;
 use toss::{Attitude, ExactMotion, Formulation, Method, QuaternionSolver, Scheme, Solver, Toss};
 
 use super::contest::Contest;
 use super::tosses::Columns;
 
 /// Number of flights.
-pub(super) const FLOWN: usize = 256;
+pub(super) const FLOWN: usize = 1024;
 
 /// Errors that are asked for.
 const ERRORS: [f64; 4] = [1e-5, 1e-8, 1e-11, 5e-14];
 
 /// Lands all tosses.
-type Fly = fn(&[Toss], Method) -> Vec<Attitude>;
+type Fly = Box<dyn Fn(&[Toss], Method) -> Vec<Attitude>>;
 
 /// Each integrator with the loosest tolerance that keeps each error, or the smallest error that it reaches.
 pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>> {
     let tosses = columns.each();
-    let integrators: [(&str, Scheme, Fly); 2] =
-        [("dopri5, one by one", Scheme::Dopri5, one_by_one), ("dop853, one by one", Scheme::Dop853, one_by_one)];
+    let mut integrators: Vec<(String, Scheme, Fly)> = [Scheme::Dopri5, Scheme::Dop853, Scheme::Taylor]
+        .map(|scheme| (format!("{}, one by one", scheme.name()), scheme, Box::new(one_by_one) as Fly))
+        .into();
+    for path in Path::all() {
+        let fly = move |tosses: &[Toss], method: Method| in_lanes(tosses, method, path);
+        integrators.push((format!("taylor, lanes, {}", path.name()), Scheme::Taylor, Box::new(fly)));
+    }
     let mut contests = Vec::new();
     for (name, scheme, fly) in integrators {
+        let fly = Rc::new(fly);
         for asked in ERRORS {
-            let (method, error) = loosest(&tosses, scheme, fly, asked)?;
-            let tosses = tosses.clone();
+            let (method, error) = loosest(&tosses, scheme, &fly, asked)?;
+            let (tosses, fly) = (tosses.clone(), Rc::clone(&fly));
             let run = move || drop(std::hint::black_box(fly(&tosses, method)));
             contests.push(Contest {
                 group: "attitude of a toss by integration, quaternion",
@@ -38,7 +47,7 @@ pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>
 }
 
 /// The method with the loosest tolerance that keeps the error, and its error.
-fn loosest(tosses: &[Toss], scheme: Scheme, fly: Fly, asked: f64) -> anyhow::Result<(Method, f64)> {
+fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Result<(Method, f64)> {
     const A_DECADE: i32 = 5;
     let mut best: Option<(Method, f64)> = None;
     for step in 3 * A_DECADE..=15 * A_DECADE {
@@ -57,6 +66,11 @@ fn loosest(tosses: &[Toss], scheme: Scheme, fly: Fly, asked: f64) -> anyhow::Res
 fn one_by_one(tosses: &[Toss], method: Method) -> Vec<Attitude> {
     let solver = QuaternionSolver::new(method, Formulation::default());
     tosses.iter().map(|toss| solver.propagate(toss).expect("an ordinary flight").state.attitude).collect()
+}
+
+fn in_lanes(tosses: &[Toss], method: Method, path: Path) -> Vec<Attitude> {
+    let landings = QuaternionSolver::new(method, Formulation::default()).propagate_all(tosses, path);
+    landings.into_iter().map(|landing| landing.expect("an ordinary flight").state.attitude).collect()
 }
 
 /// The largest angle to the exact attitude (rad).

@@ -6,6 +6,7 @@ use toss::{
     Attitude, ExactMotion, ExactSolver, Outcome, Solver, Toss, certify, compensated_cos_tilt, compensated_landing,
 };
 
+use super::Row;
 use super::contest::Contest;
 use super::reference::{Reference, scalar};
 use super::tosses::{Columns, TOSSES};
@@ -14,22 +15,20 @@ const COS_TILT: &str = "cos θ of a toss";
 const OUTCOME: &str = "proven outcome of a toss";
 const ATTITUDE: &str = "attitude of a toss";
 
-/// The reference's loop in Rust.
-pub(super) fn scalar_reference(columns: &Columns) -> Vec<Contest<'_>> {
+/// The row of the reference, which measures itself.
+pub(super) fn reference(columns: &Columns, reference: &Reference, nanoseconds: f64) -> Row {
+    let error = Some(cos_tilt_error(columns, &reference.cos_tilts));
+    Row { group: COS_TILT, name: "reference".to_owned(), error, nanoseconds, by_reference: 1.0 }
+}
+
+/// All kernels; the first is the reference's loop, one toss after the other.
+pub(super) fn contests(columns: &Columns) -> Vec<Contest<'_>> {
     let mut out = vec![0.0; TOSSES];
     scalar(columns, &mut out);
     let error = cos_tilt_error(columns, &out);
-    vec![contest(COS_TILT, "plain f64, one by one", Some(error), move || scalar(columns, &mut out))]
-}
-
-/// A row for the compiled reference, which measures itself: its error.
-pub(super) fn compiled_reference<'a>(columns: &Columns, reference: &Reference) -> Contest<'a> {
-    contest(COS_TILT, "(error of the reference)", Some(cos_tilt_error(columns, &reference.cos_tilts)), || ())
-}
-
-/// All kernels.
-pub(super) fn contests(columns: &Columns) -> Vec<Contest<'_>> {
-    let mut contests = one_by_one(columns);
+    let plain = contest(COS_TILT, "plain f64, one by one", Some(error), move || scalar(columns, &mut out));
+    let mut contests = vec![plain];
+    contests.extend(one_by_one(columns));
     contests.extend(Path::all().into_iter().flat_map(|path| batches(columns, path)));
     contests.sort_by_key(|contest| [COS_TILT, OUTCOME, ATTITUDE].iter().position(|group| *group == contest.group));
     contests

@@ -41,11 +41,7 @@ impl Table {
     pub fn measure() -> anyhow::Result<Self> {
         let (columns, mut reference) = (tosses::Columns::new(tosses::TOSSES), Reference::start().ok());
         let flown = tosses::Columns::new(integrators::FLOWN);
-        let mut contests = kernels::scalar_reference(&columns);
-        if let Some(reference) = &reference {
-            contests.push(kernels::compiled_reference(&columns, reference));
-        }
-        contests.extend(kernels::contests(&columns));
+        let mut contests = kernels::contests(&columns);
         contests.extend(launches::contests()?);
         contests.extend(integrators::contests(&flown)?);
         let times = race(&mut contests, reference.as_mut())?;
@@ -56,14 +52,15 @@ impl Table {
             nanoseconds,
             by_reference: nanoseconds / times.reference,
         };
-        Ok(Self {
-            host: Host::here(),
-            reference: reference
-                .map_or("the same loop in Rust, one by one (no C compiler with libmvec)".to_owned(), |it| {
-                    format!("cos θ by the closed form in f64, cc {}, libmvec", it.flags)
-                }),
-            rows: contests.iter().zip(&times.contests).map(|(contest, time)| row(contest, *time)).collect(),
-        })
+        let mut rows: Vec<Row> =
+            contests.iter().zip(&times.contests).map(|(contest, time)| row(contest, *time)).collect();
+        if let Some(reference) = &reference {
+            rows.insert(0, kernels::reference(&columns, reference, times.reference));
+        }
+        let reference =
+            reference.map(|reference| format!("cos θ by the closed form in C, cc {}, libmvec", reference.flags));
+        let without = "cos θ by the closed form, one by one (no C compiler with libmvec)";
+        Ok(Self { host: Host::here(), reference: reference.unwrap_or(without.to_owned()), rows })
     }
 }
 
