@@ -7,7 +7,7 @@ use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};
 
 /// Launches that a thread takes at a time: their columns stay in the second-level cache.
-pub(crate) const BLOCK: usize = 1024;
+pub(crate) const BLOCK: usize = 512;
 
 /// Values of one coordinate, as registers are loaded best.
 #[derive(Clone)]
@@ -26,7 +26,7 @@ impl Block {
     /// A block whose coordinates have their fixed values of `space` until they are written.
     pub(crate) fn new(space: &Space) -> Self {
         let columns = space.fixed_values().map(|value| Column([value; BLOCK])).to_vec();
-        Self { columns, length: 0, words: vec![0; BLOCK * Coordinate::COUNT] }
+        Self { columns, length: 0, words: Vec::new() }
     }
 
     /// Makes room for `length` ≤ [`BLOCK`] launches.

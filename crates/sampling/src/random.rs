@@ -21,35 +21,48 @@ pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_word_pos(u128::from(start) * dimensions as u128 * WORDS_PER_NUMBER);
     let numbers = block.len() * dimensions;
-    rng.fill(&mut block.words[..numbers]);
+    block.words.resize(numbers, 0);
+    rng.fill(&mut block.words[..]);
     for (dimension, (of, axis)) in cube.axes().iter().enumerate() {
         let (column, words) = block.column_and_words(*of);
-        uniform(column, &words[..numbers], dimension, dimensions);
+        let row = Row { dimension, dimensions };
         match axis.distribution() {
-            // In one loop, which the compiler makes vectors of.
-            Distribution::Uniform { lo, hi } => column.iter_mut().for_each(|part| *part = lo + *part * (hi - lo)),
-            Distribution::Normal { .. } => column.iter_mut().for_each(|part| *part = axis.quantile(*part)),
+            Distribution::Uniform { lo, hi } => row.uniform(words, column, [lo, hi]),
+            Distribution::Normal { .. } => {
+                row.uniform(words, column, [0.0, 1.0]);
+                column.iter_mut().for_each(|part| *part = axis.quantile(*part));
+            }
         }
     }
 }
 
-/// Numbers between 0 and 1, exclusively, from every `dimensions`th of `words`.
-fn uniform(column: &mut [f64], words: &[u64], dimension: usize, dimensions: usize) {
-    Path::widest().run(|| match dimensions {
-        1 => from_rows::<1>(column, words, dimension),
-        2 => from_rows::<2>(column, words, dimension),
-        3 => from_rows::<3>(column, words, dimension),
-        4 => from_rows::<4>(column, words, dimension),
-        5 => from_rows::<5>(column, words, dimension),
-        _ => from_rows::<6>(column, words, dimension),
-    });
+/// The place of a number among those of its launch.
+#[derive(Clone, Copy)]
+struct Row {
+    dimension: usize,
+    dimensions: usize,
 }
 
-/// As [`uniform`], for a number of dimensions that the compiler knows.
+impl Row {
+    /// Numbers between `lo` and `hi` from every row of `words`.
+    fn uniform(self, words: &[u64], column: &mut [f64], range: [f64; 2]) {
+        let Self { dimension, dimensions } = self;
+        Path::widest().run(|| match dimensions {
+            1 => uniform::<1>(words, column, dimension, range),
+            2 => uniform::<2>(words, column, dimension, range),
+            3 => uniform::<3>(words, column, dimension, range),
+            4 => uniform::<4>(words, column, dimension, range),
+            5 => uniform::<5>(words, column, dimension, range),
+            _ => uniform::<6>(words, column, dimension, range),
+        });
+    }
+}
+
+/// As [`Row::uniform`], for a number of dimensions that the compiler knows.
 #[inline(always)]
-fn from_rows<const DIMENSIONS: usize>(column: &mut [f64], words: &[u64], dimension: usize) {
-    for (part, row) in column.iter_mut().zip(words.as_chunks::<DIMENSIONS>().0) {
-        *part = between_0_and_1(row[dimension]);
+fn uniform<const DIMENSIONS: usize>(words: &[u64], column: &mut [f64], dimension: usize, [lo, hi]: [f64; 2]) {
+    for (value, row) in column.iter_mut().zip(words.as_chunks::<DIMENSIONS>().0) {
+        *value = lo + between_0_and_1(row[dimension]) * (hi - lo);
     }
 }
 

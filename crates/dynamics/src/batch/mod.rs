@@ -115,11 +115,7 @@ impl<'a> Tosses<'a> {
     ///
     /// # Errors
     /// [`BatchError`] with that index.
-    pub fn solve<T>(
-        &self,
-        index: usize,
-        solve: impl Fn(&Toss) -> Result<T, SolveError>,
-    ) -> Result<T, BatchError> {
+    pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, BatchError> {
         let solved = self.toss(index).map_err(TossError::from).and_then(|toss| Ok(solve(&toss)?));
         solved.map_err(|source| BatchError { index, source })
     }
