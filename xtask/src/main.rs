@@ -12,8 +12,9 @@ usage: cargo xtask TASK
 tasks:
   verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--fit] [--format text|json|junit]
       run the verification suite; writes report.html, report.json, junit.xml and charts to target/verify
-  bench
-      print what a toss costs, in ns and beside a reference in C
+  bench [--instructions [--bless]]
+      print what a toss costs, in ns and beside a reference in C; or count its instructions by valgrind and compare them with
+      the baseline
   history
       draw the accuracy of the committed records over time";
 

@@ -12,6 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
 use verify::atlas::conditioning::Conditioning;
 use verify::bench::Table;
+use verify::bench::instructions::{Instructions, work};
 use verify::bounds::Bounds;
 use verify::case::Case;
 use verify::judge::unused_bounds;
@@ -47,8 +48,17 @@ struct Args {
     #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     fit: bool,
     /// Measure what a toss costs
-    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless", "fit"])]
+    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "fit"])]
     bench: bool,
+    /// With --bench: count instructions instead, and compare them with the baseline
+    #[arg(long, hide = true, requires = "bench")]
+    instructions: bool,
+    /// Do a work of --instructions so many times
+    #[arg(long, hide = true, value_name = "NAME")]
+    work: Option<String>,
+    /// How often
+    #[arg(long, hide = true, default_value_t = 1)]
+    times: u32,
     /// Draw the accuracy of the committed records
     #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     history: bool,
@@ -104,9 +114,12 @@ fn run(args: &Args) -> anyhow::Result<u8> {
         print!("{}", runs::text(&atlas::replay(SOLVERS, case)?, Conditioning::new(&case.toss)?));
         return Ok(0);
     }
-    if args.bench {
-        print!("{}", Table::measure()?);
+    if let Some(name) = &args.work {
+        work(name, args.times)?;
         return Ok(0);
+    }
+    if args.bench {
+        return bench(args);
     }
     if args.history {
         return history(args);
@@ -136,6 +149,22 @@ fn run(args: &Args) -> anyhow::Result<u8> {
         }
     }
     Ok(if moves.iter().any(|moved| moved.direction == Direction::Worse) { 3 } else { 0 })
+}
+
+/// Times, or instructions; 3 if those are more than the baseline allows.
+fn bench(args: &Args) -> anyhow::Result<u8> {
+    if !args.instructions {
+        print!("{}", Table::measure()?);
+        return Ok(0);
+    }
+    let path = args.validation.join("baseline").join("instructions.csv");
+    let (baseline, found) = (Instructions::read(&path)?, Instructions::count()?);
+    let (text, is_worse) = found.compared(&baseline);
+    print!("{text}");
+    if args.bless {
+        found.bless(&baseline, &path)?;
+    }
+    Ok(if is_worse { 3 } else { 0 })
 }
 
 /// Measures the planner's table and writes it where the library is built with it.

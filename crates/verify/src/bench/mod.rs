@@ -5,6 +5,7 @@
 //! favours nobody. None is judged: they are for those who choose.
 
 mod contest;
+pub mod instructions;
 mod integrators;
 mod kernels;
 mod launches;
