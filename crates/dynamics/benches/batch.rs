@@ -24,7 +24,8 @@ fn batches(criterion: &mut Criterion) {
             let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&x, &y, &z], &speeds).expect("valid").on(path);
             let name = |what: &str| format!("{what}, {}", path.name());
             group.bench_function(name("cos θ"), |bencher| bencher.iter(|| tosses.cos_tilts(black_box(&mut numbers))));
-            group.bench_function(name("outcomes"), |bencher| bencher.iter(|| tosses.outcomes(black_box(&mut outcomes))));
+            group
+                .bench_function(name("outcomes"), |bencher| bencher.iter(|| tosses.outcomes(black_box(&mut outcomes))));
             group.bench_function(name("outcomes, counted"), |bencher| bencher.iter(|| tosses.count(|_| ())));
             group.bench_function(name("attitudes"), |bencher| {
                 bencher.iter(|| tosses.attitudes(black_box(&mut quaternions).each_mut().map(Vec::as_mut_slice)));

@@ -198,7 +198,7 @@ mod tests {
             let [u, v] = series.turn(order, h);
             let mut numbers = [0.0; 6];
             for (number, part) in numbers.iter_mut().zip([u, v, series.turn_of_eta(order, h)].as_flattened()) {
-                part.store(std::slice::from_mut(number));
+                part.store_up_to(std::slice::from_mut(number));
             }
             numbers
         }
