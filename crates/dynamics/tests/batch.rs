@@ -90,12 +90,15 @@ fn mixed(count: u32) -> Columns {
 #[test]
 fn a_batch_is_its_tosses_to_the_last_bits() {
     for (coin, attitude) in coins().into_iter().flat_map(|coin| attitudes().map(|attitude| (coin, attitude))) {
-        for columns in [Columns::new(5000, 60.0, 5.0), Columns::new(1000, 1e4, 1e4), mixed(700)] {
+        for columns in
+            [Columns::new(5000, 60.0, 5.0), Columns::new(1000, 60.0, 0.0), Columns::new(1000, 1e4, 1e4), mixed(700)]
+        {
             let tosses = columns.tosses(coin, attitude);
             let (cos_tilts, attitudes, outcomes) = solved(&tosses).unwrap();
             for index in 0..tosses.len() {
                 let toss = tosses.toss(index).unwrap();
                 let (motion, time) = (ExactMotion::new(&toss), toss.launch.time_of_flight());
+                assert!(cos_tilts[index].abs() <= 1.0, "{toss:?}: {}", cos_tilts[index]);
                 let error = cos_tilts[index] - motion.cos_tilt(time).unwrap();
                 assert!(error.abs() <= 2.75 * f64::EPSILON, "{toss:?}: cos θ is off by {error:e}");
                 let landing = Attitude::from_components(attitudes.each_ref().map(|column| column[index])).unwrap();

@@ -5,7 +5,8 @@
 
 use dynamics::lanes::{Real, Simd};
 
-use crate::taylor::Complex;
+/// A complex number, as its real and imaginary part.
+pub(crate) type Complex<R> = [R; 2];
 
 /// A number and what rounding took from it.
 pub(crate) type Double<R> = [R; 2];

@@ -19,7 +19,7 @@
 
 use dynamics::lanes::{Real, Simd};
 
-use crate::compensated::{Double, inverse, sum, times};
+use crate::compensated::{Complex, Double, inverse, sum, times};
 
 /// The highest order of a step.
 pub(crate) const LARGEST_ORDER: usize = 26;
@@ -38,9 +38,6 @@ const INVERSES: [Double<f64>; LARGEST_ORDER] = {
     }
     inverses
 };
-
-/// A complex number, as its real and imaginary part.
-pub(crate) type Complex<R> = [R; 2];
 
 /// The coefficients of a step. Aligned, since a vector across two lines of the cache takes two loads.
 #[repr(align(64))]

@@ -46,7 +46,7 @@ impl Kernel<4, 1> for Flat {
     #[inline(always)]
     fn end<S: Simd>(&self, [left, across_squared, along_squared, half_inverse]: [Real<S>; 4]) -> [Real<S>; 1] {
         let height = across_squared.mul_add(sin_of_turns(left), along_squared);
-        [(height + height) * half_inverse]
+        [((height + height) * half_inverse).clamp_to_cosine()]
     }
 
     fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
@@ -74,7 +74,7 @@ impl Kernel<6, 1> for Tilted {
     fn end<S: Simd>(&self, [turns, rest, mean, cosine, sine, inverse]: [Real<S>; 6]) -> [Real<S>; 1] {
         let four = turns.constant(4.0);
         let [sin, cos] = sin_cos(turns * four, rest * four);
-        [(mean + cosine.mul_add(cos, sine * sin)) * inverse]
+        [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
     }
 
     fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {

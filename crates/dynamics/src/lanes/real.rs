@@ -140,6 +140,14 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
+    /// The nearest number from -1 to 1; `self` is not NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn clamp_to_cosine(self) -> Self {
+        let at_least = self.max(self.constant(-1.0));
+        Self { value: self.simd.min_f64s(at_least.value, self.simd.splat_f64s(1.0)), ..self }
+    }
+
     /// Nearest integer to `self`, whose size is below 2^51.
     #[inline(always)]
     pub fn round(self) -> Self {

@@ -1,6 +1,6 @@
 //! What a toss costs: `cargo xtask bench`.
 //!
-//! Times are in nanoseconds, and in xR, parts of the time of a [reference](reference) that is measured beside them, so that
+//! Times are in nanoseconds, and in xR, parts of the time of a reference (`reference.rs`) that is measured beside them, so that
 //! they can be compared across machines. Each is the shortest of many runs in turn, so that a machine that slows down
 //! favours nobody. None is judged: they are for those who choose.
 
