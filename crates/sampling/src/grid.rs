@@ -45,7 +45,7 @@ impl Side {
 
     /// Writes the points from number `from` on.
     fn write(&self, from: u64, to: &mut [f64]) {
-        let known = usize::try_from(from).ok().and_then(|from| self.points.get(from..from + to.len()));
+        let known = usize::try_from(from).ok().and_then(|from| self.points.get(from..)?.get(..to.len()));
         match known {
             Some(known) => to.copy_from_slice(known),
             None => to.iter_mut().zip(from..).for_each(|(to, index)| *to = self.axis.grid_point(index, self.count)),

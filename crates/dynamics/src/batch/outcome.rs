@@ -68,9 +68,7 @@ impl Tosses<'_> {
             let heights = &mut heights.0[..out.len()];
             filter.run(self.part(start..start + out.len()), heights)?;
             for (index, (height, out)) in heights.iter().zip(out).enumerate() {
-                // Which face is chance: a table, since the branch would be foreseen wrongly every other time.
-                const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
-                *out = OF_SIGNS[usize::from(*height > 0.0) + 2 * usize::from(*height < 0.0)];
+                *out = of_sign(*height);
                 if *out == Outcome::Undecided {
                     *out = self.solve(start + index, certify)?.outcome;
                 }
@@ -94,13 +92,23 @@ impl Tosses<'_> {
             filtered.heads += decided.heads;
             filtered.tails += decided.tails;
             if decided.heads + decided.tails < heights.len() as u64 {
-                for (index, _) in heights.iter().enumerate().filter(|(_, height)| **height == 0.0) {
+                for (index, _) in
+                    heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided)
+                {
                     rest(self.solve(start + index, certify)?);
                 }
             }
         }
         Ok(filtered)
     }
+}
+
+/// Heads or tails by the sign of a height. A table, since which face it is is chance: a branch would be foreseen wrongly
+/// every other time.
+#[inline]
+fn of_sign(height: f64) -> Outcome {
+    const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
+    OF_SIGNS[usize::from(height > 0.0) + 2 * usize::from(height < 0.0)]
 }
 
 /// As registers are loaded and stored best.
