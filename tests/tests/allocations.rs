@@ -1,8 +1,10 @@
-//! No integrator allocates memory per step: what it allocates grows with the logarithm of the number of steps.
+//! No integrator allocates memory per step: what it allocates grows with the logarithm of the number of steps. Batches and
+//! the exact motion allocate none.
 
 use allocation_counter::measure;
+use toss::batch::{Filtered, Tosses};
 use toss::lanes::Path;
-use toss::{Formulation, Method, QuaternionSolver, SOLVERS, Scheme, Settings, Solver};
+use toss::{Attitude, Coin, Formulation, Method, Outcome, QuaternionSolver, SOLVERS, Scheme, Settings, Solver};
 
 /// The stages, and two vectors of results that double when full.
 fn allowed(steps: u64) -> u64 {
@@ -19,6 +21,23 @@ fn the_exact_motion_allocates_nothing() {
         solver.outcome(&toss).unwrap();
     });
     assert_eq!(count.count_total, 0);
+}
+
+#[test]
+fn a_batch_allocates_nothing() {
+    let (column, mut numbers, mut outcomes) = ([3.5; 1000], [0.0; 1000], [Outcome::Undecided; 1000]);
+    let mut quaternions = [[0.0; 1000]; 4];
+    for attitude in [Attitude::IDENTITY, Attitude::about_x(0.7)] {
+        let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&column; 3].map(|column| &column[..]), &column).unwrap();
+        let count = measure(|| {
+            tosses.cos_tilts(&mut numbers).unwrap();
+            tosses.attitudes(quaternions.each_mut().map(|column| &mut column[..])).unwrap();
+            tosses.outcomes(&mut outcomes).unwrap();
+            let Filtered { heads, tails } = tosses.count(|_| ()).unwrap();
+            assert_eq!(heads + tails, 1000);
+        });
+        assert_eq!(count.count_total, 0);
+    }
 }
 
 #[test]

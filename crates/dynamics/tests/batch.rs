@@ -1,5 +1,7 @@
 //! Batches against single tosses: the same outcomes, the same landings to the last bits, and the same bits on every path.
 
+use std::f64::consts::TAU;
+
 use dynamics::batch::{BatchError, TossError, Tosses};
 use dynamics::lanes::Path;
 use dynamics::{Attitude, Coin, ExactMotion, InputError, Outcome, SolveError, certify};
@@ -60,8 +62,13 @@ fn coins() -> [Coin; 4] {
     ]
 }
 
-fn attitudes() -> [Attitude; 3] {
-    [Attitude::IDENTITY, Attitude::about_x(0.7), Attitude::from_components([0.3, -0.5, 0.7, 0.2]).expect("valid")]
+fn attitudes() -> [Attitude; 4] {
+    [
+        Attitude::IDENTITY,
+        Attitude::about_x(1e-8),
+        Attitude::about_x(0.7),
+        Attitude::from_components([0.3, -0.5, 0.7, 0.2]).expect("valid"),
+    ]
 }
 
 /// Slow and fast tosses with, here and there, some that no kernel serves.
@@ -131,24 +138,32 @@ fn neither_the_path_nor_the_neighbours_change_a_bit() {
     }
 }
 
-/// Launches whose speeds are nearer and nearer to one that lands on edge, down to its own last digit.
+/// Launches whose phases are nearer and nearer to one that lands on edge, down to the last digit of their speeds, after few
+/// turns and after many.
 #[test]
 fn next_to_an_edge_the_filter_is_right_or_leaves_it() {
     for (coin, attitude) in coins().into_iter().flat_map(|coin| attitudes().map(|attitude| (coin, attitude))) {
-        let mut columns = Columns::new(4000, 60.0, 5.0);
-        for index in 0..4000 {
-            let toss = columns.tosses(coin, attitude).toss(index).unwrap();
-            let Some(flip) = ExactMotion::new(&toss).first_flip() else { continue };
-            let away = 10f64.powi(-4 - (index % 13) as i32) * if index % 2 == 0 { 1.0 } else { -1.0 };
-            columns.speeds[index] = 0.5 * 9.81 * flip * (1.0 + away);
+        for (turns, fewest_left) in [(0.0, 300), (3.0, 300), (1e5, 400), (1e8, 900)] {
+            let mut columns = Columns::new(4000, 60.0, 5.0);
+            for index in 0..4000 {
+                let toss = columns.tosses(coin, attitude).toss(index).unwrap();
+                let motion = ExactMotion::new(&toss);
+                let heads = motion.heads();
+                let away = 10f64.powi(-2 - (index % 15) as i32) * if index % 2 == 0 { 1.0 } else { -1.0 };
+                let edge = (heads.crest + heads.half_width).rem_euclid(TAU) + TAU * turns + away;
+                let speed = 0.5 * 9.81 * edge / motion.precession_rate();
+                if speed >= 0.0 {
+                    columns.speeds[index] = speed;
+                }
+            }
+            let tosses = columns.tosses(coin, attitude);
+            let (mut outcomes, mut rest) = (vec![Outcome::Undecided; tosses.len()], 0);
+            tosses.outcomes(&mut outcomes).unwrap();
+            tosses.count(|_| rest += 1).unwrap();
+            let certified = |index| certify(&tosses.toss(index).unwrap()).unwrap().outcome;
+            assert!((0..tosses.len()).all(|index| outcomes[index] == certified(index)), "{turns} turns");
+            assert!((fewest_left..3900).contains(&rest), "the filter left {rest} after {turns} turns");
         }
-        let tosses = columns.tosses(coin, attitude);
-        let (mut outcomes, mut rest) = (vec![Outcome::Undecided; tosses.len()], 0);
-        tosses.outcomes(&mut outcomes).unwrap();
-        tosses.count(|_| rest += 1).unwrap();
-        let certified = |index| certify(&tosses.toss(index).unwrap()).unwrap().outcome;
-        assert!((0..tosses.len()).all(|index| outcomes[index] == certified(index)));
-        assert!((400..3000).contains(&rest), "the filter left {rest}");
     }
 }
 
@@ -210,6 +225,12 @@ fn phases_beyond_all_digits_are_refused() {
         let error = tosses.cos_tilts(&mut vec![0.0; 300]).unwrap_err();
         assert!(matches!(error, BatchError { index: 123, source: TossError::Solve(SolveError::PhaseTooLarge { .. }) }));
         assert_eq!(tosses.count(|_| ()).unwrap_err(), error);
+        // A rod that hardly precesses may spin too far.
+        let spinning = [[1e-3], [0.0], [1e16]];
+        let rod = Coin::from_moments(1.0, 1e-13).unwrap();
+        let tosses = Tosses::new(rod, attitude, 2.0, spinning.each_ref().map(|rate| &rate[..]), &[1.0]).unwrap();
+        let error = tosses.count(|_| ()).unwrap_err();
+        assert!(matches!(error.source, TossError::Solve(SolveError::PhaseTooLarge { .. })), "{error}");
     }
 }
 
