@@ -146,3 +146,75 @@ pub fn sin_cos<S: Simd>(quarters: Real<S>, rest: Real<S>) -> [Real<S>; 2] {
     let sign = whole.constant(1.0) - (is_odd + is_odd);
     [sin * sign, cos * sign]
 }
+
+#[cfg(test)]
+mod tests {
+    use pulp::Scalar;
+
+    use super::*;
+    use crate::double_double::DoubleDouble;
+    use crate::tilt_terms::UNIT_ROUNDOFF;
+
+    const PI: [f64; 2] = [std::f64::consts::PI, 1.224_646_799_147_353_2e-16];
+
+    fn real(value: f64) -> Real<Scalar> {
+        Real::splat(Scalar, value)
+    }
+
+    fn value(real: Real<Scalar>) -> f64 {
+        let mut out = [0.0];
+        real.store(&mut out);
+        out[0]
+    }
+
+    /// Sine and cosine of `x` times `factor` π.
+    fn expected(x: f64, factor: f64) -> [f64; 2] {
+        let (sin, cos) = ((DoubleDouble::exactly(PI[0]) + PI[1].into()) * (factor * x)).rounded_sin_cos();
+        [sin, cos]
+    }
+
+    /// From -`to` to `to`.
+    fn interval(to: f64) -> impl Iterator<Item = f64> {
+        (-20_000..=20_000).map(move |part| to * f64::from(part) / 20_000.0)
+    }
+
+    #[test]
+    fn sines_and_cosines_are_right_to_two_roundings() {
+        for x in interval(0.25) {
+            let error = value(sin_of_turns(real(x))) - expected(x, 2.0)[0];
+            assert!(error.abs() <= 2.0 * UNIT_ROUNDOFF, "{x}: {error:e}");
+        }
+        for x in interval(9.0) {
+            let [sin, cos] = sin_cos(real(x), real(0.0)).map(value);
+            let errors = [sin - expected(x, 0.5)[0], cos - expected(x, 0.5)[1]];
+            assert!(errors.iter().all(|error| error.abs() <= 2.0 * UNIT_ROUNDOFF), "{x}: {errors:?}");
+            let ([other_sin, other_cos], _) = sin_cos_to_sign(real(x), real(0.0));
+            assert_eq!([value(other_sin).abs(), value(other_cos).abs()], [sin.abs(), cos.abs()]);
+            let flipped = [value(other_sin) * sin, value(other_cos) * cos].map(|product| product < 0.0);
+            assert!(flipped[0] == flipped[1] || sin * cos == 0.0, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_rest_counts_after_many_turns() {
+        for x in interval(0.5) {
+            let (turns, rest) = (1e9 + x, x - ((1e9 + x) - 1e9));
+            let cos = value(sin_of_turns(cosine_as_sine(real(turns), real(rest))));
+            assert!((cos - expected(x, 2.0)[1]).abs() <= 2.5 * UNIT_ROUNDOFF, "{x}");
+            let [sin, cos] = sin_cos(real(4.0 * turns), real(4.0 * rest)).map(value);
+            let errors = [sin - expected(x, 2.0)[0], cos - expected(x, 2.0)[1]];
+            assert!(errors.iter().all(|error| error.abs() <= 2.5 * UNIT_ROUNDOFF), "{x}: {errors:?}");
+        }
+    }
+
+    /// The filter of outcomes relies on it; and it is no better, or the filter could be sharper.
+    #[test]
+    fn rough_sines_and_cosines_are_as_rough_as_they_say() {
+        let error = |x: f64| {
+            let [sin, cos] = expected(x, 1.0);
+            (value(rough_sin_of_half(real(x))) - sin).abs().max((value(rough_cos_of_half(real(x))) - cos).abs())
+        };
+        let largest = interval(0.5).map(error).fold(0.0, f64::max);
+        assert!((0.5 * ROUGH_ERROR..=ROUGH_ERROR).contains(&largest), "{largest:e}");
+    }
+}
