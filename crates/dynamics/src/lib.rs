@@ -16,6 +16,7 @@
 //! | cos θ in f64, when it shows heads, how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
 //! | derivatives of the landing by the launch | [`sensitivity`] |
 //! | cheaper forms: without a motion, of Keller's coin, in compensated f64 | [`mod@certain`], [`keller`], [`compensated`] |
+//! | many tosses at once; numbers in vectors | [`batch`], [`lanes`] |
 //! | outcomes, and their proofs | [`outcome`], [`certified`] |
 //! | what a solver is; the exact one; how the others step | [`solver`], [`exact_solver`], [`method`], [`flight`], [`integrate`] |
 //! | what can go wrong | [`error`] |

@@ -1,7 +1,7 @@
 //! From launches to probabilities.
 //!
 //! ```text
-//! axes → space → launches (grid, random, Sobol) → outcomes or shares → counts or means → estimate with its interval
+//! axes → space → launches (grid, random, Sobol) in columns → outcomes or shares → counts or means → estimate with its interval
 //! ```
 //!
 //! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; [`estimate()`] answers. Sums are
