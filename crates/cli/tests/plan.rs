@@ -1,9 +1,8 @@
 //! `plan` from outside: its model, what it passes over, and what it refuses.
 
-#[allow(dead_code, reason = "other tests of the command line use the rest")]
 mod common;
 
-use common::{json, run, stderr};
+use common::{assert_near, assert_refused, json, run, stderr};
 
 /// Options that don't go together.
 #[track_caller]
@@ -37,6 +36,7 @@ fn a_plan_names_its_model_and_what_it_passes_over() {
     assert_eq!((&asked["solver"], &asked["method"]), (&"gamma".into(), &"dopri5".into()));
     assert!(asked["tolerance"].as_f64().is_some_and(|tolerance| (1e-14..1e-3).contains(&tolerance)));
     let tilt = json(&format!("plan {thrown} --want tilt"), 0);
+    assert_near(&tilt["expected_error"], 0.0, 1e-9);
     let passed_over = tilt["passed_over"].as_array().unwrap();
     assert_eq!(passed_over[0], serde_json::json!({"model": "keller", "why": "gives only the outcome"}));
 }
@@ -75,9 +75,11 @@ fn what_the_model_does_not_hold_is_refused_with_the_reason() {
             assert!(error["message"].as_str().unwrap().contains(words), "{error}");
         }
     }
-    for options in ["--accuracy 0", "--accuracy nan", "--accuracy 1e-17", "--accuracy 1e-9 --solver exact"] {
-        json(&format!("plan --rate 1,1,2.5 --speed 3 --want tilt {options}"), 2);
+    for (accuracy, shown) in [("0", "0.0"), ("nan", "NaN"), ("1e-17", "1e-17")] {
+        let arguments = format!("plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy {accuracy}");
+        assert_refused(&[(&arguments, ["accuracy", shown])]);
     }
+    json("plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-9 --solver exact", 2);
     json("plan --rate 1,1,2.5 --speed 3 --want trace --points 1 --accuracy 1e-9", 2);
     json("plan --want tilt --accuracy 1e-9", 2);
     json("plan --want probability --accuracy 1e-9", 2);

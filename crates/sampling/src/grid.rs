@@ -16,7 +16,6 @@ const ORDER: [Coordinate; Coordinate::COUNT] =
 pub(crate) struct Grid {
     /// The coordinates that are not fixed, in the order of [`ORDER`].
     sides: Vec<Side>,
-    points: u64,
 }
 
 /// One coordinate of a grid.
@@ -71,26 +70,8 @@ impl Grid {
     }
 
     fn over(space: &Space, includes: impl Fn(Coordinate) -> bool) -> Result<Self, InputError> {
-        let mut grid = Self { sides: Vec::new(), points: 1 };
-        let free: Vec<Coordinate> = space.free().collect();
-        let mut sides = Vec::new();
-        for of in ORDER.into_iter().filter(|of| free.contains(of) && includes(*of)) {
-            let axis = space.axis(of);
-            let refused = |expected| InputError::Malformed { field: of.field(), value: axis.to_string(), expected };
-            let count = axis
-                .points()
-                .ok_or_else(|| refused("a number of points for a grid: LO:HI:POINTS or normal:MEAN:SD:POINTS"))?;
-            let points = grid.points.checked_mul(count);
-            grid.points = points.ok_or_else(|| refused("a grid of fewer than 2^64 points in all"))?;
-            sides.push((of, axis, count));
-        }
-        // Not before the number of all points is known to be sensible.
-        grid.sides = sides.into_iter().map(|(of, axis, count)| Side::new(of, axis, count)).collect();
-        Ok(grid)
-    }
-
-    pub(crate) fn points(&self) -> u64 {
-        self.points
+        let (sides, _) = counts(space, includes)?;
+        Ok(Self { sides: sides.into_iter().map(|(of, axis, count)| Side::new(of, axis, count)).collect() })
     }
 
     /// Writes the launches from number `start` on: run by run of those that differ in the last coordinate only.
@@ -112,13 +93,40 @@ impl Grid {
     }
 }
 
+/// A coordinate and its number of points.
+type Count = (Coordinate, Axis, u64);
+
+/// The coordinates that are not fixed, in the order of [`ORDER`], with their numbers of points, and that of all launches.
+fn counts(space: &Space, includes: impl Fn(Coordinate) -> bool) -> Result<(Vec<Count>, u64), InputError> {
+    let free: Vec<Coordinate> = space.free().collect();
+    let (mut sides, mut points) = (Vec::new(), 1_u64);
+    for of in ORDER.into_iter().filter(|of| free.contains(of) && includes(*of)) {
+        let axis = space.axis(of);
+        let refused = |expected| InputError::Malformed { field: of.field(), value: axis.to_string(), expected };
+        let count = axis
+            .points()
+            .ok_or_else(|| refused("a number of points for a grid: LO:HI:POINTS or normal:MEAN:SD:POINTS"))?;
+        points = points.checked_mul(count).ok_or_else(|| refused("a grid of fewer than 2^64 points in all"))?;
+        sides.push((of, axis, count));
+    }
+    Ok((sides, points))
+}
+
 impl Space {
+    /// Number of launches of its grid without the speed.
+    ///
+    /// # Errors
+    /// As [`Space::grid_points`].
+    pub(crate) fn grid_points_without_speed(&self) -> Result<u64, InputError> {
+        counts(self, |of| of != Coordinate::Speed).map(|(_, points)| points)
+    }
+
     /// Number of launches of its grid.
     ///
     /// # Errors
     /// [`InputError`] that names an axis without a number of points, or says that the grid is too large to count.
     pub fn grid_points(&self) -> Result<u64, InputError> {
-        Grid::new(self).map(|grid| grid.points())
+        counts(self, |_| true).map(|(_, points)| points)
     }
 
     /// The same space with a grid of at most `points` ≥ 2^(free coordinates) launches, about as many on each axis.
@@ -164,7 +172,7 @@ mod tests {
     fn the_grid_covers_the_box_corner_to_corner_with_the_speed_fastest() {
         let space = space(["0:1:2", "5:6:2", "7:8:2", "3:5:3"]);
         let grid = Grid::new(&space).unwrap();
-        assert_eq!(grid.points(), 24);
+        assert_eq!(space.grid_points(), Ok(24));
         let values = |start: u64, end: u64| {
             let mut block = Block::new(&space);
             block.start((end - start) as usize);
@@ -190,7 +198,8 @@ mod tests {
     fn without_the_speed_its_axis_needs_no_points() {
         let space = space(["0:1:3", "x", "7", "3:5"]);
         assert!(Grid::new(&space).is_err());
-        assert_eq!(Grid::without_speed(&space).unwrap().points(), 3);
+        assert_eq!(space.grid_points_without_speed(), Ok(3));
+        assert_eq!(Grid::without_speed(&space).unwrap().sides.len(), 1);
     }
 
     #[test]

@@ -4,7 +4,6 @@ use dynamics::InputError;
 use dynamics::error::require;
 
 use crate::coordinate::Coordinate;
-use crate::grid::Grid;
 use crate::sobol;
 use crate::space::{Cube, Space};
 
@@ -86,7 +85,7 @@ impl Plan {
             Plan::ExactSpeed(Rest::Sobol(scrambled)) if cube_of_the_rest(space).dimensions() > 0 => {
                 scrambled.points_each().map(|_| scrambled.points)
             }
-            Plan::ExactSpeed(_) => Grid::without_speed(space).map(|grid| grid.points()),
+            Plan::ExactSpeed(_) => space.grid_points_without_speed(),
         }
     }
 }

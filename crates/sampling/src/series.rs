@@ -79,7 +79,7 @@ fn running_grid(
     progress: Progress<'_>,
 ) -> Result<Running, SampleError> {
     let grid = Grid::new(space)?;
-    let points = grid.points();
+    let points = space.grid_points()?;
     running(space, &Launches::Grid(grid), points, steps, solver, progress)
 }
 

@@ -153,6 +153,10 @@ fn run(args: &Args) -> anyhow::Result<u8> {
 
 /// Times, or instructions; 3 if those are more than the baseline allows.
 fn bench(args: &Args) -> anyhow::Result<u8> {
+    if args.bless && !args.instructions {
+        eprintln!("error: --bless goes with --instructions: times are never judged");
+        return Ok(2);
+    }
     if !args.instructions {
         print!("{}", Table::measure()?);
         return Ok(0);

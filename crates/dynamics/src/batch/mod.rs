@@ -2,7 +2,7 @@
 //!
 //! | wanted | kernel | error |
 //! |---|---|---|
-//! | cos θ at landing | [`Tosses::cos_tilts`] | 4e-16 |
+//! | cos θ at landing | [`Tosses::cos_tilts`] | 4e-16 from horizontal, else 6e-16 |
 //! | proven outcomes | [`Tosses::outcomes`] | none |
 //! | attitude at landing | [`Tosses::attitudes`] | 1e-15 rad |
 //!

@@ -16,7 +16,7 @@ const INVERSE_PI: [f64; 2] = [std::f64::consts::FRAC_1_PI, -1.967_867_667_518_24
 /// What is the same for all tosses of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Constants {
-    pub(super) ratio: [f64; 2],
+    ratio: [f64; 2],
     /// 1/(π g), turns of ωL T by a unit of ωL v0, and what f64 leaves of it, relative.
     turns: [f64; 2],
     /// (k - 1)/(π g), turns of q T by a unit of ωz v0, and what f64 leaves of it.
@@ -38,6 +38,16 @@ pub(super) struct Motion<S: Simd> {
     pub(super) half_inverse: Real<S>,
     /// ωL T (turns).
     pub(super) turns: [Real<S>; 2],
+}
+
+/// The same in plain f64.
+pub(super) struct PlainMotion<S: Simd> {
+    pub(super) along: Real<S>,
+    pub(super) across_squared: Real<S>,
+    /// |L|².
+    pub(super) squared: Real<S>,
+    pub(super) size: Real<S>,
+    pub(super) turns: Real<S>,
 }
 
 /// Sums over many tosses that tell whether all of them are ordinary.
@@ -103,10 +113,21 @@ impl Constants {
         [turns, path.mul_add(z.constant(self.spin_turns[1]), turns_rest)]
     }
 
-    /// ωL T (turns) in plain f64, for |L| (rad/s) and v0 (m/s).
+    /// As [`Constants::motion`], without what rounding loses.
     #[inline(always)]
-    pub(super) fn plain_turns<S: Simd>(&self, size: Real<S>, speed: Real<S>) -> Real<S> {
-        size * (speed * size.constant(self.turns[0]))
+    pub(super) fn plain_motion<S: Simd>(
+        &self,
+        [x, y, z]: [Real<S>; 3],
+        speed: Real<S>,
+        extent: &mut Extent<S>,
+    ) -> PlainMotion<S> {
+        let along = z * z.constant(self.ratio[0]);
+        let across_squared = x.mul_add(x, y * y);
+        let squared = along.mul_add(along, across_squared);
+        let size = squared.sqrt();
+        let turns = size * (speed * size.constant(self.turns[0]));
+        extent.add(squared, squared.constant(0.0), turns, speed);
+        PlainMotion { along, across_squared, squared, size, turns }
     }
 
     /// Whether a toss with these rates (rad/s) and this speed (m/s) is ordinary: no square and no phase leaves its range.

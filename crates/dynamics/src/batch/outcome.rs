@@ -21,7 +21,7 @@
 //! [`SMALLEST`] is above it.
 
 use super::kernel::{Kernel, Run};
-use super::momentum::{Constants, Extent, TiltTerms};
+use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
 use super::{BatchError, Tosses};
 use crate::certified::{Certificate, certify};
 use crate::error::SolveError;
@@ -152,12 +152,8 @@ impl Kernel<4, 1> for Flat {
     }
 
     #[inline(always)]
-    fn begin<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
-        let along = z * z.constant(self.0.ratio[0]);
-        let across_squared = x.mul_add(x, y * y);
-        let squared = along.mul_add(along, across_squared);
-        let turns = self.0.plain_turns(squared.sqrt(), speed);
-        extent.add(squared, squared.constant(0.0), turns, speed);
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
+        let PlainMotion { across_squared, squared, turns, .. } = self.0.plain_motion(rates, speed, extent);
         [turns, squared, threshold(turns, squared), across_squared + across_squared]
     }
 
@@ -178,15 +174,10 @@ impl Kernel<5, 1> for Tilted {
     }
 
     #[inline(always)]
-    fn begin<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 5] {
-        let along = z * z.constant(self.0.ratio[0]);
-        let across_squared = x.mul_add(x, y * y);
-        let squared = along.mul_add(along, across_squared);
-        let size = squared.sqrt();
-        let turns = self.0.plain_turns(size, speed);
-        extent.add(squared, squared.constant(0.0), turns, speed);
-        let [mean, cosine, sine] = self.1.terms([x, y, z], along, across_squared, size);
-        [turns, threshold(turns, squared * x.constant(self.1.norm)), mean, cosine, sine]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 5] {
+        let PlainMotion { along, across_squared, squared, size, turns } = self.0.plain_motion(rates, speed, extent);
+        let [mean, cosine, sine] = self.1.terms(rates, along, across_squared, size);
+        [turns, threshold(turns, squared * turns.constant(self.1.norm)), mean, cosine, sine]
     }
 
     #[inline(always)]

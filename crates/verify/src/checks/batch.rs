@@ -5,7 +5,7 @@ use toss::batch::{BatchError, TossError, Tosses};
 use toss::lanes::Path;
 use toss::{Attitude, Outcome, SolveError, TimeOfFlight, Toss};
 
-use super::certified::{adversarial, corners, is_in_range, random, subject, tries};
+use super::certified::{adversarial, corners, largest_errors, random, subject, tries};
 use crate::case::Case;
 use crate::check::{Basis, Check};
 use crate::context::Context;
@@ -105,13 +105,7 @@ fn errors(
         ("adversarial", adversarial(tries(context) / 2)?),
         ("corners", corners()?),
     ];
-    sets.into_iter()
-        .map(|(name, cases)| {
-            let one = |case: &Case| error(&case.toss, &Reference::new(&case.toss));
-            let errors: Vec<_> = cases.par_iter().map(one).filter(is_in_range).collect();
-            Ok(Measurement::largest(&subject(name), errors, |index| cases[index]))
-        })
-        .collect()
+    Ok(largest_errors(&sets, error))
 }
 
 /// How many tosses of each set are what `is` says.

@@ -194,17 +194,24 @@ fn last_bit(
         ("phases to 1e9", random(tries(context), 1e9, 3)?),
         ("corners", corners()?),
     ];
-    sets.into_iter()
-        .map(|(name, cases)| {
-            let one = |case: &Case| error(&case.toss, &Reference::new(&case.toss));
-            let errors: Vec<_> = cases.par_iter().map(one).filter(is_in_range).collect();
-            Ok(Measurement::largest(&subject(name), errors, |index| cases[index]))
-        })
-        .collect()
+    Ok(largest_errors(&sets, error))
+}
+
+/// The largest error in each set, against 256 bits.
+pub(super) fn largest_errors(
+    sets: &[(&str, Vec<Case>)],
+    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+) -> Vec<Measurement> {
+    let measure = |(name, cases): &(&str, Vec<Case>)| {
+        let one = |case: &Case| error(&case.toss, &Reference::new(&case.toss));
+        let errors: Vec<_> = cases.par_iter().map(one).filter(is_in_range).collect();
+        Measurement::largest(&subject(name), errors, |index| cases[index])
+    };
+    sets.iter().map(measure).collect()
 }
 
 /// A phase above 2^53 is refused, which is another check's business.
-pub(super) fn is_in_range(result: &Result<f64, SolveError>) -> bool {
+fn is_in_range(result: &Result<f64, SolveError>) -> bool {
     !matches!(result, Err(SolveError::PhaseTooLarge { .. }))
 }
 
