@@ -158,4 +158,20 @@ mod tests {
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
     }
+
+    #[test]
+    fn a_step_across_or_onto_a_pole_is_met_unless_it_was_launched_there() {
+        let system = AnglesSystem::new(0.5, 1.0);
+        let met = |was: f64, is: f64| {
+            let [before, after] = [was, is].map(|beta| SVector::from([0.0, beta, 0.0, 1.0, 0.0]));
+            system.singularity(&before, &after)
+        };
+        let pole = Some(Singularity::NormalAlongAxis);
+        for (was, is) in [(0.02, -0.01), (0.01, -0.02), (-0.01, 0.02), (0.1, 0.0), (3.0, 3.2), (3.2, 3.0)] {
+            assert_eq!(met(was, is), pole, "{was} to {is}");
+        }
+        for (was, is) in [(0.02, 0.01), (-0.02, -0.01), (0.0, -0.1), (1e-17, -0.1), (PI, 3.2)] {
+            assert_eq!(met(was, is), None, "{was} to {is}");
+        }
+    }
 }

@@ -112,9 +112,8 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        // Without any precession D = u = 0, and the flight was let pass because n rests at β = 0.
-        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
-        EulerAngles { alpha: y[2], beta, gamma: y[0] }
+        // A flight without any precession, D = u = 0, was let pass because n rests at β = 0, which is what atan2 says.
+        EulerAngles { alpha: y[2], beta: (self.sense * d).atan2(self.sense * u), gamma: y[0] }
     }
 
     /// γ'' by (10) and (11).
@@ -154,6 +153,7 @@ impl OdeSystem<5> for GammaSystem {
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
         let (was, is) = (self.terms(before), self.terms(after));
+        // A D of 0 is no crossing: along S a transverse rate next to nothing may underflow.
         let crossed = was.d * is.d < 0.0;
         let stopped = self.precession_stops(after) && !self.precession_stops(before);
         let turned_back = crossed && was.u * is.u < 0.0;
@@ -167,96 +167,4 @@ impl OdeSystem<5> for GammaSystem {
 }
 
 #[cfg(test)]
-mod tests {
-    use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
-
-    use super::*;
-
-    fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-        Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
-    }
-
-    /// (10) and (11) against central differences of the exact γ, where the vertical frame is regular.
-    #[test]
-    fn the_acceleration_is_that_of_the_exact_motion() {
-        for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)]
-        {
-            let toss = toss(k, rate, tilt);
-            let motion = ExactMotion::new(&toss);
-            let h = 1e-3;
-            let gamma = |time: f64| motion.euler_angles(time).unwrap().gamma;
-            for step in 1..10 {
-                let time = 0.1 * f64::from(step);
-                let [before, now, after] = [time - h, time, time + h].map(gamma);
-                let velocity = (after - before) / (2.0 * h);
-                let state = motion.state(time).unwrap();
-                let system = GammaSystem::new(k, rate[2], 1.0);
-                let y = SVector::from([now, velocity, 0.0, state.rate.x, state.rate.y]);
-                let found = system.gamma_acceleration(&system.terms(&y), velocity);
-                let expected = (after - 2.0 * now + before) / (h * h);
-                assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
-            }
-        }
-    }
-
-    #[test]
-    fn from_horizontal_it_starts_on_the_regular_solution() {
-        let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
-        let rate = toss.launch.rate();
-        let start = Start::new(&toss, &rate, Formulation::Vertical);
-        assert_eq!((start.angles.beta, start.angles.gamma), (0.0, (-1.0_f64).atan2(1.0)));
-        assert_eq!(rate.z - start.u, rate.z * (1.0 - 0.5 / 2.0), "γ'(0) = ωz (1 - k/2)");
-        let system = GammaSystem::new(0.5, rate.z, start.precession);
-        let y = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
-        assert_eq!(system.derivative(&y)[1], 0.0, "γ'' = 0 in the limit");
-    }
-
-    #[test]
-    fn along_the_momentum_the_angles_turn_steadily() {
-        for rate in [[1.0, 1.0, 2.5], [1.0, -2.0, -3.0], [1e-12, 0.0, -1.0]] {
-            let toss = toss(1.98, rate, 0.4);
-            let start = Start::new(&toss, &toss.launch.rate(), Formulation::Momentum);
-            assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&start.angles.beta));
-            let precession = ExactMotion::new(&toss).precession_rate();
-            assert!((start.precession.abs() - precession).abs() < 1e-15 * precession);
-            let system = GammaSystem::new(1.98, rate[2], start.precession);
-            let y = SVector::from([start.angles.gamma, rate[2] - start.u, 0.0, rate[0], rate[1]]);
-            let derivative = system.derivative(&y);
-            assert!((derivative[0] + 0.98 * rate[2]).abs() < 1e-14, "γ' = -q");
-            assert!(derivative[1].abs() < 1e-13, "γ'' = 0");
-            assert!((derivative[2] - start.precession).abs() < 1e-13, "α' = ±ωL");
-            let there = start.frame * start.angles.attitude();
-            assert!(there.angle_to(&toss.launch.attitude()) < 1e-15);
-        }
-    }
-
-    #[test]
-    fn a_precession_that_turns_back_is_an_error_with_its_time() {
-        let launch =
-            Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
-        let tilted = Toss { coin: Coin::PAPER, launch };
-        for scheme in [dynamics::Scheme::Dop853, dynamics::Scheme::Dopri5] {
-            let method = Method::adaptive(scheme, 1e-10).unwrap();
-            let error = GammaSolver::new(method, Formulation::Vertical).propagate(&tilted).unwrap_err();
-            let SolveError::Singular { point: Singularity::PrecessionStops, time } = error else { panic!("{error}") };
-            assert!(time > 0.0 && time < 5.0, "{time}");
-            // The same flight along the momentum.
-            let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&tilted).unwrap();
-            let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
-            assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
-        }
-    }
-
-    #[test]
-    fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
-        let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
-        let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
-        for step in [1e-3, 3e-4, 1e-4] {
-            let method = Method::fixed(dynamics::Scheme::Rk4, step).unwrap();
-            let error = GammaSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
-            let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
-            assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,184 @@
+//! The γ-ODE against the exact motion, and at the edges of what it takes.
+
+use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
+
+use super::*;
+
+fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+    Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
+}
+
+/// (10) and (11) against central differences of the exact γ, where the vertical frame is regular.
+#[test]
+fn the_acceleration_is_that_of_the_exact_motion() {
+    for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)] {
+        let toss = toss(k, rate, tilt);
+        let motion = ExactMotion::new(&toss);
+        let h = 1e-3;
+        let gamma = |time: f64| motion.euler_angles(time).unwrap().gamma;
+        for step in 1..10 {
+            let time = 0.1 * f64::from(step);
+            let [before, now, after] = [time - h, time, time + h].map(gamma);
+            let velocity = (after - before) / (2.0 * h);
+            let state = motion.state(time).unwrap();
+            let system = GammaSystem::new(k, rate[2], 1.0);
+            let y = SVector::from([now, velocity, 0.0, state.rate.x, state.rate.y]);
+            let found = system.gamma_acceleration(&system.terms(&y), velocity);
+            let expected = (after - 2.0 * now + before) / (h * h);
+            assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn from_horizontal_it_starts_on_the_regular_solution() {
+    let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
+    let rate = toss.launch.rate();
+    let start = Start::new(&toss, &rate, Formulation::Vertical);
+    assert_eq!((start.angles.beta, start.angles.gamma), (0.0, (-1.0_f64).atan2(1.0)));
+    assert_eq!(rate.z - start.u, rate.z * (1.0 - 0.5 / 2.0), "γ'(0) = ωz (1 - k/2)");
+    let system = GammaSystem::new(0.5, rate.z, start.precession);
+    let y = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
+    assert_eq!(system.derivative(&y)[1], 0.0, "γ'' = 0 in the limit");
+}
+
+#[test]
+fn along_the_momentum_the_angles_turn_steadily() {
+    for rate in [[1.0, 1.0, 2.5], [1.0, -2.0, -3.0], [1e-12, 0.0, -1.0]] {
+        let toss = toss(1.98, rate, 0.4);
+        let start = Start::new(&toss, &toss.launch.rate(), Formulation::Momentum);
+        assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&start.angles.beta));
+        let precession = ExactMotion::new(&toss).precession_rate();
+        assert!((start.precession.abs() - precession).abs() < 1e-15 * precession);
+        let system = GammaSystem::new(1.98, rate[2], start.precession);
+        let y = SVector::from([start.angles.gamma, rate[2] - start.u, 0.0, rate[0], rate[1]]);
+        let derivative = system.derivative(&y);
+        assert!((derivative[0] + 0.98 * rate[2]).abs() < 1e-14, "γ' = -q");
+        assert!(derivative[1].abs() < 1e-13, "γ'' = 0");
+        assert!((derivative[2] - start.precession).abs() < 1e-13, "α' = ±ωL");
+        let there = start.frame * start.angles.attitude();
+        assert!(there.angle_to(&toss.launch.attitude()) < 1e-15);
+    }
+}
+
+#[test]
+fn a_precession_that_turns_back_is_an_error_with_its_time() {
+    let launch = Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
+    let tilted = Toss { coin: Coin::PAPER, launch };
+    for scheme in [dynamics::Scheme::Dop853, dynamics::Scheme::Dopri5] {
+        let method = Method::adaptive(scheme, 1e-10).unwrap();
+        let error = GammaSolver::new(method, Formulation::Vertical).propagate(&tilted).unwrap_err();
+        let SolveError::Singular { point: Singularity::PrecessionStops, time } = error else { panic!("{error}") };
+        assert!(time > 0.0 && time < 5.0, "{time}");
+        // The same flight along the momentum.
+        let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&tilted).unwrap();
+        let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
+        assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
+    let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
+    let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
+    for step in [1e-3, 3e-4, 1e-4] {
+        let method = Method::fixed(dynamics::Scheme::Rk4, step).unwrap();
+        let error = GammaSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
+        let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
+        assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
+    }
+}
+
+/// A system with q = rate_z (k - 1) and a state with given D, u and β': γ = 0 makes ωy D and ωx β'.
+fn state(system: &GammaSystem, d: f64, u: f64, beta_rate: f64) -> SVector<f64, 5> {
+    SVector::from([0.0, system.rate_z - u, 0.0, beta_rate, d])
+}
+
+#[test]
+fn only_the_regular_solution_may_pass_where_d_vanishes() {
+    for rate_z in [0.5, 2.0, -3.0] {
+        let system = GammaSystem::new(0.5, rate_z, 1.0);
+        let acceleration = |d: f64, u: f64, beta_rate: f64| {
+            let y = state(&system, d, u, beta_rate);
+            system.gamma_acceleration(&system.terms(&y), y[1])
+        };
+        let regular = 0.25 * rate_z;
+        assert_eq!(acceleration(0.0, regular, 3.0), 0.0);
+        // (10)'s sum vanishes at the regular u, and has this slope there.
+        let slack = NO_DIGIT * (rate_z * rate_z + (rate_z - regular).powi(2));
+        let slope = system.q + rate_z;
+        for (part, passes) in [(0.8, true), (-0.8, true), (1.25, false), (-1.25, false)] {
+            let u = regular + part * slack / slope;
+            assert_eq!(acceleration(0.0, u, 3.0) == 0.0, passes, "{rate_z}, {part}");
+        }
+        // Whether there is a digit in D is a matter of D over β'.
+        for (d, passes) in [(0.8, true), (1.25, false)] {
+            for beta_rate in [0.01, -7.0] {
+                let found = acceleration(d * NO_DIGIT * beta_rate, regular + 0.5 * slack / slope, beta_rate);
+                assert_eq!(found == 0.0, passes, "{d}, {beta_rate}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_precession_stops_below_one_in_a_hundred_of_the_rate() {
+    let system = GammaSystem::new(0.5, 1.0, 1.0);
+    assert!(!system.precession_stops(&state(&system, 0.0, 1e-2, 0.5)), "at 1 % it goes on");
+    assert!(system.precession_stops(&state(&system, 0.0, 0.99e-2, 0.5)));
+    for scale in [1e-3, 8.0] {
+        for transverse in [0.1, 5.0] {
+            let system = GammaSystem::new(0.5, scale, 1.0);
+            let largest = scale * f64::max(1.0, transverse);
+            for (part, stops) in [(0.9, true), (1.1, false)] {
+                let y = state(&system, 0.6 * 1e-2 * part * largest, 0.8 * 1e-2 * part * largest, scale * transverse);
+                assert_eq!(system.precession_stops(&y), stops, "{scale}, {transverse}, {part}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_meets_the_point_that_it_crosses() {
+    let system = GammaSystem::new(0.5, 1.0, 1.0);
+    let met = |was: [f64; 3], is: [f64; 3]| {
+        let [before, after] = [was, is].map(|[d, u, beta_rate]| state(&system, d, u, beta_rate));
+        system.singularity(&before, &after)
+    };
+    let pole = Some(Singularity::NormalAlongAxis);
+    for beta_rate in [1.0, 1e-3] {
+        assert_eq!(met([0.2, 0.5, beta_rate], [0.1, 0.5, beta_rate]), None, "no crossing");
+        assert_eq!(met([0.2, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), pole);
+        assert_eq!(met([-0.3, 0.5, beta_rate], [0.2, 0.5, beta_rate]), pole);
+        assert_eq!(met([0.2, 0.5, beta_rate], [0.0, 0.5, beta_rate]), None, "underflow");
+        let rounding = NO_DIGIT * beta_rate;
+        assert_eq!(met([0.9 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), None, "launched there");
+        assert_eq!(met([1.1 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), pole);
+    }
+    assert_eq!(met([NO_DIGIT, 0.5, 1.0], [-0.3, 0.5, 1.0]), None, "at the limit it was launched there");
+    let stops = Some(Singularity::PrecessionStops);
+    assert_eq!(met([0.2, 0.5, 1.0], [1e-4, 1e-4, 1.0]), stops);
+    assert_eq!(met([1e-4, 1e-4, 1.0], [1e-4, 1e-4, 1.0]), None, "it never went");
+    assert_eq!(met([0.2, 0.5, 1.0], [-0.2, -0.1, 1.0]), stops, "it turned back");
+    assert_eq!(met([0.2, 0.5, 1.0], [0.2, -0.1, 1.0]), None, "past the horizontal");
+    assert_eq!(met([0.2, 0.0, 1.0], [-0.2, -0.5, 1.0]), pole);
+}
+
+#[test]
+fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
+    let method = Method::adaptive(Scheme::Dop853, 1e-10).unwrap();
+    for formulation in [Formulation::Momentum, Formulation::Vertical] {
+        let solver = GammaSolver::new(method, formulation);
+        for rate_z in [5.0, -5.0] {
+            let spun = solver.propagate(&toss(0.0, [0.0, 0.0, rate_z], 0.0)).unwrap().state.attitude;
+            assert!(spun.angle_to(&dynamics::Attitude::about_z(rate_z)) < 1e-9);
+            for rate in [[1e-3, 0.0, rate_z], [0.0, 1e-3, rate_z]] {
+                let error = solver.propagate(&toss(0.0, rate, 0.0)).unwrap_err();
+                assert_eq!(error, SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
+            }
+        }
+    }
+    let tilted = GammaSolver::new(method, Formulation::Vertical).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
+    assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 }));
+}
