@@ -81,6 +81,10 @@ pub(crate) fn turned<S: Simd>(p: [Real<S>; 4], [[w2, z2], [x2, y2]]: [Complex<Re
 
 #[cfg(test)]
 mod tests {
+    use dynamics::Attitude;
+    use dynamics::double_double::DoubleDouble;
+    use dynamics::lanes::{Path, WithSimd};
+
     use super::*;
 
     #[test]
@@ -92,5 +96,122 @@ mod tests {
             let remainder = (-(n as f64)).mul_add(rounded, 1.0);
             assert_eq!(error, remainder / n as f64);
         }
+    }
+
+    /// Some numbers of either sign with what follows their last bit.
+    fn doubles() -> [Double<f64>; 4] {
+        [[0.7, 3.1e-17], [-1.9, 0.8e-16], [1.0 / 3.0, -2.2e-17], [0.01, 0.7e-18]]
+    }
+
+    struct Doubles<'a>(&'a dyn Fn(Double<f64>, Double<f64>, [Double<f64>; 2]));
+
+    impl WithSimd for Doubles<'_> {
+        type Output = ();
+
+        fn with_simd<S: Simd>(self, simd: S) {
+            for a in doubles() {
+                for b in doubles() {
+                    let [x, y] = [a, b].map(|number| number.map(|part| Real::splat(simd, part)));
+                    self.0(a, b, [times(x, y), sum(x, y)].map(|number| number.map(first)));
+                }
+            }
+        }
+    }
+
+    /// The number in the first lane.
+    fn first<S: Simd>(value: Real<S>) -> f64 {
+        let mut number = [0.0];
+        value.store_up_to(&mut number);
+        number[0]
+    }
+
+    fn double_double([high, low]: Double<f64>) -> DoubleDouble {
+        DoubleDouble::exactly(high) + DoubleDouble::exactly(low)
+    }
+
+    /// Of 2^-106, the rounding of numbers with twice as many digits, for a number near 1.
+    fn error(found: Double<f64>, expected: DoubleDouble) -> f64 {
+        (double_double(found) - expected).hi().abs() * f64::exp2(106.0)
+    }
+
+    #[test]
+    fn products_and_sums_keep_twice_as_many_digits() {
+        for path in Path::all() {
+            path.run(Doubles(&|a, b, [product, sum]| {
+                let (x, y) = (double_double(a), double_double(b));
+                assert!(error(product, x * y) < 16.0, "{a:?} × {b:?}: {product:?}");
+                assert!(error(sum, x + y) < 16.0, "{a:?} + {b:?}: {sum:?}");
+            }));
+        }
+    }
+
+    /// What the complex numbers and turns of a step are made of, of two complex numbers and their errors.
+    struct OfAStep([Complex<Double<f64>>; 2]);
+
+    struct Found {
+        product: Complex<f64>,
+        compensated: Complex<Double<f64>>,
+        modulus: f64,
+        direction: Complex<f64>,
+    }
+
+    impl WithSimd for OfAStep {
+        type Output = Found;
+
+        fn with_simd<S: Simd>(self, simd: S) -> Found {
+            let [a, b] = self.0.map(|number| number.map(|part| part.map(|value| Real::splat(simd, value))));
+            let rough = |number: Complex<Double<Real<S>>>| number.map(|part| part[0]);
+            let (modulus, direction) = polar(rough(a));
+            Found {
+                product: complex_product(rough(a), rough(b)).map(first),
+                compensated: compensated_product(a, b).map(|part| part.map(first)),
+                modulus: first(modulus),
+                direction: direction.map(first),
+            }
+        }
+    }
+
+    #[test]
+    fn complex_numbers_are_multiplied_and_have_a_modulus_and_a_direction() {
+        let [a, b, c, d] = doubles();
+        for [[x, y], [s, t]] in [[[a, b], [c, d]], [[b, c], [a, b]], [[d, a], [c, c]]] {
+            let found = Path::widest().run(OfAStep([[x, y], [s, t]]));
+            let [x, y, s, t] = [x, y, s, t].map(double_double);
+            for (part, expected) in [x * s - y * t, x * t + y * s].into_iter().enumerate() {
+                assert!((found.product[part] - expected.hi()).abs() < 4e-16);
+                assert!(error(found.compensated[part], expected) < 64.0);
+                let [rounded, rest] = found.compensated[part];
+                assert_eq!(rounded + rest, rounded, "the rest is below half a bit");
+            }
+            let modulus = x.hi().hypot(y.hi());
+            assert!((found.modulus - modulus).abs() < 4e-16);
+            assert!((found.direction[0] - x.hi() / modulus).abs() < 4e-16);
+            assert!((found.direction[1] - y.hi() / modulus).abs() < 4e-16);
+        }
+        for size in [0.0, 1e-200] {
+            let found = Path::widest().run(OfAStep([[[size, 0.0], [-size, 0.0]], [a, b]]));
+            assert_eq!((found.modulus, found.direction[0]), (0.0, 1.0));
+            assert!(found.direction[1].abs() <= 1e-200);
+        }
+    }
+
+    struct Turned([f64; 4], [Complex<f64>; 2]);
+
+    impl WithSimd for Turned {
+        type Output = [f64; 4];
+
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 4] {
+            let splat = |value| Real::splat(simd, value);
+            turned(self.0.map(splat), self.1.map(|number| number.map(splat))).map(first)
+        }
+    }
+
+    #[test]
+    fn a_turn_is_the_product_of_attitudes() {
+        let of = |components: [f64; 4]| Attitude::from_components(components).unwrap();
+        let (p, r) = (of([0.3, -0.7, 0.5, 0.4]), of([-0.2, 0.6, 0.1, 0.9]));
+        let [w, x, y, z] = r.components();
+        let found = of(Path::widest().run(Turned(p.components(), [[w, z], [x, y]])));
+        assert!(found.angle_to(&(p * r)) < 1e-15);
     }
 }
