@@ -169,4 +169,28 @@ mod tests {
             assert!(Attitude::from_components(bad).is_err());
         }
     }
+
+    /// Any attitude, as components of no norm.
+    const ANY: [f64; 4] = [0.3, -0.7, 0.5, 0.4];
+
+    #[test]
+    fn components_are_divided_by_their_norm() {
+        let norm = ANY.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let found = Attitude::from_components(ANY.map(|part| 5.0 * part)).unwrap().components();
+        for (found, part) in found.into_iter().zip(ANY) {
+            approx::assert_abs_diff_eq!(found, part / norm, epsilon = 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_vertical_in_the_body_is_normalised_in_double_double() {
+        for components in [ANY, [0.3, 0.7, -0.5, 0.4], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]] {
+            let attitude = Attitude::from_components(components).unwrap();
+            let vertical = attitude.vertical_in_body();
+            let rounded = Vector3::from(vertical.map(DoubleDouble::hi));
+            approx::assert_abs_diff_eq!(rounded, attitude.lab_to_body(&Vector3::z()), epsilon = 1e-15);
+            let square = vertical.into_iter().fold(DoubleDouble::ZERO, |sum, part| sum + part * part);
+            assert!((square - 1.0.into()).hi().abs() < 1e-30, "{square:?}");
+        }
+    }
 }

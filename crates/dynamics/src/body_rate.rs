@@ -38,3 +38,32 @@ pub fn angular_momentum_tf(coin: &Coin, state: &State) -> Vector3<f64> {
 pub fn kinetic_energy(coin: &Coin, rate: &Vector3<f64>) -> f64 {
     0.5 * rate.dot(&angular_momentum(coin, rate))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rate and its transverse derivative, in an arbitrary unit, of a coin with I1 = 2 and I3 = 3.
+    const RATE: Vector3<f64> = Vector3::new(0.5, -1.5, 4.0);
+
+    fn coin() -> Coin {
+        Coin::from_moments(2.0, 3.0).unwrap()
+    }
+
+    /// (1) as Euler has it: I ω' = I ω × ω, in each component.
+    #[test]
+    fn the_accelerations_are_those_of_eulers_equations() {
+        let torque = angular_momentum(&coin(), &RATE).cross(&RATE);
+        let (x, y) = transverse_acceleration(body_precession_rate(1.5, RATE.z), RATE.x, RATE.y);
+        assert_eq!((2.0 * x, 2.0 * y, 0.0), (torque.x, torque.y, torque.z));
+        assert_eq!((x, y), (3.0, 1.0));
+    }
+
+    #[test]
+    fn momentum_and_energy_weigh_each_rate_with_its_moment() {
+        let momentum = angular_momentum(&coin(), &RATE);
+        assert_eq!(momentum, Vector3::new(1.0, -3.0, 12.0));
+        assert_eq!(kinetic_energy(&coin(), &RATE), 0.5 * momentum.dot(&RATE));
+        assert_eq!(kinetic_energy(&coin(), &RATE), 26.5);
+    }
+}

@@ -92,7 +92,36 @@ impl Steps {
     }
 }
 
-/// Runs the stepper with the controller settings of its own default constructor.
+/// Runs an adaptive stepper of `ode_solvers` with the controller settings of its own default constructor.
+macro_rules! run_adaptive {
+    ($stepper:ident, $system:expr, $start:expr, $end:expr, $steps:expr, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
+        const SAFETY: f64 = 0.9;
+        // No toss is stiff, but where the state hardly changes the test sees rounding and says so: it is never made.
+        const STIFFNESS_TEST_EVERY: u32 = u32::MAX;
+        let &Steps { tolerance, first, largest } = $steps;
+        let mut stepper = $stepper::from_param(
+            $system,
+            0.0,
+            $end,
+            0.0,
+            $start,
+            tolerance,
+            tolerance,
+            SAFETY,
+            $beta,
+            $smallest,
+            $largest,
+            largest,
+            first,
+            STEP_LIMIT,
+            STIFFNESS_TEST_EVERY,
+            OutputType::Sparse,
+        );
+        stepper.integrate()?;
+        Ok(stepper.into())
+    }};
+}
+
 fn step_through<const N: usize, S: OdeSystem<N>>(
     system: Counted<'_, N, S>,
     start: SVector<f64, N>,
@@ -100,40 +129,12 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     scheme: RungeKutta,
     steps: &Steps,
 ) -> Result<SolverResult<f64, SVector<f64, N>>, IntegrationError> {
-    const SAFETY: f64 = 0.9;
-    // No toss is stiff, but where the state hardly changes the test sees rounding and says so: it is never made.
-    const STIFFNESS_TEST_EVERY: u32 = u32::MAX;
-    let &Steps { tolerance, first, largest } = steps;
-    macro_rules! adaptive {
-        ($stepper:ident, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
-            let mut stepper = $stepper::from_param(
-                system,
-                0.0,
-                end,
-                0.0,
-                start,
-                tolerance,
-                tolerance,
-                SAFETY,
-                $beta,
-                $smallest,
-                $largest,
-                largest,
-                first,
-                STEP_LIMIT,
-                STIFFNESS_TEST_EVERY,
-                OutputType::Sparse,
-            );
-            stepper.integrate()?;
-            Ok(stepper.into())
-        }};
-    }
     match scheme {
-        RungeKutta::Dop853 => adaptive!(Dop853, beta: 0.0, factors: 0.333, 6.0),
-        RungeKutta::Dopri5 => adaptive!(Dopri5, beta: 0.04, factors: 0.2, 10.0),
+        RungeKutta::Dop853 => run_adaptive!(Dop853, system, start, end, steps, beta: 0.0, factors: 0.333, 6.0),
+        RungeKutta::Dopri5 => run_adaptive!(Dopri5, system, start, end, steps, beta: 0.04, factors: 0.2, 10.0),
         RungeKutta::Rk4 => {
             // It takes ⌈end/step⌉ steps: half a step less keeps rounding from adding one.
-            let mut stepper = Rk4::new(system, 0.0, start, end - 0.5 * first, first);
+            let mut stepper = Rk4::new(system, 0.0, start, end - 0.5 * steps.first, steps.first);
             stepper.integrate()?;
             Ok(stepper.into())
         }

@@ -3,7 +3,7 @@
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::SOLVERS;
-use toss::catalogue::{Body, CATALOGUE};
+use toss::catalogue::{Body, CATALOGUE, CatalogueEntry};
 use toss::fitted::FITTED;
 use toss::model::LADDER;
 
@@ -30,9 +30,8 @@ struct CoinLine {
     source: &'static str,
 }
 
-pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
-    let mut lines = Vec::new();
-    for entry in CATALOGUE {
+impl CoinLine {
+    fn of(entry: &CatalogueEntry) -> Result<Self, Failure> {
         let (mass_g, diameter_mm, thickness_mm) = match entry.body {
             Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
                 (Some(mass_g), Some(diameter_mm), Some(thickness_mm))
@@ -40,7 +39,7 @@ pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
             Body::Moments(_) => (None, None, None),
         };
         let coin = entry.coin()?;
-        lines.push(CoinLine {
+        Ok(Self {
             name: entry.name,
             description: entry.description,
             mass_g,
@@ -50,26 +49,32 @@ pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
             i3: coin.i3(),
             inertia_ratio: coin.inertia_ratio(),
             source: entry.source,
-        });
+        })
     }
+
+    fn row(&self) -> Vec<String> {
+        let optional = |value: Option<f64>, digits| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
+        vec![
+            self.name.to_owned(),
+            optional(self.mass_g, 3),
+            optional(self.diameter_mm, 2),
+            optional(self.thickness_mm, 2),
+            format!("{:.4e}", self.i1),
+            format!("{:.4e}", self.i3),
+            format!("{:.4}", self.inertia_ratio),
+            self.description.to_owned(),
+        ]
+    }
+}
+
+pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
+    let lines = CATALOGUE.iter().map(CoinLine::of).collect::<Result<Vec<_>, _>>()?;
     if args.format == Format::Json {
         return Ok(output::json(&lines));
     }
-    let optional = |value: Option<f64>, digits| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
     let mut rows =
         vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
-    rows.extend(lines.iter().map(|line| {
-        vec![
-            line.name.to_owned(),
-            optional(line.mass_g, 3),
-            optional(line.diameter_mm, 2),
-            optional(line.thickness_mm, 2),
-            format!("{:.4e}", line.i1),
-            format!("{:.4e}", line.i3),
-            format!("{:.4}", line.inertia_ratio),
-            line.description.to_owned(),
-        ]
-    }));
+    rows.extend(lines.iter().map(CoinLine::row));
     let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
     sources.dedup();
     Ok(format!("{}\n\nsources:\n  {}", table(&rows), sources.join("\n  ")))
