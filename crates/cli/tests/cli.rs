@@ -238,6 +238,7 @@ fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
     }
     let exact = json("probability --rate-x 20 --rate-y 5 --rate-z 3 --tilt 0.4 --speed 3:9 --method exact-speed", 0);
     assert_near(&answer["probability"], exact["probability"].as_f64().unwrap(), 1e-13);
+    assert!(stdout(&run("intervals --rate 2,2,0.5 --speed 3:5")).ends_with("share of the range  0.000000000000\n"));
     assert_refused(&[
         ("intervals --rate 1,1,1 --speed 3", ["--speed", "LO:HI"]),
         ("intervals --rate 1,1,1 --speed -3:3", ["speed [m/s] = -3.0", ">= 0"]),

@@ -60,7 +60,8 @@ impl Args {
             )));
         }
         let heads: Vec<[f64; 2]> = speeds_of_heads(&toss, slowest)?.into_iter().flatten().collect();
-        let length: f64 = heads.iter().map(|[slow, fast]| fast - slow).sum();
+        // From 0, where the sum of nothing is -0.
+        let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };
         Ok(match self.format {
             Format::Json => output::json(&answer),
