@@ -1,19 +1,34 @@
-//! The README's commands print what it says they print.
+//! The commands in the documents print what these say they print.
 
 use std::process::Command;
 
-const README: &str = include_str!("../../../README.md");
+const DOCUMENTS: [&str; 2] = [include_str!("../../../README.md"), include_str!("../../../docs/paper-audit.md")];
 const PREFIX: &str = "$ cargo run -q --release --bin unfair-toss -- ";
 
 #[test]
 fn console_blocks_are_current() {
-    let blocks: Vec<&str> =
-        README.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert!(blocks.len() >= 2);
-    for block in blocks {
-        let (command, expected) = block.split_once('\n').unwrap();
-        let arguments = command.strip_prefix(PREFIX).unwrap().split(' ');
-        let output = Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().unwrap();
-        assert_eq!(String::from_utf8(output.stdout).unwrap(), expected, "{command}");
+    for document in DOCUMENTS {
+        let blocks: Vec<&str> =
+            document.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+        assert!(blocks.len() >= 2);
+        for block in blocks {
+            let runs = block.strip_prefix(PREFIX).unwrap().split(PREFIX);
+            for run in runs {
+                let (command, expected) = run.split_once('\n').unwrap();
+                assert_eq!(printed(command), expected, "{command}");
+            }
+        }
     }
+}
+
+/// What a terminal shows of `command`, which may end in `| head -n LINES`.
+fn printed(command: &str) -> String {
+    let (arguments, lines) = match command.split_once(" | head -n ") {
+        Some((arguments, lines)) => (arguments, lines.parse().expect("a number of lines")),
+        None => (command, usize::MAX),
+    };
+    let arguments = arguments.split(' ');
+    let output = Command::new(env!("CARGO_BIN_EXE_unfair-toss")).args(arguments).output().expect("the program starts");
+    let [answer, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
+    answer.split_inclusive('\n').take(lines).collect::<String>() + &error
 }
