@@ -111,4 +111,52 @@ mod tests {
         }
         assert!(decided.iter().all(|decided| *decided > 700), "{decided:?}");
     }
+
+    /// Terms of one's choice.
+    fn terms(mean: f64, cosine: f64, sine: f64, size: f64) -> TiltTerms {
+        let mut terms = TiltTerms::new(&toss(1.0, [1.0, 0.0, 0.0], 0.0, 1.0));
+        (terms.mean, terms.cosine, terms.sine, terms.size) = (mean, cosine, sine, size);
+        terms
+    }
+
+    /// The thresholds of the derivation: at them nothing is certain, a unit beyond them it is.
+    #[test]
+    fn what_is_certain_is_beyond_the_bounds_of_the_derivation() {
+        const U: f64 = UNIT_ROUNDOFF;
+        let certain_at = |terms: TiltTerms, phase: f64| certain_by(&terms, phase).is_some();
+        // At any time: A² - (B² + C²) above 100 u size². A phase of 10 leaves the other test out.
+        for (units, certain) in [(448.0, false), (450.0, false), (452.0, true)] {
+            assert_eq!(certain_at(terms(1.0, 1.0 - units * U, 0.0, 3.0), 10.0), certain, "{units}");
+            assert_eq!(certain_at(terms(1.0, 0.0, 1.0 - units * U, 3.0), 10.0), certain, "{units}");
+        }
+        // At launch: A + B above 32 u size.
+        for (units, certain) in [(94.0, false), (96.0, false), (98.0, true)] {
+            assert_eq!(certain_at(terms(1.0, units * U - 1.0, 0.0, 3.0), 0.0), certain, "{units}");
+        }
+        // After half a radian: A + B - |C| φ above (32 + 24 φ + 16 φ²) u size = 144 u.
+        for (units, certain) in [(142.0, false), (144.0, false), (146.0, true)] {
+            for sign in [1.0, -1.0] {
+                let sine = sign * (2.0 - 2.0 * units * U);
+                assert_eq!(certain_at(terms(1.0, 0.0, sine, 3.0), 0.5), certain, "{units}");
+            }
+        }
+        // |A + B| - ½ |B| φ², with A = 0.
+        assert!(certain_at(terms(0.0, -1.0, 0.0, 1.0), 1.414) && !certain_at(terms(0.0, -1.0, 0.0, 1.0), 1.4143));
+    }
+
+    #[test]
+    fn phases_are_taken_up_to_a_hundredth_below_the_largest() {
+        let in_range = |k: f64, rate: [f64; 3], time: f64| {
+            let toss = toss(k, rate, 0.0, time);
+            phase_in_range(&toss, &TiltTerms::new(&toss)).is_some()
+        };
+        for (part, taken) in [(0.985, true), (0.99, false), (0.995, false)] {
+            let time = part * LARGEST_PHASE;
+            assert_eq!(in_range(1.0, [1.0, 0.0, 0.0], time), taken, "precession {part}");
+            assert_eq!(in_range(0.0, [0.0, 0.0, 1.0], time), taken, "spin {part}");
+        }
+        for (time, taken) in [(0.0, true), (1e-200, true), (0.99e-200, false)] {
+            assert_eq!(in_range(1.0, [1.0, 0.0, 0.0], time), taken, "{time}");
+        }
+    }
 }

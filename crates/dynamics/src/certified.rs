@@ -148,9 +148,7 @@ pub fn by_multiprecision(toss: &Toss) -> Outcome {
     }
     let mut digits: isize = 192;
     loop {
-        let cos_tilt = cos_tilt(toss, digits);
-        // Some twenty operations, the phase's error multiplied by up to 2^53.
-        let bound = Big::ONE >> (digits - 80);
+        let (cos_tilt, bound) = (cos_tilt(toss, digits), multiprecision_bound(digits));
         if cos_tilt > bound {
             return Outcome::Heads;
         }
@@ -159,6 +157,11 @@ pub fn by_multiprecision(toss: &Toss) -> Outcome {
         }
         digits *= 2;
     }
+}
+
+/// Bound of the error of cos θ in `digits` binary digits: some twenty operations, the phase's error multiplied by up to 2^53.
+fn multiprecision_bound(digits: isize) -> Big {
+    Big::ONE >> (digits - 80)
 }
 
 /// The vertical in BF times |q|², exactly.
@@ -216,82 +219,4 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
 }
 
 #[cfg(test)]
-mod tests {
-    use nalgebra::Vector3;
-
-    use super::*;
-    use crate::attitude::Attitude;
-    use crate::coin::Coin;
-    use crate::launch::Launch;
-
-    fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-        Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
-    }
-
-    /// On edge, exactly: w = x, so that mz = w² - x² = 0 and m is along y.
-    fn on_edge() -> Attitude {
-        let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
-        assert_eq!(edge.components()[0], edge.components()[1]);
-        edge
-    }
-
-    #[test]
-    fn exact_ties_are_undecided_and_nothing_else_is() {
-        let certified = |k, rate, time| certify(&toss(k, rate, on_edge(), time)).unwrap();
-        let tie = Certificate { outcome: Outcome::Undecided, stage: Stage::Multiprecision };
-        // At rest, at once, in pure spin, and about a vertical S in the middle plane.
-        for (k, rate, time) in [
-            (1.5, [0.0; 3], 1.0),
-            (1.5, [1.0, 2.0, 3.0], 0.0),
-            (1.5, [0.0, 0.0, 7.0], 1.0),
-            (0.0, [0.0, 0.0, 7.0], 1.0),
-            (1.5, [0.0, 7.0, 0.0], 1.0),
-            (0.0, [0.0, -7.0, 3.0], 1.0),
-        ] {
-            assert_eq!(certified(k, rate, time), tie, "{k} {rate:?} {time}");
-        }
-        // A momentum that is not level makes no tie, though m is along its part across the normal.
-        assert_ne!(by_multiprecision(&toss(1.5, [0.0, 7.0, 3.0], on_edge(), 1.0)), Outcome::Undecided);
-        // Dropped, not thrown, it does not land at once.
-        let dropped = TimeOfFlight::BallisticTo { speed: 0.0, gravity: 9.81, drop: 1.0 };
-        let launch = Launch::new(Vector3::new(1.0, 2.0, 3.0), dropped).unwrap().with_attitude(on_edge());
-        assert_ne!(by_multiprecision(&Toss { coin: Coin::PAPER, launch }), Outcome::Undecided);
-        // cos θ = (mx Ly - my Lx) t to first order, here -ωx t.
-        for (rate, time, outcome) in [
-            ([1e-300, 7.0, 0.0], 1.0, Outcome::Tails),
-            ([-1e-300, 7.0, 0.0], 1.0, Outcome::Heads),
-            ([1.0, 2.0, 0.0], 5e-324, Outcome::Tails),
-            ([-1.0, 2.0, 3.0], 1e-310, Outcome::Heads),
-        ] {
-            let found = certified(1.5, rate, time);
-            assert_eq!((found.outcome, found.stage), (outcome, Stage::Multiprecision), "{rate:?} {time}");
-        }
-    }
-
-    #[test]
-    fn every_stage_gives_the_same_outcome_where_it_decides() {
-        let mut decided = [0, 0];
-        for index in 0..300 {
-            let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
-            let rate = [40.0 * part(2f64.sqrt()), 40.0 * part(3f64.sqrt()), 40.0 * part(5f64.sqrt())];
-            let attitude = Attitude::about_x(3.0 * part(7f64.sqrt()));
-            let toss = toss(f64::from(index % 5) * 0.5, rate, attitude, 1.0 + part(11f64.sqrt()));
-            let exact = by_multiprecision(&toss);
-            let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight()).unwrap();
-            for (stage, outcome) in [by_f64(&toss), double].into_iter().enumerate() {
-                assert!(outcome.is_none_or(|outcome| outcome == exact), "stage {stage} of {toss:?}");
-                decided[stage] += u32::from(outcome.is_some());
-            }
-        }
-        assert_eq!(decided, [300, 300]);
-    }
-
-    #[test]
-    fn a_phase_above_two_to_the_53_is_refused() {
-        let fast = toss(0.5, [1e10, 0.0, 0.0], Attitude::IDENTITY, 1e6);
-        assert!(matches!(certify(&fast), Err(SolveError::PhaseTooLarge { .. })));
-        let spinning = toss(0.0, [0.0, 0.0, 1e300], Attitude::IDENTITY, 1.0);
-        assert!(matches!(certify(&spinning), Err(SolveError::PhaseTooLarge { .. })));
-    }
-}
+mod tests;
