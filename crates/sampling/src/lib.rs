@@ -1,11 +1,13 @@
 //! From launches to probabilities.
 //!
 //! ```text
-//! axes → space → launches (grid, random, Sobol) in columns → outcomes or shares → counts or means → estimate with its interval
+//! axes → space → launches (grid, random, Sobol) in columns
+//!      → outcomes or shares → counts or means → estimate with its interval
 //! ```
 //!
-//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; [`estimate()`] answers. Sums are
-//! integers and do not depend on the number of threads. This is the only crate that knows a random number generator.
+//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; [`estimate()`] answers. Sums
+//! are integers and do not depend on the number of threads. This is the only crate that knows a random number
+//! generator.
 
 pub mod axis;
 mod block;
@@ -34,7 +36,7 @@ pub use counts::{Counts, Proven};
 pub use estimate::{Estimate, Found, IntervalKind, estimate};
 pub use fold::{Progress, SampleError};
 pub use interval::{Interval, clopper_pearson, wilson};
-pub use long_flight::{long_flight_probability, rate_ratio};
+pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use map::{Map, Node, map};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;

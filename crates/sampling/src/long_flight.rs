@@ -26,14 +26,29 @@ pub fn long_flight_probability(cone: f64, momentum_tilt: f64) -> f64 {
     0.5 + along.atan2(((across - along) * (across + along)).sqrt()) / PI
 }
 
+/// The angle ψ (rad) between n and S of a launch from horizontal whose long flights land heads with `probability`:
+/// ψ = acot √sin(π (p - ½)), from 45° for p = 1 (where every smaller angle serves as well) to 90° for p = ½.
+///
+/// # Errors
+/// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: none has less than ½.
+pub fn long_flight_cone(probability: f64) -> Result<f64, InputError> {
+    require("probability", probability, "at least 1/2, at most 1", (0.5..=1.0).contains(&probability))?;
+    Ok(1f64.atan2(cotangent(probability)))
+}
+
 /// The ratio Ω/ωz of a launch from horizontal whose long flights land heads with `probability`, for a coin with the
-/// inertia ratio `k`: cot²ψ = sin(π (p - ½)) and tan ψ = Ω/(k ωz). For p = 1 it is the largest such ratio, at ψ = 45°.
+/// inertia ratio `k`: Ω/ωz = k tan ψ, with ψ of [`long_flight_cone`]. For p = 1 it is the largest such ratio, k.
 ///
 /// # Errors
 /// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: ½ needs ωz = 0, and none has less.
 pub fn rate_ratio(probability: f64, k: f64) -> Result<f64, InputError> {
     require("probability", probability, "above 1/2, at most 1", probability > 0.5 && probability <= 1.0)?;
-    Ok(k / (PI * (probability - 0.5)).sin().sqrt())
+    Ok(k / cotangent(probability))
+}
+
+/// cot ψ = √sin(π (p - ½)), for p from ½ to 1; p - ½ is exact.
+fn cotangent(probability: f64) -> f64 {
+    (PI * (probability - 0.5)).sin().sqrt()
 }
 
 #[cfg(test)]
@@ -54,6 +69,49 @@ mod tests {
         for probability in [0.5, 0.3, 1.01, f64::NAN] {
             assert!(rate_ratio(probability, 0.5).is_err());
         }
+    }
+
+    #[test]
+    fn the_cone_is_that_of_the_reference_probabilities() {
+        // p(ψ) to 16 digits, from the closed form in 50; the angle answers to one of their roundings by dψ/dp.
+        for (degrees, probability) in [
+            (50.0_f64, 0.748_644_041_020_130_9),
+            (55.0, 0.663_109_352_400_508_2),
+            (60.0, 0.608_173_447_969_392_7),
+            (80.0, 0.509_898_232_792_768_8),
+        ] {
+            let (cone, found) = (degrees.to_radians(), long_flight_cone(probability).unwrap());
+            let within = 1e-16 / slope(cone) + 2.0 * f64::EPSILON;
+            assert!((found - cone).abs() < within, "{degrees}°: off by {:e}", found - cone);
+        }
+        assert_eq!(long_flight_cone(1.0), Ok(PI / 4.0));
+        assert_eq!(long_flight_cone(0.5), Ok(PI / 2.0));
+    }
+
+    #[test]
+    fn the_cone_has_the_probability_that_was_asked_for() {
+        for part in 0..1000 {
+            let probability = 0.5 + 0.499 * f64::from(part) / 999.0;
+            let cone = long_flight_cone(probability).unwrap();
+            let found = long_flight_probability(cone, cone);
+            // What a rounding of the angle does to p, and the roundings of p.
+            let within = f64::EPSILON * (2.0 * cone * slope(cone) + 2.0);
+            assert!((found - probability).abs() < within, "{probability}: off by {:e}", found - probability);
+        }
+    }
+
+    #[test]
+    fn no_cone_has_a_probability_below_one_half_or_above_one() {
+        for probability in [0.5_f64.next_down(), 0.0, -1.0, 1.0_f64.next_up(), f64::NAN, f64::INFINITY] {
+            let error = long_flight_cone(probability).unwrap_err();
+            assert!(matches!(error, InputError::OutOfRange { field: "probability", .. }), "{error}");
+        }
+    }
+
+    /// |dp/dψ| = 2 cot ψ / (π sin²ψ √(1 - cot⁴ψ)) of the limit from horizontal (1/rad).
+    fn slope(cone: f64) -> f64 {
+        let cotangent = cone.tan().recip();
+        2.0 * cotangent / (PI * cone.sin().powi(2) * (1.0 - cotangent.powi(4)).sqrt())
     }
 
     #[test]

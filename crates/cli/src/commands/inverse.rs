@@ -1,6 +1,6 @@
 //! `unfair-toss inverse`: how to launch for a wanted probability of heads.
 
-use sampling::rate_ratio;
+use sampling::{long_flight_cone, rate_ratio};
 use serde::Serialize;
 use toss::Coin;
 
@@ -34,8 +34,7 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let (probability, k) = (self.probability, coin.inertia_ratio());
-        // Of a rod every rate ratio is 0: its angular momentum lies in its middle plane however fast it spins.
-        let cone_angle = rate_ratio(probability, 1.0)?.atan();
+        let cone_angle = long_flight_cone(probability)?;
         let answer = Answer { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };
         Ok(match self.format {
             Format::Json => output::json(&answer),
