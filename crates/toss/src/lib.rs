@@ -1,19 +1,93 @@
-//! Tosses for downstream code: everything that describes a toss, the solvers, and the trace of a flight.
+//! The free flight of a tossed coin: outcomes, trajectories and probabilities, for downstream code.
+//!
+//! A coin with moments I1 = I2 and I3 = k I1 that leaves the hand flat, with the body rate ω, turns about its angular
+//! momentum at ωL = √(ωx² + ωy² + (k ωz)²). With cos ψ = k ωz/ωL its normal is at the angle θ to the vertical,
+//!
+//! ```text
+//! cos θ(t) = cos²ψ + sin²ψ cos(ωL t),        heads if it lands with cos θ > 0, at t = 2 v0/g
+//! ```
+//!
+//! so ψ ≤ 45° is heads for ever. All quantities are f64 in SI units. The paper meant below is "Modeling the unfair toss
+//! of an unbiased coin".
+//!
+//! # A toss
+//! The paper's cheated toss, ω = (1, 1, 2.5) rad/s thrown up at 3 m/s: its outcome is proven, and the speed would have
+//! to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certified`],
+//! [`margin()`].
 //!
 //! ```
-//! use toss::{Coin, ExactSolver, Launch, Solver, TimeOfFlight, Toss, Vector3};
+//! use toss::{Coin, ExactSolver, Launch, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
 //!
-//! // The paper's cheated toss: ω = (1, 1, 2.5) rad/s, thrown up at 3 m/s.
 //! let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! let launch = Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)?;
-//! let toss = Toss { coin: Coin::PAPER, launch };
-//! assert_eq!(ExactSolver.outcome(&toss)?.name(), "heads");
+//! let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//! assert_eq!(certify(&toss)?.outcome.name(), "heads");
+//! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
+//! assert_eq!(margin(&toss)?.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
 //!
-//! // The same flight by a solver that is chosen at run time.
-//! let solver = (toss::named_solver("gamma")?.build)(&toss::Settings::default());
-//! assert!((solver.cos_tilt(&toss)? - 0.665_661_286_601_930_7).abs() < 1e-9);
+//! // The same flight by an integrator that is chosen at run time.
+//! let gamma = (toss::named_solver("gamma")?.build)(&toss::Settings::default());
+//! assert!((gamma.cos_tilt(&toss)? - ExactSolver.cos_tilt(&toss)?).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # A trace
+//! The flight at equal steps of time, by any solver. Read on at [`mod@trace`] and [`SOLVERS`]; whole columns of tosses
+//! at once are [`batch`].
+//!
+//! ```
+//! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss, Vector3};
+//! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//! let flight = toss::trace(&ExactSolver, &toss, 4)?;
+//! let shown: Vec<String> = flight.iter().map(|point| format!("{:.2} s {:.3}", point.time, point.cos_tilt)).collect();
+//! assert_eq!(shown, ["0.00 s 1.000", "0.20 s 0.959", "0.41 s 0.842", "0.61 s 0.666"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # A probability
+//! Launches vary: a US quarter that turns at 20 to 60 rad/s with a spin of 5 to 15 rad/s, thrown at 3 to 5 m/s. The
+//! speed is integrated in closed form, the rates are sampled. Read on at [`sampling`]: its [`Space`](sampling::Space)
+//! says which launches are meant, its [`Plan`](sampling::Plan) which of them are tried.
+//!
+//! ```
+//! use toss::sampling::{Coordinate, Plan, Rest, Scrambled, Space, estimate};
+//! use toss::{ExactSolver, catalogue::named_coin};
+//!
+//! let axes = [
+//!     (Coordinate::RateX, "20:60"),
+//!     (Coordinate::RateY, "0"),
+//!     (Coordinate::RateZ, "5:15"),
+//!     (Coordinate::Speed, "3:5"),
+//! ];
+//! let space = Space::parse(named_coin("us-quarter")?, &axes)?;
+//! let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 14, 1)));
+//! let found = estimate(&space, plan, &ExactSolver, &|_| {})?;
+//! let interval = found.interval.ok_or("eight scrambles have an interval")?;
+//! let found = format!("{:.4}, within {:.4} to {:.4}", found.probability, interval.lo, interval.hi);
+//! assert_eq!(found, "0.6247, within 0.6246 to 0.6248");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # A plan
+//! Whoever wants heads or tails needs no trajectory: a [`Scene`] says what is wanted and how accurately, and the
+//! planner takes the cheapest model that serves. Read on at [`scene`], [`model`], [`mod@plan`].
+//!
+//! ```
+//! use toss::{Answer, Model, Scene, Want};
+//! # use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
+//! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//!
+//! let outcome = Scene::new(Want::Outcome(toss), 1e-9).solve()?;
+//! assert_eq!(outcome.model, Model::Certain); // the flight is too short to flip
+//! let tilt = Scene::new(Want::Tilt(toss), 1e-9);
+//! assert_eq!(tilt.plan()?.choice.model, Model::Tilt);
+//! assert!(matches!(tilt.solve()?.answer, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! More questions, with their answers, are in the crate's `examples`: which launches are fair, how to launch for a
+//! wanted probability, how much people's coins wobble.
 
 pub mod choice;
 pub mod fitted;
@@ -32,6 +106,7 @@ pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 pub use model::Model;
 pub use registry::{SOLVERS, named_solver};
+pub use sampling;
 pub use scene::{Integrator, Scene, SceneError, Want};
 pub use solve::{Answer, Solution};
 pub use trace::{TracePoint, trace};
