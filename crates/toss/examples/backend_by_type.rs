@@ -1,6 +1,12 @@
+//! Do two solvers agree on many tosses?
+//!
 //! A backend that is chosen when the program is compiled: generic code over [`Solver`], without a box or a look-up.
 //!
-//! `cargo run --release --example backend_by_type`
+//! ```text
+//! heads of 50: 45 by the exact motion, 45 by the quaternion
+//! ```
+//!
+//! `cargo run --release -p toss --example backend_by_type`
 
 use toss::{Coin, ExactSolver, InputError, Launch, Method, QuaternionSolver, Scheme, SolveError, Solver};
 use toss::{Formulation, TimeOfFlight, Toss, Vector3};

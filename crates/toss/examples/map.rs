@@ -1,0 +1,66 @@
+//! Which launches are fair, and which are certain?
+//!
+//! P(heads) of a US quarter thrown at 3 to 5 m/s, over Ω (across, 1 rad/s a character) and ωz (upwards): the share of
+//! the speeds that land heads, in closed form. Digits are tenths, and `#` is heads at every speed. Left of `/`, the
+//! line Ω = k ωz on which ψ = 45°, the coin shows heads at every time. Right of it fast coins become fair, while slow
+//! ones have so few turns that it matters where these end.
+//!
+//! ```text
+//!  30 ############################################################/9
+//!  28 ########################################################/99888
+//!  26 ####################################################/988888777
+//!  24 ################################################/9988877777777
+//!  22 ############################################/98887777777776666
+//!  20 ########################################/998877777776666676666
+//!  18 ####################################/9887777777776666666666666
+//!  16 ################################/98887777776666666666666655556
+//!  14 ############################/988777777666666665555666655555555
+//!  12 ########################/9877777776666666656666555555655555555
+//!  10 ####################/98777776556666665555555555555545555555555
+//!   8 ################/977777766666655555666555555555555554455555555
+//!   6 ############/9877776545566655555544556655444555555555444555555
+//!   4 ########/97666655666654445665555554445555444455545555444455554
+//!   2 ####/#9#975334555455654434555544554444555544445545555444455554
+//!   0 #/#40015896423455445565434455544554444555544445544555544455554
+//!  ωz over Ω, from 0 to 60 rad/s
+//! ```
+//!
+//! `cargo run --release -p toss --example map`
+
+use toss::ExactSolver;
+use toss::catalogue::named_coin;
+use toss::sampling::{Coordinate, Node, Plan, Rest, Space, map};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let axes = [
+        (Coordinate::RateX, "0:60:61"),
+        (Coordinate::RateY, "0"),
+        (Coordinate::RateZ, "0:30:16"),
+        (Coordinate::Speed, "3:5"),
+    ];
+    let quarter = named_coin("us-quarter")?;
+    let space = Space::parse(quarter, &axes)?;
+    let across_and_up = [Coordinate::RateX, Coordinate::RateZ];
+    let mapped = map(&space, across_and_up, Plan::ExactSpeed(Rest::Grid), &ExactSolver, &|_| {})?;
+    let (rates, spins) = (&mapped.across.1, &mapped.up.1);
+    for (spin, row) in spins.iter().zip(mapped.nodes.chunks(rates.len())).rev() {
+        let certain = row.iter().take_while(|node| shows_only_heads(node)).count();
+        let (left, right) = row.split_at(certain);
+        println!("{spin:>3} {}/{}", text(left), text(right));
+
+        // The line is where the angular momentum says, and left of it the probability is 1.
+        assert_eq!(certain, rates.iter().filter(|rate| **rate <= quarter.inertia_ratio() * spin).count());
+        assert!(left.iter().all(|node| node.probability == 1.0));
+    }
+    println!(" ωz over Ω, from 0 to 60 rad/s");
+    Ok(())
+}
+
+fn shows_only_heads(node: &Node) -> bool {
+    node.least_cos_tilt.is_some_and(|least| least >= 0.0)
+}
+
+fn text(nodes: &[Node]) -> String {
+    let digit = |node: &Node| (0..10).rev().find(|tenth| node.probability >= 0.1 * f64::from(*tenth)).unwrap_or(0);
+    nodes.iter().map(|node| if node.probability == 1.0 { "#".to_owned() } else { digit(node).to_string() }).collect()
+}

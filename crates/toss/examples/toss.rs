@@ -1,0 +1,46 @@
+//! How does this toss land, and how near was it to the other side?
+//!
+//! A US quarter, flipped at 38 turns a second with some spin about its normal, thrown at 2.4 m/s and caught at the
+//! height that it left from.
+//!
+//! ```text
+//! outcome   heads, proven
+//! cos θ     0.700987799768
+//! attitude  w +0.718362807  x +0.338857683  y -0.186229887  z +0.578315465
+//! margin    +16.7013 mm/s in v0
+//! ψ         67.4155°, heads for ever up to 45°
+//! ```
+//!
+//! `cargo run --release -p toss --example toss`
+
+use std::f64::consts::TAU;
+
+use toss::catalogue::named_coin;
+use toss::{ExactMotion, ExactSolver, InputError, Launch, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
+
+const SPEED: f64 = 2.4;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let toss = thrown(SPEED)?;
+    let proven = certify(&toss)?;
+    let landing = ExactSolver.propagate(&toss)?;
+    let [w, x, y, z] = landing.state.attitude.components();
+    let change = margin(&toss)?.speed.ok_or("no speed changes the outcome")?;
+    println!("outcome   {}, proven", proven.outcome.name());
+    println!("cos θ     {:.12}", landing.cos_tilt);
+    println!("attitude  w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}");
+    println!("margin    {:+.4} mm/s in v0", 1e3 * change);
+    println!("ψ         {:.4}°, heads for ever up to 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
+
+    // A little less than the margin keeps the outcome, a little more flips it.
+    assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome, proven.outcome);
+    assert_ne!(certify(&thrown(SPEED + change * (1.0 + 1e-9))?)?.outcome, proven.outcome);
+    Ok(())
+}
+
+/// The quarter thrown at `speed` (m/s).
+fn thrown(speed: f64) -> Result<Toss, InputError> {
+    let up = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
+    let launch = Launch::new(Vector3::new(38.0 * TAU, 0.0, 50.0), up)?;
+    Ok(Toss { coin: named_coin("us-quarter")?, launch })
+}

@@ -1,0 +1,38 @@
+//! The examples print what their documentation says they print, and so keep what they assert.
+
+use std::path::Path;
+use std::process::Command;
+
+/// The examples that cargo built beside this test, in `examples` next to its own folder `deps`.
+fn run(name: &str) -> String {
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let profile = test.ancestors().nth(2).expect("target/PROFILE/deps/TEST");
+    let example = profile.join("examples").join(name).with_extension(std::env::consts::EXE_EXTENSION);
+    let output = Command::new(&example).output();
+    let output =
+        output.unwrap_or_else(|error| panic!("{}: {error}; `cargo test -p toss` builds it", example.display()));
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("examples print text")
+}
+
+/// The block of text in the documentation at the top of an example.
+fn documented(source: &str) -> String {
+    let lines =
+        source.lines().map_while(|line| line.strip_prefix("//!")).map(|line| line.strip_prefix(' ').unwrap_or(line));
+    let block = lines.skip_while(|line| *line != "```text").skip(1).take_while(|line| *line != "```");
+    block.flat_map(|line| [line, "\n"]).collect()
+}
+
+#[test]
+fn every_example_prints_what_it_says() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut names: Vec<String> = Vec::new();
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        assert_eq!(run(&name), documented(&std::fs::read_to_string(&path).unwrap()), "{name}");
+        names.push(name);
+    }
+    names.sort();
+    assert_eq!(names, ["backend_by_plan", "backend_by_type", "human", "inverse", "map", "toss"]);
+}
