@@ -1,4 +1,5 @@
-//! Attitude of the coin.
+//! Attitude of the coin: the unit quaternion Q = (w, x, y, z) with `v_lab = Q v_body Q*`, so that
+//! cos θ = w² + z² - x² - y².
 //!
 //! # Conventions
 //! - Algebra: Hamilton's (ij = k), scalar part first wherever components are listed: (w, x, y, z).

@@ -1,12 +1,12 @@
-//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed and
-//! gravity.
+//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed
+//! and gravity.
 //!
 //! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
-//! [Keller's coin](crate::keller) and what is [certain](mod@crate::certain). Three have more digits, one than the other, after the
-//! adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
+//! [Keller's coin](crate::keller) and what is [certain](mod@crate::certain). Three have more digits, one than the
+//! other, after the adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
 //!
-//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units of
-//! `size` ≥ |A|, √(B² + C²), |G|:
+//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units
+//! of `size` ≥ |A|, √(B² + C²), |G|:
 //!
 //! ```text
 //! A                                    12u
@@ -21,14 +21,14 @@
 //! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
 //! 2^-1000, and `size` is above 10^-200.
 //!
-//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations of
-//! at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time 25 u²,
-//! their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both), turned by
-//! its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
+//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations
+//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time
+//! 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both),
+//! turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
 //! [`double_double_bound`].
 //!
-//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann), so
-//! A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
+//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann),
+//! so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
 //! arithmetic first.
 
 use dashu_float::FBig;

@@ -1,9 +1,9 @@
-//! Landings by the exact motion in f64 with compensated phases: three times as fast as [`ExactMotion`](crate::ExactMotion),
-//! and nearly as accurate at any phase.
+//! Landings by the exact motion in f64 with compensated phases: three times as fast as
+//! [`ExactMotion`](crate::ExactMotion), and nearly as accurate at any phase.
 //!
 //! In plain f64 the phases ωL T and q T carry a few roundings each, and cos θ an error that grows with them. Here each
-//! rounding is followed to first order: products and sums leave their errors behind exactly, quotient and root by what they
-//! miss when multiplied out. What is left is some u² φ of the phases, and the rounding of what is made of them.
+//! rounding is followed to first order: products and sums leave their errors behind exactly, quotient and root by what
+//! they miss when multiplied out. What is left is some u² φ of the phases, and the rounding of what is made of them.
 
 use nalgebra::Vector3;
 

@@ -2,8 +2,8 @@
 //!
 //! With u = 2^-53 the relative errors are at most 3 u² (+), 5 u² (×), 10 u² (÷) and 4 u² (√), unless a product or its
 //! rounding error leaves the range of f64. Sources: T. J. Dekker, Numer. Math. 18 (1971), 224 (exact products);
-//! M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44 (2017), 15 (algorithms 6, 12, 17 and their bounds);
-//! V. Lefèvre et al., ACM Trans. Math. Softw. 49 (2023), 12 (√).
+//! M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44 (2017), 15 (algorithms 6, 12, 17 and their
+//! bounds); V. Lefèvre et al., ACM Trans. Math. Softw. 49 (2023), 12 (√).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -4,8 +4,8 @@
 //! - Sequence z-x-z about the body's own axes: `Q = z(α) x(β) z(γ)`; α precession, β nutation, γ spin (rad).
 //! - With the quaternion's halves p = w + iz and r = x + iy: `p = cos(β/2) e^{i(α+γ)/2}`,
 //!   `r = sin(β/2) e^{i(α-γ)/2}`.
-//! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude, which is what lets the angles
-//!   be continuous along a motion.
+//! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude, which is what lets the
+//!   angles be continuous along a motion.
 //! - Singular set: sin β = 0, where only α + γ (β = 0) or α - γ (β = π) is defined.
 
 use std::f64::consts::{PI, TAU};

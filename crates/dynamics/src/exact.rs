@@ -12,9 +12,10 @@
 //! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
 //!
 //! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
-//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. ωL and q, the phases
-//! ωL t and q t, and a, b, c are carried in double-double ([`DoubleDouble`]). What is left is the rounding of sine, cosine
-//! and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any phase that a toss can have.
+//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. ωL and q, the
+//! phases ωL t and q t, and a, b, c are carried in double-double ([`DoubleDouble`]). What is left is the rounding of
+//! sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any phase that a toss can
+//! have.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,5 @@
-//! The exact motion as a solver, beside the numerical ones. Its outcomes are proven.
+//! The exact motion as a solver, beside the numerical ones: Q(T) = Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ), see
+//! [`exact`](crate::exact). Its outcomes are proven.
 
 use crate::batch::{BatchError, Filtered, Tosses};
 use crate::certified::{Certificate, certify};

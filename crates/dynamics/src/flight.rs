@@ -1,4 +1,7 @@
 //! A toss as an integrator wants it: dimensionless, and known to be short enough to mean something.
+//!
+//! With σ the power of two at or below the largest component of ω, the rates are ω/σ and the time is σ t, so that
+//! dy/d(σ t) = f(y) has neither large nor tiny numbers. The phase max(ωL, |q|) T is at most 2^53.
 
 use nalgebra::{SVector, Vector3};
 

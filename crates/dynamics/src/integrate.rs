@@ -1,4 +1,4 @@
-//! Runs a Runge-Kutta method of `ode_solvers` over an autonomous system: state in, state out.
+//! Runs a Runge-Kutta method of `ode_solvers` over an autonomous system y' = f(y): state in, state out.
 //!
 //! Three properties of `ode_solvers` 0.6.2 shape this file. Its DOP853 has wrong nodes for systems that depend on time,
 //! so a system here cannot. Its dense output can end in a wrong point, so only the accepted steps are recorded. Its

@@ -1,7 +1,7 @@
 //! Keller's coin: thrown flat and without spin about its normal, it turns end over end, cos θ = cos(Ω T).
 //!
-//! Source: J. B. Keller, Am. Math. Mon. 93 (1986), 191. With u = 2^-53 the rounded Ω is right to 2u, T and their product to
-//! u each, and std's cosine to 2u, so that |Δ cos θ| ≤ 2u + 4u φ, rounded up in [`keller_bound`].
+//! Source: J. B. Keller, Am. Math. Mon. 93 (1986), 191. With u = 2^-53 the rounded Ω is right to 2u, T and their
+//! product to u each, and std's cosine to 2u, so that |Δ cos θ| ≤ 2u + 4u φ, rounded up in [`keller_bound`].
 
 use crate::attitude::Attitude;
 use crate::compensated::{root, turned};

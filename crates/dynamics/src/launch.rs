@@ -1,4 +1,4 @@
-//! The launch: body rate, attitude and time of flight when the coin leaves the hand.
+//! The launch: body rate ω, attitude Q0 and time of flight T when the coin leaves the hand.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,11 @@
-//! How far a toss is from the other outcome.
+//! How far a toss is from the other outcome: the smallest change of one input that flips it.
 //!
-//! In the speed exactly, from the phases that show heads; in each component of ω to first order, by the
-//! [sensitivity](Sensitivity) of cos θ.
+//! ```text
+//! Δv0 = ½ g Δφ/ωL                 exactly, Δφ from the phase ωL T to the nearest edge of the phases that show heads
+//! Δωi = -cos θ/(∂cos θ/∂ωi)       to first order, by the sensitivity of cos θ
+//! ```
+//!
+//! See [`HeadsPhases`] and [`Sensitivity`].
 
 use crate::error::SolveError;
 use crate::exact::ExactMotion;

@@ -1,4 +1,8 @@
 //! Methods of integration and their step control, as settings.
+//!
+//! An adaptive step keeps its local error below tolerance × (1 + |y|), a fixed one has its length. What a method
+//! answers for at landing is the [resolution](Method::resolution) of cos θ, 100 × tolerance × (1 + phase) of an
+//! adaptive one.
 
 use serde::{Deserialize, Serialize};
 

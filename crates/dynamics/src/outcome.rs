@@ -1,4 +1,4 @@
-//! How a coin lands, and what that rests on.
+//! How a coin lands, heads for cos θ > 0 and tails for cos θ < 0, and what that rests on.
 
 /// How the coin lands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! How the landing answers to the launch: derivatives of attitude and cos θ.
 //!
-//! The landing is Q0 turned by exp(Φ), Φ = T L with L = (ωx, ωy, k ωz), and then by -q T about n. With φ = |Φ|, ŝ = L/|L|
-//! and v the vertical in BF at landing, a change of the launch turns the landed coin, seen in BF, by
+//! The landing is Q0 turned by exp(Φ), Φ = T L with L = (ωx, ωy, k ωz), and then by -q T about n. With φ = |Φ|,
+//! ŝ = L/|L| and v the vertical in BF at landing, a change of the launch turns the landed coin, seen in BF, by
 //!
 //! ```text
 //! δϑ = T z(qT) Jr diag(1, 1, k) δω - (k - 1) T ẑ δωz + ω(T) δT

@@ -1,4 +1,4 @@
-//! The state of a flying coin.
+//! The state of a flying coin: attitude Q and body rate ω.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,9 @@
 //! The time of flight: how long a toss lasts, to f64 and beyond.
+//!
+//! ```text
+//! T = 2 v0/g                         caught at the height of the launch
+//! T = (v0 + √(v0² + 2 g h))/g        caught h below it
+//! ```
 
 use crate::double_double::DoubleDouble;
 use crate::error::{InputError, require};

@@ -4,8 +4,8 @@
 //! α' = D / sin β,   β' = ωx cos γ - ωy sin γ,   γ' = ωz - α' cos β,      D = ωx sin γ + ωy cos γ
 //! ```
 //!
-//! At sin β = 0 they read 0/0. A flight may start there (its limit is α' cos β = k ωz / 2) and may not come back: in the
-//! vertical frame that is a typed error, in the momentum frame β is constant.
+//! At sin β = 0 they read 0/0. A flight may start there (its limit is α' cos β = k ωz / 2) and may not come back: in
+//! the vertical frame that is a typed error, in the momentum frame β is constant.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The paper's two systems exactly as it prints them, with nothing to guard their singular points.
+//! The paper's two systems, (5) and (9)-(11), exactly as it prints them, with nothing to guard their singular points.
 //!
 //! They are here to be compared with, not to be relied on: an answer may be wrong without an error.
 

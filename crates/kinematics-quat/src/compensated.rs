@@ -1,7 +1,7 @@
 //! Sums and products that keep what rounding takes from them, and the complex numbers of a step.
 //!
-//! A number and its error stand beside each other, so that a long flight's rates do not drift: an error of |ω| adds up in the
-//! phase, step after step, where one of the attitude does not.
+//! A number and its error stand beside each other, so that a long flight's rates do not drift: an error of |ω| adds up
+//! in the phase, step after step, where one of the attitude does not.
 
 use dynamics::lanes::{Real, Simd};
 

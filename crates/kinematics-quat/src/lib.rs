@@ -4,9 +4,9 @@
 //! neither error nor work depends on how the coin is held at launch. No attitude is singular.
 //!
 //! The state is (P, ωx, ωy): the body rate comes from Euler's equations (1), integrated along with the attitude, never
-//! from their closed-form solution. Rates are dimensionless, as a
-//! [`Flight`] has them. `dynamics::integrate` steps it by Runge and Kutta's methods; Taylor series, which need more of a
-//! system than its right-hand side, are here: `taylor.rs` has a step, `lockstep.rs` the flights.
+//! from their closed-form solution. Rates are dimensionless, as a [`Flight`] has them. `dynamics::integrate` steps it
+//! by Runge and Kutta's methods; Taylor series, which need more of a system than its right-hand side, are here:
+//! `taylor.rs` has a step, `lockstep.rs` the flights.
 
 mod compensated;
 mod lockstep;

@@ -1,8 +1,8 @@
 //! Flights by Taylor series, as many at once as a vector has lanes.
 //!
 //! A lane whose flight has landed takes the next one, so that no lane waits for its neighbours. What a lane computes
-//! depends on its flight alone, neither on its neighbours nor on the width of the vector, so that landings have the same
-//! bits in any company and on any machine.
+//! depends on its flight alone, neither on its neighbours nor on the width of the vector, so that landings have the
+//! same bits in any company and on any machine.
 
 use dynamics::integrate::STEP_LIMIT;
 use dynamics::lanes::{Path, Real, Simd, WithSimd};

@@ -1,21 +1,23 @@
 //! One step by Taylor series of any order, in every lane of a vector.
 //!
-//! With u = w + i z, v = x + i y, η = ½ (ωx + i ωy) and c = ½ ωz, the system Q' = ½ Q ⊗ (0, ω) with Euler's equations is
+//! With u = w + i z, v = x + i y, η = ½ (ωx + i ωy) and c = ½ ωz, the system Q' = ½ Q ⊗ (0, ω) with Euler's equations
+//! is
 //!
 //! ```text
 //! u' = -v η̄ + i c u,   v' = u η - i c v,   η' = i q η.
 //! ```
 //!
-//! A step looks for the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1, v = 0, in
-//! body axes turned about z so that η is real at the start; the coin is symmetric, so they are as good as any others. Then
-//! the coefficients are real up to powers of i: u = Σ iᵏ Uₖ tᵏ, v = -i Σ (-i)ᵏ Wₖ tᵏ, η = |η| Σ iᵏ rₖ tᵏ with
+//! A step looks for the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1,
+//! v = 0, in body axes turned about z so that η is real at the start; the coin is symmetric, so they are as good as any
+//! others. Then the coefficients are real up to powers of i: u = Σ iᵏ Uₖ tᵏ, v = -i Σ (-i)ᵏ Wₖ tᵏ, η = |η| Σ iᵏ rₖ tᵏ
+//! with
 //!
 //! ```text
 //! (k + 1) Uₖ₊₁ = (-1)ᵏ |η| Σ Wₘ rₖ₋ₘ + c Uₖ,   (k + 1) Wₖ₊₁ = -(-1)ᵏ |η| Σ Uₘ rₖ₋ₘ + c Wₖ,   (k + 1) rₖ₊₁ = q rₖ.
 //! ```
 //!
-//! Two convolutions stand for the eight products of components. Nothing is taken from the closed form of the motion: every
-//! step starts from the attitude and the rates that the one before it found.
+//! Two convolutions stand for the eight products of components. Nothing is taken from the closed form of the motion:
+//! every step starts from the attitude and the rates that the one before it found.
 
 use dynamics::lanes::{Real, Simd};
 

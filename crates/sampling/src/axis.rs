@@ -1,4 +1,4 @@
-//! How one coordinate of a configuration space is distributed.
+//! How one coordinate of a configuration space is distributed: fixed, uniform over lo ≤ x ≤ hi, or normal with μ and σ.
 
 use std::fmt;
 

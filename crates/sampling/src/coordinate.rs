@@ -1,4 +1,4 @@
-//! What can vary from launch to launch.
+//! What can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt at launch.
 
 use dynamics::InputError;
 use dynamics::error::find_named;

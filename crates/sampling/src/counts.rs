@@ -1,4 +1,4 @@
-//! Outcomes, counted.
+//! Outcomes, counted: P(heads) = heads/(heads + tails + undecided).
 
 use std::ops::Range;
 

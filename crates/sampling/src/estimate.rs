@@ -5,7 +5,7 @@
 //! | [`Plan::Grid`] (A) | a grid | none: a grid has an error of discretisation |
 //! | [`Plan::Random`] (B) | independent | Wilson's |
 //! | [`Plan::Sobol`] | scrambled Sobol points | from the spread of independent scrambles |
-//! | [`Plan::ExactSpeed`] | the speed in closed form, the rest by grid or Sobol | from the scrambles; of rounding alone if nothing but the speed is free |
+//! | [`Plan::ExactSpeed`] | the speed in closed form | from the scrambles; of rounding if only the speed is free |
 //!
 //! Sums are integers, so no result depends on the number of threads.
 

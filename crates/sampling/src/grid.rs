@@ -1,4 +1,7 @@
 //! Method A: a grid over a space.
+//!
+//! Along an axis from lo to hi the n points are lo + i (hi - lo)/(n - 1), i = 0 to n - 1, both ends included; the grid
+//! is the product of its axes, every launch once.
 
 use dynamics::InputError;
 

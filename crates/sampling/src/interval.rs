@@ -1,5 +1,11 @@
 //! Confidence intervals of a share: counted in independent random launches, or told from independent scrambles.
 //!
+//! ```text
+//! Wilson              |h/n - p| ≤ z √(p (1 - p)/n), solved for p
+//! Clopper, Pearson    P(at least h of n; lo) = α/2,   P(at most h of n; hi) = α/2
+//! Student             mean ± t s/√m of m scrambles
+//! ```
+//!
 //! They say nothing about a grid, whose error is of discretisation. Wilson's interval is for display; Clopper and
 //! Pearson's never covers less than its level and is for gates.
 

@@ -1,4 +1,7 @@
-//! The probability of heads over two coordinates of a space.
+//! The probability of heads over two coordinates of a space: P(heads | x, y) at the nodes (x, y) of a grid.
+//!
+//! The line on which heads becomes certain is where the least cos θ of the motion, cos(φ + ψ), is 0: from horizontal
+//! ψ = 45°.
 
 use dynamics::{ExactMotion, InputError, Solver};
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! How estimates converge as launches are added.
+//! How estimates converge as launches are added: p(n) over n, and √⟨(p(n) - P)²⟩ over independent estimates p(n).
 
 use dynamics::Solver;
 use dynamics::error::require;

@@ -1,4 +1,4 @@
-//! Shares of heads, added up.
+//! Shares of heads, added up: P(heads) = Σ share/n, each share over all speeds.
 
 use std::ops::Range;
 

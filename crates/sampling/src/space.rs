@@ -1,4 +1,7 @@
 //! Configuration spaces as data: which launches a probability is about.
+//!
+//! A space is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt, but for rates
+//! that are tied to another. Equal heights: T = 2 v0/g.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What a plan says: the choice, and why others were passed over.
+//! What a plan says: the choice with the error and the cost to expect of it, and why others were passed over.
 
 use std::fmt;
 

@@ -1,7 +1,7 @@
 //! What models cost and how far they are off, as measured: the planner's only source.
 //!
-//! The table is `validation/fitted.toml`. `cargo xtask verify --bless` measures it anew, on whatever machine it runs; costs
-//! are of one core of that machine, errors are the largest that were met, times a factor of safety.
+//! The table is `validation/fitted.toml`. `cargo xtask verify --bless` measures it anew, on whatever machine it runs;
+//! costs are of one core of that machine, errors are the largest that were met, times a factor of safety.
 
 use std::sync::LazyLock;
 
@@ -123,8 +123,8 @@ impl Fitted {
         self.sampling.iter().find(|fit| fit.model == model).expect("a test looks for each")
     }
 
-    /// The roughest tolerance at which `fit` stays within `accuracy` over `turn`, in cos θ or else in the attitude (rad),
-    /// interpolated in phase and tolerance.
+    /// The roughest tolerance at which `fit` stays within `accuracy` over `turn`, in cos θ or else in the attitude
+    /// (rad), interpolated in phase and tolerance.
     ///
     /// # Errors
     /// The smallest error that it reaches.

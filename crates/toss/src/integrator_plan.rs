@@ -1,4 +1,7 @@
-//! Which integrator, method and tolerance.
+//! Which integrator, method and tolerance: the cheapest whose tabulated error stays within the accuracy.
+//!
+//! An outcome needs 100 × tolerance × (1 + phase) ≤ accuracy; a trace of n legs has errors of the attitude and of the
+//! rate handed on, so that each leg may err by accuracy/(2 n).
 
 use dynamics::{InputError, Method, SolverEntry};
 
@@ -35,8 +38,8 @@ pub(crate) enum Aim {
 /// Every adaptive method of the integrator that was asked for, or of all.
 ///
 /// # Errors
-/// [`InputError`] for a name that is unknown, the exact solver, and a method that the integrator does not offer or that has
-/// no error estimate.
+/// [`InputError`] for a name that is unknown, the exact solver, and a method that the integrator does not offer or that
+/// has no error estimate.
 pub(crate) fn integrators(
     by: Option<&Integrator>,
     flights: Flights,
@@ -78,7 +81,8 @@ impl Flights {
         }
     }
 
-    /// With the tolerance at which the solver answers for the accuracy, see [`Method::resolution`]: a decided outcome is right.
+    /// With the tolerance at which the solver answers for the accuracy, see [`Method::resolution`]: a decided outcome
+    /// is right.
     fn decided(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit) -> Offer {
         let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
         let answered_for =
@@ -98,7 +102,8 @@ impl Flights {
         Ok(choice(entry, method, error, cost_ns))
     }
 
-    /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much again.
+    /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much
+    /// again.
     fn traced(&self, fitted: &Fitted, entry: &'static SolverEntry, fit: &IntegratorFit, legs: usize) -> Offer {
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
         let legs = legs as f64;

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Model {
-    /// Heads or tails by the cosine of Keller's coin. It stands before `certain`, though that costs less where it serves,
-    /// because a toss is known to be Keller's or not at once.
+    /// Heads or tails by the cosine of Keller's coin. It stands before `certain`, though that costs less where it
+    /// serves, because a toss is known to be Keller's or not at once.
     Keller,
     /// The face that no motion can change.
     Certain,

@@ -20,8 +20,8 @@ impl Scene {
     /// The cheapest model that serves the scene.
     ///
     /// # Errors
-    /// [`SceneError::Input`] if the scene makes no sense or no model is that accurate; [`SceneError::Solve`] for a phase that
-    /// is too large to mean anything.
+    /// [`SceneError::Input`] if the scene makes no sense or no model is that accurate; [`SceneError::Solve`] for a
+    /// phase that is too large to mean anything.
     pub fn plan(&self) -> Result<Decision, SceneError> {
         self.validate()?;
         match (self.want.toss(), &self.by) {

@@ -20,8 +20,8 @@ use crate::trace::TraceError;
 pub struct Scene {
     /// What is wanted.
     pub want: Want,
-    /// The largest error that is good enough, > 0: of cos θ, of attitudes (rad), of the probability. An outcome is proven
-    /// whatever it is; one by an integrator is decided where |cos θ| exceeds it.
+    /// The largest error that is good enough, > 0: of cos θ, of attitudes (rad), of the probability. An outcome is
+    /// proven whatever it is; one by an integrator is decided where |cos θ| exceeds it.
     pub accuracy: f64,
     /// The integrator that is to be used instead of the cheapest model, as a cross-check.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! From a plan to the answer.
+//! From a plan to the answer: the chosen model is run; a sample is doubled until its interval is within the accuracy.
 
 use dynamics::certified::{by_f64, with_more_digits};
 use dynamics::keller::{keller_cos_tilt, keller_outcome, keller_phase};

@@ -1,4 +1,4 @@
-//! Which way to sample a space, and with how many launches.
+//! Which way to sample a space, and with how many launches: N = (e/accuracy)^(1/p) for a tabulated error of e N^-p.
 
 use dynamics::InputError;
 use sampling::plan::SCRAMBLES;

@@ -1,4 +1,4 @@
-//! The flight at equal steps of time.
+//! The flight at equal steps of time: Q(t) and cos θ(t) at t = i T/(n - 1), i = 0 to n - 1.
 
 use dynamics::{
     Attitude, EulerAngles, ExactMotion, InputError, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3,

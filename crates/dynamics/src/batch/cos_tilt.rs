@@ -1,4 +1,9 @@
-//! cos θ at landing.
+//! cos θ at landing, with φ = |L| T and the terms of [`TiltTerms`](crate::TiltTerms):
+//!
+//! ```text
+//! cos θ = (Lz² + (Lx² + Ly²) cos φ)/|L|²              from horizontal
+//! cos θ = (A + B cos φ + C sin φ)/(|q|² |L|²)          from any attitude
+//! ```
 
 use super::kernel::{Kernel, Run};
 use super::momentum::{Constants, Extent, TiltTerms};

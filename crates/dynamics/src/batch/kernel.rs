@@ -1,7 +1,7 @@
 //! How a kernel is run over the columns of a batch.
 //!
-//! In tiles that stay in the first-level cache, each in two loops: with fewer operations in a loop, those of more tosses
-//! are under way at a time, and none waits long for the one before.
+//! In tiles that stay in the first-level cache, each in two loops: with fewer operations in a loop, those of more
+//! tosses are under way at a time, and none waits long for the one before.
 
 use std::ops::Range;
 

@@ -6,9 +6,9 @@
 //! | proven outcomes | [`Tosses::outcomes`] | none |
 //! | attitude at landing | [`Tosses::attitudes`] | 1e-15 rad |
 //!
-//! A kernel serves ordinary tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², ωL T below
-//! 2^40 turns, or k times that for a coin with a ratio k below 1. Others are solved one by one, as accurately. Neither the
-//! instruction set nor the neighbours of a toss change a bit of its results.
+//! A kernel serves ordinary tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², ωL T
+//! below 2^40 turns, or k times that for a coin with a ratio k below 1. Others are solved one by one, as accurately.
+//! Neither the instruction set nor the neighbours of a toss change a bit of its results.
 
 mod attitude;
 mod cos_tilt;

@@ -1,7 +1,7 @@
 //! Angular momenta and phases of as many tosses as a register holds, with what rounding lost of them.
 //!
-//! As [`compensated`](crate::compensated), but with phases in turns and without a unit of rates: what could leave the range
-//! of f64 is no ordinary toss.
+//! As [`compensated`](crate::compensated), but with phases in turns and without a unit of rates: what could leave the
+//! range of f64 is no ordinary toss.
 
 use super::Tosses;
 use crate::double_double::DoubleDouble;

@@ -1,14 +1,14 @@
 //! Proven outcomes: a filter in f64 decides nearly all of them, and [`certify`] the rest.
 //!
-//! With x half the phase φ = 2πτ, in turns reduced to |x| ≤ ½, s and c its sine and cosine, G = A + B cos φ + C sin φ of
-//! [`TiltTerms`](crate::TiltTerms) is
+//! With x half the phase φ = 2πτ, in turns reduced to |x| ≤ ½, s and c its sine and cosine, G = A + B cos φ + C sin φ
+//! of [`TiltTerms`](crate::TiltTerms) is
 //!
 //! ```text
 //! G = (A + B) + 2 s (C c - B s)
 //! ```
 //!
-//! whatever the common sign of s and c. In units of `size`, with u = 2^-53 and ε the error of the rough s and c, which have
-//! no need of many digits where G is far from 0:
+//! whatever the common sign of s and c. In units of `size`, with u = 2^-53 and ε the error of the rough s and c, which
+//! have no need of many digits where G is far from 0:
 //!
 //! ```text
 //! A, B, C            41u          12u (1 + √2 + 1), as derived there; fused products round less
@@ -17,8 +17,8 @@
 //! operations         12u          six, of numbers below 4
 //! ```
 //!
-//! [`THRESHOLD`] is more than twice the sum without φ, and the part of φ is rounded up. What underflows is below 2^-1000, and
-//! [`SMALLEST`] is above it.
+//! [`THRESHOLD`] is more than twice the sum without φ, and the part of φ is rounded up. What underflows is below
+//! 2^-1000, and [`SMALLEST`] is above it.
 
 use super::kernel::{Kernel, Run};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};

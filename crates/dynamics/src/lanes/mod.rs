@@ -1,9 +1,9 @@
 //! Vectors of f64 numbers, as wide as the machine has them, with the same bits on every machine.
 //!
-//! A kernel is written once over [`Real`], and compiled for each instruction set that [`Path`] can choose from at run time.
-//! Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane, and each fused
-//! multiply-add is written as one. Where the machine has no such instruction it is a call of the mathematical library, right
-//! but slow.
+//! A kernel is written once over [`Real`], and compiled for each instruction set that [`Path`] can choose from at run
+//! time. Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane, and
+//! each fused multiply-add is written as one. Where the machine has no such instruction it is a call of the
+//! mathematical library, right but slow.
 //!
 //! Everything here is inlined always, and closures and iterators that hide a loop are avoided in kernels: the compiler
 //! does not inline the instructions of a set into a function that does not promise them.

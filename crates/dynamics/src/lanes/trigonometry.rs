@@ -1,8 +1,8 @@
 //! Sine and cosine of angles that are given in turns, with what rounding lost of them.
 //!
 //! In turns, whole ones go without an error, and there is no multiple of π to be taken away. What is left goes into the
-//! polynomial that is best for its interval in the largest error (Remez). Coefficients are rounded to f64, the first also
-//! has what that leaves of it.
+//! polynomial that is best for its interval in the largest error (Remez). Coefficients are rounded to f64, the first
+//! also has what that leaves of it.
 
 use pulp::Simd;
 
