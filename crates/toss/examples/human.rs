@@ -28,8 +28,8 @@ use toss::sampling::{
     Coordinate, Estimate, Interval, Plan, SampleError, Space, clopper_pearson, estimate, long_flight_cone, rate_ratio,
 };
 
-/// Flips of each person that landed on the side they started from (table 1 of the paper; also the data set
-/// dat.bartos2023 of the R package metadat).
+/// Flips of each person that landed on the side they started from, as the data set dat.bartos2023 of the R package
+/// metadat has them.
 const SAME: [u32; 48] = [
     780, 1126, 2204, 7056, 4957, 1937, 7458, 4971, 5219, 5368, 1801, 3352, 7506, 2761, 2510, 5022, 8649, 353, 2220,
     3261, 10148, 4340, 2475, 2071, 5559, 1769, 7586, 5069, 2510, 2540, 1118, 5080, 1525, 1749, 3815, 3309, 2224, 2020,
