@@ -30,9 +30,8 @@ pub const FAINT: RGBColor = RGBColor(150, 150, 150);
 /// For remarks.
 pub const GREY: RGBColor = RGBColor(100, 100, 100);
 
-/// Width and height of a chart of one row, twice the size at which it is read: the backend draws on whole pixels, and
-/// lines turn out smoother for it.
-pub const SIZE: (u32, u32) = (2000, 880);
+/// Width and height of a chart of one row, twice the size at which it is read.
+pub const SIZE: (u32, u32) = (1800, 880);
 
 /// Font of all text.
 pub const TEXT: (&str, u32) = ("sans-serif", 30);
@@ -48,7 +47,8 @@ pub type Drawn = Result<(), Box<dyn std::error::Error>>;
 #[error("{0}")]
 pub struct ChartError(pub String);
 
-/// The SVG of what `draw` draws on white, `size` pixels wide and high.
+/// The SVG of what `draw` draws on white, `size` pixels wide and high, to be read at half that size: the backend draws on
+/// whole pixels, and lines turn out smoother for it.
 ///
 /// # Errors
 /// [`ChartError`] if the drawing fails.
@@ -62,5 +62,6 @@ pub fn svg(size: (u32, u32), draw: impl FnOnce(&Panel<'_>) -> Drawn) -> Result<S
         Ok(())
     };
     drawn().map_err(|error| ChartError(error.to_string()))?;
-    Ok(text)
+    let extent = |(width, height): (u32, u32)| format!("<svg width=\"{width}\" height=\"{height}\"");
+    Ok(text.replacen(&extent(size), &extent((size.0 / 2, size.1 / 2)), 1))
 }

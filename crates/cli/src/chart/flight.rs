@@ -1,78 +1,54 @@
-//! The chart of a flight: what n and a vector in the face trace on the sphere, and cos θ against time.
+//! The chart of a flight: the coin going up and down, cos θ below it, and the traces on the sphere beside it.
 
-use chart::{BLUE, ChartError, Drawn, FAINT, Panel, SIZE, TEXT, VERMILION, svg};
+use chart::{ChartError, Drawn, Panel, TEXT, svg};
 use plotters::prelude::*;
-use toss::{TracePoint, Vector3};
+use toss::{Outcome, Toss, TracePoint};
 
-const NORMAL: RGBColor = BLUE;
-const FACE: RGBColor = VERMILION;
+use crate::chart::coin::draw_coins;
+use crate::chart::sphere::draw_sphere;
 
-/// The chart as SVG.
-pub(crate) fn flight(flight: &[TracePoint]) -> Result<String, ChartError> {
+/// What is drawn of n.
+pub(super) const NORMAL: RGBColor = chart::BLUE;
+/// What is drawn of the vector in the face.
+pub(super) const FACE: RGBColor = chart::VERMILION;
+
+/// Twice the size at which it is read.
+const SIZE: (u32, u32) = (1800, 940);
+/// Width of the panels over time (pixels).
+const LEFT: u32 = 1020;
+/// Height of the panel of the coins (pixels).
+const UPPER: u32 = 580;
+/// Room for the numbers of the upright axes (pixels).
+pub(super) const NUMBERS: u32 = 112;
+
+/// The chart of `flight`, the trace of `toss`, as SVG.
+pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
     svg(SIZE, |root| {
-        let (sphere, time) = root.split_horizontally(SIZE.1);
-        draw_sphere(&sphere, flight)?;
-        draw_tilt(&time, flight)
+        let (over_time, sphere) = root.split_horizontally(LEFT);
+        let (coins, tilt) = over_time.split_vertically(UPPER);
+        draw_coins(&coins, flight, toss, outcome)?;
+        draw_tilt(&tilt, flight)?;
+        draw_sphere(&sphere, flight)
     })
 }
 
-/// Where the eye is: azimuth and elevation (rad).
-const EYE: (f64, f64) = (-0.6, 0.45);
-
-/// Orthographic projection: (right, up, towards the eye).
-fn project(v: &Vector3<f64>) -> (f64, f64, f64) {
-    let ((sin_a, cos_a), (sin_e, cos_e)) = (EYE.0.sin_cos(), EYE.1.sin_cos());
-    let (right, away) = (v.x * cos_a + v.y * sin_a, -v.x * sin_a + v.y * cos_a);
-    (right, v.z * cos_e + away * sin_e, v.z * sin_e - away * cos_e)
-}
-
-fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
-    let mut chart = ChartBuilder::on(panel)
-        .margin(24)
-        .caption("on the sphere, seen from the lab", TEXT)
-        .build_cartesian_2d(-1.15..1.15, -1.15..1.15)?;
-    let ring =
-        |point: fn(f64) -> Vector3<f64>| (0..=180).map(move |i| point(f64::from(i) * std::f64::consts::TAU / 180.0));
-    let outline = (0..=180).map(|i| (f64::from(i) * std::f64::consts::TAU / 180.0).sin_cos());
-    chart.draw_series(LineSeries::new(outline, FAINT.stroke_width(2)))?;
-    let equator = ring(|angle| Vector3::new(angle.cos(), angle.sin(), 0.0));
-    chart.draw_series(LineSeries::new(
-        equator.map(|v| (project(&v).0, project(&v).1)),
-        FAINT.mix(0.6).stroke_width(2),
-    ))?;
-    for (colour, of) in [(FACE, (|p| p.face) as fn(&TracePoint) -> Vector3<f64>), (NORMAL, |p| p.normal)] {
-        let seen: Vec<_> = flight.iter().map(|point| project(&of(point))).collect();
-        // The far side of the sphere is drawn faintly.
-        for pair in seen.windows(2) {
-            let near = pair[0].2 + pair[1].2 >= 0.0;
-            let style = if near { colour.mix(1.0).stroke_width(4) } else { colour.mix(0.35).stroke_width(2) };
-            chart.draw_series(LineSeries::new(pair.iter().map(|p| (p.0, p.1)), style))?;
-        }
-        if let (Some(first), Some(last)) = (seen.first(), seen.last()) {
-            chart.draw_series([Circle::new((first.0, first.1), 10, colour.stroke_width(4))])?;
-            chart.draw_series([Circle::new((last.0, last.1), 10, colour.filled())])?;
-        }
-    }
-    chart.draw_series([
-        Text::new("n, the normal", (-1.12, -0.98), TEXT.into_font().color(&NORMAL)),
-        Text::new("a vector in the face", (-1.12, -1.09), TEXT.into_font().color(&FACE)),
-        Text::new("○ launch   ● landing", (0.42, -1.09), TEXT.into_font().color(&BLACK)),
-    ])?;
-    Ok(())
+/// The times that are drawn (s), with room for half a coin at either end.
+pub(super) fn times(flight: &[TracePoint]) -> std::ops::Range<f64> {
+    let end = flight.last().map_or(0.0, |point| point.time).max(f64::MIN_POSITIVE);
+    -0.06 * end..1.06 * end
 }
 
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
-    let end = flight.last().map_or(0.0, |point| point.time);
+    let times = times(flight);
     let mut chart = ChartBuilder::on(panel)
         .margin(24)
-        .margin_right(48)
-        .caption("cos θ during the flight", TEXT)
         .x_label_area_size(84)
-        .y_label_area_size(112)
-        .build_cartesian_2d(0.0..end.max(f64::MIN_POSITIVE), -1.05..1.05)?;
+        .y_label_area_size(NUMBERS)
+        .build_cartesian_2d(times.clone(), -1.1..1.1)?;
     chart
         .configure_mesh()
         .light_line_style(WHITE)
+        .y_labels(5)
         .x_desc("time [s]")
         .y_desc("cos θ")
         // Adding zero turns the label -0.0 into 0.0.
@@ -80,12 +56,12 @@ fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
         .label_style(TEXT)
         .axis_desc_style(TEXT)
         .draw()?;
-    chart.draw_series(LineSeries::new([(0.0, 0.0), (end, 0.0)], BLACK.stroke_width(2)))?;
+    chart.draw_series(LineSeries::new([(times.start, 0.0), (times.end, 0.0)], BLACK.stroke_width(2)))?;
     let line = flight.iter().map(|point| (point.time, point.cos_tilt));
     chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(4)))?;
-    chart.draw_series([
-        Text::new("heads", (0.01 * end, 0.12), TEXT.into_font().color(&BLACK)),
-        Text::new("tails", (0.01 * end, -0.04), TEXT.into_font().color(&BLACK)),
-    ])?;
+    let (left, level) = chart.plotting_area().map_coordinate(&(times.start, 0.0));
+    let (left, level) = (left + 10 - panel.get_base_pixel().0, level - panel.get_base_pixel().1);
+    panel.draw(&Text::new("heads", (left, level - 36), TEXT))?;
+    panel.draw(&Text::new("tails", (left, level + 10), TEXT))?;
     Ok(())
 }

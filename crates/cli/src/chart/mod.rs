@@ -1,8 +1,11 @@
 //! Charts as SVG, a file each.
 
+mod coin;
 mod errors;
 mod flight;
 mod map;
+mod projection;
+mod sphere;
 
 pub(crate) use errors::{ErrorLine, Reference, errors};
 pub(crate) use flight::flight;

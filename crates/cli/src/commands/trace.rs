@@ -68,7 +68,7 @@ impl Args {
         let (toss, solver) = self.flight.parts()?;
         let flight = trace(solver.as_ref(), &toss, self.points)?;
         if let Some(path) = &self.svg {
-            output::write_file(path, &chart::flight(&flight)?)?;
+            output::write_file(path, &chart::flight(&flight, &toss, solver.outcome(&toss)?)?)?;
         }
         Ok(match self.format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
