@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{convergence, errors, intervals, inverse, list, map, plan, probability, toss, trace};
+use crate::commands::{convergence, errors, intervals, inverse, limit, list, map, plan, probability, toss, trace};
 use crate::failure::Failure;
 use crate::output::{DataFormat, Format};
 
@@ -42,6 +42,8 @@ enum Command {
     Intervals(intervals::Args),
     /// Find the launch that lands heads with a wanted probability
     Inverse(inverse::Args),
+    /// Set the probability of heads in the limit of long flights beside the share of long flights that land heads
+    Limit(limit::Args),
     /// Choose the cheapest model that serves a scene
     Plan(plan::Args),
     /// List the coins that can be named
@@ -65,6 +67,7 @@ impl Command {
             Self::Map(args) => args.run(),
             Self::Intervals(args) => args.run(),
             Self::Inverse(args) => args.run(),
+            Self::Limit(args) => args.run(),
             Self::Plan(args) => args.run(),
             Self::Coins(args) => list::coins(args),
             Self::Solvers(args) => list::solvers(args),
@@ -80,6 +83,7 @@ impl Command {
             Self::Convergence(args) => args.format == DataFormat::Json,
             Self::Errors(args) => args.format == DataFormat::Json,
             Self::Map(args) => args.format == DataFormat::Json,
+            Self::Limit(args) => args.format == DataFormat::Json,
             Self::Probability(args) => args.format == Format::Json,
             Self::Intervals(args) => args.format == Format::Json,
             Self::Inverse(args) => args.format == Format::Json,

@@ -166,11 +166,25 @@ fn a_map_has_a_probability_for_each_node() {
 }
 
 #[test]
+fn long_flights_stand_beside_their_limit() {
+    let lines = json("limit --points 400 --coin us-quarter", 0);
+    let lines = lines.as_array().unwrap();
+    assert_eq!(lines.len(), 25);
+    let at_60 = &lines[12];
+    assert_near(&at_60["cone_angle"], std::f64::consts::FRAC_PI_3, 1e-15);
+    assert_near(&at_60["limit"], 0.608_173_447_969_392_7, 1e-15);
+    assert_near(&at_60["share"], 0.608, 0.1);
+    assert_eq!(at_60["launches"], 400);
+    assert_refused(&[("limit --moments 5e-7,0", ["rate z", "finite"]), ("limit --points 0", ["points", "0"])]);
+}
+
+#[test]
 fn charts_are_written_whole() {
     let folder = tempfile::tempdir().unwrap();
     for (command, word) in [
         ("convergence --space paper-fig4 --steps 20", "B, random: 0.6609"),
         ("errors --space paper-fig4 --up-to 9 --replicates 2", "exact-speed, 8 scrambles"),
+        ("limit --points 50", "share of 50 flights"),
         ("map --rate-x 0:40:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5", "ωz/(rad/s)"),
     ] {
         let path = folder.path().join("chart.svg");

@@ -3,10 +3,12 @@
 mod coin;
 mod errors;
 mod flight;
+mod limit;
 mod map;
 mod projection;
 mod sphere;
 
 pub(crate) use errors::{ErrorLine, Reference, errors};
 pub(crate) use flight::flight;
+pub(crate) use limit::limit;
 pub(crate) use map::map;

@@ -4,6 +4,7 @@ pub(crate) mod convergence;
 pub(crate) mod errors;
 pub(crate) mod intervals;
 pub(crate) mod inverse;
+pub(crate) mod limit;
 pub(crate) mod list;
 pub(crate) mod map;
 pub(crate) mod plan;

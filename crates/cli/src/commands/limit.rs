@@ -1,0 +1,81 @@
+//! `unfair-toss limit`: p(ψ), the probability of heads in the limit of long flights, beside the share of long flights.
+
+use std::path::PathBuf;
+
+use sampling::{LongFlightShare, long_flight_shares};
+use serde::Serialize;
+use toss::Coin;
+
+use crate::args::{CoinArgs, SamplingSolverArgs};
+use crate::chart;
+use crate::failure::Failure;
+use crate::output::{self, DataFormat, progress_bar};
+use crate::space_args::ThreadArgs;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    coin: CoinArgs,
+    /// Number of flights at each ψ, of 970 to 1950 turns
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    points: u64,
+    /// Seed of the speeds
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    threads: ThreadArgs,
+    #[command(flatten)]
+    solver: SamplingSolverArgs,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
+    pub(crate) format: DataFormat,
+    /// Also draw both into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, its interval of 95 %.
+#[derive(Serialize)]
+struct Line {
+    cone_angle: f64,
+    limit: f64,
+    launches: u64,
+    share: f64,
+    share_lo: Option<f64>,
+    share_hi: Option<f64>,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> Result<String, Failure> {
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let solver = self.solver.solver()?;
+        // Beyond 90° it all repeats the other way round.
+        let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
+        let bar = progress_bar(self.points.saturating_mul(cone_angles.len() as u64), "flights");
+        let sampled = (self.points, self.seed);
+        let shares = self
+            .threads
+            .pool()?
+            .install(|| long_flight_shares(coin, &cone_angles, sampled, solver.as_ref(), &|more| bar.inc(more)));
+        bar.finish_and_clear();
+        let shares = shares?;
+        if let Some(path) = &self.svg {
+            output::write_file(path, &chart::limit(&shares)?)?;
+        }
+        Ok(output::data(self.format, &shares.iter().map(Line::from).collect::<Vec<_>>()))
+    }
+}
+
+impl From<&LongFlightShare> for Line {
+    fn from(found: &LongFlightShare) -> Self {
+        let interval = found.estimate.interval;
+        Self {
+            cone_angle: found.cone_angle,
+            limit: found.limit,
+            launches: found.estimate.points,
+            share: found.estimate.probability,
+            share_lo: interval.map(|interval| interval.lo),
+            share_hi: interval.map(|interval| interval.hi),
+        }
+    }
+}

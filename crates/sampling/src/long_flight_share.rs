@@ -1,0 +1,93 @@
+//! The long-flight limit beside what it is the limit of: the share of heads among long flights.
+
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use dynamics::{Coin, InputError, Solver};
+
+use crate::axis::Axis;
+use crate::coordinate::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use crate::estimate::{Estimate, estimate};
+use crate::fold::{Progress, SampleError};
+use crate::long_flight::long_flight_probability;
+use crate::plan::Plan;
+use crate::space::{AxisOrTie, Space};
+
+/// ωL of the long flights (rad/s).
+const PRECESSION: f64 = 100.0;
+
+/// Their speeds (m/s): with the default gravity 970 to 1950 turns.
+const SPEEDS: [f64; 2] = [300.0, 600.0];
+
+/// The share of heads among long flights from horizontal, and its limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LongFlightShare {
+    /// ψ (rad).
+    pub cone_angle: f64,
+    /// p(ψ).
+    pub limit: f64,
+    /// What random speeds give.
+    pub estimate: Estimate,
+}
+
+/// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of 970 to 1950 turns, at random speeds. No
+/// two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and so on.
+///
+/// # Errors
+/// [`SampleError`]; an [`InputError`] for an angle that is no number, for no points, and for a rod (k = 0), whose
+/// ψ is 90° at any rate.
+pub fn long_flight_shares(
+    coin: Coin,
+    cone_angles: &[f64],
+    (points, seed): (u64, u64),
+    solver: &dyn Solver,
+    progress: Progress<'_>,
+) -> Result<Vec<LongFlightShare>, SampleError> {
+    let share = |(index, &cone_angle): (u64, &f64)| {
+        let space = long_flights(coin, cone_angle)?;
+        let plan = Plan::Random { points, seed: seed.wrapping_add(index) };
+        let estimate = estimate(&space, plan, solver, progress)?;
+        Ok(LongFlightShare { cone_angle, limit: long_flight_probability(cone_angle, cone_angle), estimate })
+    };
+    (0..).zip(cone_angles).map(share).collect()
+}
+
+/// Long flights at one cone angle: Ω = ωL sin ψ and k ωz = ωL cos ψ.
+fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
+    let fixed = |of, value| Axis::fixed(of, value).map(AxisOrTie::Axis);
+    let [lo, hi] = SPEEDS;
+    let axes = [
+        fixed(RateX, PRECESSION * cone_angle.sin())?,
+        fixed(RateY, 0.0)?,
+        fixed(RateZ, PRECESSION * cone_angle.cos() / coin.inertia_ratio())?,
+        AxisOrTie::Axis(Axis::range(Speed, lo, hi)?),
+        fixed(Gravity, DEFAULT_GRAVITY)?,
+        fixed(Tilt, 0.0)?,
+    ];
+    Space::new(coin, axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::ExactSolver;
+
+    use super::*;
+    use crate::{Found, clopper_pearson};
+
+    #[test]
+    fn the_shares_surround_their_limits() {
+        let cones = [0.5, 0.9, 1.1, 1.3, 1.5, 1.9, 2.8];
+        for coin in [Coin::PAPER, Coin::from_moments(5e-7, 9.9e-7).unwrap()] {
+            for found in long_flight_shares(coin, &cones, (4000, 1), &ExactSolver, &|_| {}).unwrap() {
+                let Found::Counts(counts) = found.estimate.found else { panic!("flights are counted") };
+                // 1e-3 is what is left of a part of a turn.
+                let interval = clopper_pearson(counts.heads, counts.points(), 1.0 - 1e-6);
+                assert!(interval.lo - 1e-3 <= found.limit && found.limit <= interval.hi + 1e-3, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rod_has_no_long_flights_at_a_given_angle() {
+        let rod = Coin::from_moments(5e-7, 0.0).unwrap();
+        assert!(matches!(long_flight_shares(rod, &[1.0], (10, 1), &ExactSolver, &|_| {}), Err(SampleError::Input(_))));
+    }
+}
