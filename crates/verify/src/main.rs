@@ -3,14 +3,15 @@
 //! Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
 //! within bounds; 4 could not run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::ensure;
+use anyhow::{Context as _, ensure};
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use toss::SOLVERS;
 use verify::atlas::conditioning::Conditioning;
+use verify::atlas::expected::Expected;
 use verify::bench::Table;
 use verify::bench::instructions::{Instructions, work};
 use verify::bounds::Bounds;
@@ -20,6 +21,7 @@ use verify::ledger::{Direction, Ledger};
 use verify::record::{self, Host};
 use verify::report::charts::{self, Chart};
 use verify::report::{self, Report, html, junit, moves, runs, table, write_file};
+use verify::work_precision::{Sweep, problems};
 use verify::{CHECKS, Check, Context, Effort, Row, atlas, judge, planner};
 
 /// Runs the checks and writes report.json and junit.xml.
@@ -62,6 +64,12 @@ struct Args {
     /// Draw the accuracy of the committed records
     #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
     history: bool,
+    /// Draw this figure from what is committed
+    #[arg(long, hide = true, value_enum, requires = "svg", conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
+    figure: Option<Figure>,
+    /// With --figure: into this file
+    #[arg(long, hide = true, value_name = "FILE", requires = "figure")]
+    svg: Option<PathBuf>,
     /// What goes to standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -78,6 +86,15 @@ enum Format {
     Text,
     Json,
     Junit,
+}
+
+/// A figure of committed data.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Figure {
+    /// What contestants are known to do where methods fail
+    AtlasMatrix,
+    /// Speed against accuracy, of the newest record
+    WorkPrecision,
 }
 
 fn known_check(id: &str) -> Result<&'static Check, String> {
@@ -126,6 +143,10 @@ fn run(args: &Args) -> anyhow::Result<u8> {
     }
     if args.fit {
         fit(args)?;
+        return Ok(0);
+    }
+    if let (Some(figure), Some(path)) = (args.figure, &args.svg) {
+        write_file(path, &figure.svg(&args.validation)?)?;
         return Ok(0);
     }
     let effort = effort(args);
@@ -214,6 +235,24 @@ fn history(args: &Args) -> anyhow::Result<u8> {
     write_file(&path, &charts::history(&records)?)?;
     println!("{}\nchart: {}", report::history::text(&records), path.display());
     Ok(0)
+}
+
+impl Figure {
+    fn svg(self, validation: &Path) -> anyhow::Result<String> {
+        Ok(match self {
+            Self::AtlasMatrix => {
+                charts::known_failures(&atlas::names(SOLVERS)?, &Expected::read(&validation.join("atlas.toml"))?)?
+            }
+            Self::WorkPrecision => {
+                let folder = validation.join("record");
+                let records = record::read(&folder)?;
+                let newest = records.last().context("there are no records")?;
+                let problems = problems::read(&validation.join("problems.toml"))?;
+                let sweep = Sweep::of(&problems, record::samples(&folder, &newest.host.date)?);
+                charts::recorded(&sweep, "ensemble", &newest.host.date)?
+            }
+        })
+    }
 }
 
 fn measure(args: &Args, context: &Context, bounds: &Bounds) -> anyhow::Result<Vec<Row>> {

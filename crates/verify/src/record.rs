@@ -8,10 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::ledger::Ledger;
 use crate::report::write_file;
-use crate::work_precision::Sweep;
+use crate::work_precision::{Sample, Sweep};
 
 /// Version of the layout of records.
 const SCHEMA: u32 = 1;
+
+/// The file of a record's runs, one a line.
+const SAMPLES: &str = "work-precision.jsonl";
 
 /// The machine and the code of a record.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,7 +85,7 @@ pub struct Record {
 pub fn write(folder: &Path, host: &Host, accuracy: &Ledger, sweep: &Sweep) -> anyhow::Result<()> {
     let folder = folder.join(&host.date);
     let lines: Result<Vec<String>, _> = sweep.samples.iter().map(serde_json::to_string).collect();
-    write_file(&folder.join("work-precision.jsonl"), &(lines?.join("\n") + "\n"))?;
+    write_file(&folder.join(SAMPLES), &(lines?.join("\n") + "\n"))?;
     write_file(&folder.join("accuracy.csv"), &accuracy.csv()?)?;
     write_file(&folder.join("host.json"), &(serde_json::to_string_pretty(host)? + "\n"))
 }
@@ -102,4 +105,15 @@ pub fn read(folder: &Path) -> anyhow::Result<Vec<Record>> {
         Ok(Record { host, accuracy: Ledger::read(&folder.join("accuracy.csv"))? })
     };
     dates.iter().filter(|entry| entry.path().is_dir()).map(|entry| record(&entry.path())).collect()
+}
+
+/// The runs of the record in `folder`/`date`.
+///
+/// # Errors
+/// If they can't be read.
+pub fn samples(folder: &Path, date: &str) -> anyhow::Result<Vec<Sample>> {
+    let path = folder.join(date).join(SAMPLES);
+    let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let sample = |line: &str| serde_json::from_str(line).with_context(|| format!("in {}", path.display()));
+    text.lines().map(sample).collect()
 }

@@ -122,6 +122,21 @@ fn without_records_there_is_no_history() {
 }
 
 #[test]
+fn figures_are_drawn_from_what_is_committed() {
+    let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
+    let path = out.path().join("figure.svg");
+    let draw = |figure, validation: &Path| {
+        run(&["--figure", figure, "--svg", path.to_str().unwrap()], validation, out.path()).status.code()
+    };
+    assert_eq!(draw("atlas-matrix", folder.path()), Some(0));
+    let matrix = std::fs::read_to_string(&path).unwrap();
+    assert!(matrix.contains("gamma/dop853/raw") && matrix.contains("WRONG") && matrix.contains("right or error"));
+    assert_eq!(draw("work-precision", folder.path()), Some(4), "there are no records");
+    assert_eq!(draw("work-precision", &validation()), Some(0));
+    assert!(std::fs::read_to_string(&path).unwrap().contains("quaternion/taylor"));
+}
+
+#[test]
 fn bad_usage_ends_with_2_and_missing_data_with_4() {
     let out = tempfile::tempdir().unwrap();
     for arguments in [vec!["--only", "nonsense"], vec!["--quick", "--deep"], vec!["--format", "yaml"]] {

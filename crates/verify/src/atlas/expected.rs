@@ -34,6 +34,16 @@ impl Expectation {
     }
 }
 
+impl From<Answer> for Expectation {
+    fn from(answer: Answer) -> Self {
+        match answer {
+            Answer::Right => Self::Right,
+            Answer::TypedError => Self::TypedError,
+            Answer::SilentlyWrong => Self::SilentlyWrong,
+        }
+    }
+}
+
 /// The worst answer, by contestant and hazard.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]

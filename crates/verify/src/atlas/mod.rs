@@ -83,6 +83,14 @@ pub fn replay(registry: &[SolverEntry], case: &Case) -> Result<Vec<Run>, InputEr
     Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, case, &reference)).collect())
 }
 
+/// The names of the contestants, in their order; none is flown.
+///
+/// # Errors
+/// Never for the library's own solvers.
+pub fn names(registry: &[SolverEntry]) -> Result<Vec<String>, InputError> {
+    Ok(contestants(registry)?.into_iter().map(|subject| subject.name).collect())
+}
+
 /// Every solver of `registry`, each integrator by every method in every formulation that differs for it.
 fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();

@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use toss::{Formulation, InputError, Method, Scheme, SolverEntry, StepControl};
 
 use crate::effort::Effort;
@@ -21,14 +21,14 @@ use crate::subject::Subject;
 use problems::Problem;
 
 /// One subject at one setting on one problem. Errors are the largest over its launches, counts and times their sums.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// The problem's name.
     pub problem: String,
     /// The solver's name.
-    pub solver: &'static str,
+    pub solver: String,
     /// The method's name; null for a closed form.
-    pub method: Option<&'static str>,
+    pub method: Option<String>,
     /// The method's order; null if it is variable.
     pub order: Option<u32>,
     /// The tolerance, if it has one.
@@ -52,7 +52,7 @@ pub struct Sample {
     /// Whether no stated outcome is wrong.
     pub outcome_ok: Option<bool>,
     /// What the reference is.
-    pub ref_kind: &'static str,
+    pub ref_kind: String,
     /// A bound of the reference's own error.
     pub ref_err_bound: f64,
     /// Calls of the right-hand side.
@@ -95,8 +95,13 @@ impl Sweep {
             let sample = &mut samples[index];
             (sample.t_min_ns, sample.t_median_ns, sample.n_runs) = times;
         }
+        Ok(Self::of(problems, samples))
+    }
+
+    /// What was sampled of `problems`.
+    pub fn of(problems: &[Problem], samples: Vec<Sample>) -> Self {
         let problem = |problem: &Problem| (problem.name.clone(), problem.stresses.clone(), problem.cases.len());
-        Ok(Self { problems: problems.iter().map(problem).collect(), samples })
+        Self { problems: problems.iter().map(problem).collect(), samples }
     }
 
     /// The samples of one subject on one problem, from rough to fine; the subject is named `solver` or `solver/method`.
@@ -120,7 +125,7 @@ impl Sweep {
 impl Sample {
     /// `solver` or `solver/method`.
     pub fn subject(&self) -> String {
-        self.method.map_or_else(|| self.solver.to_owned(), |method| format!("{}/{method}", self.solver))
+        self.method.as_ref().map_or_else(|| self.solver.clone(), |method| format!("{}/{method}", self.solver))
     }
 }
 
@@ -170,8 +175,8 @@ impl Job {
         let control = subject.method.map(|method| method.control());
         Sample {
             problem: problem.name.clone(),
-            solver: subject.entry.name,
-            method: subject.scheme().map(Scheme::name),
+            solver: subject.entry.name.to_owned(),
+            method: subject.scheme().map(|scheme| scheme.name().to_owned()),
             order: subject.scheme().and_then(Scheme::order),
             tol: control.and_then(|control| if let StepControl::Tolerance(tol) = control { Some(tol) } else { None }),
             step: control.and_then(|control| if let StepControl::Step(step) = control { Some(step) } else { None }),
@@ -186,7 +191,7 @@ impl Job {
                 .iter()
                 .all(|run| run.failure.is_none())
                 .then(|| runs.iter().all(|run| run.outcome_ok != Some(false))),
-            ref_kind: "exact motion in 256 bits",
+            ref_kind: "exact motion in 256 bits".to_owned(),
             ref_err_bound: 2f64.powi(-200),
             n_rhs: sum(|run| run.rhs_calls),
             n_accepted: sum(|run| run.accepted_steps),

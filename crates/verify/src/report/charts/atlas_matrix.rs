@@ -4,31 +4,34 @@ use chart::{ChartError, Drawn, FAINT, GREEN, GREY, ORANGE, Panel, TEXT, VERMILIO
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::atlas::Atlas;
+use crate::atlas::expected::Expectation;
 use crate::atlas::hazards::HAZARDS;
-use crate::run::Answer;
 
-const LEFT: i32 = 440;
-const TOP: i32 = 110;
-const CELL: (i32, i32) = (190, 46);
+const LEFT: i32 = 360;
+const TOP: i32 = 160;
+const CELL: (i32, i32) = (177, 46);
 
-/// The matrix as SVG.
-pub(super) fn matrix(atlas: &Atlas) -> Result<String, ChartError> {
-    let subjects = atlas.subjects();
+/// The matrix as SVG: `worst` is the worst answer of a subject at a hazard.
+pub(super) fn matrix(
+    subjects: &[&str],
+    worst: impl Fn(&str, &str) -> Option<Expectation>,
+) -> Result<String, ChartError> {
     let width = LEFT + CELL.0 * as_i32(HAZARDS.len()) + 40;
     let height = TOP + CELL.1 * as_i32(subjects.len()) + 120;
     svg((width.cast_unsigned(), height.cast_unsigned()), |root| {
+        centred(root, "what solvers make of flights next to where methods fail", (width / 2, 30), BLACK)?;
         for (column, hazard) in (0..).zip(HAZARDS) {
             let x = LEFT + CELL.0 * column + CELL.0 / 2;
             let what = hazard.name.split_once(": ").map_or(hazard.name, |(what, _)| what);
-            centred(root, hazard.id, (x, 36), BLACK)?;
-            centred(root, what, (x, 76), GREY)?;
+            centred(root, hazard.id, (x, 86), BLACK)?;
+            centred(root, what, (x, 126), GREY)?;
         }
-        for (row, subject) in (0..).zip(&subjects) {
+        for (row, subject) in (0..).zip(subjects) {
             let y = TOP + CELL.1 * row;
-            root.draw(&Text::new((*subject).to_owned(), (24, y + 8), TEXT))?;
+            let style = TEXT.into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
+            root.draw(&Text::new((*subject).to_owned(), (24, y + CELL.1 / 2), style))?;
             for (column, hazard) in (0..).zip(HAZARDS) {
-                if let Some(answer) = atlas.worst(hazard.id, subject) {
+                if let Some(answer) = worst(subject, hazard.id) {
                     cell(root, (LEFT + CELL.0 * column, y), answer)?;
                 }
             }
@@ -48,15 +51,16 @@ fn as_i32(count: usize) -> i32 {
 }
 
 /// Colour and word, so that neither has to be relied on.
-fn cell(root: &Panel<'_>, (x, y): (i32, i32), answer: Answer) -> Drawn {
+fn cell(root: &Panel<'_>, (x, y): (i32, i32), answer: Expectation) -> Drawn {
     let (fill, text, word) = match answer {
-        Answer::Right => (GREEN.mix(0.25), BLACK, "right"),
-        Answer::TypedError => (ORANGE.mix(0.45), BLACK, "typed error"),
-        Answer::SilentlyWrong => (VERMILION.mix(1.0), WHITE, "WRONG"),
+        Expectation::Right => (GREEN.mix(0.25), BLACK, "right"),
+        Expectation::TypedError => (ORANGE.mix(0.45), BLACK, "typed error"),
+        Expectation::RightOrTypedError => (ORANGE.mix(0.25), BLACK, "right or error"),
+        Expectation::SilentlyWrong => (VERMILION.mix(1.0), WHITE, "WRONG"),
     };
     let corners = [(x + 2, y + 2), (x + CELL.0 - 2, y + CELL.1 - 2)];
     root.draw(&Rectangle::new(corners, fill.filled()))?;
-    if answer == Answer::SilentlyWrong {
+    if answer == Expectation::SilentlyWrong {
         root.draw(&Rectangle::new(corners, FAINT.stroke_width(1)))?;
     }
     centred(root, word, (x + CELL.0 / 2, y + CELL.1 / 2), text)

@@ -12,8 +12,10 @@ use chart::{BLUE, ChartError, GREEN, LINE_WIDTH, Marker, Series, VERMILION};
 use plotters::style::{BLACK, RGBColor};
 use sampling::RunningStep;
 
+use crate::atlas::expected::{Expectation, Expected};
 use crate::context::Records;
 use crate::record::Record;
+use crate::work_precision::Sweep;
 
 /// A chart and the name of its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,6 +36,25 @@ pub fn history(records: &[Record]) -> Result<String, ChartError> {
     history::history(records)
 }
 
+/// What the contestants called `names` are known to do where methods fail, as SVG.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn known_failures(names: &[String], expected: &Expected) -> Result<String, ChartError> {
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    atlas_matrix::matrix(&names, |subject, hazard| expected.get(subject, hazard))
+}
+
+/// Speed against accuracy on the problem `problem` of a record, made on the day `date`, as SVG.
+///
+/// # Errors
+/// [`ChartError`] if the sweep has no such problem, or if it can't be drawn.
+pub fn recorded(sweep: &Sweep, problem: &str, date: &str) -> Result<String, ChartError> {
+    let launches = sweep.problems.iter().find(|(name, ..)| name == problem).map(|(.., launches)| *launches);
+    let launches = launches.ok_or_else(|| ChartError(format!("no problem '{problem}' in the record of {date}")))?;
+    work_precision::work_precision(sweep, problem, launches, &format!("{problem}, record of {date}"))
+}
+
 /// The charts of the records that there are.
 ///
 /// # Errors
@@ -41,7 +62,8 @@ pub fn history(records: &[Record]) -> Result<String, ChartError> {
 pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
     let mut charts = Vec::new();
     if let Some(atlas) = records.atlas {
-        charts.push(chart("atlas-matrix.svg", atlas_matrix::matrix(atlas)?));
+        let worst = |subject: &str, hazard: &str| atlas.worst(hazard, subject).map(Expectation::from);
+        charts.push(chart("atlas-matrix.svg", atlas_matrix::matrix(&atlas.subjects(), worst)?));
         charts.push(chart("atlas-error.svg", atlas_lines::errors(atlas)?));
         charts.push(chart("atlas-work.svg", atlas_lines::work(atlas)?));
     }
@@ -62,7 +84,7 @@ pub fn charts(records: &Records<'_>) -> Result<Vec<Chart>, ChartError> {
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
-                svg: work_precision::work_precision(sweep, problem, *launches)?,
+                svg: work_precision::work_precision(sweep, problem, *launches, problem)?,
                 caption: Some(format!("{problem}: {stresses}")),
             });
         }

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use crate::work_precision::{Sample, Sweep};
 
-const SIZE: (u32, u32) = (2000, 940);
+const SIZE: (u32, u32) = (1800, 940);
 
 /// Room for labels beside the lines (pixels).
 const RIGHT: u32 = 290;
@@ -19,19 +19,19 @@ const FRONT: RGBColor = RGBColor(205, 205, 205);
 /// What work is, in the unit of its axis; `None` for none.
 type Work = fn(&Sample) -> Option<f64>;
 
-/// The chart of `problem` as SVG.
-pub(super) fn work_precision(sweep: &Sweep, problem: &str, launches: usize) -> Result<String, ChartError> {
+/// The chart of `problem`, of so many launches, as SVG.
+pub(super) fn work_precision(sweep: &Sweep, problem: &str, launches: usize, title: &str) -> Result<String, ChartError> {
     let per_launch = if launches > 1 { format!(" (all {launches} launches)") } else { String::new() };
     let calls: Work = |sample| Some(sample.n_rhs as f64).filter(|calls| *calls > 0.0);
     let time: Work = |sample| Some(sample.t_min_ns as f64 * 1e-3);
     svg(SIZE, |root| {
         let (left, right) = root.split_horizontally(SIZE.0 / 2);
-        panel(&left, sweep, problem, &format!("calls of the right-hand side{per_launch}"), calls)?;
-        panel(&right, sweep, problem, &format!("time [µs]{per_launch}"), time)
+        panel(&left, title, (sweep, problem), &format!("calls of the right-hand side{per_launch}"), calls)?;
+        panel(&right, title, (sweep, problem), &format!("time [µs]{per_launch}"), time)
     })
 }
 
-fn panel(panel: &Panel<'_>, sweep: &Sweep, problem: &str, label: &str, work: Work) -> chart::Drawn {
+fn panel(panel: &Panel<'_>, title: &str, (sweep, problem): (&Sweep, &str), label: &str, work: Work) -> chart::Drawn {
     let mut lines = vec![front(sweep, problem, work)];
     lines.extend(sweep.subjects().iter().map(|subject| subject_line(sweep, problem, subject, work)));
     let values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.1)).collect();
@@ -39,7 +39,7 @@ fn panel(panel: &Panel<'_>, sweep: &Sweep, problem: &str, label: &str, work: Wor
         values.iter().fold((f64::INFINITY, 1.0_f64), |(lo, hi), value| (lo.min(*value), hi.max(*value)));
     let x = Axis::positive("error of the attitude [rad]", ERRORS);
     let y = Axis::positive(label, 0.5 * least.min(most)..2.0 * most);
-    let mut labels = log_log(panel, problem, (&x, &y), &lines, RIGHT)?;
+    let mut labels = log_log(panel, title, (&x, &y), &lines, RIGHT)?;
     let (width, height) = panel.dim_in_pixel();
     if lines.iter().any(|line| line.points.is_empty() && line.label == "exact") {
         // The exact motion calls no right-hand side: it is below every axis.
