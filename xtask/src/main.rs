@@ -2,6 +2,8 @@
 //!
 //! Exit codes are those of the task; 2 for an unknown task, 4 if it could not be built or started.
 
+mod figures;
+
 use std::env;
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -16,7 +18,11 @@ tasks:
       print what a toss costs, in ns and beside a reference in C; or count its instructions by valgrind and compare them with
       the baseline
   history
-      draw the accuracy of the committed records over time";
+      draw the accuracy of the committed records over time
+  figures [--check]
+      draw the figures of docs/figures; or end with 1 if one of them is not current";
+
+const COULD_NOT_RUN: u8 = 4;
 
 fn main() -> ExitCode {
     let mut args = env::args().skip(1);
@@ -24,6 +30,7 @@ fn main() -> ExitCode {
         Some("verify") => verify(args),
         Some("bench") => verify(std::iter::once("--bench".to_owned()).chain(args)),
         Some("history") => verify(std::iter::once("--history".to_owned()).chain(args)),
+        Some("figures") => figures::figures(args).unwrap_or_else(|message| could_not_run(&message)),
         Some("help" | "--help" | "-h") => {
             println!("{USAGE}");
             ExitCode::SUCCESS
@@ -38,22 +45,29 @@ fn usage_error(message: &str) -> ExitCode {
     ExitCode::from(2)
 }
 
-/// Builds the suite with optimisation and runs it in the root of the workspace.
+fn could_not_run(message: &str) -> ExitCode {
+    eprintln!("error: {message}");
+    ExitCode::from(COULD_NOT_RUN)
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+/// Builds `program` with optimisation and runs it in the root of the workspace; its arguments follow.
+fn cargo(program: &str) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
+    command.args(["run", "--quiet", "--release", "--bin", program, "--"]).current_dir(root());
+    command
+}
+
+/// Runs the suite.
 fn verify(args: impl Iterator<Item = String>) -> ExitCode {
-    const COULD_NOT_RUN: u8 = 4;
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let status = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()))
-        .args(["run", "--quiet", "--release", "--package", "verify", "--"])
-        .args(args)
-        .current_dir(root)
-        .status();
+    let status = cargo("verify").args(args).status();
     match status.map(|status| status.code().and_then(|code| u8::try_from(code).ok())) {
         // The suite's own codes; anything else is cargo failing to build it, a panic or a signal.
         Ok(Some(code @ 0..=COULD_NOT_RUN)) => ExitCode::from(code),
         Ok(_) => ExitCode::from(COULD_NOT_RUN),
-        Err(error) => {
-            eprintln!("error: cannot start cargo: {error}");
-            ExitCode::from(COULD_NOT_RUN)
-        }
+        Err(error) => could_not_run(&format!("cannot start cargo: {error}")),
     }
 }
