@@ -48,7 +48,8 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
             .light_line_style(WHITE)
             .x_desc("launches n")
             .y_desc("error")
-            .x_label_formatter(&|n: &f64| format!("{n:.0}"))
+            // Numbers between the powers of ten would run into each other.
+            .x_label_formatter(&|n: &f64| if n.log10().fract() == 0.0 { format!("{n:.0}") } else { String::new() })
             .y_label_formatter(&|error: &f64| format!("{error:.0e}"))
             .label_style(TEXT)
             .axis_desc_style(TEXT)
