@@ -128,4 +128,17 @@ mod tests {
             assert_eq!(coin.inertia_ratio(), coin.i3() / coin.i1());
         }
     }
+
+    #[test]
+    fn what_is_wrong_with_a_cylinder_is_named() {
+        for ([mass, radius, thickness], field) in [
+            ([0.0, 0.01, 0.001], "mass [kg]"),
+            ([0.01, 0.0, 0.001], "radius [m]"),
+            ([0.01, 0.01, -1e-9], "thickness [m]"),
+            ([f64::NAN, 0.01, 0.001], "mass [kg]"),
+            ([1e-300, 1e-10, 0.0], "I1 [kg m²]"),
+        ] {
+            assert_eq!(Coin::from_cylinder(mass, radius, thickness).unwrap_err().field(), field);
+        }
+    }
 }

@@ -168,4 +168,29 @@ mod tests {
             assert!(matches!(compensated_cos_tilt(&toss), Err(SolveError::PhaseTooLarge { .. })));
         }
     }
+
+    /// ωL T and |q| T next to 2^53, each the larger one in turn.
+    #[test]
+    fn phases_are_taken_up_to_two_to_the_53() {
+        for (k, z, part, taken) in [
+            (0.5, 2.0, 0.999, true),
+            (0.5, 2.0, 1.001, false),
+            (0.25, 4.0, 0.33, true),
+            (0.25, 4.0, 0.34, false),
+            (1.5, 2.0, 0.333, true),
+            (1.5, 2.0, 0.334, false),
+        ] {
+            let time = TimeOfFlight::Given(part * LARGEST_PHASE);
+            let launch = Launch::new(Vector3::new(0.0, 0.0, z), time).unwrap();
+            let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+            assert_eq!(compensated_cos_tilt(&toss).is_ok(), taken, "{k}, {part}");
+            assert_eq!(compensated_landing(&toss).is_ok(), taken, "{k}, {part}");
+        }
+    }
+
+    #[test]
+    fn a_precession_too_slow_to_count_is_none() {
+        assert_eq!([0.0, 0.99e-200].map(|square| root(square, 0.0)), [[0.0; 2]; 2]);
+        assert!(root(1e-200, 0.0)[0] > 0.0);
+    }
 }

@@ -127,6 +127,8 @@ fn more_digits_change_cos_theta_by_less_than_its_bound() {
             let (rough, fine) = (cos_tilt(&toss, digits), cos_tilt(&toss, 2 * digits));
             let difference = if rough > fine { &rough - &fine } else { &fine - &rough };
             assert!(difference < multiprecision_bound(digits), "{digits}, {time}");
+            let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
+            assert!((fine.to_f64().value() - exact).abs() < 1e-15, "{digits}, {time}");
             // And the bound is what the phase's loss of digits makes of the last one.
             assert!(multiprecision_bound(digits) < (Big::ONE >> (digits - 81)));
         }
