@@ -67,7 +67,7 @@ fn nearest_polar(re: f64, im: f64, reference: f64) -> (f64, f64) {
     let (sin, cos) = reference.sin_cos();
     let (along, across) = (re * cos + im * sin, im * cos - re * sin);
     let radius = along.hypot(across).copysign(along);
-    (reference + (across * along.signum()).atan2(along.abs()), radius)
+    (reference + (along.signum() * across).atan2(along.abs()), radius)
 }
 
 /// A complex number in polar form, its argument as `base` + π `half_turns`, so that sums and differences of arguments
@@ -113,7 +113,7 @@ pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> Pol
     let half_turns = (x / PI).floor();
     let parity = if half_turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
     let along = parity * (re * cos_start + im * sin_start);
-    let across = parity * sense * (im * cos_start - re * sin_start);
+    let across = parity * (sense * (im * cos_start - re * sin_start));
     Polar { base: start + sense * across.max(0.0).atan2(along), half_turns: sense * half_turns, radius: re.hypot(im) }
 }
 
@@ -137,7 +137,9 @@ fn winding(a: [f64; 2], b: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    const SAMPLES: [EulerAngles; 4] = [
+    const SAMPLES: [EulerAngles; 6] = [
+        EulerAngles { alpha: 0.5, beta: 9.0, gamma: -1.0 },
+        EulerAngles { alpha: -2.0, beta: -20.0, gamma: 0.7 },
         EulerAngles { alpha: 0.3, beta: 1.1, gamma: -2.0 },
         EulerAngles { alpha: -7.0, beta: -0.4, gamma: 9.5 },
         EulerAngles { alpha: 2.0, beta: 5.0, gamma: 40.0 },
@@ -188,6 +190,25 @@ mod tests {
                 assert!((radius * argument.cos() - (a[0] * cos + b[0] * sin)).abs() < 1e-12);
             }
             assert!(largest < 0.2, "jump of {largest} rad for {a:?}, {b:?}");
+        }
+    }
+
+    #[test]
+    fn half_turns_have_twice_the_digits_of_pi() {
+        // What f64 leaves of π is its sine.
+        let rest = half_turns(1e9) - DoubleDouble::product(PI, 1e9);
+        assert!((rest.hi() / (1e9 * PI.sin()) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_flat_curve_stays_on_its_line() {
+        for (a, b) in [(0.5, -0.3), (0.0, 0.7), (0.4, 0.0)] {
+            for x in [0.3, 2.0, 4.0] {
+                let polar = continuous_polar([0.6 * a, 0.8 * a], [0.6 * b, 0.8 * b], x.into());
+                let along = a * x.cos() + b * x.sin();
+                assert!((polar.radius * polar.argument().cos() - 0.6 * along).abs() < 1e-15, "{a} {b} {x}");
+                assert!((polar.radius * polar.argument().sin() - 0.8 * along).abs() < 1e-15, "{a} {b} {x}");
+            }
         }
     }
 }

@@ -56,3 +56,36 @@ impl Solver for ExactSolver {
         self.verdict(toss)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::attitude::Attitude;
+    use crate::coin::Coin;
+    use crate::launch::Launch;
+    use crate::outcome::{Outcome, Stage};
+    use crate::time_of_flight::TimeOfFlight;
+
+    #[test]
+    fn its_outcomes_are_proven_whatever_cos_theta_it_is_told() {
+        let launch = Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap();
+        let toss = Toss { coin: Coin::PAPER, launch };
+        let proven = Verdict { outcome: Outcome::Heads, proof: Some(Stage::F64) };
+        assert_eq!((ExactSolver.verdict(&toss), ExactSolver.verdict_at(&toss, -1.0)), (Ok(proven), Ok(proven)));
+        assert_eq!((ExactSolver.resolution(&toss), ExactSolver.name()), (Ok(COS_TILT_ERROR), "exact"));
+        let landing = ExactSolver.propagate(&toss).unwrap();
+        assert_eq!(Ok(landing.cos_tilt), ExactSolver.cos_tilt(&toss));
+        assert!((landing.state.attitude.cos_tilt() - landing.cos_tilt).abs() < 1e-15);
+    }
+
+    #[test]
+    fn it_counts_a_batch() {
+        let [x, y, z, speed] = [[20.0, 2.0], [3.0, 2.0], [1.0, 0.5], [3.0, 4.0]];
+        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
+        let mut rest = 0;
+        let filtered = ExactSolver.count(&tosses, &mut |verdict| rest += u64::from(verdict.proof.is_some())).unwrap();
+        assert_eq!(filtered.heads + filtered.tails + rest, 2);
+    }
+}

@@ -227,4 +227,30 @@ mod tests {
         let fixed = Method::fixed(Scheme::Rk4, 0.01).unwrap();
         assert_eq!(fixed.tightened(100.0), fixed);
     }
+
+    #[test]
+    fn a_scheme_is_named_and_has_the_order_and_the_steps_that_it_can_take() {
+        let table = [("dop853", Some(8), true, true), ("dopri5", Some(5), true, true), ("rk4", Some(4), false, true)];
+        for (scheme, (name, order, adapts, steps)) in
+            Scheme::ALL.into_iter().zip(table.into_iter().chain([("taylor", None, true, false)]))
+        {
+            assert_eq!((scheme.name(), Scheme::named(name)), (name, Ok(scheme)));
+            assert_eq!((scheme.order(), scheme.is_adaptive(), scheme.takes_steps()), (order, adapts, steps));
+            assert_eq!(Method::adaptive(scheme, 1e-9).is_ok(), adapts);
+            assert_eq!(Method::fixed(scheme, 1e-3).is_ok(), steps);
+            assert_eq!(scheme.runge_kutta().is_ok(), Scheme::RUNGE_KUTTA.contains(&scheme));
+        }
+    }
+
+    #[test]
+    fn tolerances_are_from_rounding_to_below_1_and_steps_above_0() {
+        for (tolerance, taken) in [(f64::EPSILON, true), (0.999, true), (1.0, false), (0.99 * f64::EPSILON, false)] {
+            assert_eq!(Method::adaptive(Scheme::Taylor, tolerance).is_ok(), taken, "{tolerance}");
+        }
+        for (step, taken) in [(5e-324, true), (1e9, true), (0.0, false), (-1.0, false), (f64::NAN, false)] {
+            assert_eq!(Method::fixed(Scheme::Rk4, step).is_ok(), taken, "{step}");
+        }
+        let method = Method::fixed(Scheme::Rk4, 0.25).unwrap();
+        assert_eq!((method.scheme(), method.control()), (Scheme::Rk4, StepControl::Step(0.25)));
+    }
 }

@@ -201,3 +201,95 @@ impl SolverEntry {
         Ok((self.build)(settings))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::attitude::Attitude;
+    use crate::coin::Coin;
+    use crate::exact_solver::ExactSolver;
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
+
+    /// Lands where it was launched, by RK4 or by no method.
+    struct Still(Option<Method>);
+
+    impl Solver for Still {
+        fn name(&self) -> &'static str {
+            "still"
+        }
+
+        fn method(&self) -> Option<Method> {
+            self.0
+        }
+
+        fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+            let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+            Ok(Propagation::new(state, Work::default()))
+        }
+    }
+
+    fn toss(tilt: f64) -> Toss {
+        let launch = Launch::new(Vector3::new(0.1, 0.0, 0.0), TimeOfFlight::Given(0.1)).unwrap();
+        Toss { coin: Coin::DISC, launch: launch.with_tilt(tilt).unwrap() }
+    }
+
+    #[test]
+    fn a_solver_that_propagates_has_outcomes_as_far_as_it_answers_for_them() {
+        let method = Method::fixed(Scheme::Rk4, 0.05).unwrap();
+        for (solver, resolution) in [(Still(None), 0.0), (Still(Some(method)), method.resolution(&toss(0.0)).unwrap())]
+        {
+            let quarter = std::f64::consts::FRAC_PI_2;
+            for (tilt, outcome) in
+                [(0.3, Outcome::Heads), (3.0, Outcome::Tails), (quarter - 2.0 * resolution, Outcome::Heads)]
+            {
+                let toss = toss(tilt);
+                assert_eq!(solver.resolution(&toss), Ok(resolution));
+                assert_eq!(solver.cos_tilt(&toss), Ok(Attitude::about_x(tilt).cos_tilt()));
+                assert_eq!(solver.verdict(&toss), Ok(Verdict { outcome, proof: None }));
+                assert_eq!(solver.outcome(&toss), Ok(outcome));
+            }
+            assert_eq!(
+                solver.outcome(&toss(quarter - 0.5 * resolution)).is_ok_and(|found| found == Outcome::Heads),
+                resolution == 0.0
+            );
+        }
+    }
+
+    #[test]
+    fn it_counts_a_batch_one_by_one() {
+        let [x, y, z, speed] = [[0.0, 1.0], [0.0; 2], [2.0, 3.0], [1.0, 1.5]];
+        let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
+        let mut verdicts = Vec::new();
+        let filtered = Still(None).count(&tosses, &mut |verdict| verdicts.push(verdict)).unwrap();
+        assert_eq!(
+            (filtered, verdicts),
+            (Filtered::default(), vec![Verdict { outcome: Outcome::Heads, proof: None }; 2])
+        );
+    }
+
+    #[test]
+    fn formulations_are_named() {
+        for (formulation, name) in Formulation::ALL.into_iter().zip(["momentum", "vertical", "raw"]) {
+            assert_eq!((formulation.name(), Formulation::named(name)), (name, Ok(formulation)));
+        }
+    }
+
+    #[test]
+    fn an_entry_builds_what_it_offers() {
+        const STILL: SolverEntry = SolverEntry {
+            name: "still",
+            summary: "",
+            formulations: &Formulation::ALL,
+            schemes: &Scheme::RUNGE_KUTTA,
+            build: |settings| Box::new(Still(Some(settings.method))),
+        };
+        let by_taylor = Settings { method: Method::adaptive(Scheme::Taylor, 1e-9).unwrap(), ..Settings::default() };
+        assert!(STILL.integrates() && !ExactSolver::ENTRY.integrates());
+        assert_eq!(STILL.solver(&Settings::default()).unwrap().method(), Some(Method::DEFAULT));
+        assert_eq!(STILL.solver(&by_taylor).err().map(|error| error.field()), Some("method of this solver"));
+        assert_eq!(ExactSolver::ENTRY.solver(&by_taylor).unwrap().name(), "exact");
+    }
+}
