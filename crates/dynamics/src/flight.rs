@@ -123,4 +123,38 @@ mod tests {
             }
         }
     }
+
+    fn flight(rate: [f64; 3], time: f64) -> Flight {
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        Flight::new(&Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch }).unwrap()
+    }
+
+    #[test]
+    fn times_and_rates_are_in_the_unit_of_the_largest_rate() {
+        let flight = flight([60.0, -8.0, 0.1], 0.5);
+        assert_eq!((flight.rate.x, flight.span(), flight.in_seconds(8.0)), (60.0 / 32.0, 16.0, 0.25));
+        assert_eq!(flight.rate_at(1.5, -0.5), Vector3::new(48.0, -16.0, 0.1));
+        assert_eq!(flight.not_finite(), SolveError::NotFinite { time: 0.5 });
+    }
+
+    /// y' = i y, in dimensionless time.
+    struct Circle;
+
+    impl OdeSystem<2> for Circle {
+        fn derivative(&self, y: &SVector<f64, 2>) -> SVector<f64, 2> {
+            SVector::from([-y.y, y.x])
+        }
+    }
+
+    #[test]
+    fn above_a_hundred_radians_the_tolerance_of_the_steps_is_tightened() {
+        let method = Method::adaptive(crate::method::Scheme::Dopri5, 1e-6).unwrap();
+        for (time, tightened) in [(50.0, 1e-6), (100.0, 1e-6), (400.0, 0.25e-6)] {
+            let flight = flight([1.0, 0.0, 0.0], time);
+            assert_eq!(flight.is_long(), time > 100.0);
+            let start = SVector::from([1.0, 0.0]);
+            let by = Method::adaptive(crate::method::Scheme::Dopri5, tightened).unwrap();
+            assert_eq!(flight.integrate(&Circle, start, &method), integrate(&Circle, start, time, 1.0, &by));
+        }
+    }
 }
