@@ -45,11 +45,9 @@ pub fn running(steps: &[[f64; 5]]) -> Result<String, ChartError> {
         let at = |p: f64| chart.plotting_area().map_coordinate(&(launches, p)).1;
         // Above the end of the line, where the axis has no number.
         let label = |p: f64, text: String, colour: RGBColor| EndLabel { y: at(p) - 60, text, colour };
-        let labels = vec![
-            label(last_grid, format!("A, grid: {last_grid:.4}"), GRID),
-            label(last_random, format!("B, random: {last_random:.4}"), RANDOM),
-            label(last_random, "with its 95 % interval".to_owned(), RANDOM),
-        ];
+        let grid = label(last_grid, format!("A, grid: {last_grid:.4}"), GRID);
+        let random = label(last_random, format!("B, random: {last_random:.4}"), RANDOM);
+        let labels = vec![grid, random, label(last_random, "with its 95 % interval".to_owned(), RANDOM)];
         end_labels(root, chart.plotting_area().get_pixel_range().0.end + 12, labels)
     })
 }

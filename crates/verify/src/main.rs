@@ -47,10 +47,10 @@ struct Args {
     #[arg(long, conflicts_with_all = ["only", "replay"])]
     bless: bool,
     /// Measure the planner's table alone, as --bless does with everything else
-    #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
+    #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless", "format"])]
     fit: bool,
     /// Measure what a toss costs
-    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "fit"])]
+    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "fit", "format"])]
     bench: bool,
     /// With --bench: count instructions instead, and compare them with the baseline
     #[arg(long, hide = true, requires = "bench")]
@@ -62,7 +62,7 @@ struct Args {
     #[arg(long, hide = true, default_value_t = 1)]
     times: u32,
     /// Draw the accuracy of the committed records
-    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
+    #[arg(long, hide = true, conflicts_with_all = ["quick", "deep", "only", "replay", "bless", "format"])]
     history: bool,
     /// Draw this figure from what is committed
     #[arg(long, hide = true, value_enum, requires = "svg", conflicts_with_all = ["quick", "deep", "only", "replay", "bless"])]
@@ -149,6 +149,11 @@ fn run(args: &Args) -> anyhow::Result<u8> {
         write_file(path, &figure.svg(&args.validation)?)?;
         return Ok(0);
     }
+    verify(args)
+}
+
+/// The checks and their reports; 1 if a check fails, 3 if something is worse than the baseline.
+fn verify(args: &Args) -> anyhow::Result<u8> {
     let effort = effort(args);
     let bounds = Bounds::read(&args.validation.join("bounds.toml"))?;
     let context = Context::new(SOLVERS, effort, &args.validation)?;

@@ -26,15 +26,7 @@ pub(crate) struct ErrorLine {
 
 /// The chart as SVG, of errors above 0.
 pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<String, ChartError> {
-    let drawn: Vec<&ErrorLine> = lines.iter().filter(|line| line.rms_error > 0.0).collect();
-    let span = |of: fn(&ErrorLine) -> f64| {
-        let values = drawn.iter().map(|line| of(line));
-        values.fold((f64::INFINITY, 0.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)))
-    };
-    let ((fewest, most), (smallest, largest)) = (span(|line| line.launches as f64), span(|line| line.rms_error));
-    if drawn.is_empty() {
-        return Err(ChartError("every error is 0".to_owned()));
-    }
+    let [(fewest, most), (smallest, largest)] = spans(lines).ok_or(ChartError("every error is 0".to_owned()))?;
     svg(SIZE, |root| {
         let mut chart = ChartBuilder::on(root)
             .margin(24)
@@ -62,11 +54,7 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
             labels.push(EndLabel { y, text: "error of the reference".to_owned(), colour: GREY });
         }
         for (series, colour) in lines.chunk_by(|a, b| a.method == b.method).zip(COLOURS) {
-            let points: Vec<(f64, f64)> = series
-                .iter()
-                .filter(|line| line.rms_error > 0.0)
-                .map(|line| (line.launches as f64, line.rms_error))
-                .collect();
+            let points: Vec<(f64, f64)> = drawn(series).collect();
             chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(4)))?;
             chart.draw_series(points.iter().map(|point| Circle::new(*point, 7, colour.filled())))?;
             if let Some(end) = points.last() {
@@ -76,4 +64,17 @@ pub(crate) fn errors(lines: &[ErrorLine], reference: &Reference) -> Result<Strin
         }
         end_labels(root, chart.plotting_area().get_pixel_range().0.end + 12, labels)
     })
+}
+
+/// Launches and errors above 0.
+fn drawn(lines: &[ErrorLine]) -> impl Iterator<Item = (f64, f64)> {
+    lines.iter().filter(|line| line.rms_error > 0.0).map(|line| (line.launches as f64, line.rms_error))
+}
+
+/// The least and the largest of the launches and of the errors that are drawn; `None` if none is.
+fn spans(lines: &[ErrorLine]) -> Option<[(f64, f64); 2]> {
+    let span = |of: fn((f64, f64)) -> f64| {
+        drawn(lines).map(of).fold((f64::INFINITY, 0.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)))
+    };
+    drawn(lines).next().map(|_| [span(|(launches, _)| launches), span(|(_, error)| error)])
 }

@@ -100,11 +100,8 @@ fn known() -> anyhow::Result<Vec<Figure>> {
         let [x, z] = [1.0, deviation_z].map(|deviation| format!("normal:0:{deviation}"));
         [(RateX, x.clone()), (RateY, x), (RateZ, z), (Speed, LONG.to_owned())]
     };
-    let axes = |x: String, y: &str, z: &str, speed: &str| {
-        [(RateX, x), (RateY, y.to_owned()), (RateZ, z.to_owned()), (Speed, speed.to_owned())]
-    };
     let turns = |number: f64| number * std::f64::consts::TAU;
-    let mut figures = vec![
+    Ok(vec![
         Figure { name: "isotropic angular momentum", coin: coin(0.5)?, axes: isotropic(2.0) },
         Figure { name: "isotropic rate, k = 0.5", coin: coin(0.5)?, axes: isotropic(1.0) },
         Figure { name: "isotropic rate, k = 1.0", coin: coin(1.0)?, axes: isotropic(1.0) },
@@ -121,19 +118,28 @@ fn known() -> anyhow::Result<Vec<Figure>> {
             coin: Coin::PAPER,
             axes: axes("1:60".to_owned(), "1:60", "1:60", "3:5"),
         },
-    ];
-    for (name, degrees) in [
-        ("finite flights, 60 degrees", 60.0_f64),
-        ("finite flights, 75 degrees", 75.0),
-        ("finite flights, 90 degrees", 90.0),
-    ] {
-        // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ, ωL from 2 to 20 rad/s.
+    ])
+}
+
+/// Flights too short for the limit, with ωL from 2 to 20 rad/s.
+fn finite_flights() -> anyhow::Result<Vec<Figure>> {
+    let figure = |(name, degrees): (&'static str, f64)| {
+        // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ.
         let cone = degrees.to_radians();
         let (x, cot) = (format!("{}:{}", 2.0 * cone.sin(), 20.0 * cone.sin()), cone.cos() / cone.sin());
         let z = if degrees == 90.0 { "0" } else { "x" };
-        figures.push(Figure { name, coin: coin(cot)?, axes: axes(x, "0", z, "3:5") });
-    }
-    Ok(figures)
+        Ok(Figure { name, coin: Coin::from_moments(1.0, cot)?, axes: axes(x, "0", z, "3:5") })
+    };
+    let flights = [
+        ("finite flights, 60 degrees", 60.0),
+        ("finite flights, 75 degrees", 75.0),
+        ("finite flights, 90 degrees", 90.0),
+    ];
+    flights.into_iter().map(figure).collect()
+}
+
+fn axes(x: String, y: &str, z: &str, speed: &str) -> [(Coordinate, String); 4] {
+    [(RateX, x), (RateY, y.to_owned()), (RateZ, z.to_owned()), (Speed, speed.to_owned())]
 }
 
 fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -142,8 +148,10 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Effort::Standard | Effort::Deep => 1 << 22,
     };
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, 1)));
+    let finite = finite_flights()?;
     known()?
         .into_iter()
+        .chain(finite)
         .map(|Figure { name, coin, axes }| {
             let texts: Vec<_> = axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
             let found = estimate(&Space::parse(coin, &texts)?, plan, &ExactSolver, &|_| {})?;

@@ -196,55 +196,57 @@ struct Section<'a> {
     charts: Vec<&'a Chart>,
 }
 
+/// Id, title and caption of every chapter; the files of its charts begin with the id.
+const CHAPTERS: [(&str, &str, &str); 6] = [
+    (
+        "fig4",
+        "The paper's Fig. 4",
+        "Probability against the number of launches: a grid (A), in the order of its axes, and \
+      random launches (B). B settles like one over the root of n; A wanders until its last axis is complete. Both end at the \
+      paper's 66 %, in a space of ours, since the paper names none.",
+    ),
+    (
+        "work-precision",
+        "Speed against accuracy",
+        "Each point is a run at one tolerance or step: the further right, the more \
+      accurate; the lower, the cheaper. Left in calls, which repeat exactly, right in time on this machine. The grey band is \
+      what no integrator beats; the exact motion calls nothing and is accurate to the last bit.",
+    ),
+    (
+        "ladder",
+        "The ladder of models",
+        "What each rung takes by the clock of this run, over the random scenes that it can serve: median, and the \
+      range of nine in ten. The planner takes the lowest rung that is accurate enough.",
+    ),
+    (
+        "order",
+        "Order of convergence",
+        "With fixed steps the error falls like a power of the step. The fitted power stands \
+      beside what theory gives; DOP853 leaves only one halving of the step between what is not yet asymptotic and rounding.",
+    ),
+    (
+        "atlas",
+        "Where methods fail",
+        "The worst answer of every solver, method and formulation near eight hazards. The raw \
+      forms are the paper's equations as printed: they report success and are wrong. By default nothing is. Below, error and \
+      work against the distance from each hazard; where the purple line is above an error, the launch itself is not known \
+      better.",
+    ),
+    (
+        "long-flights",
+        "Long flights",
+        "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
+      in proportion to the time; what is conserved drifts by some parts in 10⁸ at most.",
+    ),
+];
+
 /// The chapters that have charts.
 fn sections(charts: &[Chart]) -> Vec<Section<'_>> {
-    let chapters = [
-        (
-            "fig4",
-            "The paper's Fig. 4",
-            "Probability against the number of launches: a grid (A), in the order of its axes, and \
-          random launches (B). B settles like one over the root of n; A wanders until its last axis is complete. Both end at the \
-          paper's 66 %, in a space of ours, since the paper names none.",
-        ),
-        (
-            "work-precision",
-            "Speed against accuracy",
-            "Each point is a run at one tolerance or step: the further right, the more \
-          accurate; the lower, the cheaper. Left in calls, which repeat exactly, right in time on this machine. The grey band is \
-          what no integrator beats; the exact motion calls nothing and is accurate to the last bit.",
-        ),
-        (
-            "ladder",
-            "The ladder of models",
-            "What each rung takes by the clock of this run, over the random scenes that it can serve: median, and the \
-          range of nine in ten. The planner takes the lowest rung that is accurate enough.",
-        ),
-        (
-            "order",
-            "Order of convergence",
-            "With fixed steps the error falls like a power of the step. The fitted power stands \
-          beside what theory gives; DOP853 leaves only one halving of the step between what is not yet asymptotic and rounding.",
-        ),
-        (
-            "atlas",
-            "Where methods fail",
-            "The worst answer of every solver, method and formulation near eight hazards. The raw \
-          forms are the paper's equations as printed: they report success and are wrong. By default nothing is. Below, error and \
-          work against the distance from each hazard; where the purple line is above an error, the launch itself is not known \
-          better.",
-        ),
-        (
-            "long-flights",
-            "Long flights",
-            "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
-          in proportion to the time; what is conserved drifts by some parts in 10⁸ at most.",
-        ),
-    ];
     let section = |(id, title, caption): (&'static str, &'static str, &'static str)| {
         let charts: Vec<&Chart> = charts.iter().filter(|chart| chart.file.starts_with(id)).collect();
         (!charts.is_empty()).then_some(Section { id, title, caption, charts })
     };
-    chapters.into_iter().filter_map(section).collect()
+    CHAPTERS.into_iter().filter_map(section).collect()
 }
 
 impl Section<'_> {

@@ -22,20 +22,11 @@ pub(super) fn history(records: &[Record]) -> Result<String, ChartError> {
             .x_label_area_size(84)
             .y_label_area_size(132)
             .build_cartesian_2d(-0.5..last as f64 + 0.5, (1e-17..1e-7).log_scale())?;
-        let date = |position: &f64| {
-            let index = position.round();
-            let here = (position - index).abs() < 1e-6 && index >= 0.0;
-            records
-                .iter()
-                .enumerate()
-                .find(|(at, _)| here && *at as f64 == index)
-                .map_or_else(String::new, |(_, record)| record.host.date.clone())
-        };
         chart
             .configure_mesh()
             .light_line_style(WHITE)
             .x_labels(2 * records.len() + 1)
-            .x_label_formatter(&date)
+            .x_label_formatter(&|position: &f64| date(records, *position))
             .y_label_formatter(&|error: &f64| format!("{error:.0e}"))
             .y_desc("error [rad]")
             .label_style(TEXT)
@@ -59,4 +50,14 @@ pub(super) fn history(records: &[Record]) -> Result<String, ChartError> {
         root.draw(&Text::new("lower is better", (180, 80), TEXT.into_font().color(&GREY)))?;
         end_labels(root, chart.plotting_area().get_pixel_range().0.end + 16, labels)
     })
+}
+
+/// The date of the record at a position of the axis, which is nothing between two records.
+fn date(records: &[Record], position: f64) -> String {
+    let at = |index: usize| (position - index as f64).abs() < 1e-6;
+    records
+        .iter()
+        .enumerate()
+        .find(|(index, _)| at(*index))
+        .map_or_else(String::new, |(_, record)| record.host.date.clone())
 }
