@@ -145,4 +145,31 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_span_without_a_length_has_no_interval() {
+        let heads = HeadsPhases::new([0.25, 0.75, 0.0], ERROR);
+        assert_eq!(heads.intervals(0.5, 0.5).count(), 0);
+        assert_eq!(HeadsPhases::constant(1.0).intervals(0.5, 0.5).count(), 0);
+    }
+
+    #[test]
+    fn the_error_of_the_half_width_is_that_of_the_arc_cosine() {
+        let error = f64::exp2(-10.0);
+        for (mean, expected) in [
+            (0.5, error * (2.0 / (0.5 * 1.5_f64)).sqrt()),
+            (-0.5, error * (2.0 / (0.5 * 1.5_f64)).sqrt()),
+            // Four errors from the edge, on it, one beyond it, and further.
+            (1.0 - 4.0 * error, 1.6 * (5.0 * error).sqrt()),
+            (1.0, 1.6 * error.sqrt()),
+            (1.0 + error, 1.6 * (2.0 * error).sqrt()),
+            (1.0 + 2.0 * error, 0.0),
+            (1.1, 0.0),
+        ] {
+            // The amplitude is only a unit.
+            let found = half_width_error(4.0 * mean, 4.0, error);
+            assert!((found - expected).abs() <= 1e-14 * expected, "{mean}: {found}, not {expected}");
+        }
+        assert_eq!(HeadsPhases::constant(0.0).half_width, 0.0);
+    }
 }

@@ -123,4 +123,11 @@ mod tests {
             assert_eq!((keller_phase(&other), keller_cos_tilt(&other)), (None, None), "{other:?}");
         }
     }
+
+    #[test]
+    fn the_bound_is_that_of_the_derivation_and_phases_end_below_10_to_the_15() {
+        assert_eq!([0.0, 2.0].map(keller_bound), [3.0 * UNIT_ROUNDOFF, 13.0 * UNIT_ROUNDOFF]);
+        assert_eq!(keller_phase(&toss([1.0, 0.0, 0.0], 0.0, 0.99e15)), Some(0.99e15));
+        assert_eq!(keller_phase(&toss([1.0, 0.0, 0.0], 0.0, 1e15)), None);
+    }
 }

@@ -184,4 +184,38 @@ mod tests {
         assert_eq!(given.speed, None);
         assert!((given.time.unwrap() - (std::f64::consts::FRAC_PI_2 / 9.0 - 0.1)).abs() < 1e-15);
     }
+
+    /// Caught 1.5 m below, no flight is shorter than the fall from rest, 0.553 s: of the flips at 0.5 s and 1.5 s only the
+    /// later one can be had.
+    #[test]
+    fn a_flip_before_the_shortest_flight_is_none() {
+        let toss = |speed| {
+            let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop: 1.5 };
+            Toss {
+                coin: Coin::DISC,
+                launch: Launch::new(Vector3::new(std::f64::consts::PI, 0.0, 0.0), thrown).unwrap(),
+            }
+        };
+        let change = margin(&toss(0.1)).unwrap().speed.unwrap();
+        let flight = toss(0.1 + change).launch.flight_time();
+        assert!((flight - 1.5).abs() < 1e-12, "{change}: {flight}");
+    }
+
+    /// Against all edges of twenty turns.
+    #[test]
+    fn the_nearest_edge_is_the_nearest_of_all() {
+        use std::f64::consts::TAU;
+        for (crest, half_width) in [(0.5, 2.5), (-3.0, 0.4), (2.9, 1.6)] {
+            let heads = HeadsPhases { crest, half_width, crest_error: 0.0, half_width_error: 0.0 };
+            let edges =
+                || (-1..20).flat_map(|turn| [-1.0, 1.0].map(|side| crest + side * half_width + TAU * f64::from(turn)));
+            for (phase, least) in (0..290).flat_map(|part| [0.0, 1.5].map(|least| (1.5 + 0.2 * f64::from(part), least)))
+            {
+                let changes = edges().filter(|edge| *edge >= least).map(|edge| edge - phase);
+                let expected = changes.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
+                let found = to_nearest_edge(&heads, phase, least).unwrap();
+                assert!((found - expected).abs() < 1e-12, "{crest} {half_width} {phase} {least}: {found}");
+            }
+        }
+    }
 }

@@ -86,7 +86,8 @@ impl OdeSystem<5> for AnglesSystem {
         let &[_, beta, gamma, rate_x, rate_y] = &y.data.0[0];
         let ((sin_beta, cos_beta), (sin_gamma, cos_gamma)) = (beta.sin_cos(), gamma.sin_cos());
         let precession = if beta == 0.0 || beta.abs() == PI {
-            self.limit_of_u / cos_beta
+            // cos β is ±1, and its own inverse.
+            cos_beta * self.limit_of_u
         } else {
             (rate_x * sin_gamma + rate_y * cos_gamma) / sin_beta
         };
@@ -167,7 +168,9 @@ mod tests {
             system.singularity(&before, &after)
         };
         let pole = Some(Singularity::NormalAlongAxis);
-        for (was, is) in [(0.02, -0.01), (0.01, -0.02), (-0.01, 0.02), (0.1, 0.0), (3.0, 3.2), (3.2, 3.0)] {
+        for (was, is) in
+            [(0.02, -0.01), (0.01, -0.02), (-0.01, 0.02), (0.1, 0.0), (3.0, 3.2), (3.2, 3.0), (f64::EPSILON, -0.1)]
+        {
             assert_eq!(met(was, is), pole, "{was} to {is}");
         }
         for (was, is) in [(0.02, 0.01), (-0.02, -0.01), (0.0, -0.1), (1e-17, -0.1), (PI, 3.2)] {

@@ -96,3 +96,33 @@ impl Start {
         Self { frame: Attitude::IDENTITY, angles, precession, u: precession * angles.beta.cos() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    fn start(rate: [f64; 3], components: [f64; 4], formulation: Formulation) -> Start {
+        let attitude = Attitude::from_components(components).unwrap();
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
+        Start::new(&Toss { coin: Coin::PAPER, launch }, &Vector3::from(rate), formulation)
+    }
+
+    #[test]
+    fn a_level_momentum_counts_as_up() {
+        for (rate_z, up) in [(0.0, true), (1e-300, true), (-1e-300, false)] {
+            assert_eq!(start([1.0, 2.0, rate_z], [1.0, 0.0, 0.0, 0.0], Formulation::Momentum).precession > 0.0, up);
+        }
+    }
+
+    #[test]
+    fn up_to_a_rounding_from_the_pole_a_launch_is_taken_as_vertical() {
+        for (half_beta, vertical) in [(VERTICAL, true), (2.0 * VERTICAL, false)] {
+            for components in [[1.0, half_beta, 0.0, 0.0], [half_beta, 1.0, 0.0, 0.0]] {
+                let found = start([1.0, 2.0, 3.0], components, Formulation::Vertical);
+                assert_eq!(found.u == 0.5 * 0.5 * 3.0, vertical, "{components:?}: {found:?}");
+            }
+        }
+    }
+}

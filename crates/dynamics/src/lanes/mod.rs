@@ -78,3 +78,25 @@ impl Path {
         self.0.dispatch(kernel)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_path_of_the_machine_has_its_own_name_and_the_widest_is_among_them() {
+        let names: Vec<String> = Path::all().into_iter().map(Path::name).collect();
+        let mut expected = vec!["plain"];
+        #[cfg(target_arch = "x86_64")]
+        for (name, has) in [
+            ("avx2", is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")),
+            ("avx512", is_x86_feature_detected!("avx512f")),
+        ] {
+            expected.extend(has.then_some(name));
+        }
+        #[cfg(target_arch = "aarch64")]
+        expected.push("neon");
+        assert_eq!(names, expected);
+        assert!(names.contains(&Path::widest().name()) && names.contains(&Path::for_one_lane().name()));
+    }
+}

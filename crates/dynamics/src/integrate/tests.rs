@@ -1,0 +1,138 @@
+//! Every method reaches the end, counts its calls, and says when it stopped.
+
+use nalgebra::{Vector1, Vector2};
+
+use super::*;
+use crate::method::Scheme;
+
+/// y' = i y as a real system: after t, a turn by t.
+struct Circle;
+impl OdeSystem<2> for Circle {
+    fn derivative(&self, y: &Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(-y.y, y.x)
+    }
+}
+
+/// y' = y², which leaves every bound at t = 1 from y = 1.
+struct Explosion;
+impl OdeSystem<1> for Explosion {
+    fn derivative(&self, y: &Vector1<f64>) -> Vector1<f64> {
+        Vector1::new(y.x * y.x)
+    }
+}
+
+fn methods() -> [Method; 5] {
+    [
+        Method::adaptive(Scheme::Dop853, 1e-12).unwrap(),
+        Method::adaptive(Scheme::Dopri5, 1e-12).unwrap(),
+        Method::fixed(Scheme::Rk4, 1e-3).unwrap(),
+        Method::fixed(Scheme::Dop853, 0.1).unwrap(),
+        Method::fixed(Scheme::Dopri5, 3e-3).unwrap(),
+    ]
+}
+
+#[test]
+fn every_method_reaches_the_end_exactly_once() {
+    // 2.0005 s is no multiple of any step.
+    for method in methods() {
+        let (end, work) = integrate(&Circle, Vector2::x(), 2.0005, 1.0, &method).unwrap();
+        let error = (end - Vector2::new(2.0005_f64.cos(), 2.0005_f64.sin())).norm();
+        assert!(error < 1e-11, "{method:?}: {error:e}");
+        assert!(work.accepted_steps > 0);
+    }
+}
+
+#[test]
+fn calls_are_counted_exactly() {
+    let per_tried_step = [12, 6, 4, 12, 6];
+    for (method, per_step) in methods().iter().zip(per_tried_step) {
+        let (_, work) = integrate(&Circle, Vector2::x(), 2.0, 1.0, method).unwrap();
+        let tried = work.accepted_steps + work.rejected_steps;
+        let setup = work.rhs_calls + if per_step == 12 { work.rejected_steps } else { 0 } - per_step * tried;
+        let expected = match method.control() {
+            _ if method.scheme() == Scheme::Rk4 => 0,
+            StepControl::Tolerance(_) => 3,
+            StepControl::Step(_) => 1,
+        };
+        assert_eq!(setup, expected, "{method:?}: {work:?}");
+    }
+}
+
+#[test]
+fn a_fixed_step_is_kept_by_every_scheme() {
+    for scheme in Scheme::RUNGE_KUTTA {
+        for steps in 1..200_u32 {
+            let method = Method::fixed(scheme, 3.0 / f64::from(steps)).unwrap();
+            let (_, work) = integrate(&Circle, Vector2::x(), 3.0, 1.0, &method).unwrap();
+            assert_eq!((work.accepted_steps, work.rejected_steps), (steps.into(), 0), "{scheme:?}");
+        }
+    }
+}
+
+#[test]
+fn a_system_that_explodes_is_an_error_for_every_method() {
+    for method in methods() {
+        let result = integrate(&Explosion, Vector1::new(1.0), 1.5, 1.0, &method);
+        assert!(
+            matches!(result, Err(SolveError::NotFinite { .. } | SolveError::StepSizeUnderflow { .. })),
+            "{method:?}: {result:?}"
+        );
+    }
+}
+
+#[test]
+fn a_method_that_is_not_runge_and_kuttas_is_refused() {
+    let method = Method::adaptive(Scheme::Taylor, 1e-9).unwrap();
+    let refused = Err(SolveError::NotOffered { method: "taylor" });
+    assert_eq!(integrate(&Circle, Vector2::x(), 1.0, 1.0, &method), refused);
+}
+
+#[test]
+fn too_many_steps_are_refused_before_any_work() {
+    let method = Method::fixed(Scheme::Rk4, 1e-9).unwrap();
+    assert_eq!(
+        integrate(&Circle, Vector2::x(), 1.0, 1.0, &method),
+        Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT })
+    );
+}
+
+#[test]
+fn the_scale_only_changes_the_clock() {
+    let method = methods()[0];
+    let (slow, _) = integrate(&Circle, Vector2::x(), 2.0, 1.0, &method).unwrap();
+    let (fast, _) = integrate(&Circle, Vector2::x(), 0.5, 4.0, &method).unwrap();
+    assert_eq!(slow, fast);
+}
+
+/// The circle, with a singular point at every crossing of the axis x = 0.
+struct Watched;
+
+impl OdeSystem<2> for Watched {
+    fn derivative(&self, y: &Vector2<f64>) -> Vector2<f64> {
+        Circle.derivative(y)
+    }
+
+    fn singularity(&self, before: &Vector2<f64>, after: &Vector2<f64>) -> Option<Singularity> {
+        (before.x * after.x < 0.0).then_some(Singularity::PrecessionStops)
+    }
+}
+
+#[test]
+fn the_first_singular_point_ends_the_run_with_its_time_in_seconds() {
+    let method = Method::fixed(Scheme::Rk4, 1e-3).unwrap();
+    let error = integrate(&Watched, Vector2::x(), 2.0, 4.0, &method).unwrap_err();
+    let SolveError::Singular { point: Singularity::PrecessionStops, time } = error else { panic!("{error}") };
+    let quarter = std::f64::consts::FRAC_PI_2 / 4.0;
+    assert!(quarter <= time && time <= quarter + 1e-3, "{time}");
+}
+
+#[test]
+fn where_a_run_stops_is_told_in_seconds() {
+    let method = Method::adaptive(Scheme::Dop853, 1e-12).unwrap();
+    let error = integrate(&Explosion, Vector1::new(1.0), 1.5, 4.0, &method).unwrap_err();
+    let SolveError::StepSizeUnderflow { time } = error else { panic!("{error}") };
+    assert!((time - 0.25).abs() < 1e-6, "{time}");
+    // A million steps would take a while.
+    let too_many = IntegrationError::MaxNumStepReached { x: 10.0, n_step: STEP_LIMIT };
+    assert_eq!(in_seconds(&too_many, 4.0), SolveError::StepLimit { time: 2.5, limit: STEP_LIMIT });
+}
