@@ -137,3 +137,44 @@ fn failure(first: u64, tosses: &Tosses<'_>, BatchError { index, source }: BatchE
         TossError::Input(_) => unreachable!("every axis was checked when the space was made"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As many verdicts of each kind as its place in the list, from 1 on.
+    fn counts(times: u64) -> Counts {
+        let mut counts = Counts::default();
+        let proofs = [None].into_iter().chain(Stage::ALL.map(Some));
+        for (place, proof) in (1..).zip(proofs) {
+            for _ in 0..times * place {
+                counts.add(Verdict { outcome: Outcome::Heads, proof });
+            }
+        }
+        for _ in 0..times * 10 {
+            counts.add(Verdict { outcome: Outcome::Tails, proof: None });
+            counts.add(Verdict { outcome: Outcome::Tails, proof: None });
+            counts.add(Verdict { outcome: Outcome::Undecided, proof: None });
+        }
+        counts
+    }
+
+    #[test]
+    fn every_verdict_is_counted_once_by_its_outcome_and_once_by_its_proof() {
+        let proven = Proven { keller: 2, certain: 3, f64: 4, double_double: 5, multiprecision: 6 };
+        let once = Counts { heads: 21, tails: 20, undecided: 10, proven };
+        assert_eq!(counts(1), once);
+        assert_eq!((once.points(), once.probability()), (51, 21.0 / 51.0));
+        let proven = Proven { keller: 6, certain: 9, f64: 12, double_double: 15, multiprecision: 18 };
+        let thrice = Counts { heads: 63, tails: 60, undecided: 30, proven };
+        assert_eq!((counts(1).merge(counts(2)), [counts(2), counts(1)].into_iter().sum()), (thrice, thrice));
+    }
+
+    #[test]
+    fn counts_are_certified_if_every_launch_is_proven() {
+        let proven = Proven { keller: 1, certain: 2, f64: 4, double_double: 8, multiprecision: 16 };
+        let counts = Counts { heads: 11, tails: 13, undecided: 7, proven };
+        assert!(counts.are_certified());
+        assert!(!Counts { heads: 12, ..counts }.are_certified());
+    }
+}
