@@ -76,4 +76,10 @@ mod tests {
         assert_eq!(Outcome::of(-1e-7, 1e-8), Outcome::Tails);
         assert_eq!(Outcome::of(f64::NAN, 0.0), Outcome::Undecided);
     }
+
+    #[test]
+    fn outcomes_are_named() {
+        let names = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(Outcome::name);
+        assert_eq!(names, ["heads", "tails", "undecided"]);
+    }
 }
