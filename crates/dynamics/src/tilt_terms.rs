@@ -133,4 +133,31 @@ mod tests {
             assert!((terms.height(0.0) / terms.size - tilt.cos()).abs() < 1e-15);
         }
     }
+
+    #[test]
+    fn errors_are_those_of_the_derivation() {
+        assert_eq!([TERM_ERROR, PHASE_ERROR], [12.0, 6.0].map(|units: f64| units * f64::exp2(-53.0)));
+    }
+
+    #[test]
+    fn phases_are_those_of_precession_and_spin() {
+        let terms = |k: f64, rate: [f64; 3]| {
+            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap();
+            TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
+        };
+        assert_eq!(terms(0.5, [30.0, 0.0, -80.0]).phases(2.0), [100.0, 80.0]);
+        assert_eq!(terms(1.5, [0.0; 3]).phases(f64::INFINITY), [0.0, 0.0]);
+        // The slowest precession that counts, next to a spin.
+        assert_eq!(terms(0.0, [1e-100, 0.0, 1.0]).phases(1e100), [1.0, 1e100]);
+        assert_eq!(terms(0.0, [0.99e-100, 0.0, 1.0]).phases(1e100), [0.0, 1e100]);
+    }
+
+    #[test]
+    fn heads_are_shown_up_to_the_errors_of_the_terms() {
+        let launch =
+            Launch::new(Vector3::new(3.0, 1.0, 0.5), TimeOfFlight::Given(1.0)).unwrap().with_tilt(0.3).unwrap();
+        let terms = TiltTerms::new(&Toss { coin: Coin::PAPER, launch });
+        let cos_tilt = [terms.mean, terms.cosine, terms.sine].map(|term| term / terms.size);
+        assert_eq!(terms.heads(), HeadsPhases::new(cos_tilt, 13.0 * UNIT_ROUNDOFF));
+    }
 }
