@@ -137,7 +137,11 @@ fn require_throw(speed: f64, gravity: f64) -> Result<(), InputError> {
 fn discriminant(speed: f64, gravity: f64, drop: f64) -> (DoubleDouble, i32) {
     let [(speed, e_speed), (gravity, e_gravity), (drop, e_drop)] = [speed, gravity, drop].map(mantissa_and_exponent);
     let (e_square, e_fall) = (2 * e_speed, 1 + e_gravity + e_drop);
-    let larger = if speed == 0.0 || (drop != 0.0 && e_fall > e_square) { e_fall } else { e_square };
+    let larger = match (speed, drop) {
+        (0.0, _) => e_fall,
+        (_, 0.0) => e_square,
+        _ => e_fall.max(e_square),
+    };
     let exponent = larger.div_euclid(2);
     let square = DoubleDouble::product(speed, speed).times_power_of_two(e_square - 2 * exponent);
     let fall = DoubleDouble::product(gravity, drop).times_power_of_two(e_fall - 2 * exponent);
@@ -178,73 +182,4 @@ impl From<TimeOfFlight> for ExactTime {
 }
 
 #[cfg(test)]
-mod tests {
-    use nalgebra::Vector3;
-
-    use super::*;
-    use crate::launch::Launch;
-
-    #[test]
-    fn a_ballistic_flight_lasts_two_v_over_g() {
-        let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-        assert_eq!(thrown.seconds(), 6.0 / 9.81);
-    }
-
-    /// Against 200 digits, in units of the last place: short and long falls, at rest, at the apex and next to it.
-    #[test]
-    fn a_flight_to_another_height_lasts_until_its_later_crossing() {
-        use dashu_float::FBig;
-        use dashu_float::round::mode::HalfEven;
-        type Big = FBig<HalfEven>;
-        let big = |value: f64| Big::try_from(value).unwrap().with_precision(700).value();
-        let apex = -3.0 * 3.0 / (2.0 * 9.81);
-        let cases = [
-            [3.0, 9.81, 0.0],
-            [3.0, 9.81, 1.3],
-            [3.0, 9.81, -0.3],
-            [3.0, 9.81, apex * (1.0 - 1e-9)],
-            [4.0, 2.0, -4.0],
-            [0.0, 9.81, 1.0],
-            [1e-300, 9.81, 1.0],
-            [3.0, 9.81, 1e-300],
-            [1e200, 1e-20, -1.0],
-            [1e-160, 1e-3, 1e-310],
-            [0.0, 5e-324, 5e-324],
-            [5e-324, 1.0, 0.0],
-        ];
-        for [speed, gravity, drop] in cases {
-            let time = TimeOfFlight::BallisticTo { speed, gravity, drop };
-            assert!(time.validated_seconds().is_ok());
-            let [v, g, h] = [speed, gravity, drop].map(big);
-            let exact = (&v + (&v * &v + big(2.0) * &g * h).sqrt()) / g;
-            let ExactTime { mantissa, exponent } = time.exact();
-            assert!(exact == big(0.0) || (0.5..=2.0).contains(&mantissa.hi()), "{mantissa:?}");
-            let found = (big(mantissa.hi()) + big(mantissa.lo()))
-                * (Big::ONE << 1100 >> (1100 - isize::try_from(exponent).unwrap()));
-            let error = ((found - &exact) / &exact).to_f64().value().abs();
-            assert!(error < 25.0 * 2f64.powi(-106), "{speed} {gravity} {drop}: {error:e}");
-            assert_eq!(time.seconds(), exact.to_f64().value());
-        }
-    }
-
-    #[test]
-    fn a_height_that_is_never_reached_is_refused() {
-        for (drop, reached) in
-            [(-3.0 * 3.0 / (2.0 * 9.81), true), (-0.459, false), (f64::NEG_INFINITY, false), (f64::NAN, false)]
-        {
-            let thrown = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop };
-            let launch = Launch::new(Vector3::zeros(), thrown);
-            assert_eq!(launch.is_ok(), reached, "{drop}: {launch:?}");
-            assert!(launch.err().is_none_or(|error| error.field() == "drop [m]"));
-        }
-    }
-
-    #[test]
-    fn a_time_that_overflows_is_refused() {
-        let endless = TimeOfFlight::Ballistic { speed: 1e300, gravity: 1e-300 };
-        assert!(matches!(
-            Launch::new(Vector3::zeros(), endless),
-            Err(InputError::OutOfRange { field: "time of flight 2 v0/g [s]", .. })
-        ));
-    }
-}
+mod tests;

@@ -1,0 +1,114 @@
+//! Times to their last digits, and throws that make no sense.
+
+use nalgebra::Vector3;
+
+use super::*;
+use crate::launch::Launch;
+
+#[test]
+fn a_ballistic_flight_lasts_two_v_over_g() {
+    let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+    assert_eq!(thrown.seconds(), 6.0 / 9.81);
+}
+
+/// Against 200 digits, in units of the last place: short and long falls, at rest, at the apex and next to it.
+#[test]
+fn a_flight_to_another_height_lasts_until_its_later_crossing() {
+    use dashu_float::FBig;
+    use dashu_float::round::mode::HalfEven;
+    type Big = FBig<HalfEven>;
+    let big = |value: f64| Big::try_from(value).unwrap().with_precision(700).value();
+    let apex = -3.0 * 3.0 / (2.0 * 9.81);
+    let cases = [
+        [3.0, 9.81, 0.0],
+        [3.0, 9.81, 1.3],
+        [3.0, 9.81, -0.3],
+        [3.0, 9.81, apex * (1.0 - 1e-9)],
+        [4.0, 2.0, -4.0],
+        [0.0, 9.81, 1.0],
+        [1e-300, 9.81, 1.0],
+        [3.0, 9.81, 1e-300],
+        [1e200, 1e-20, -1.0],
+        [1e-160, 1e-3, 1e-310],
+        [0.0, 5e-324, 5e-324],
+        [5e-324, 1.0, 0.0],
+    ];
+    for [speed, gravity, drop] in cases {
+        let time = TimeOfFlight::BallisticTo { speed, gravity, drop };
+        assert!(time.validated_seconds().is_ok());
+        let [v, g, h] = [speed, gravity, drop].map(big);
+        let exact = (&v + (&v * &v + big(2.0) * &g * h).sqrt()) / g;
+        let ExactTime { mantissa, exponent } = time.exact();
+        assert!(exact == big(0.0) || (0.5..=2.0).contains(&mantissa.hi()), "{mantissa:?}");
+        let found = (big(mantissa.hi()) + big(mantissa.lo()))
+            * (Big::ONE << 1100 >> (1100 - isize::try_from(exponent).unwrap()));
+        let error = ((found - &exact) / &exact).to_f64().value().abs();
+        assert!(error < 25.0 * 2f64.powi(-106), "{speed} {gravity} {drop}: {error:e}");
+        assert_eq!(time.seconds(), exact.to_f64().value());
+    }
+}
+
+#[test]
+fn a_height_that_is_never_reached_is_refused() {
+    for (drop, reached) in
+        [(-3.0 * 3.0 / (2.0 * 9.81), true), (-0.459, false), (f64::NEG_INFINITY, false), (f64::NAN, false)]
+    {
+        let thrown = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop };
+        let launch = Launch::new(Vector3::zeros(), thrown);
+        assert_eq!(launch.is_ok(), reached, "{drop}: {launch:?}");
+        assert!(launch.err().is_none_or(|error| error.field() == "drop [m]"));
+    }
+}
+
+#[test]
+fn a_time_that_overflows_is_refused() {
+    let endless = TimeOfFlight::Ballistic { speed: 1e300, gravity: 1e-300 };
+    assert!(matches!(
+        Launch::new(Vector3::zeros(), endless),
+        Err(InputError::OutOfRange { field: "time of flight 2 v0/g [s]", .. })
+    ));
+}
+
+#[test]
+fn what_makes_no_throw_is_named() {
+    let field = |speed, gravity, drop| {
+        let time = TimeOfFlight::thrown(speed, gravity, drop);
+        Launch::new(Vector3::zeros(), time).err().map(|error| error.field())
+    };
+    for drop in [None, Some(0.0)] {
+        assert_eq!([0.0, 3.0].map(|speed| field(speed, 9.81, drop)), [None, None]);
+        assert_eq!([-1e-9, f64::NAN].map(|speed| field(speed, 9.81, drop)), [Some("speed [m/s]"); 2]);
+        assert_eq!([0.0, -9.81].map(|gravity| field(3.0, gravity, drop)), [Some("gravity [m/s²]"); 2]);
+    }
+    assert_eq!(TimeOfFlight::Given(0.0).validated_seconds(), Ok(0.0));
+    assert!(TimeOfFlight::Given(-5e-324).validated_seconds().is_err());
+}
+
+#[test]
+fn a_coin_flies_if_it_is_thrown_up_or_has_a_way_to_fall() {
+    let thrown = |speed, drop| TimeOfFlight::thrown(speed, 9.81, drop).is_positive();
+    for (speed, drop, flies) in [
+        (0.0, None, false),
+        (5e-324, None, true),
+        (0.0, Some(0.0), false),
+        (5e-324, Some(0.0), true),
+        (0.0, Some(5e-324), true),
+    ] {
+        assert_eq!(thrown(speed, drop), flies, "{speed} {drop:?}");
+    }
+    assert!(TimeOfFlight::Given(5e-324).is_positive() && !TimeOfFlight::Given(0.0).is_positive());
+}
+
+/// The rest of a time is that of the exact quotient, or left out where products underflow.
+#[test]
+fn a_compensated_time_is_the_exact_one_to_twice_the_digits() {
+    for speed in [3.1, 1e-300, 1.7e-308, 3e-310, 7e-320] {
+        for gravity in [9.81, 1e-3, 1.7e5] {
+            let time = TimeOfFlight::Ballistic { speed, gravity };
+            let ([rounded, rest], exact) = (time.compensated(), time.exact());
+            assert!(rest.abs() <= f64::EPSILON * rounded, "{speed} {gravity}: {rest:e} of {rounded:e}");
+            let lo = exact.mantissa.times_power_of_two(exact.exponent).lo();
+            assert!(speed < 1e-200 || (rest - lo).abs() <= 1e-15 * lo.abs(), "{speed} {gravity}: {rest:e}, not {lo:e}");
+        }
+    }
+}
