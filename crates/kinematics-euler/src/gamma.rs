@@ -112,8 +112,9 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        // A flight without any precession, D = u = 0, was let pass because n rests at β = 0, which is what atan2 says.
-        EulerAngles { alpha: y[2], beta: (self.sense * d).atan2(self.sense * u), gamma: y[0] }
+        // Without any precession D = u = 0, of either sign, and the flight was let pass because n rests at β = 0.
+        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
+        EulerAngles { alpha: y[2], beta, gamma: y[0] }
     }
 
     /// γ'' by (10) and (11).

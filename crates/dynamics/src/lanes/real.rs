@@ -221,3 +221,6 @@ impl<S: Simd> Neg for Real<S> {
         Self { value: self.simd.neg_f64s(self.value), ..self }
     }
 }
+
+#[cfg(test)]
+mod tests;

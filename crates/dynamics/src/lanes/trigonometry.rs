@@ -144,7 +144,7 @@ pub fn sin_cos<S: Simd>(quarters: Real<S>, rest: Real<S>) -> [Real<S>; 2] {
     let even = (pairs.mul_add(half, -quarter)).round();
     let is_odd = pairs - (even + even);
     let sign = whole.constant(1.0) - (is_odd + is_odd);
-    [sin * sign, cos * sign]
+    [sign * sin, sign * cos]
 }
 
 #[cfg(test)]

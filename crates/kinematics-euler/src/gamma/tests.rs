@@ -182,3 +182,25 @@ fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
     let tilted = GammaSolver::new(method, Formulation::Vertical).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
     assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 }));
 }
+
+#[test]
+fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    for (sense, rate_z) in [(1.0, 0.0), (-1.0, 0.0), (1.0, -0.0), (-1.0, -0.0)] {
+        let system = GammaSystem::new(0.5, rate_z, sense);
+        let beta = |d: f64, u: f64| system.angles(&SVector::from([0.0, rate_z - u, 0.0, 0.0, d])).beta;
+        for (d, u, expected) in
+            [(1.0, 0.0, FRAC_PI_2), (0.0, 1.0, 0.0), (-1.0, 0.0, -FRAC_PI_2), (1.0, -1.0, 0.75 * PI)]
+        {
+            assert_eq!(beta(sense * d, sense * u), expected, "{sense}: {d}, {u}");
+        }
+        assert_eq!(beta(0.0, -sense).abs(), PI);
+        assert_eq!([beta(0.0, 0.0), beta(-0.0, 0.0), beta(0.0, -0.0), beta(-0.0, -0.0)], [0.0; 4]);
+    }
+    let method = Method::adaptive(Scheme::Dop853, 1e-9).unwrap();
+    for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
+        let toss = toss(1.0, rest, PI);
+        let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&toss).unwrap();
+        assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
+    }
+}
