@@ -3,6 +3,7 @@
 //! Exit codes are those of the task; 2 for an unknown task, 4 if it could not be built or started.
 
 mod figures;
+mod mutants;
 
 use std::env;
 use std::path::Path;
@@ -17,6 +18,8 @@ tasks:
   bench [--instructions [--bless]]
       print what a toss costs, in ns and beside a reference in C; or count its instructions by valgrind and compare them with
       the baseline
+  mutants [ARGUMENTS OF cargo mutants]
+      change the numerical crates in a thousand ways; each change has to fail a test or be explained in validation/mutants.md
   history
       draw the accuracy of the committed records over time
   figures [--check]
@@ -29,6 +32,7 @@ fn main() -> ExitCode {
     match args.next().as_deref() {
         Some("verify") => verify(args),
         Some("bench") => verify(std::iter::once("--bench".to_owned()).chain(args)),
+        Some("mutants") => mutants::run(args).unwrap_or_else(|message| could_not_run(&message)),
         Some("history") => verify(std::iter::once("--history".to_owned()).chain(args)),
         Some("figures") => figures::figures(args).unwrap_or_else(|message| could_not_run(&message)),
         Some("help" | "--help" | "-h") => {
@@ -50,6 +54,7 @@ fn could_not_run(message: &str) -> ExitCode {
     ExitCode::from(COULD_NOT_RUN)
 }
 
+/// The root of the workspace.
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
