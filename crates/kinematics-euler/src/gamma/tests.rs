@@ -124,9 +124,9 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
 
 #[test]
 fn the_precession_stops_below_one_in_a_hundred_of_the_rate() {
-    let system = GammaSystem::new(0.5, 1.0, 1.0);
-    assert!(!system.precession_stops(&state(&system, 0.0, 1e-2, 0.5)), "at 1 % it goes on");
-    assert!(system.precession_stops(&state(&system, 0.0, 0.99e-2, 0.5)));
+    let system = GammaSystem::new(0.5, 0.0, 1.0);
+    assert!(!system.precession_stops(&state(&system, 0.0, 1e-2, 1.0)), "at 1 % it goes on");
+    assert!(system.precession_stops(&state(&system, 0.0, 0.99e-2, 1.0)));
     for scale in [1e-3, 8.0] {
         for transverse in [0.1, 5.0] {
             let system = GammaSystem::new(0.5, scale, 1.0);
@@ -152,6 +152,7 @@ fn a_step_meets_the_point_that_it_crosses() {
         assert_eq!(met([0.2, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), pole);
         assert_eq!(met([-0.3, 0.5, beta_rate], [0.2, 0.5, beta_rate]), pole);
         assert_eq!(met([0.2, 0.5, beta_rate], [0.0, 0.5, beta_rate]), None, "underflow");
+        assert_eq!(met([-0.2, 0.5, beta_rate], [0.0, 0.5, beta_rate]), None, "underflow");
         let rounding = NO_DIGIT * beta_rate;
         assert_eq!(met([0.9 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), None, "launched there");
         assert_eq!(met([1.1 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), pole);
@@ -163,6 +164,7 @@ fn a_step_meets_the_point_that_it_crosses() {
     assert_eq!(met([0.2, 0.5, 1.0], [-0.2, -0.1, 1.0]), stops, "it turned back");
     assert_eq!(met([0.2, 0.5, 1.0], [0.2, -0.1, 1.0]), None, "past the horizontal");
     assert_eq!(met([0.2, 0.0, 1.0], [-0.2, -0.5, 1.0]), pole);
+    assert_eq!(met([0.2, -0.5, 1.0], [-0.2, 0.0, 1.0]), pole);
 }
 
 #[test]
