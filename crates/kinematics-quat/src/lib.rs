@@ -215,4 +215,30 @@ mod tests {
         let lost = 20.0 * (4.0 * 0.05 / 2.0_f64).powi(6) / 144.0;
         assert!((landing.defect / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.defect);
     }
+
+    #[test]
+    fn raw_leaves_the_norm_in_cos_theta() {
+        let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
+        let toss = Toss { coin: Coin::DISC, launch };
+        let method = Method::fixed(Scheme::Rk4, 0.05).unwrap();
+        let landing = |formulation| QuaternionSolver::new(method, formulation).propagate(&toss).unwrap();
+        let (projected, raw) = (landing(Formulation::Momentum), landing(Formulation::Raw));
+        assert_eq!(projected.cos_tilt, projected.state.attitude.cos_tilt());
+        let norm = 1.0 - raw.defect;
+        assert!(raw.defect > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
+    }
+
+    #[test]
+    fn it_counts_a_batch_in_its_order_by_any_scheme() {
+        let [x, y, z, speed] = [[9.0, 3.0, 0.0], [-4.0, 2.0, 1.0], [3.0, 0.5, 2.0], [3.0, 4.0, 5.0]];
+        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
+        for scheme in [Scheme::Taylor, Scheme::Dop853] {
+            let solver = QuaternionSolver::new(Method::adaptive(scheme, 1e-9).unwrap(), Formulation::default());
+            let mut verdicts = Vec::new();
+            assert_eq!(solver.count(&tosses, &mut |verdict| verdicts.push(verdict)), Ok(Filtered::default()));
+            let alone = (0..3).map(|index| solver.verdict(&tosses.toss(index).unwrap()).unwrap());
+            assert_eq!(verdicts, alone.collect::<Vec<_>>());
+            assert_eq!((solver.name(), solver.method().map(|method| method.scheme())), ("quaternion", Some(scheme)));
+        }
+    }
 }
