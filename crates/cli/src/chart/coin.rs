@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Attitude, Outcome, TimeOfFlight, Toss, TracePoint, Vector3};
 
-use crate::chart::flight::{FACE, NORMAL, NUMBERS, times};
+use crate::chart::layout::{FACE, NORMAL, NUMBERS, times};
 use crate::chart::projection::project;
 
 /// How many are drawn at most.

@@ -5,12 +5,8 @@ use plotters::prelude::*;
 use toss::{Outcome, Toss, TracePoint};
 
 use crate::chart::coin::draw_coins;
+use crate::chart::layout::{NORMAL, NUMBERS, times};
 use crate::chart::sphere::draw_sphere;
-
-/// What is drawn of n.
-pub(super) const NORMAL: RGBColor = chart::BLUE;
-/// What is drawn of the vector in the face.
-pub(super) const FACE: RGBColor = chart::VERMILION;
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1800, 940);
@@ -18,8 +14,6 @@ const SIZE: (u32, u32) = (1800, 940);
 const LEFT: u32 = 1020;
 /// Height of the panel of the coins (pixels).
 const UPPER: u32 = 580;
-/// Room for the numbers of the upright axes (pixels).
-pub(super) const NUMBERS: u32 = 112;
 
 /// The chart of `flight`, the trace of `toss`, as SVG.
 pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
@@ -30,12 +24,6 @@ pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Re
         draw_tilt(&tilt, flight)?;
         draw_sphere(&sphere, flight)
     })
-}
-
-/// The times that are drawn (s), with room for half a coin at either end.
-pub(super) fn times(flight: &[TracePoint]) -> std::ops::Range<f64> {
-    let end = flight.last().map_or(0.0, |point| point.time).max(f64::MIN_POSITIVE);
-    -0.06 * end..1.06 * end
 }
 
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {

@@ -3,6 +3,7 @@
 mod coin;
 mod errors;
 mod flight;
+mod layout;
 mod limit;
 mod map;
 mod projection;

@@ -7,7 +7,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use toss::{TracePoint, Vector3};
 
-use crate::chart::flight::{FACE, NORMAL};
+use crate::chart::layout::{FACE, NORMAL};
 use crate::chart::projection::{Seen, project};
 
 /// A chart that has been laid out.
