@@ -122,6 +122,20 @@ fn a_call_is_an_order_of_a_step_and_no_step_is_rejected() {
 }
 
 #[test]
+fn steps_are_as_long_as_the_last_two_terms_allow() {
+    let launches =
+        [([30.0, 20.0, 10.0], 0.5), ([0.0, 60.0, 0.5], 0.5), ([1.0, 2.0, 90.0], 1.9), ([40.0, 0.0, 9.0], 0.1)];
+    let steps = |tolerance: f64| {
+        launches.map(|(rate, k)| taylor(tolerance).propagate(&toss(k, rate, 10.0)).unwrap().work.accepted_steps)
+    };
+    for (tolerance, expected) in
+        [(1e-2, [30, 43, 151, 35]), (1e-5, [38, 56, 196, 45]), (1e-9, [54, 79, 277, 64]), (1e-13, [76, 117, 391, 90])]
+    {
+        assert_eq!(steps(tolerance), expected, "{tolerance:e}");
+    }
+}
+
+#[test]
 fn what_cannot_be_flown_is_a_typed_error() {
     let solver = taylor(1e-12);
     let alone = |time| solver.propagate(&toss(0.5, [30.0, 40.0, 50.0], time));
