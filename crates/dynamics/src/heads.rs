@@ -16,7 +16,8 @@ pub struct HeadsPhases {
     pub half_width: f64,
     /// Error of `crest` (rad).
     pub crest_error: f64,
-    /// Error of `half_width` (rad); large where the motion grazes cos θ = 0.
+    /// Error of `half_width` (rad); large where the motion grazes cos θ = 0, and 0 only if the motion always shows heads
+    /// or never, whatever its terms are off.
     pub half_width_error: f64,
 }
 

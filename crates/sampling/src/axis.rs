@@ -206,12 +206,12 @@ mod tests {
         let [lo, hi] = axis.bounds();
         let farthest = [2f64.powi(-53), 1.0 - 2f64.powi(-53)].map(|part| axis.quantile(part));
         assert!(lo < farthest[0] && farthest[1] < hi, "{farthest:?} in [{lo}, {hi}]");
-        assert!(farthest[0] < lo + 0.06, "the bounds are no wider than need be");
+        assert!(farthest[0] < lo + 0.06 && hi - 0.06 < farthest[1], "the bounds are no wider than need be");
     }
 
     #[test]
     fn a_range_of_one_value_is_one_point() {
-        for text in ["4", "4:4", "4:4:500"] {
+        for text in ["4", "4:4", "4:4:1", "4:4:500"] {
             let axis = Axis::parse(SPEED, text).unwrap();
             assert_eq!(axis.points(), Some(1));
             assert_eq!(axis.grid_point(0, 1), 4.0);
@@ -225,6 +225,12 @@ mod tests {
             let axis = Axis::parse(SPEED, text).unwrap();
             assert_eq!(Axis::parse(SPEED, &axis.to_string()), Ok(axis));
         }
+    }
+
+    #[test]
+    fn a_normal_distribution_may_be_as_wide_as_numbers_allow() {
+        assert!(Axis::parse(SPEED, "normal:0:1.08e307").is_ok());
+        assert!(Axis::parse(SPEED, "normal:-8.9e307:1").is_ok());
     }
 
     #[test]
@@ -247,6 +253,9 @@ mod tests {
             "normal:nan:1",
             "normal:1:1:0",
             "normal:0:1e308",
+            // 2 (|μ| + 8.3 σ) is 1.81e308 and 1.93e308; the largest number is 1.798e308.
+            "normal:0:1.09e307",
+            "normal:-8e307:2e306",
             "uniform:0:1",
         ] {
             let error = Axis::parse(SPEED, text).unwrap_err().to_string();

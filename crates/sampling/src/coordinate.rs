@@ -67,3 +67,21 @@ impl Coordinate {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_symbols_and_units_belong_together() {
+        for of in Coordinate::ALL {
+            assert_eq!(Coordinate::named(of.name()), Ok(of));
+            let (name, unit) = of.field().split_once(' ').expect("a name and a unit");
+            assert!(of.name().starts_with(name), "{of:?}");
+            let (symbol, unit_on_charts) = of.symbol().split_once('/').expect("a symbol and a unit");
+            assert!(!symbol.is_empty(), "{of:?}");
+            let bare = unit_on_charts.trim_start_matches('(').trim_end_matches(')');
+            assert!(unit.ends_with(&format!("[{bare}]")), "{of:?}: {unit}, {unit_on_charts}");
+        }
+    }
+}

@@ -140,7 +140,11 @@ fn failure(first: u64, tosses: &Tosses<'_>, BatchError { index, source }: BatchE
 
 #[cfg(test)]
 mod tests {
+    use dynamics::{Coin, ExactSolver};
+
     use super::*;
+    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+    use crate::grid::Grid;
 
     /// As many verdicts of each kind as its place in the list, from 1 on.
     fn counts(times: u64) -> Counts {
@@ -176,5 +180,21 @@ mod tests {
         let counts = Counts { heads: 11, tails: 13, undecided: 7, proven };
         assert!(counts.are_certified());
         assert!(!Counts { heads: 12, ..counts }.are_certified());
+    }
+
+    /// A batch asks neither for Keller's cosine nor for no motion at all.
+    #[test]
+    fn launches_that_differ_in_rates_and_speed_are_a_batch() {
+        let counted = |tilt| {
+            let texts = [(RateX, "1:20:20"), (RateY, "0"), (RateZ, "0"), (Speed, "3:5:20"), (Tilt, tilt)];
+            let space = Space::parse(Coin::PAPER, &texts).unwrap();
+            let launches = Launches::Grid(Grid::new(&space).unwrap());
+            count(&space, &launches, 0..space.grid_points().unwrap(), &ExactSolver, &|_| {}).unwrap()
+        };
+        let batch = counted("0");
+        assert!(batch.are_certified() && batch.points() == 400, "{batch:?}");
+        assert_eq!((batch.proven.f64, batch.proven.keller), (400, 0));
+        let one_by_one = counted("0:1e-9:2");
+        assert!(one_by_one.are_certified() && one_by_one.proven.f64 < 800, "{one_by_one:?}");
     }
 }

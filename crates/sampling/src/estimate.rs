@@ -237,4 +237,19 @@ mod tests {
         assert!((interval.lo - 0.5).abs() < 1e-15 && (interval.hi - 0.7).abs() < 1e-15, "{interval:?}");
         assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
     }
+
+    #[test]
+    fn an_interval_is_named_and_reaches_as_far_as_its_farther_end() {
+        let estimate = |lo, hi| Estimate {
+            interval: Some(Interval { lo, hi }),
+            ..Estimate::of_independent_counts(Counts { heads: 1, tails: 1, ..Counts::default() })
+        };
+        assert_eq!((estimate(0.25, 0.625).half_width(), estimate(0.375, 0.75).half_width()), (Some(0.25), Some(0.25)));
+        let none = Estimate::of_grid_counts(Counts { heads: 1, ..Counts::default() });
+        assert_eq!(none.half_width(), None);
+        assert_eq!(IntervalKind::Scrambles(8).to_string(), "student 95 % of 8 scrambles");
+        assert!(
+            [IntervalKind::Grid, IntervalKind::OneScramble].iter().all(|kind| kind.to_string().starts_with("none"))
+        );
+    }
 }

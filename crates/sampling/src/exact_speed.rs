@@ -68,8 +68,9 @@ pub(crate) fn share(space: &Space, values: &Values) -> Result<Share, (Box<Toss>,
         return Share::of_one(&fastest).map_err(failed);
     }
     let heads = terms.heads();
-    if heads.half_width_error == 0.0 && (heads.half_width <= 0.0 || heads.half_width >= PI) {
-        return Ok(Share::new(heads.half_width / PI, 0.0));
+    // Always heads or never.
+    if heads.half_width_error == 0.0 {
+        return Ok(Share::new(if heads.half_width > 0.0 { 1.0 } else { 0.0 }, 0.0));
     }
     Ok(match speeds.distribution() {
         Distribution::Uniform { .. } => uniform_share(&heads, from, to),
@@ -143,7 +144,7 @@ mod tests {
     use dynamics::{Coin, Outcome};
 
     use super::*;
-    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+    use crate::coordinate::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 
     fn share_of(coin: Coin, rate: [&str; 3], tilt: &str, speed: &str) -> Share {
         let [x, y, z] = rate;
@@ -212,6 +213,58 @@ mod tests {
     }
 
     #[test]
+    fn phases_are_certain_from_the_error_of_an_edge_on() {
+        let (half_width_error, crest_error, rounding) = (f64::exp2(-40.0), f64::exp2(-41.0), f64::exp2(-49.0));
+        // That of the phase 1: 4 ε (1 + 1).
+        let error = half_width_error + crest_error + rounding;
+        let heads = |half_width| HeadsPhases { crest: 0.0, half_width, crest_error, half_width_error };
+        assert!(uniform_share(&heads(1.0 + error), 0.5, 1.0).error > 0.0);
+        assert_eq!(uniform_share(&heads((1.0 + error).next_up()), 0.5, 1.0).error, 0.0);
+        assert!(uniform_share(&heads(1.0 - error), 1.0, 1.0 + f64::EPSILON).error > 0.0);
+    }
+
+    fn assert_share(found: Share, probability: f64, error: f64) {
+        assert!((found.probability - probability).abs() < 1e-15, "{found:?}, not {probability}");
+        assert!((found.error - error).abs() < 1e-10 * error, "{found:?}, not {error}");
+    }
+
+    #[test]
+    fn shares_and_their_errors_are_those_of_the_formulas() {
+        let heads =
+            |crest_error, half_width_error| HeadsPhases { crest: 0.5, half_width: 1.0, crest_error, half_width_error };
+        let rounding = 4.0 * f64::EPSILON;
+        // From the crest to a quarter beyond the third edge after it: heads for 1, 2 and 0.25.
+        let to = 0.5 + 4.0 * PI - 0.75;
+        assert_share(
+            uniform_share(&heads(0.0, 0.0), 0.5, to),
+            3.25 / (to - 0.5),
+            rounding * (3.0 * (1.0 + to) / (to - 0.5) + 1.0),
+        );
+        assert_share(uniform_share(&heads(1e-2, 1e-1), 0.5, to), 3.25 / (to - 0.5), (0.6 + 0.02) / (to - 0.5));
+        assert_share(uniform_share(&heads(4.0, 1e-1), 0.5, to), 3.25 / (to - 0.5), (0.6 + TAU) / (to - 0.5));
+        // Φ((1.5 - 1)/0.5) - Φ((-0.5 - 1)/0.5), with the crests of three turns in reach.
+        let probability = 0.839_994_848_036_912_8;
+        assert_share(normal_share(&heads(0.0, 0.0), 1.0, 0.5), probability, 6.0 * rounding * (6.15 * 0.8 + 1.0));
+        assert_share(normal_share(&heads(1e-4, 1e-3), 1.0, 0.5), probability, 6.0 * 1.1e-3 * 0.8);
+        assert_share(normal_share(&heads(1e-4, 1e-3), 1.0, 2.0), 0.381_985_954_673_481_5, 14.0 * 1.1e-3 * 0.2);
+        // One turn in reach.
+        assert_share(normal_share(&heads(1e-4, 1e-3), 0.5, 0.1), 1.0, 2.0 * 1.1e-3 * 4.0);
+    }
+
+    #[test]
+    fn a_motion_that_is_always_heads_or_never_has_a_share_without_error() {
+        for speed in ["3:5", "normal:4:0.1"] {
+            for (tilt, probability) in [("0", 1.0), ("3.1", 0.0)] {
+                let share = share_of(Coin::PAPER, ["1", "1", "60"], tilt, speed);
+                assert_eq!(share, Share { probability, error: 0.0 });
+            }
+            // ψ = 45°: only touches the edge, and rounding may say that it does more.
+            let share = share_of(Coin::PAPER, ["30", "0", "60"], "0", speed);
+            assert!(share.probability > 1.0 - 1e-7 && share.error > 0.0, "{share:?}");
+        }
+    }
+
+    #[test]
     fn a_wide_normal_speed_is_the_long_flight() {
         let wide = share_of(Coin::PAPER, ["20", "0", "3"], "0", "normal:1000:20");
         let cone = 20_f64.atan2(1.5);
@@ -224,8 +277,9 @@ mod tests {
                 .toss(&[20.0, 0.0, 3.0, 3.0, 9.81, 0.0]),
         )
         .heads();
-        let [below, above] = [9.0_f64.next_down(), 9.0].map(|sd| normal_share(&heads, 100.0, sd).probability);
-        assert!((below - above).abs() < 1e-14, "{below} {above}");
+        let [below, above] = [9.0_f64.next_down(), 9.0].map(|sd| normal_share(&heads, 100.0, sd));
+        assert!((below.probability - above.probability).abs() < 1e-14, "{below:?} {above:?}");
+        assert_eq!(above.error, heads.half_width_error / PI);
     }
 
     #[test]
@@ -234,5 +288,9 @@ mod tests {
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let (_, error) = share(&space, &space.fixed_values()).unwrap_err();
         assert!(matches!(error, SolveError::PhaseTooLarge { .. }));
+        // 2^53 rad/s for a second.
+        let texts = [(RateX, "9007199254740992"), (RateY, "0"), (RateZ, "0"), (Speed, "0:1"), (Gravity, "2")];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        assert!(share(&space, &space.fixed_values()).is_ok());
     }
 }
