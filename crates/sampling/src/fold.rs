@@ -102,6 +102,9 @@ mod tests {
     use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
 
     use super::*;
+    use crate::counts::Counts;
+    use crate::space::Cube;
+    use crate::space_file::named_space;
 
     #[test]
     fn of_two_failures_the_first_launch_counts() {
@@ -109,5 +112,22 @@ mod tests {
         let toss = Box::new(Toss { coin: Coin::PAPER, launch });
         let failure = |index| (index, toss.clone(), SolveError::NotFinite { time: 0.0 });
         assert_eq!((first(failure(3), failure(7)).0, first(failure(7), failure(3)).0), (3, 3));
+    }
+
+    #[test]
+    fn nothing_is_tried_above_a_launch_that_failed() {
+        let space = named_space("tails").unwrap();
+        let launches = Launches::Random { cube: Cube::new(&space, space.free()), seed: 1 };
+        let (tried, told) = (AtomicU64::new(0), AtomicU64::new(0));
+        let toss = space.toss(&space.fixed_values());
+        let add = |first: u64, _: &Block| match tried.fetch_add(1, Ordering::Relaxed) {
+            1 => Err((first + 7, Box::new(toss), SolveError::NotFinite { time: 0.0 })),
+            _ => Ok(Counts::default()),
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let progress = |more| _ = told.fetch_add(more, Ordering::Relaxed);
+        let found = pool.install(|| fold(&space, &launches, 100..100_000, &progress, add));
+        assert!(matches!(found, Err(SampleError::Solve { index: 619, .. })), "{found:?}");
+        assert_eq!((tried.into_inner(), told.into_inner()), (2, 512));
     }
 }

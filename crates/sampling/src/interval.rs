@@ -115,4 +115,11 @@ mod tests {
         assert_eq!(wilson(50, 50, 0.95).hi, 1.0);
         assert_eq!(wilson(0, 50, 0.95).lo, 0.0);
     }
+
+    #[test]
+    fn an_interval_contains_its_ends_and_what_is_between() {
+        let interval = Interval { lo: 0.25, hi: 0.5 };
+        assert!([0.25, 0.3, 0.5].iter().all(|inside| interval.contains(*inside)));
+        assert!([0.25_f64.next_down(), 0.5_f64.next_up(), f64::NAN].iter().all(|outside| !interval.contains(*outside)));
+    }
 }

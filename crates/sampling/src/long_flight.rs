@@ -19,11 +19,9 @@ use dynamics::error::require;
 pub fn long_flight_probability(cone: f64, momentum_tilt: f64) -> f64 {
     let along = cone.cos() * momentum_tilt.cos();
     let across = cone.sin() * momentum_tilt.sin();
-    if across <= along.abs() {
-        return if along > 0.0 { 1.0 } else { 0.0 };
-    }
-    // atan2 keeps the digits near p = 1 that asin of a ratio near 1 loses.
-    0.5 + along.atan2(((across - along) * (across + along)).sqrt()) / PI
+    // atan2 keeps the digits near p = 1 that asin of a ratio near 1 loses. Without a second side, p is 1 or 0.
+    let second_side = ((across - along) * (across + along)).max(0.0).sqrt();
+    0.5 + along.atan2(second_side) / PI
 }
 
 /// The angle ψ (rad) between n and S of a launch from horizontal whose long flights land heads with `probability`:

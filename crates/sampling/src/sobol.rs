@@ -236,6 +236,35 @@ mod tests {
         assert!(ScrambledSobol::new(DIMENSIONS + 1, 1, 0).is_none());
     }
 
+    /// S. Vigna's splitmix64.c adds the golden number before each hash: its outputs for the seeds 0 and 1234567.
+    #[test]
+    fn the_hash_is_that_of_splitmix64() {
+        let outputs = |seed: u64| [1, 2, 3].map(|number| hash(&seed, number));
+        assert_eq!(outputs(0), [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4, 0x06c4_5d18_8009_454f]);
+        assert_eq!(
+            outputs(1_234_567),
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]
+        );
+    }
+
+    /// Digit by digit as Owen defines it: the flip belongs to all digits before.
+    #[test]
+    fn each_digit_is_flipped_by_a_bit_of_the_digits_before_it() {
+        let keys: Keys = std::array::from_fn(|index| hash(&3, index as u64));
+        for digits in (0..500).map(|number| hash(&4, number) >> (64 - DEPTH)).chain([0, MOST_POINTS - 1]) {
+            let first = |number: u32| digits >> (DEPTH - number);
+            let flip = |digit: u32| {
+                let (group, level) = (digit / GROUP, digit % GROUP);
+                let flips = hash(&keys[group as usize], 1 << (GROUP * group) | first(GROUP * group));
+                let within_group = first(digit) & ((1 << level) - 1);
+                flips >> (1 << level | within_group) & 1
+            };
+            let flipped = (0..DEPTH).fold(0, |flipped, digit| flipped << 1 | (first(digit + 1) & 1 ^ flip(digit)));
+            let numerator = flipped << 16 | hash(&keys[6], digits) >> 48;
+            assert_eq!(scrambled(digits, &keys), (numerator as f64 + 0.5) / 2f64.powi(52));
+        }
+    }
+
     /// Over many scrambles one point is uniform, and two points that share d digits part at the next one for sure
     /// and are independent from there on.
     #[test]
