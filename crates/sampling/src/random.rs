@@ -92,7 +92,7 @@ mod tests {
     use rand::distr::Open01;
 
     use super::*;
-    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
+    use crate::coordinate::Coordinate::{self, RateX, RateY, RateZ, Speed};
 
     #[test]
     fn launch_i_depends_on_seed_and_i_only() {
@@ -107,14 +107,19 @@ mod tests {
 
     #[test]
     fn the_numbers_are_those_of_the_generator_in_their_order() {
-        let texts = [(RateX, "0:50"), (RateY, "1:2"), (RateZ, "-3:3"), (Speed, "3:5")];
-        let space = Space::parse(Coin::PAPER, &texts).unwrap();
-        let mut rng = ChaCha8Rng::seed_from_u64(9);
-        for toss in random_tosses(&space, 9, 0..1500) {
-            let mut draw = |lo: f64, hi: f64| lo + rng.sample::<f64, _>(Open01) * (hi - lo);
-            let (rate, found) = ([draw(0.0, 50.0), draw(1.0, 2.0), draw(-3.0, 3.0)], toss.launch.rate());
-            assert_eq!([found.x, found.y, found.z], rate);
-            assert_eq!(toss.launch.flight_time(), 2.0 * draw(3.0, 5.0) / 9.81);
+        let ranges = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1"];
+        for free in 1..=Coordinate::COUNT {
+            let fixed = |place: usize| if place < free { ranges[place] } else { "1" };
+            let texts: Vec<_> = Coordinate::ALL.into_iter().map(|of| (of, fixed(of as usize))).collect();
+            let space = Space::parse(Coin::PAPER, &texts).unwrap();
+            let mut rng = ChaCha8Rng::seed_from_u64(9);
+            for toss in random_tosses(&space, 9, 0..1500) {
+                let values = Coordinate::ALL.map(|of| {
+                    let [lo, hi] = space.axis(of).bounds();
+                    if lo == hi { lo } else { lo + rng.sample::<f64, _>(Open01) * (hi - lo) }
+                });
+                assert_eq!(toss, space.toss(&values), "{free} free coordinates");
+            }
         }
     }
 }

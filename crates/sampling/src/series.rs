@@ -185,8 +185,10 @@ mod tests {
     use dynamics::{Coin, ExactSolver};
 
     use super::*;
+    use crate::axis::Axis;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
     use crate::estimate::Found;
+    use crate::interval::Interval;
     use crate::space_file::named_space;
 
     #[test]
@@ -206,6 +208,21 @@ mod tests {
             let refused = running_random(&space, 1000, 5, steps, &ExactSolver, &|_| {});
             assert!(matches!(refused, Err(SampleError::Input(error)) if error.field() == "steps"));
         }
+    }
+
+    #[test]
+    fn running_shares_put_the_grid_beside_as_many_random_launches() {
+        let space = named_space("tails").unwrap().with_axis(Speed, Axis::parse(Speed, "0:5:90").unwrap()).unwrap();
+        let steps = running_shares(&space, 9, 5, &ExactSolver, &|_| {}).unwrap();
+        let grid = running_grid(&space, 9, &ExactSolver, &|_| {}).unwrap();
+        let random = running_random(&space, 90, 5, 9, &ExactSolver, &|_| {}).unwrap();
+        assert_eq!(steps.len(), 9);
+        for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
+            let Interval { lo, hi } = wilson(random.heads, random.points(), 0.95);
+            let columns = [grid.points() as f64, grid.probability(), random.probability(), lo, hi];
+            assert_eq!(step.columns(), columns);
+        }
+        assert_ne!(steps[8].grid, steps[8].random);
     }
 
     #[test]

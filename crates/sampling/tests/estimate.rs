@@ -36,8 +36,8 @@ fn estimates_are_the_same_to_the_bit_for_any_number_of_threads() {
 
 #[test]
 fn progress_adds_up_to_the_number_of_launches() {
-    let space = named_space("paper-fig4").unwrap();
-    for plan in PLANS {
+    for (name, plan) in ["paper-fig4", "tails"].into_iter().flat_map(|name| PLANS.map(|plan| (name, plan))) {
+        let space = named_space(name).unwrap();
         let done = AtomicU64::new(0);
         let found = estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
         assert_eq!((done.into_inner(), found.points), (found.points, plan.points(&space).unwrap()));
