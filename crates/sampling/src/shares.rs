@@ -73,6 +73,8 @@ mod tests {
             sum
         };
         assert_eq!(sum(&mut shares.iter()), sum(&mut shares.iter().rev()));
+        let (first, rest) = shares.split_at(300);
+        assert_eq!(sum(&mut first.iter()).merge(sum(&mut rest.iter())), sum(&mut shares.iter()));
         let mean = sum(&mut shares.iter()).mean();
         assert!((mean.probability - 0.5).abs() < 1e-15);
         // Beside the errors given, 499.5e-16 in the mean, that of the unit of the sum.
