@@ -215,6 +215,14 @@ mod tests {
     }
 
     #[test]
+    fn another_coin_flies_the_same_launches() {
+        let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_coin(Coin::DISC));
+        let toss = disc.toss(&paper.fixed_values());
+        assert_eq!((toss.coin, toss.launch), (Coin::DISC, paper.toss(&paper.fixed_values()).launch));
+        assert_ne!(paper.coin(), disc.coin());
+    }
+
+    #[test]
     fn gravity_and_tilt_reach_the_launch() {
         let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
         let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
