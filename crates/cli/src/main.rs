@@ -79,11 +79,11 @@ impl Command {
     fn wants_json(&self) -> bool {
         match self {
             Self::Toss(args) => args.format == Format::Json,
-            Self::Trace(args) => args.format == DataFormat::Json,
-            Self::Convergence(args) => args.format == DataFormat::Json,
-            Self::Errors(args) => args.format == DataFormat::Json,
-            Self::Map(args) => args.format == DataFormat::Json,
-            Self::Limit(args) => args.format == DataFormat::Json,
+            Self::Trace(args) => args.series.format == DataFormat::Json,
+            Self::Convergence(args) => args.series.format == DataFormat::Json,
+            Self::Errors(args) => args.series.format == DataFormat::Json,
+            Self::Map(args) => args.series.format == DataFormat::Json,
+            Self::Limit(args) => args.series.format == DataFormat::Json,
             Self::Probability(args) => args.format == Format::Json,
             Self::Intervals(args) => args.format == Format::Json,
             Self::Inverse(args) => args.format == Format::Json,

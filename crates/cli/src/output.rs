@@ -1,7 +1,7 @@
 //! How answers leave the program.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::PathBuf;
 
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
@@ -24,6 +24,34 @@ pub(crate) enum DataFormat {
     Csv,
     /// JSON
     Json,
+}
+
+/// How a series of data is wanted.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SeriesArgs {
+    /// Output format
+    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
+    pub(crate) format: DataFormat,
+    /// Also draw it into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+impl SeriesArgs {
+    /// Writes the chart that `draw` makes, if one is wanted: whole or not at all.
+    pub(crate) fn draw(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<(), Failure> {
+        let Some(path) = &self.svg else { return Ok(()) };
+        whole_file::write(path, &draw()?)
+            .map_err(|source| Failure::Write { target: path.display().to_string(), source })
+    }
+
+    /// Lines of plain data in the format asked for.
+    pub(crate) fn data(&self, lines: &[impl Serialize]) -> String {
+        match self.format {
+            DataFormat::Csv => csv(lines),
+            DataFormat::Json => json(&lines),
+        }
+    }
 }
 
 /// Prints an answer as one piece; a reader that has gone away (a closed pipe) is no failure.
@@ -51,19 +79,6 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
         writer.serialize(line).expect("a line of plain data always fits into memory");
     }
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
-}
-
-/// Lines of plain data in the format asked for.
-pub(crate) fn data(format: DataFormat, lines: &[impl Serialize]) -> String {
-    match format {
-        DataFormat::Csv => csv(lines),
-        DataFormat::Json => json(&lines),
-    }
-}
-
-/// Writes a file whole or not at all.
-pub(crate) fn write_file(path: &Path, content: &str) -> Result<(), Failure> {
-    whole_file::write(path, content).map_err(|source| Failure::Write { target: path.display().to_string(), source })
 }
 
 /// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.

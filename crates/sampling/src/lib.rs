@@ -38,7 +38,7 @@ pub use estimate::{Estimate, Found, IntervalKind, estimate};
 pub use fold::{Progress, SampleError};
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
-pub use long_flight_share::{LongFlightShare, long_flight_shares};
+pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare, long_flight_shares};
 pub use map::{Map, Node, map};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;

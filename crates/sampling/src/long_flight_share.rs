@@ -1,5 +1,7 @@
 //! The long-flight limit beside what it is the limit of: the share of heads among long flights.
 
+use std::f64::consts::PI;
+
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError, Solver};
 
@@ -14,8 +16,16 @@ use crate::space::{AxisOrTie, Space};
 /// ωL of the long flights (rad/s).
 const PRECESSION: f64 = 100.0;
 
-/// Their speeds (m/s): with the default gravity 970 to 1950 turns.
+/// Their speeds (m/s).
 const SPEEDS: [f64; 2] = [300.0, 600.0];
+
+/// Turns ωL T/2π of the slowest and of the fastest of them, with the default gravity.
+pub const LONG_FLIGHT_TURNS: [f64; 2] = [turns(SPEEDS[0]), turns(SPEEDS[1])];
+
+/// With T = 2 v0/g.
+const fn turns(speed: f64) -> f64 {
+    PRECESSION * speed / (PI * DEFAULT_GRAVITY)
+}
 
 /// The share of heads among long flights from horizontal, and its limit.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +38,8 @@ pub struct LongFlightShare {
     pub estimate: Estimate,
 }
 
-/// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of 970 to 1950 turns, at random speeds. No
-/// two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and so on.
+/// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of [`LONG_FLIGHT_TURNS`] at random
+/// speeds. No two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and so on.
 ///
 /// # Errors
 /// [`SampleError`]; an [`InputError`] for an angle that is no number, for no points, and for a rod (k = 0), whose
@@ -67,7 +77,7 @@ fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::ExactSolver;
+    use dynamics::{ExactMotion, ExactSolver};
 
     use super::*;
     use crate::{Found, clopper_pearson};
@@ -82,6 +92,19 @@ mod tests {
                 let interval = clopper_pearson(counts.heads, counts.points(), 1.0 - 1e-6);
                 assert!(interval.lo - 1e-3 <= found.limit && found.limit <= interval.hi + 1e-3, "{found:?}");
             }
+        }
+    }
+
+    #[test]
+    fn long_flights_have_so_many_turns() {
+        let precessions = [300.0, 600.0].map(|speed| {
+            let speed = Axis::fixed(Speed, speed).unwrap();
+            let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Speed, speed).unwrap();
+            let toss = space.toss(&space.fixed_values());
+            ExactMotion::new(&toss).precession_rate() * toss.launch.flight_time() / (2.0 * PI)
+        });
+        for (found, expected) in LONG_FLIGHT_TURNS.into_iter().zip(precessions) {
+            assert!((found - expected).abs() < 1e-9, "{found}, not {expected}");
         }
     }
 

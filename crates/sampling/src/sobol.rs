@@ -153,12 +153,16 @@ mod tests {
             [0.625, 0.125, 0.875],
             [0.125, 0.625, 0.375],
         ];
+        let sequence = ScrambledSobol::new(3, 1, 0).unwrap();
+        let found = points(&sequence, 0..8);
         for (index, point) in (0_u64..).zip(expected) {
             let gray = index ^ (index >> 1);
             for (dimension, coordinate) in point.into_iter().enumerate() {
                 let columns = directions(dimension);
                 let digits = (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |sum, j| sum ^ columns[j]);
                 assert_eq!(digits as f64 / MOST_POINTS as f64, coordinate, "point {index}, dimension {dimension}");
+                let (_, keys) = &sequence.coordinates[dimension];
+                assert_eq!(found[index as usize][dimension], scrambled(digits, keys));
             }
         }
     }

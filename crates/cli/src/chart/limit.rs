@@ -3,7 +3,7 @@
 use chart::{BLUE, ChartError, Drawn, Panel, SIZE, TEXT, VERMILION, svg};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use sampling::{LongFlightShare, long_flight_probability};
+use sampling::{LONG_FLIGHT_TURNS, LongFlightShare, long_flight_probability};
 
 /// A chart that has been laid out.
 type Chart<'a, 'b> =
@@ -67,7 +67,9 @@ fn draw_legend(root: &Panel<'_>, launches: u64) -> Drawn {
     root.draw(&Text::new("the limit, p(ψ) = ½ + asin(cot² ψ)/π", (x + 80, y), TEXT.into_font().color(&BLUE)))?;
     root.draw(&PathElement::new([(x + 30, y + 50), (x + 30, y + 90)], VERMILION.stroke_width(4)))?;
     root.draw(&Circle::new((x + 30, y + 70), 7, VERMILION.filled()))?;
-    let words = [format!("share of {launches} flights of 970 to"), "1950 turns, with its 95 % interval".to_owned()];
+    let [fewest, most] = LONG_FLIGHT_TURNS;
+    let words =
+        [format!("share of {launches} flights of {fewest:.0} to"), format!("{most:.0} turns, with its 95 % interval")];
     for (row, words) in (0..).zip(words) {
         root.draw(&Text::new(words, (x + 80, y + 44 + 38 * row), TEXT.into_font().color(&VERMILION)))?;
     }

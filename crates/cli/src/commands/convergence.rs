@@ -1,12 +1,10 @@
 //! `unfair-toss convergence`: the running probability of methods A and B.
 
-use std::path::PathBuf;
-
 use sampling::{RunningStep, running_shares};
 
 use crate::args::SamplingSolverArgs;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, progress_bar};
+use crate::output::{SeriesArgs, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -23,12 +21,8 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SamplingSolverArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw the series into this file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) series: SeriesArgs,
 }
 
 impl Args {
@@ -43,10 +37,7 @@ impl Args {
             .install(|| running_shares(&space, self.steps, self.seed, solver.as_ref(), &|more| bar.inc(more)));
         bar.finish_and_clear();
         let steps = steps?;
-        if let Some(path) = &self.svg {
-            let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
-            output::write_file(path, &chart::running(&columns)?)?;
-        }
-        Ok(output::data(self.format, &steps))
+        self.series.draw(|| Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?))?;
+        Ok(self.series.data(&steps))
     }
 }

@@ -1,13 +1,11 @@
 //! `unfair-toss errors`: the error of every method of sampling against the number of launches.
 
-use std::path::PathBuf;
-
 use sampling::{ESTIMATORS, Estimator, Plan, Progress, Rest, Scrambled, Space, estimate, rms_error};
 use toss::ExactSolver;
 
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, progress_bar};
+use crate::output::{SeriesArgs, progress_bar};
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -25,12 +23,8 @@ pub(crate) struct Args {
     reference: Option<f64>,
     #[command(flatten)]
     threads: ThreadArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw the errors into this file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) series: SeriesArgs,
 }
 
 fn probability(text: &str) -> Result<f64, String> {
@@ -42,10 +36,8 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
         let (lines, reference) = self.threads.pool()?.install(|| self.lines(&space))?;
-        if let Some(path) = &self.svg {
-            output::write_file(path, &chart::errors(&lines, &reference)?)?;
-        }
-        Ok(output::data(self.format, &lines))
+        self.series.draw(|| Ok(chart::errors(&lines, &reference)?))?;
+        Ok(self.series.data(&lines))
     }
 
     fn lines(&self, space: &Space) -> Result<(Vec<ErrorLine>, Reference), Failure> {

@@ -1,7 +1,5 @@
 //! `unfair-toss limit`: p(ψ), the probability of heads in the limit of long flights, beside the share of long flights.
 
-use std::path::PathBuf;
-
 use sampling::{LongFlightShare, long_flight_shares};
 use serde::Serialize;
 use toss::Coin;
@@ -9,14 +7,14 @@ use toss::Coin;
 use crate::args::{CoinArgs, SamplingSolverArgs};
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, progress_bar};
+use crate::output::{SeriesArgs, progress_bar};
 use crate::space_args::ThreadArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
-    /// Number of flights at each ψ, of 970 to 1950 turns
+    /// Number of flights at each ψ
     #[arg(long, value_name = "N", default_value_t = 1000)]
     points: u64,
     /// Seed of the speeds
@@ -26,12 +24,8 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SamplingSolverArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw both into this file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) series: SeriesArgs,
 }
 
 /// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, its interval of 95 %.
@@ -59,10 +53,8 @@ impl Args {
             .install(|| long_flight_shares(coin, &cone_angles, sampled, solver.as_ref(), &|more| bar.inc(more)));
         bar.finish_and_clear();
         let shares = shares?;
-        if let Some(path) = &self.svg {
-            output::write_file(path, &chart::limit(&shares)?)?;
-        }
-        Ok(output::data(self.format, &shares.iter().map(Line::from).collect::<Vec<_>>()))
+        self.series.draw(|| Ok(chart::limit(&shares)?))?;
+        Ok(self.series.data(&shares.iter().map(Line::from).collect::<Vec<_>>()))
     }
 }
 

@@ -1,14 +1,12 @@
 //! `unfair-toss map`: the probability of heads over two coordinates of a space.
 
-use std::path::PathBuf;
-
 use sampling::{Coordinate, Map, map};
 use serde::Serialize;
 
 use crate::args::SamplingSolverArgs;
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, progress_bar};
+use crate::output::{self, DataFormat, SeriesArgs, progress_bar};
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
 
 /// For a node.
@@ -33,12 +31,8 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SamplingSolverArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw the map into this file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) series: SeriesArgs,
 }
 
 impl Args {
@@ -53,10 +47,8 @@ impl Args {
         let mapped = pool.install(|| map(&space, axes, plan, solver.as_ref(), &|more| progress.inc(more)));
         progress.finish_and_clear();
         let mapped = mapped?;
-        if let Some(path) = &self.svg {
-            output::write_file(path, &chart::map(&mapped)?)?;
-        }
-        Ok(match self.format {
+        self.series.draw(|| Ok(chart::map(&mapped)?))?;
+        Ok(match self.series.format {
             DataFormat::Csv => csv(&mapped),
             DataFormat::Json => output::json(&Answer::from(&mapped)),
         })

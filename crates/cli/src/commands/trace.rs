@@ -1,14 +1,12 @@
 //! `unfair-toss trace`: the flight at equal steps of time, as data and as a chart.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 use toss::{TracePoint, trace};
 
 use crate::args::FlightArgs;
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat};
+use crate::output::{self, DataFormat, SeriesArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -17,12 +15,8 @@ pub(crate) struct Args {
     /// Number of times, launch and landing included
     #[arg(long, value_name = "N")]
     points: usize,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw the flight into this file
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) series: SeriesArgs,
 }
 
 /// One line: time (s), attitude, Euler angles (rad), n and a vector fixed in the face (LF), cos θ.
@@ -67,10 +61,8 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let (toss, solver) = self.flight.parts()?;
         let flight = trace(solver.as_ref(), &toss, self.points)?;
-        if let Some(path) = &self.svg {
-            output::write_file(path, &chart::flight(&flight, &toss, solver.outcome(&toss)?)?)?;
-        }
-        Ok(match self.format {
+        self.series.draw(|| Ok(chart::flight(&flight, &toss, solver.outcome(&toss)?)?))?;
+        Ok(match self.series.format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
                 output::json(&Answer { solver: solver.name(), points: flight.iter().map(Point::from).collect() })
