@@ -19,7 +19,7 @@ tasks:
       print what a toss costs, in ns and beside a reference in C; or count its instructions by valgrind and compare them with
       the baseline
   mutants [ARGUMENTS OF cargo mutants]
-      change the numerical crates in a thousand ways; each change has to fail a test or be explained in validation/mutants.md
+      change the numerical crates in some 4000 ways; each change has to fail a test or be explained in validation/mutants.md
   history
       draw the accuracy of the committed records over time
   figures [--check]

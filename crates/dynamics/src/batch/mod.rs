@@ -126,3 +126,21 @@ impl<'a> Tosses<'a> {
         Tosses { rates, speeds: &self.speeds[range], ..*self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_has_its_own_tosses_and_each_path_is_the_one_that_was_asked_for() {
+        let (rates, speeds) = ([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], [3.0, 4.0, 5.0]);
+        let columns = rates.each_ref().map(<[f64; 3]>::as_slice);
+        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, columns, &speeds).unwrap();
+        let part = tosses.part(1..3);
+        assert_eq!((part.toss(0), part.toss(1)), (tosses.toss(1), tosses.toss(2)));
+        assert_eq!((part.len(), part.is_empty(), tosses.part(1..1).is_empty()), (2, false, true));
+        for path in Path::all() {
+            assert_eq!(tosses.on(path).path.name(), path.name());
+        }
+    }
+}

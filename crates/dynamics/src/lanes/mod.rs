@@ -88,11 +88,15 @@ mod tests {
         let names: Vec<String> = Path::all().into_iter().map(Path::name).collect();
         let mut expected = vec!["plain"];
         #[cfg(target_arch = "x86_64")]
-        for (name, has) in [
-            ("avx2", is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")),
-            ("avx512", is_x86_feature_detected!("avx512f")),
-        ] {
-            expected.extend(has.then_some(name));
+        {
+            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            // All parts of AVX-512 that the psABI's level x86-64-v4 has.
+            let avx512 = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512bw")
+                && is_x86_feature_detected!("avx512cd")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl");
+            expected.extend(avx2.then_some("avx2").into_iter().chain(avx512.then_some("avx512")));
         }
         #[cfg(target_arch = "aarch64")]
         expected.push("neon");
