@@ -86,3 +86,25 @@ impl Kernel<6, 1> for Tilted {
         compensated_cos_tilt(toss).map(|cos| [cos])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attitude::Attitude;
+    use crate::coin::Coin;
+
+    #[test]
+    fn a_quaternion_of_any_norm_is_the_same_attitude() {
+        let speeds = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let columns = [[3.0; 5], [4.0; 5], [5.0; 5]];
+        let columns = columns.each_ref().map(<[f64; 5]>::as_slice);
+        let tosses = Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, &speeds).unwrap();
+        let (mut expected, mut found) = ([f64::NAN; 5], [f64::NAN; 5]);
+        tosses.cos_tilts(&mut expected).unwrap();
+        let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
+        let doubled = TiltTerms { vertical: vertical.map(|part| 4.0 * part), norm: 4.0 * norm };
+        let kernel = &Tilted(Constants::new(&tosses), doubled);
+        tosses.path.run(Run { kernel, tosses, out: [&mut found] }).unwrap();
+        assert_eq!(found, expected);
+    }
+}

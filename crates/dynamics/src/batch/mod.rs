@@ -139,6 +139,7 @@ mod tests {
         let part = tosses.part(1..3);
         assert_eq!((part.toss(0), part.toss(1)), (tosses.toss(1), tosses.toss(2)));
         assert_eq!((part.len(), part.is_empty(), tosses.part(1..1).is_empty()), (2, false, true));
+        assert!(tosses.is_flat() && !Tosses { attitude: Attitude::about_x(1e-300), ..tosses }.is_flat());
         for path in Path::all() {
             assert_eq!(tosses.on(path).path.name(), path.name());
         }

@@ -168,7 +168,7 @@ impl<S: Simd> Extent<S> {
 /// A, B and C of [`TiltTerms`](crate::TiltTerms) for tosses from one attitude.
 pub(super) struct TiltTerms {
     /// The vertical seen from the body at launch, times |q|².
-    vertical: [f64; 3],
+    pub(super) vertical: [f64; 3],
     /// |q|².
     pub(super) norm: f64,
 }
@@ -196,5 +196,54 @@ impl TiltTerms {
         let mean = m_z.mul_add(along, level) * along;
         let cosine = m_z.mul_add(across_squared, -(level * along));
         [mean, cosine, m_x.mul_add(y, -(m_y * x)) * size]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::attitude::Attitude;
+    use crate::coin::Coin;
+
+    fn constants(k: f64, gravity: f64) -> Constants {
+        let coin = Coin::from_moments(1.0, k).unwrap();
+        Constants::new(&Tosses::new(coin, Attitude::IDENTITY, gravity, [&[]; 3], &[]).unwrap())
+    }
+
+    #[test]
+    fn ordinary_tosses_end_where_they_are_said_to() {
+        let of_square = |squared: f64| constants(0.5, 1.0).is_ordinary([squared.sqrt(), 0.0, 0.0, 0.0]);
+        assert!([0.51e-100, 1.0, 0.99e100].into_iter().all(of_square));
+        assert!(![0.0, 0.49e-100, 1.01e100, 1e305, f64::INFINITY, f64::NAN].into_iter().any(of_square));
+        for (k, most) in [(0.25, 0.25 * MOST_TURNS), (1.5, MOST_TURNS)] {
+            // ωL T = 2π · 10 v0/(π g).
+            let of_turns = |turns: f64| constants(k, 2.0).is_ordinary([6.0, 8.0, 0.0, 0.2 * PI * turns]);
+            assert!(of_turns(0.0) && of_turns(0.999 * most) && !of_turns(1.001 * most), "{k}");
+        }
+        let of_gravity = |gravity: f64| constants(0.5, gravity).is_ordinary([1.0, 0.0, 0.0, 0.0]);
+        assert!(of_gravity(1e-50) && of_gravity(0.99e50) && !of_gravity(0.99e-50) && !of_gravity(1e50));
+        let of_speed = |speed: f64| constants(0.5, 1.0).is_ordinary([1.0, 0.0, 0.0, speed]);
+        assert!(of_speed(1.0) && !of_speed(-1.0) && !of_speed(f64::INFINITY) && !of_speed(f64::NAN));
+    }
+
+    #[test]
+    fn a_toss_that_is_not_ordinary_is_seen_in_any_company() {
+        let are_ordinary = |tosses: [[f64; 4]; 2]| {
+            let mut extent = Extent::new(pulp::Scalar);
+            for toss in tosses {
+                let [squared, half_inverse, turns, speed] = toss.map(|value| Real::splat(pulp::Scalar, value));
+                extent.add(squared, half_inverse, turns, speed);
+            }
+            extent.is_ordinary(&constants(0.5, 1.0))
+        };
+        let ordinary = [2.0, 0.25, 3.0, 4.0];
+        assert!(are_ordinary([ordinary, [1.0, 0.5, 2.0, 3.0]]));
+        for other in
+            [[1.01e100, 0.0, 0.0, 0.0], [1.0, 1.01e100, 0.0, 0.0], [1.0, 0.5, MOST_TURNS, 0.0], [1.0, 0.5, 0.0, -1.0]]
+        {
+            assert!(!are_ordinary([ordinary, other]) && !are_ordinary([other, ordinary]), "{other:?}");
+        }
     }
 }
