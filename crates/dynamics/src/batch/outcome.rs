@@ -232,3 +232,51 @@ impl WithSimd for Signs<'_> {
         decided
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attitude::Attitude;
+    use crate::coin::Coin;
+    use crate::lanes::Path;
+
+    const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
+
+    fn speeds() -> [f64; 20] {
+        std::array::from_fn(|index| 0.3 * index as f64)
+    }
+
+    fn tosses(speeds: &[f64]) -> Tosses<'_> {
+        let columns = RATES.each_ref().map(|column| &column[..speeds.len()]);
+        Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, speeds).unwrap()
+    }
+
+    #[test]
+    fn counts_are_those_of_the_outcomes_also_where_no_register_is_full() {
+        let speeds = speeds();
+        for (path, length) in Path::all().into_iter().flat_map(|path| (0..=20).map(move |length| (path, length))) {
+            let tosses = tosses(&speeds[..length]).on(path);
+            let mut outcomes = vec![Outcome::Undecided; length];
+            tosses.outcomes(&mut outcomes).unwrap();
+            let number = |of: Outcome| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
+            let expected = Filtered { heads: number(Outcome::Heads), tails: number(Outcome::Tails) };
+            let counted = tosses.count(|certificate| panic!("the filter decides: {certificate:?}")).unwrap();
+            assert_eq!(counted, expected, "{length} by {}", path.name());
+            assert!(length < 20 || (counted.heads > 3 && counted.tails > 3), "{counted:?}");
+        }
+    }
+
+    #[test]
+    fn heights_and_thresholds_grow_with_the_norm_of_the_quaternion() {
+        let speeds = speeds();
+        let tosses = tosses(&speeds);
+        let heights = |factor: f64| {
+            let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
+            let terms = TiltTerms { vertical: vertical.map(|part| factor * part), norm: factor * norm };
+            let mut heights = [f64::NAN; 20];
+            Filter::Tilted(Tilted(Constants::new(&tosses), terms)).run(tosses, &mut heights).unwrap();
+            heights
+        };
+        assert_eq!(heights(1024.0), heights(1.0).map(|height| 1024.0 * height));
+    }
+}
