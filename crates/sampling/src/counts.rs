@@ -182,7 +182,7 @@ mod tests {
         assert!(!Counts { heads: 12, ..counts }.are_certified());
     }
 
-    /// A batch asks neither for Keller's cosine nor for no motion at all.
+    /// A batch knows neither Keller's cosine nor outcomes that need no motion.
     #[test]
     fn launches_that_differ_in_rates_and_speed_are_a_batch() {
         let counted = |tilt| {
