@@ -60,10 +60,9 @@ fn to_nearest_edge(heads: &HeadsPhases, phase: f64, least: f64) -> Option<f64> {
     }
     let turn = ((phase - heads.crest) / TAU).round();
     let from_crest = phase - heads.crest - TAU * turn;
-    // About this crest and its neighbours.
-    let edges = [-1.0, 0.0, 1.0]
-        .into_iter()
-        .flat_map(|turns| [-heads.half_width, heads.half_width].map(|edge| TAU * turns + edge - from_crest));
+    // About this crest and, for a phase after its edges, the next.
+    let crests = [-from_crest, TAU - from_crest];
+    let edges = crests.into_iter().flat_map(|crest| [crest - heads.half_width, crest + heads.half_width]);
     edges.filter(|change| phase + change >= least).min_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
