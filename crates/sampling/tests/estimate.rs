@@ -66,6 +66,7 @@ fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampl
             match plan {
                 Plan::Grid => assert_eq!(width, None),
                 Plan::ExactSpeed(_) => {
+                    assert_eq!(found.points, 1, "nothing is free but the speed");
                     assert!(width.unwrap() < 1e-13 && found.interval_kind == IntervalKind::Rounding);
                 }
                 _ => assert!(width.unwrap() > 5e-5 && width.unwrap() < 2e-4, "{width:?}"),
