@@ -233,7 +233,7 @@ mod tests {
         let heads =
             |crest_error, half_width_error| HeadsPhases { crest: 0.5, half_width: 1.0, crest_error, half_width_error };
         let rounding = 4.0 * f64::EPSILON;
-        // From the crest to a quarter beyond the third edge after it: heads for 1, 2 and 0.25.
+        // From the crest to a quarter beyond the fourth edge after it: heads for 1, 2 and 0.25.
         let to = 0.5 + 4.0 * PI - 0.75;
         assert_share(
             uniform_share(&heads(0.0, 0.0), 0.5, to),
