@@ -43,15 +43,14 @@ impl Path {
 
     /// Every one that this machine has, the plain one first.
     pub fn all() -> Vec<Self> {
-        let plain = Self(pulp::Arch::Scalar);
         #[cfg(target_arch = "x86_64")]
         let others = [
             pulp::x86::V3::try_new().map(pulp::Arch::V3), // AVX2 and FMA
             pulp::x86::V4::try_new().map(pulp::Arch::V4), // AVX-512
         ];
         #[cfg(not(target_arch = "x86_64"))]
-        let others = [Some(pulp::Arch::new()).filter(|arch| *arch as u8 != plain.0 as u8)];
-        std::iter::once(plain).chain(others.into_iter().flatten().map(Self)).collect()
+        let others = [Some(pulp::Arch::new()).filter(|arch| !matches!(arch, pulp::Arch::Scalar))];
+        std::iter::once(pulp::Arch::Scalar).chain(others.into_iter().flatten()).map(Self).collect()
     }
 
     /// Its name, as `avx512`.
@@ -63,8 +62,9 @@ impl Path {
                 S::F64_LANES
             }
         }
+        let two = if cfg!(target_family = "wasm") { "simd128" } else { "neon" };
         // With 1, 2, 4 and 8 lanes.
-        ["plain", "neon", "avx2", "avx512"][self.run(Lanes).ilog2() as usize]
+        ["plain", two, "avx2", "avx512"][self.run(Lanes).ilog2() as usize]
     }
 
     /// Runs `kernel` with these instructions.
