@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use toss::{Coin, ExactMotion, Launch, Method, SOLVERS, Scheme, Settings, Solver, TimeOfFlight, Toss, Vector3};
+use toss::{
+    Coin, ExactMotion, Launch, Registry, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3,
+};
 
 /// Tolerance of the adaptive methods under test.
 pub const TOLERANCE: f64 = 1e-11;
@@ -13,28 +15,39 @@ pub fn config() -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() }
 }
 
-/// Every solver of the registry, each integrator by every adaptive method.
+/// All entries of the registry.
+pub fn entries() -> &'static [SolverEntry] {
+    Registry::standard().entries()
+}
+
+/// Those that step through time.
+pub fn integrators() -> impl Iterator<Item = &'static SolverEntry> {
+    entries().iter().filter(|entry| entry.integrates())
+}
+
+/// Every solver of the registry, each integrator by every adaptive scheme.
 pub fn solvers() -> Vec<Box<dyn Solver>> {
     let mut solvers = Vec::new();
-    for entry in SOLVERS {
-        let schemes = if entry.integrates() { entry.schemes } else { &[Scheme::Dop853] };
+    for entry in entries() {
+        let schemes = if entry.integrates() { entry.schemes() } else { &[Scheme::DOP853] };
         for scheme in schemes.iter().filter(|scheme| scheme.is_adaptive()) {
-            let method = Method::adaptive(*scheme, TOLERANCE).expect("valid");
-            solvers.push((entry.build)(&Settings { method, ..Settings::default() }));
+            let stepping = Stepping::adaptive(*scheme, TOLERANCE).expect("valid");
+            solvers.push(entry.solver(&Settings { stepping, ..Settings::default() }).expect("an offered scheme"));
         }
     }
     solvers
 }
 
-/// Name and method of a solver, for messages.
+/// Name and scheme of a solver, for messages.
 pub fn name(solver: &dyn Solver) -> String {
-    format!("{} {:?}", solver.name(), solver.method().map(|method| method.scheme()))
+    format!("{} {:?}", solver.name(), solver.stepping().map(|by| by.scheme().name()))
 }
 
-/// Error of cos θ that a solver may make on `toss`: what it answers for itself, and what the rounding of the inputs of
-/// a related toss may change.
+/// Error of cos θ that a solver may make on `toss`: its own estimate, and what the rounding of the inputs of a related
+/// toss may change.
 pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
-    solver.resolution(toss).expect("the tosses of the tests are short") + 4.0 * f64::EPSILON * (2.0 + phase(toss))
+    let estimate = solver.error_estimate(toss).expect("the tosses of the tests are short");
+    estimate.expect("a solver of ours estimates its error") + 4.0 * f64::EPSILON * (2.0 + phase(toss))
 }
 
 /// Error of an attitude (rad): ten times that of cos θ, whose slope vanishes where the attitude's does not.
@@ -76,3 +89,8 @@ prop_compose! {
 pub fn rates() -> impl Strategy<Value = f64> {
     prop_oneof![1 => Just(0.0), 1 => Just(1e-9), 6 => -60.0..60.0]
 }
+
+/// The README's Rust is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -2,9 +2,11 @@
 //! the exact motion allocate none.
 
 use allocation_counter::measure;
-use toss::batch::{Filtered, Tosses};
-use toss::lanes::Path;
-use toss::{Attitude, Coin, Formulation, Method, Outcome, QuaternionSolver, SOLVERS, Scheme, Settings, Solver};
+use blackbox::integrators;
+use toss::{
+    Attitude, Batch, Coin, ExactSolver, Formulation, Outcome, QuaternionSolver, Scheme, Settings, SimdLevel, Solver,
+    Stepping, TAYLOR, Tosses,
+};
 
 /// The stages, and two vectors of results that double when full.
 fn allowed(steps: u64) -> u64 {
@@ -14,11 +16,9 @@ fn allowed(steps: u64) -> u64 {
 #[test]
 fn the_exact_motion_allocates_nothing() {
     let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 1.0);
-    let solver = (SOLVERS[0].build)(&Settings::default());
-    assert_eq!(solver.name(), "exact");
     let count = measure(|| {
-        solver.propagate(&toss).unwrap();
-        solver.outcome(&toss).unwrap();
+        ExactSolver.propagate(&toss).unwrap();
+        ExactSolver.outcome(&toss).unwrap();
     });
     assert_eq!(count.count_total, 0);
 }
@@ -30,11 +30,11 @@ fn a_batch_allocates_nothing() {
     for attitude in [Attitude::IDENTITY, Attitude::about_x(0.7)] {
         let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&column; 3].map(|column| &column[..]), &column).unwrap();
         let count = measure(|| {
-            tosses.cos_tilts(&mut numbers).unwrap();
-            tosses.attitudes(quaternions.each_mut().map(|column| &mut column[..])).unwrap();
-            tosses.outcomes(&mut outcomes).unwrap();
-            let Filtered { heads, tails } = tosses.count(|_| ()).unwrap();
-            assert_eq!(heads + tails, 1000);
+            let batch = Batch::new(tosses);
+            batch.cos_tilts(&mut numbers).unwrap();
+            batch.attitudes(quaternions.each_mut().map(|column| &mut column[..])).unwrap();
+            batch.outcomes(&mut outcomes).unwrap();
+            assert_eq!(batch.count().unwrap().total(), 1000);
         });
         assert_eq!(count.count_total, 0);
     }
@@ -43,29 +43,29 @@ fn a_batch_allocates_nothing() {
 #[test]
 fn taylor_series_allocate_nothing_but_their_results() {
     let tosses = [blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0); 20];
-    let solver = QuaternionSolver::new(Method::adaptive(Scheme::Taylor, 1e-12).unwrap(), Formulation::default());
+    let solver = QuaternionSolver::new(Stepping::adaptive(TAYLOR, 1e-12).unwrap(), Formulation::default());
     assert_eq!(measure(|| assert!(solver.propagate(&tosses[0]).is_ok())).count_total, 0);
-    assert_eq!(measure(|| assert_eq!(solver.propagate_all(&tosses, Path::widest()).len(), 20)).count_total, 1);
+    assert_eq!(measure(|| assert_eq!(solver.propagate_all(&tosses, SimdLevel::widest()).len(), 20)).count_total, 1);
 }
 
 #[test]
 fn integrators_allocate_with_the_logarithm_of_the_steps() {
     let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0);
-    let adaptive = [Scheme::Dop853, Scheme::Dopri5].map(|scheme| Method::adaptive(scheme, 1e-12).unwrap());
-    let methods = [adaptive[0], adaptive[1], Method::fixed(Scheme::Rk4, 1e-3).unwrap()];
-    for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
-        for method in methods {
-            let solver = (entry.build)(&Settings { method, ..Settings::default() });
+    let adaptive = [Scheme::DOP853, Scheme::DOPRI5].map(|scheme| Stepping::adaptive(scheme, 1e-12).unwrap());
+    let all = [adaptive[0], adaptive[1], Stepping::fixed(Scheme::RK4, 1e-3).unwrap()];
+    for entry in integrators() {
+        for stepping in all {
+            let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
             let mut steps = 0;
             let count = measure(|| {
                 let work = solver.propagate(&toss).unwrap().work;
                 steps = work.accepted_steps;
             });
-            assert!(steps > 10, "{} {method:?}", entry.name);
+            assert!(steps > 10, "{} {stepping:?}", entry.name());
             assert!(
                 count.count_total <= allowed(steps),
-                "{} {method:?}: {} for {steps}",
-                entry.name,
+                "{} {stepping:?}: {} for {steps}",
+                entry.name(),
                 count.count_total
             );
         }

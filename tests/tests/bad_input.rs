@@ -1,9 +1,9 @@
 //! Bad and corner input through the library: right, or a typed error that names the field; never a panic or a NaN.
 
-use blackbox::{name, solvers, tilt_error, toss};
+use blackbox::{entries, integrators, name, solvers, tilt_error, toss};
 use toss::{
-    Attitude, Coin, ExactMotion, ExactSolver, Formulation, InputError, Launch, Method, Outcome, SOLVERS, Scheme,
-    Settings, SolveError, Solver, TimeOfFlight, Vector3,
+    Attitude, Coin, ExactMotion, ExactSolver, Formulation, InputError, Launch, Outcome, Registry, Scheme, Settings,
+    SolveError, Solver, Stepping, TAYLOR, TimeOfFlight, Vector3,
 };
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -31,8 +31,8 @@ fn what_is_not_finite_is_refused_by_name() {
             (launch([1.0; 3], TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: bad }).err(), "drop"),
             (toss(0.5, [1.0; 3], 0.0, 1.0).launch.with_tilt(bad).err(), "tilt"),
             (Attitude::from_components([bad, 0.0, 0.0, 1.0]).err(), "attitude"),
-            (Method::adaptive(Scheme::Dop853, bad).err(), "tolerance"),
-            (Method::fixed(Scheme::Rk4, bad).err(), "step"),
+            (Stepping::adaptive(Scheme::DOP853, bad).err(), "tolerance"),
+            (Stepping::fixed(Scheme::RK4, bad).err(), "step"),
         ] {
             let error = result.unwrap_or_else(|| panic!("{expected} = {bad} was accepted"));
             let found = error.field();
@@ -57,13 +57,16 @@ fn what_is_out_of_range_is_refused_with_the_range() {
         (launch([1.0; 3], thrown(-0.1, 9.81)).err(), "speed [m/s] = -0.1 is outside"),
         (launch([1.0; 3], thrown(3.0, 0.0)).err(), "gravity [m/s²] = 0.0 is outside"),
         (launch([1.0; 3], TimeOfFlight::Given(-1.0)).err(), "time [s] = -1.0 is outside"),
-        (Method::adaptive(Scheme::Dop853, 0.0).err(), "tolerance = 0.0 is outside"),
-        (Method::adaptive(Scheme::Dopri5, -1e-9).err(), "tolerance = -1e-9 is outside"),
-        (Method::adaptive(Scheme::Dopri5, 2e-16).err(), "tolerance = 2e-16 is outside"),
-        (Method::adaptive(Scheme::Rk4, 1e-9).err(), "method with a tolerance = 'rk4'"),
-        (Method::fixed(Scheme::Rk4, 0.0).err(), "step [s] = 0.0 is outside"),
-        (Method::adaptive(Scheme::Taylor, 2e-16).err(), "tolerance = 2e-16 is outside"),
-        (Method::fixed(Scheme::Taylor, 1e-3).err(), "method with a step = 'taylor' can't be used: expected dop853"),
+        (Stepping::adaptive(Scheme::DOP853, 0.0).err(), "tolerance = 0.0 is outside"),
+        (Stepping::adaptive(Scheme::DOPRI5, -1e-9).err(), "tolerance = -1e-9 is outside"),
+        (Stepping::adaptive(Scheme::DOPRI5, 2e-16).err(), "tolerance = 2e-16 is outside"),
+        (Stepping::adaptive(Scheme::RK4, 1e-9).err(), "scheme with a tolerance = 'rk4'"),
+        (Stepping::fixed(Scheme::RK4, 0.0).err(), "step [s] = 0.0 is outside"),
+        (Stepping::adaptive(TAYLOR, 2e-16).err(), "tolerance = 2e-16 is outside"),
+        (
+            Stepping::fixed(TAYLOR, 1e-3).err(),
+            "scheme with a step = 'taylor' can't be used: expected a scheme with equal steps, as dop853",
+        ),
     ] {
         let found = result.unwrap_or_else(|| panic!("accepted what should give: {message}")).to_string();
         assert!(found.starts_with(message), "'{found}' for '{message}'");
@@ -75,7 +78,7 @@ fn the_edges_of_the_model_are_accepted() {
     for (i1, i3) in [(1.0, 2.0), (1.0, 0.0), (1.0, 1.0), (f64::MIN_POSITIVE, 0.0), (1e300, 2e300)] {
         assert!(Coin::from_moments(i1, i3).is_ok(), "{i1}, {i3}");
     }
-    assert!(Method::adaptive(Scheme::Dop853, f64::EPSILON).is_ok());
+    assert!(Stepping::adaptive(Scheme::DOP853, f64::EPSILON).is_ok());
 }
 
 #[test]
@@ -92,13 +95,13 @@ fn a_coin_that_does_not_move_shows_heads_by_every_solver() {
 
 /// In both guarded formulations, the paper's vertical frame included, by every adaptive method; raw promises nothing.
 fn every_guarded_formulation() -> Vec<Box<dyn Solver>> {
-    let guarded = [Formulation::Momentum, Formulation::Vertical];
+    let guarded = [Formulation::MOMENTUM, Formulation::VERTICAL];
     let mut all = Vec::new();
-    for entry in SOLVERS {
-        let schemes = [Scheme::Dop853, Scheme::Dopri5, Scheme::Taylor].into_iter();
-        for scheme in schemes.filter(|scheme| entry.require_scheme(*scheme).is_ok()) {
-            let method = Method::adaptive(scheme, 1e-10).expect("valid");
-            all.extend(guarded.map(|formulation| (entry.build)(&Settings { method, formulation })));
+    for entry in entries() {
+        let schemes = if entry.integrates() { entry.schemes() } else { &[Scheme::DOP853] };
+        for scheme in schemes.iter().filter(|scheme| scheme.is_adaptive()) {
+            let stepping = Stepping::adaptive(*scheme, 1e-10).expect("valid");
+            all.extend(guarded.map(|formulation| entry.solver(&Settings { stepping, formulation }).expect("offered")));
         }
     }
     all
@@ -131,8 +134,8 @@ fn keller_pure_spin_and_every_tilt_are_right_or_a_typed_error() {
 #[test]
 fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
     let build = |solver: &str| {
-        let entry = toss::named_solver(solver).unwrap();
-        (entry.build)(&Settings { method: Method::DEFAULT, formulation: Formulation::Vertical })
+        let settings = Settings { stepping: Stepping::DEFAULT, formulation: Formulation::VERTICAL };
+        Registry::standard().named(solver).unwrap().solver(&settings).unwrap()
     };
     // F1: from horizontal, n comes back to the vertical at 2π/ωL.
     let returning = toss(0.5, [9.0, 4.0, 3.0], 0.0, 1.0);
@@ -153,11 +156,11 @@ fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
 
 #[test]
 fn rk4_never_lets_a_nan_escape() {
-    for entry in SOLVERS {
+    for entry in entries() {
         for formulation in Formulation::ALL {
             for step in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 1e300] {
-                let method = Method::fixed(Scheme::Rk4, step).unwrap();
-                let solver = (entry.build)(&Settings { method, formulation });
+                let stepping = Stepping::fixed(Scheme::RK4, step).unwrap();
+                let solver = entry.solver(&Settings { stepping, formulation }).unwrap();
                 for tilt in [0.0, 1e-16, 1e-4, 1.0] {
                     if let Ok(landing) = solver.propagate(&toss(0.5, [50.0, -20.0, 30.0], tilt, 1.0)) {
                         let state = landing.state;
@@ -198,7 +201,7 @@ fn an_outcome_at_the_edge_is_never_misjudged() {
             let edge = toss(2.0, [transverse, 0.0, 0.5], 0.0, time);
             let outcome = if ulps <= 0 { Outcome::Heads } else { Outcome::Tails };
             assert_eq!(ExactSolver.outcome(&edge), Ok(outcome), "{ulps}, {nudge}");
-            for solver in solvers().iter().filter(|solver| solver.method().is_some()) {
+            for solver in solvers().iter().filter(|solver| solver.stepping().is_some()) {
                 assert_eq!(solver.outcome(&edge), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
             }
         }
@@ -210,27 +213,27 @@ fn an_outcome_at_the_edge_is_never_misjudged() {
 #[test]
 fn a_step_limit_is_an_error_and_no_partial_result() {
     let long = toss(1.98, [50.0, 0.0, 50.0], 0.0, 1e4);
-    let method = Method::fixed(Scheme::Rk4, 1e-3).unwrap();
-    for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
-        let solver = (entry.build)(&Settings { method, ..Settings::default() });
-        assert!(matches!(solver.propagate(&long), Err(SolveError::StepLimit { .. })), "{}", entry.name);
+    let stepping = Stepping::fixed(Scheme::RK4, 1e-3).unwrap();
+    for entry in integrators() {
+        let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
+        assert!(matches!(solver.propagate(&long), Err(SolveError::StepLimit { .. })), "{}", entry.name());
     }
 }
 
 #[test]
-fn a_method_that_a_solver_does_not_offer_is_refused_and_never_flown() {
-    let flown = toss(0.5, [1.0, 2.0, 3.0], 0.0, 1.0);
-    for entry in SOLVERS.iter().filter(|entry| entry.integrates()) {
-        for scheme in Scheme::ALL {
-            let method = Method::adaptive(scheme, 1e-9).or_else(|_| Method::fixed(scheme, 1e-3)).unwrap();
-            let settings = Settings { method, ..Settings::default() };
-            let (made, landing) = (entry.solver(&settings), (entry.build)(&settings).propagate(&flown));
-            if entry.schemes.contains(&scheme) {
-                assert!(made.is_ok() && landing.is_ok(), "{} by {}", entry.name, scheme.name());
+fn a_scheme_that_a_solver_does_not_offer_is_refused() {
+    let own = Scheme::new("own", Some(3)).adaptive();
+    for entry in integrators() {
+        for scheme in [Scheme::DOP853, Scheme::DOPRI5, Scheme::RK4, TAYLOR, own] {
+            let stepping = Stepping::adaptive(scheme, 1e-9).or_else(|_| Stepping::fixed(scheme, 1e-3)).unwrap();
+            let made = entry.solver(&Settings { stepping, ..Settings::default() });
+            if entry.schemes().contains(&scheme) {
+                assert!(made.is_ok(), "{} by {}", entry.name(), scheme.name());
             } else {
                 let refused = made.err().unwrap().to_string();
-                assert_eq!(refused, "method of this solver = 'taylor' is unknown; known: dop853, dopri5, rk4");
-                assert_eq!(landing, Err(SolveError::NotOffered { method: "taylor" }), "{}", entry.name);
+                let known =
+                    format!("scheme of this solver = '{}' is unknown; known: dop853, dopri5, rk4", scheme.name());
+                assert!(refused.starts_with(&known), "{refused}");
             }
         }
     }
@@ -239,9 +242,9 @@ fn a_method_that_a_solver_does_not_offer_is_refused_and_never_flown() {
 #[test]
 fn unknown_names_are_answered_with_the_known_ones() {
     for (error, known) in [
-        (toss::named_solver("newton").unwrap_err(), "exact, gamma, euler, quaternion"),
+        (Registry::standard().named("newton").unwrap_err(), "exact, gamma, euler, quaternion"),
         (toss::catalogue::named_coin("doubloon").unwrap_err(), "paper, disc, us-cent"),
-        (Scheme::named("euler").unwrap_err(), "dop853, dopri5, rk4, taylor"),
+        (Registry::standard().entries()[3].scheme("euler").unwrap_err(), "dop853, dopri5, rk4, taylor"),
         (sampling::named_space("moon").unwrap_err(), "paper-fig4, cheated, tails"),
     ] {
         assert!(error.to_string().contains(known), "{error}");

@@ -1,7 +1,7 @@
 //! What the paper leaves open or loses in its formulas, against the exact motion.
 
 use blackbox::toss;
-use toss::body_rate::body_precession_rate;
+use dynamics::body_rate::body_precession_rate;
 use toss::{Coin, ExactMotion};
 
 /// (2)-(4): ωx = Ω sin(q t + δ), ωy = -Ω cos(q t + δ) with tan δ = -ωx/ωy at launch.

@@ -1,18 +1,16 @@
 //! Relations that hold for the motion itself, so for every solver of the registry.
 
 use blackbox::{attitude_error, config, lasting, name, phase, solvers, tilt_error, toss, tosses};
+use dynamics::Singularity;
+use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use proptest::prelude::*;
-use toss::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
-use toss::{
-    Attitude, Coin, ExactMotion, ExactSolver, Launch, Singularity, SolveError, Solver, State, TimeOfFlight, Toss,
-    Vector3,
-};
+use toss::{Attitude, Coin, ExactMotion, ExactSolver, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3};
 
 /// The landing, or `None` where a solver may refuse: the γ-ODE on rods that spin without precession.
 fn landing(solver: &dyn Solver, toss: &Toss) -> Option<State> {
     match solver.propagate(toss) {
         Ok(propagation) => Some(propagation.state),
-        Err(SolveError::Singular { point: Singularity::PrecessionStops, .. })
+        Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, .. })
             if solver.name() == "gamma"
                 && ExactMotion::new(toss).precession_rate() < 0.01 * toss.launch.rate().amax() =>
         {

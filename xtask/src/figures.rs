@@ -26,8 +26,8 @@ const FIGURES: &[Figure] = &[
         arguments: "map --rate-x 0:30:61 --rate-y 0 --rate-z 0:60:61 --speed 3:5",
     },
     Figure { file: "long-flights.svg", program: TOSS, arguments: "limit" },
-    Figure { file: "work-precision.svg", program: VERIFY, arguments: "--figure work-precision" },
-    Figure { file: "atlas-matrix.svg", program: VERIFY, arguments: "--figure atlas-matrix" },
+    Figure { file: "work-precision.svg", program: VERIFY, arguments: "figure work-precision" },
+    Figure { file: "atlas-matrix.svg", program: VERIFY, arguments: "figure atlas-matrix" },
 ];
 
 /// Where the figures are, from the root of the workspace.

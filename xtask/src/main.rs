@@ -30,10 +30,10 @@ const COULD_NOT_RUN: u8 = 4;
 fn main() -> ExitCode {
     let mut args = env::args().skip(1);
     match args.next().as_deref() {
-        Some("verify") => verify(args),
-        Some("bench") => verify(std::iter::once("--bench".to_owned()).chain(args)),
+        Some("verify") => verify("run", args),
+        Some("bench") => verify("bench", args),
         Some("mutants") => mutants::run(args).unwrap_or_else(|message| could_not_run(&message)),
-        Some("history") => verify(std::iter::once("--history".to_owned()).chain(args)),
+        Some("history") => verify("history", args),
         Some("figures") => figures::figures(args).unwrap_or_else(|message| could_not_run(&message)),
         Some("help" | "--help" | "-h") => {
             println!("{USAGE}");
@@ -66,11 +66,11 @@ fn cargo(program: &str) -> Command {
     command
 }
 
-/// Runs the suite.
-fn verify(args: impl Iterator<Item = String>) -> ExitCode {
-    let status = cargo("verify").args(args).status();
+/// Runs a command of the program `verify`.
+fn verify(command: &str, args: impl Iterator<Item = String>) -> ExitCode {
+    let status = cargo("verify").arg(command).args(args).status();
     match status.map(|status| status.code().and_then(|code| u8::try_from(code).ok())) {
-        // The suite's own codes; anything else is cargo failing to build it, a panic or a signal.
+        // The program's own codes; anything else is cargo failing to build it, a panic or a signal.
         Ok(Some(code @ 0..=COULD_NOT_RUN)) => ExitCode::from(code),
         Ok(_) => ExitCode::from(COULD_NOT_RUN),
         Err(error) => could_not_run(&format!("cannot start cargo: {error}")),

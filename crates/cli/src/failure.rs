@@ -1,16 +1,15 @@
 //! Why a command gave no answer, and the exit code that says so.
 
 use chart::ChartError;
-use sampling::SpaceFileError;
 use serde_json::{Map, Value, json};
-use toss::{InputError, SolveError};
+use toss::{Error, InputError, SolveError};
 
 /// Why a command gave no answer.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// Input outside its valid range, or a name that is unknown.
+    /// Input that describes nothing that could be solved, or a solver that failed.
     #[error(transparent)]
-    Input(#[from] InputError),
+    Unanswered(#[from] Error),
     /// Options that do not go together.
     #[error("{0}")]
     Usage(String),
@@ -22,13 +21,13 @@ pub(crate) enum Failure {
         /// Why not.
         source: std::io::Error,
     },
-    /// A file that holds no space.
+    /// A file whose text describes nothing.
     #[error("{path}, {source}")]
-    SpaceFile {
+    Text {
         /// The file.
         path: String,
         /// Where and why.
-        source: SpaceFileError,
+        source: Error,
     },
     /// A file or standard output that can't be written.
     #[error("cannot write {target}: {source}")]
@@ -41,44 +40,36 @@ pub(crate) enum Failure {
     /// A chart that can't be drawn.
     #[error("cannot draw the chart: {0}")]
     Chart(#[from] ChartError),
-    /// The solver failed.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-    /// The solver failed on one launch of a space.
-    #[error("launch {index}: {source}")]
-    Launch {
-        /// Its index.
-        index: u64,
-        /// Its body rate (rad/s).
-        rate: [f64; 3],
-        /// Its time of flight (s).
-        flight_time: f64,
-        /// What the solver said.
-        source: SolveError,
-    },
+}
+
+impl From<InputError> for Failure {
+    fn from(source: InputError) -> Self {
+        Error::from(source).into()
+    }
+}
+
+impl From<SolveError> for Failure {
+    fn from(source: SolveError) -> Self {
+        Error::from(source).into()
+    }
 }
 
 impl Failure {
+    /// 1 if the solver failed, 2 for bad usage or input.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Solve(_) | Self::Launch { .. } => 1,
-            Self::Input(_)
-            | Self::Usage(_)
-            | Self::Read { .. }
-            | Self::SpaceFile { .. }
-            | Self::Write { .. }
-            | Self::Chart(_) => 2,
+            Self::Unanswered(error) if !error.is_input() => 1,
+            _ => 2,
         }
     }
 
     fn kind(&self) -> &'static str {
         match self {
-            Self::Input(InputError::OutsideModel { .. }) => "outside_model",
-            Self::Input(_) | Self::Usage(_) | Self::SpaceFile { .. } => "input",
+            Self::Unanswered(error) | Self::Text { source: error, .. } => error.kind(),
+            Self::Usage(_) => "input",
             Self::Read { .. } => "read",
             Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
-            Self::Solve(source) | Self::Launch { source, .. } => source.kind(),
         }
     }
 
@@ -95,25 +86,36 @@ impl Failure {
 
     fn details(&self) -> Value {
         match self {
-            Self::Solve(source) => solve_details(source),
-            Self::Launch { index, rate, flight_time, source } => {
-                let mut details = solve_details(source);
-                details["launch"] = json!({"index": index, "rate": rate, "flight_time": flight_time});
-                details
-            }
-            Self::Input(InputError::OutOfRange { field, value, valid }) => {
-                json!({"field": field, "value": value, "valid": valid})
-            }
-            Self::Input(InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. }) => {
-                json!({"field": field, "value": value})
-            }
-            Self::Input(InputError::Missing { field, .. } | InputError::OutsideModel { field, .. }) => {
-                json!({"field": field})
-            }
-            Self::SpaceFile { path, source } => json!({"path": path, "line": source.line, "column": source.column}),
+            Self::Unanswered(error) => details(error),
+            Self::Text { path, source } => with(details(source), "path", json!(path)),
             Self::Read { path, .. } => json!({"path": path}),
             Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => json!({}),
         }
+    }
+}
+
+fn details(error: &Error) -> Value {
+    match error {
+        Error::Input(source) => input_details(source),
+        Error::BadLaunch { index, source } => with(input_details(source), "launch", json!({"index": index})),
+        Error::Solve(source) => solve_details(source),
+        Error::Launch { index, toss, source } => {
+            let (rate, flight_time) = (<[f64; 3]>::from(toss.launch.rate()), toss.launch.flight_time());
+            let launch = json!({"index": index, "rate": rate, "flight_time": flight_time});
+            with(solve_details(source), "launch", launch)
+        }
+        Error::Text { line, column, .. } => json!({"line": line, "column": column}),
+        other => other.field().map_or_else(|| json!({}), |field| json!({"field": field})),
+    }
+}
+
+fn input_details(source: &InputError) -> Value {
+    match source {
+        InputError::OutOfRange { field, value, valid } => json!({"field": field, "value": value, "valid": valid}),
+        InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. } => {
+            json!({"field": field, "value": value})
+        }
+        other => json!({"field": other.field()}),
     }
 }
 
@@ -121,41 +123,16 @@ fn solve_details(source: &SolveError) -> Value {
     match source {
         SolveError::PhaseTooLarge { phase } => json!({"phase": phase}),
         SolveError::Singular { point, time } => json!({"point": point.to_string(), "time": time}),
-        SolveError::NotOffered { method } => json!({"method": method}),
+        SolveError::NotOffered { scheme } => json!({"scheme": scheme}),
         SolveError::StepLimit { time, limit } => json!({"time": time, "limit": limit}),
-        SolveError::StepSizeUnderflow { time } | SolveError::NotFinite { time } => {
-            json!({"time": time})
-        }
+        SolveError::StepSizeUnderflow { time } | SolveError::NotFinite { time } => json!({"time": time}),
+        SolveError::Misbehaved { solver, .. } | SolveError::Failed { solver, .. } => json!({"solver": solver}),
+        _ => json!({}),
     }
 }
 
-impl From<toss::trace::TraceError> for Failure {
-    fn from(error: toss::trace::TraceError) -> Self {
-        match error {
-            toss::trace::TraceError::Input(error) => error.into(),
-            toss::trace::TraceError::Solve(error) => error.into(),
-        }
-    }
-}
-
-impl From<toss::SceneError> for Failure {
-    fn from(error: toss::SceneError) -> Self {
-        match error {
-            toss::SceneError::Input(error) => error.into(),
-            toss::SceneError::Solve(error) => error.into(),
-            toss::SceneError::Sample(error) => error.into(),
-            not_reached @ toss::SceneError::NotReached { .. } => Self::Usage(not_reached.to_string()),
-        }
-    }
-}
-
-impl From<sampling::SampleError> for Failure {
-    fn from(error: sampling::SampleError) -> Self {
-        match error {
-            sampling::SampleError::Input(error) => error.into(),
-            sampling::SampleError::Solve { index, toss, source } => {
-                Self::Launch { index, rate: toss.launch.rate().into(), flight_time: toss.launch.flight_time(), source }
-            }
-        }
-    }
+/// `details` and one more.
+fn with(mut details: Value, key: &str, value: Value) -> Value {
+    details[key] = value;
+    details
 }

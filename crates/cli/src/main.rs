@@ -2,12 +2,13 @@
 //!
 //! Exit codes: 0 answered; 1 the solver failed; 2 bad usage or input.
 
-mod args;
 mod chart;
 mod commands;
 mod failure;
 mod output;
+mod solver_args;
 mod space_args;
+mod toss_args;
 
 use std::process::ExitCode;
 

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use clap::Args;
-use sampling::{Coordinate, DescribedSpace, Plan, Rest, Scrambled, Space, named_space};
-use toss::{Coin, ExactSolver, Solver};
+use sampling::{Coordinate, DescribedSpace, Plan, Rest, Sampler, Scrambled, Space, named_space};
+use toss::{Coin, Error};
 
-use crate::args::CoinArgs;
 use crate::failure::Failure;
+use crate::output::progress_bar;
+use crate::toss_args::CoinArgs;
 
 /// A space of launches: by name, from a file, or by its axes.
 #[derive(Debug, Args)]
@@ -40,10 +41,8 @@ pub(crate) struct SpaceArgs {
 
 impl SpaceArgs {
     pub(crate) fn space(&self) -> Result<Space, Failure> {
-        let coin = self.coin.given()?;
         if let Some(name) = &self.space {
-            let space = space_called(name)?;
-            return Ok(coin.map_or(space, |coin| space.with_coin(coin)));
+            return space_called(name, &self.coin);
         }
         let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
         let given: Vec<(Coordinate, &str)> =
@@ -53,20 +52,21 @@ impl SpaceArgs {
                 "one of --space and the axes --rate-x, --rate-y, --rate-z, --speed is needed".to_owned(),
             ));
         }
-        Ok(Space::parse(coin.unwrap_or(Coin::PAPER), &given)?)
+        Ok(Space::parse(self.coin.given()?.unwrap_or(Coin::PAPER), &given)?)
     }
 }
 
-/// The space with this name, or in this file.
-pub(crate) fn space_called(name: &str) -> Result<Space, Failure> {
-    if name.ends_with(".toml") { space_file(Path::new(name)) } else { Ok(named_space(name)?) }
+/// The space with this name, or in this file, for the coin that is given, if one is.
+pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
+    let coin = coin.given()?;
+    let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
+    Ok(coin.map_or(space, |coin| space.with_coin(coin)))
 }
 
 fn space_file(path: &Path) -> Result<Space, Failure> {
-    let text =
-        std::fs::read_to_string(path).map_err(|source| Failure::Read { path: path.display().to_string(), source })?;
-    let described = DescribedSpace::from_toml(&text)
-        .map_err(|source| Failure::SpaceFile { path: path.display().to_string(), source })?;
+    let shown = || path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown(), source })?;
+    let described = DescribedSpace::from_toml(&text).map_err(|source| Failure::Text { path: shown(), source })?;
     Ok(described.space)
 }
 
@@ -103,14 +103,8 @@ pub(crate) struct DefaultPoints {
 }
 
 impl PlanArgs {
-    /// The plan for `space`, by `solver`.
-    pub(crate) fn plan(
-        &self,
-        method: MethodArg,
-        space: &Space,
-        solver: &dyn Solver,
-        default: DefaultPoints,
-    ) -> Result<Plan, Failure> {
+    /// The plan for `space`.
+    pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: DefaultPoints) -> Result<Plan, Failure> {
         let seed = self.seed;
         let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
         match method {
@@ -120,22 +114,11 @@ impl PlanArgs {
             MethodArg::Grid => Ok(Plan::Grid),
             MethodArg::Random => Ok(Plan::Random { points: self.points.unwrap_or(default.random), seed }),
             MethodArg::Sobol => Ok(Plan::Sobol(scrambled())),
-            MethodArg::ExactSpeed if solver.name() != ExactSolver::ENTRY.name => {
-                Err(Failure::Usage("exact-speed integrates the exact motion; leave --solver out".to_owned()))
-            }
             MethodArg::ExactSpeed => {
                 let grid = Plan::ExactSpeed(Rest::Grid);
                 let has_grid = self.points.is_none() && grid.points(space).is_ok();
                 Ok(if has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) })
             }
-        }
-    }
-
-    /// The seed, where `plan` depends on it.
-    pub(crate) fn seed_of(&self, plan: Plan) -> Option<u64> {
-        match plan {
-            Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
-            Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => Some(self.seed),
         }
     }
 }
@@ -149,7 +132,22 @@ pub(crate) struct ThreadArgs {
 }
 
 impl ThreadArgs {
-    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
+    /// Asks `sampler` the `question` on these threads, with a bar over the `number` of `things` that it goes through.
+    pub(crate) fn ask<T: Send>(
+        &self,
+        sampler: Sampler<'_>,
+        (number, things): (u64, &'static str),
+        question: impl FnOnce(&Sampler<'_>) -> Result<T, Error> + Send,
+    ) -> Result<T, Failure> {
+        let pool = self.pool()?;
+        let bar = progress_bar(number, things);
+        let progress = |more| bar.inc(more);
+        let answer = pool.install(|| question(&sampler.on_progress(&progress)));
+        bar.finish_and_clear();
+        Ok(answer?)
+    }
+
+    fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
         const MOST_THREADS: usize = 1024;
         let threads = match self.threads {
             None => 0,

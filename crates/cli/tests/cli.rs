@@ -6,14 +6,15 @@ use std::process::Command;
 
 use common::{assert_near, assert_refused, json, run, stdout};
 use serde_json::Value;
+use toss::{Registry, SolverEntry};
 
 #[test]
 fn a_toss_by_every_solver_has_the_reference_digits() {
     let command = "toss --rate 1,1,2.5 --speed 3";
     assert_near(&json(command, 0)["cos_tilt"], 0.665_661_286_601_930_7, 1e-15);
     for solver in ["gamma", "euler", "quaternion"] {
-        for method in ["--method dop853", "--method dopri5 --tolerance 1e-11", "--method rk4 --step 1e-4"] {
-            let answer = json(&format!("{command} --solver {solver} {method}"), 0);
+        for scheme in ["--scheme dop853", "--scheme dopri5 --tolerance 1e-11", "--scheme rk4 --step 1e-4"] {
+            let answer = json(&format!("{command} --solver {solver} {scheme}"), 0);
             assert_near(&answer["cos_tilt"], 0.665_661_286_601_930_7, 1e-9);
             assert_eq!(answer["outcome"], "heads");
             assert_eq!(answer["solver"], solver);
@@ -27,10 +28,10 @@ fn the_answer_has_the_fields_of_the_contract() {
     let answer = json("toss --moments 0.04,0.02 --rate 2,4,6 --time 1", 0);
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
     let toss = ["coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude"];
-    for field in toss.into_iter().chain(["defect", "solver", "method", "work"]) {
+    for field in toss.into_iter().chain(["rate", "norm_error", "defect", "solver", "scheme", "method", "work"]) {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 11);
+    assert_eq!(fields.len(), 14);
     // Kane's body.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -41,12 +42,30 @@ fn the_answer_has_the_fields_of_the_contract() {
         let sign = -answer["attitude"][0].as_f64().unwrap().signum();
         assert_near(&answer["attitude"][part], sign * expected, 1e-15);
     }
-    assert_eq!(answer["coin"]["i3"], 0.02);
+    assert_eq!(answer["coin"], serde_json::json!({"i1": 0.04, "i2": 0.04, "i3": 0.02}));
+    // Euler's equations turn (ωx, ωy) by -(k - 1) ωz T = 3 rad, and leave ωz.
+    let (sin, cos) = 3f64.sin_cos();
+    for (part, expected) in [2.0 * cos + 4.0 * sin, 4.0 * cos - 2.0 * sin, 6.0].into_iter().enumerate() {
+        assert_near(&answer["rate"][part], expected, 1e-14);
+    }
     assert_eq!(answer["method"], Value::Null);
     assert_eq!(answer["certified"], true);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
-    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --method rk4", 0)["method"], "rk4");
-    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --method taylor", 0)["method"], "taylor");
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --scheme rk4", 0)["method"], "rk4");
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["method"], "taylor");
+}
+
+#[test]
+fn schemes_and_norm_errors_keep_their_former_names() {
+    for command in ["toss --rate 2,5,1 --time 0.4", "trace --rate 2,5,1 --time 0.4 --points 3"] {
+        let by = |option: &str| json(&format!("{command} --solver quaternion {option} rk4"), 0);
+        assert_eq!(by("--scheme"), by("--method"));
+    }
+    let answer = json("toss --rate 2,5,1 --time 0.4 --solver quaternion --tolerance 1e-4", 0);
+    assert_eq!((&answer["scheme"], &answer["method"]), (&"dop853".into(), &"dop853".into()));
+    assert!(answer["norm_error"].as_f64() > Some(0.0));
+    assert_eq!(answer["norm_error"], answer["defect"]);
+    assert_eq!(json("toss --rate 2,5,1 --time 0.4", 0)["scheme"], Value::Null);
 }
 
 #[test]
@@ -64,7 +83,7 @@ fn the_raw_formulation_is_wrong_without_an_error_where_the_default_is_right() {
     let quaternion = "--solver quaternion --tolerance 1e-4";
     let unprojected = error(level, &format!("{quaternion} --formulation raw"));
     assert!(unprojected != error(level, quaternion));
-    assert!(json(&format!("toss {level} {quaternion}"), 0)["defect"].as_f64().unwrap() > 1e-9);
+    assert!(json(&format!("toss {level} {quaternion}"), 0)["norm_error"].as_f64().unwrap() > 1e-9);
 }
 
 #[test]
@@ -98,34 +117,35 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
         ("toss --rate 1,1,1 --time 1 --cylinder 1,1,-1", ["thickness [m] = -1.0", ">= 0"]),
         ("toss --rate 1,1,1 --time 1 --coin groat", ["coin = 'groat'", "us-quarter"]),
         ("toss --rate 1,1,1 --time 1 --solver newton", ["solver = 'newton'", "quaternion"]),
-        ("toss --rate 1,1,1 --time 1 --solver gamma --method euler", ["method = 'euler'", "dopri5"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --scheme euler", ["scheme of this solver = 'euler'", "dopri5"]),
+        ("toss --rate 1,1,1 --time 1 --scheme euler", ["scheme = 'euler'", "taylor"]),
         (
             "toss --rate 1,1,1 --time 1 --solver gamma --formulation sideways",
             ["formulation = 'sideways'", "momentum, vertical, raw"],
         ),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 0", ["tolerance = 0.0", "2.220446049250313e-16"]),
         ("toss --rate 1,1,1 --time 1 --solver gamma --tolerance 1e-17", ["tolerance = 1e-17", "<= tolerance < 1"]),
-        ("toss --rate 1,1,1 --time 1 --solver gamma --method rk4 --step 0", ["step [s] = 0.0", "> 0"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --scheme rk4 --step 0", ["step [s] = 0.0", "> 0"]),
         (
-            "toss --rate 1,1,1 --time 1 --solver gamma --method rk4 --tolerance 1e-9",
+            "toss --rate 1,1,1 --time 1 --solver gamma --scheme rk4 --tolerance 1e-9",
             ["--tolerance", "rk4 takes --step"],
         ),
         ("toss --rate 1,1,1 --time 1 --solver gamma --step 1e-3", ["--step is for rk4", "dop853"]),
-        ("toss --rate 1,1,1 --time 1 --solver gamma --method taylor", ["method of this solver", "dop853, dopri5, rk4"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --scheme taylor", ["scheme of this solver", "dop853, dopri5, rk4"]),
         (
-            "trace --rate 1,1,1 --time 1 --points 3 --solver euler --method taylor",
-            ["method of this solver", "dop853, dopri5, rk4"],
+            "trace --rate 1,1,1 --time 1 --points 3 --solver euler --scheme taylor",
+            ["scheme of this solver", "dop853, dopri5, rk4"],
         ),
         (
             "probability --space paper-fig4 --method grid --solver euler --scheme taylor",
-            ["method of this solver", "dop853, dopri5, rk4"],
+            ["scheme of this solver", "dop853, dopri5, rk4"],
         ),
         (
-            "plan --rate 1,1,1 --time 1 --want tilt --accuracy 1e-6 --solver gamma --method taylor",
-            ["method of this solver", "dop853, dopri5, rk4"],
+            "plan --rate 1,1,1 --time 1 --want tilt --accuracy 1e-6 --solver gamma --scheme taylor",
+            ["scheme of this solver", "dop853, dopri5, rk4"],
         ),
         (
-            "toss --rate 1,1,1 --time 1 --solver quaternion --method taylor --step 1e-3",
+            "toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor --step 1e-3",
             ["--step is for rk4", "taylor takes --tolerance"],
         ),
         ("trace --rate 1,1,1 --time 1 --points 1", ["points = '1'", "2 to 1000000"]),
@@ -167,7 +187,7 @@ fn a_solver_that_fails_ends_with_1_and_a_typed_error() {
     assert_eq!(stops["error"]["point"], "α' = 0");
     assert!(stops["error"]["time"].as_f64().unwrap() > 0.0);
 
-    let steps = json("toss --rate 1,1,1 --time 1 --solver quaternion --method rk4 --step 1e-9", 1);
+    let steps = json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme rk4 --step 1e-9", 1);
     assert_eq!(steps["error"]["kind"], "step_limit");
     assert_eq!(steps["error"]["limit"], 1_000_000);
 
@@ -248,23 +268,46 @@ fn the_inverse_launch_has_the_wanted_probability() {
 }
 
 #[test]
-fn lists_name_everything() {
+fn lists_name_every_coin_solver_model_and_space() {
     let coins = json("coins", 0);
     assert!(coins.as_array().unwrap().len() >= 14);
     assert!(coins.as_array().unwrap().iter().all(|coin| coin["source"].as_str().is_some_and(|text| !text.is_empty())));
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|line| line["name"].as_str().unwrap().to_owned()).collect()
     };
-    assert_eq!(names(&json("solvers", 0)), ["exact", "gamma", "euler", "quaternion"]);
+    let solvers = json("solvers", 0);
+    let registered: Vec<&str> = Registry::standard().entries().iter().map(SolverEntry::name).collect();
+    assert_eq!(names(&solvers), registered);
+    let quaternion = &solvers[3];
+    assert_eq!(quaternion["schemes"], serde_json::json!(["dop853", "dopri5", "rk4", "taylor"]));
+    assert_eq!(quaternion["methods"], quaternion["schemes"]);
+    assert_eq!(quaternion["formulations"], serde_json::json!(["momentum", "raw"]));
+    let models = json("models", 0);
+    assert_eq!(names(&models)[..3], ["outcome", "tilt", "attitude"]);
+    assert!(models[0]["cost_ns"].as_f64() > Some(0.0) && models[5]["cost_ns"].is_null());
     assert_eq!(names(&json("spaces", 0)), ["paper-fig4", "cheated", "tails"]);
-    for list in ["coins", "solvers", "spaces"] {
+    for list in ["coins", "solvers", "models", "spaces"] {
         let text = stdout(&run(list));
         assert!(names(&json(list, 0)).iter().all(|name| text.contains(name.as_str())), "{list}");
     }
 }
 
 #[test]
-fn a_closed_pipe_is_no_failure() {
+fn help_names_what_the_registry_holds() {
+    let help = stdout(&run("toss --help"));
+    for entry in Registry::standard().entries() {
+        assert!(help.contains(entry.name()), "{}", entry.name());
+        assert!(entry.schemes().iter().all(|scheme| help.contains(scheme.name())), "{:?}", entry.schemes());
+    }
+    for words in
+        ["Step of rk4", "momentum (no flight is singular)", "raw (as the paper prints it: an answer may be wrong"]
+    {
+        assert!(help.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn a_reader_that_closes_the_pipe_is_no_failure() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
         .args(["trace", "--rate", "9,4,3", "--speed", "4", "--points", "20000"])
         .stdout(std::process::Stdio::piped())

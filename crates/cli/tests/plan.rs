@@ -17,9 +17,7 @@ fn a_plan_names_its_model_and_what_it_passes_over() {
     let thrown = "--rate 1,1,2.5 --speed 3 --accuracy 1e-9";
     let model = |answer: &serde_json::Value| answer["model"].as_str().unwrap_or_default().to_owned();
     for (options, expected) in [
-        ("--rate 20,3,0 --speed 3 --accuracy 1e-9 --want outcome", "keller"),
-        (&format!("{thrown} --want outcome"), "certain"),
-        ("--rate 20,3,1 --speed 3 --accuracy 1e-9 --want outcome", "heads"),
+        (format!("{thrown} --want outcome").as_str(), "outcome"),
         (&format!("{thrown} --want tilt"), "tilt"),
         (&format!("{thrown} --want attitude"), "attitude"),
         (&format!("{thrown} --want trace --points 7"), "trace"),
@@ -32,13 +30,23 @@ fn a_plan_names_its_model_and_what_it_passes_over() {
         assert_eq!(answer["solver"], "exact");
         assert!(answer["expected_cost_ns"].as_f64().is_some_and(|cost| cost > 0.0));
     }
-    let asked = json(&format!("plan {thrown} --want attitude --solver gamma --method dopri5"), 0);
-    assert_eq!((&asked["solver"], &asked["method"]), (&"gamma".into(), &"dopri5".into()));
+    let asked = json(&format!("plan {thrown} --want attitude --solver gamma --scheme dopri5"), 0);
+    assert_eq!((&asked["solver"], &asked["scheme"]), (&"gamma".into(), &"dopri5".into()));
     assert!(asked["tolerance"].as_f64().is_some_and(|tolerance| (1e-14..1e-3).contains(&tolerance)));
     let tilt = json(&format!("plan {thrown} --want tilt"), 0);
     assert_near(&tilt["expected_error"], 0.0, 1e-9);
     let passed_over = tilt["passed_over"].as_array().unwrap();
-    assert_eq!(passed_over[0], serde_json::json!({"model": "keller", "why": "gives only the outcome"}));
+    assert_eq!(passed_over[0], serde_json::json!({"model": "outcome", "why": "gives only the outcome"}));
+}
+
+#[test]
+fn a_scheme_is_of_an_integrator_and_keeps_its_former_name() {
+    let toss = "plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-9 --solver gamma";
+    let answer = json(&format!("{toss} --method dopri5"), 0);
+    assert_eq!(answer, json(&format!("{toss} --scheme dopri5"), 0));
+    assert_eq!((&answer["scheme"], &answer["method"]), (&"dopri5".into(), &"dopri5".into()));
+    let sample = json("plan --space cheated --want probability --accuracy 1e-6", 0);
+    assert_eq!((&sample["scheme"], &sample["method"]), (&serde_json::Value::Null, &"exact-speed".into()));
 }
 
 #[test]
@@ -46,7 +54,7 @@ fn a_scene_is_read_from_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     let toss = "coin = 'us-quarter'\nlaunch = { rate = [20, 0, 5], speed = 3 }\n";
-    for (scene, model) in [("[want.tilt]", "tilt"), ("[want.outcome]", "heads")] {
+    for (scene, model) in [("[want.tilt]", "tilt"), ("[want.outcome]", "outcome")] {
         std::fs::write(&path, format!("accuracy = 1e-9\n{scene}\n{toss}")).unwrap();
         assert_eq!(json(&format!("plan --scene {}", path.display()), 0)["model"], model);
     }

@@ -78,7 +78,7 @@ fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
         ("probability --space tails --method random --points 0", ["points = 0.0", "at least 1"]),
         ("probability --space tails --method grid --points 9", ["--points: a grid", "axes"]),
         ("probability --space tails --method sobol --points 9", ["points = '9'", "a multiple of"]),
-        ("probability --space tails --method exact-speed --solver gamma", ["exact-speed", "leave --solver out"]),
+        ("probability --space tails --method exact-speed --solver gamma", ["solver = 'gamma'", "exact-speed"]),
         ("probability --space tails.toml --method grid", ["cannot read tails.toml", "No such file"]),
         ("probability --rate-x 1 --rate-y 1 --rate-z 1 --method grid", ["speed [m/s] is missing", "a range"]),
         ("probability --rate-y x --rate-z 1 --speed 3:5:9 --method grid", ["rate y [rad/s] = 'x'", "a tie"]),

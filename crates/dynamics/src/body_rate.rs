@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The rates never read the attitude. Their solution (2)-(4) is a turn of (ωx, ωy) by q t; it stands in
-//! [`crate::exact`], and no numerical solver may use it.
+//! the crate `exact`, on which no integrator can depend.
 
 use nalgebra::Vector3;
 

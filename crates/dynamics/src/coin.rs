@@ -4,9 +4,10 @@
 //! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
 //! For a free flight only the inertia ratio k = I3/I1 matters.
 
-use crate::double_double::DoubleDouble;
+use numerics::double_double::DoubleDouble;
+use numerics::scale::mantissa_and_exponent;
+
 use crate::error::{InputError, require};
-use crate::scale::mantissa_and_exponent;
 
 /// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,14 @@
-//! What can go wrong: input outside the model, and a solver that cannot go on.
+//! What can go wrong: input outside the model, and a solver that cannot go on. The one error of downstream code holds
+//! either; see [`failure`](crate::failure).
 
 use std::fmt;
+use std::sync::Arc;
 
 use thiserror::Error;
 
 /// A value that describes no toss. Nothing was computed.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum InputError {
     /// A number outside its valid range (or not a number at all).
     #[error("{field} = {value:?} is outside its valid range: {valid}")]
@@ -101,20 +104,21 @@ pub enum Singularity {
     NormalAlongAxis,
     /// α' = 0 with sin β ≠ 0: the precession turns back, D = u = 0, and the γ-ODE (10) reads 0/0. Also where α' is so
     /// small against the rates that D and u are lost in their rounding.
-    PrecessionStops,
+    PrecessionTooSlow,
 }
 
 impl fmt::Display for Singularity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NormalAlongAxis => "sin β = 0",
-            Self::PrecessionStops => "α' = 0",
+            Self::PrecessionTooSlow => "α' = 0",
         })
     }
 }
 
 /// Why a solver gave no answer. Times are seconds after launch.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// The phase is so large that neighbouring f64 inputs differ by whole turns.
     #[error("outcome not determined: the phase of the motion, {phase:e} rad, is above 2^53")]
@@ -130,11 +134,11 @@ pub enum SolveError {
         /// When: the end of the step that met it (s).
         time: f64,
     },
-    /// The solver has no such method; [`SolverEntry::solver`](crate::SolverEntry::solver) refuses it beforehand.
-    #[error("the solver does not offer the method {method}")]
+    /// The solver has no such scheme; [`SolverEntry::solver`](crate::SolverEntry::solver) refuses it beforehand.
+    #[error("the solver does not offer the scheme {scheme}")]
     NotOffered {
-        /// The method's name.
-        method: &'static str,
+        /// The scheme's name.
+        scheme: &'static str,
     },
     /// More steps would have been needed than a flight is allowed.
     #[error("more than {limit} steps needed, stopped at t = {time} s")]
@@ -156,14 +160,84 @@ pub enum SolveError {
         /// The end of the integration (s).
         time: f64,
     },
+    /// The solver answered what no solver may answer; see [`Checked`](crate::Checked).
+    #[error("solver '{solver}' {fault}")]
+    Misbehaved {
+        /// The solver's name.
+        solver: String,
+        /// What it did.
+        fault: Fault,
+    },
+    /// The solver failed for a reason of its own.
+    #[error("solver '{solver}' failed: {source}")]
+    Failed {
+        /// The solver's name.
+        solver: String,
+        /// The reason.
+        source: Reason,
+    },
+}
+
+/// What a solver must not do.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// It answered a number that is NaN, infinite or impossible.
+    #[error("answered {field} = {value}")]
+    Answer {
+        /// What the number stands for.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// It claimed an error that is NaN, infinite or negative.
+    #[error("claims an error of {0}")]
+    Claim(f64),
+    /// It panicked.
+    #[error("panicked: {0}")]
+    Panic(String),
+}
+
+/// An error of code outside this workspace, kept as the source of a [`SolveError`]. Two are equal if they are the same one.
+#[derive(Debug, Clone)]
+pub struct Reason(Arc<dyn std::error::Error + Send + Sync>);
+
+impl Reason {
+    /// Keeps `error`.
+    pub fn new(error: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self(Arc::new(error))
+    }
+}
+
+impl PartialEq for Reason {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl std::error::Error for Reason {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.0.source()
+    }
 }
 
 impl SolveError {
+    /// The failure of the solver called `solver` for a reason of its own.
+    pub fn failed(solver: &str, reason: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self::Failed { solver: solver.to_owned(), source: Reason::new(reason) }
+    }
+
     /// The same error of a propagation that began `seconds` after launch.
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
         match &mut self {
-            Self::PhaseTooLarge { .. } | Self::NotOffered { .. } => {}
+            Self::PhaseTooLarge { .. } | Self::NotOffered { .. } | Self::Misbehaved { .. } | Self::Failed { .. } => {}
             Self::Singular { time, .. }
             | Self::StepLimit { time, .. }
             | Self::StepSizeUnderflow { time }
@@ -181,6 +255,8 @@ impl SolveError {
             Self::StepLimit { .. } => "step_limit",
             Self::StepSizeUnderflow { .. } => "step_size_underflow",
             Self::NotFinite { .. } => "not_finite",
+            Self::Misbehaved { .. } => "misbehaved",
+            Self::Failed { .. } => "failed",
         }
     }
 }
@@ -192,13 +268,20 @@ mod tests {
     const AT: f64 = 0.5;
 
     /// Every error with its kind, what it says, and its time after a leg of 2 s.
-    fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 7] {
+    fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 9] {
         let singular = |point| SolveError::Singular { point, time: AT };
         [
             (SolveError::PhaseTooLarge { phase: 1e17 }, "phase_too_large", "1e17 rad, is above 2^53", None),
             (singular(Singularity::NormalAlongAxis), "singular", "(sin β = 0) at t = 0.5 s", Some(2.5)),
-            (singular(Singularity::PrecessionStops), "singular", "(α' = 0) at t = 0.5 s", Some(2.5)),
-            (SolveError::NotOffered { method: "taylor" }, "not_offered", "does not offer the method taylor", None),
+            (singular(Singularity::PrecessionTooSlow), "singular", "(α' = 0) at t = 0.5 s", Some(2.5)),
+            (SolveError::NotOffered { scheme: "taylor" }, "not_offered", "does not offer the scheme taylor", None),
+            (
+                SolveError::Misbehaved { solver: "own".to_owned(), fault: Fault::Claim(-1.0) },
+                "misbehaved",
+                "solver 'own' claims an error of -1",
+                None,
+            ),
+            (SolveError::failed("own", fmt::Error), "failed", "solver 'own' failed: an error occurred when", None),
             (SolveError::StepLimit { time: AT, limit: 7 }, "step_limit", "more than 7 steps", Some(2.5)),
             (SolveError::StepSizeUnderflow { time: AT }, "step_size_underflow", "at t = 0.5 s", Some(2.5)),
             (SolveError::NotFinite { time: AT }, "not_finite", "is not finite at t = 0.5 s", Some(2.5)),

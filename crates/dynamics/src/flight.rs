@@ -4,20 +4,19 @@
 //! dy/d(σ t) = f(y) has neither large nor tiny numbers. The phase max(ωL, |q|) T is at most 2^53.
 
 use nalgebra::{SVector, Vector3};
+use numerics::scale::power_of_two_scale;
 
-use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
-use crate::exact::ExactMotion;
 use crate::integrate::{OdeSystem, integrate};
 use crate::launch::Toss;
-use crate::method::{Method, tightened};
-use crate::scale::power_of_two_scale;
+use crate::phase::RoughPhases;
 use crate::solver::Work;
+use crate::stepping::{Stepping, tightened};
 
 /// Above this phase (rad) the tolerance of the steps is tightened in proportion. The errors of the steps add up in |ω|,
 /// and the phase adds up those of |ω|, so that the error at landing grows like tolerance × phase², with a factor of 0.14
-/// in the worst case that was met. Tightened, it stays below 100 × tolerance × phase, which [`Method::resolution`] answers
-/// for.
+/// in the worst case that was met. Tightened, it stays below 100 × tolerance × phase, the [error
+/// estimate](Stepping::error_estimate).
 const LONG_FLIGHT: f64 = 100.0;
 
 /// The flight of a toss with its rates divided by a power of two.
@@ -41,16 +40,14 @@ impl Flight {
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let duration = toss.launch.flight_time();
         let launched = toss.launch.rate();
-        let scale = power_of_two_scale(&launched);
+        let scale = power_of_two_scale(launched.amax());
         let rate = launched / scale;
-        // No digit matters of a phase that is not long, and those of the exact motion take longer than many a flight.
-        let rough = rough_phase(&rate, toss.coin.inertia_ratio(), duration * scale);
-        let phase = if rough < 0.999 * LONG_FLIGHT { rough } else { ExactMotion::new(toss).phase(duration)? };
+        let phase = RoughPhases::dimensionless(toss.coin.inertia_ratio(), &rate, duration * scale).largest()?;
         Ok(Self { rate, rate_z: launched.z, scale, duration, phase })
     }
 
     /// Follows `system`, whose rates are in the flight's unit, from `start` to landing; see [`integrate`]. The tolerance of
-    /// `method` is divided by the phase in units of 100 rad, where that is above 1.
+    /// `stepping` is divided by the phase in units of 100 rad, where that is above 1.
     ///
     /// # Errors
     /// As [`integrate`].
@@ -58,10 +55,10 @@ impl Flight {
         &self,
         system: &impl OdeSystem<N>,
         start: SVector<f64, N>,
-        method: &Method,
+        stepping: &Stepping,
     ) -> Result<(SVector<f64, N>, Work), SolveError> {
-        let method = method.tightened(self.phase / LONG_FLIGHT);
-        integrate(system, start, self.duration, self.scale, &method)
+        let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
+        integrate(system, start, self.duration, self.scale, &stepping)
     }
 
     /// Dimensionless time from launch to landing.
@@ -95,34 +92,13 @@ impl Flight {
     }
 }
 
-/// The larger of ωL t and |q| t (rad), to some roundings.
-fn rough_phase(rate: &Vector3<f64>, inertia_ratio: f64, time: f64) -> f64 {
-    let momentum = Vector3::new(rate.x, rate.y, inertia_ratio * rate.z);
-    let spin = body_precession_rate(inertia_ratio, rate.z);
-    momentum.norm().max(spin.abs()) * time
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::coin::Coin;
     use crate::launch::Launch;
+    use crate::scheme::Scheme;
     use crate::time_of_flight::TimeOfFlight;
-
-    #[test]
-    fn a_rough_phase_is_the_exact_one_up_to_rounding_and_tightens_nothing() {
-        for (k, rate) in [(0.0, [0.0, 1e-200, 3.0]), (0.5, [4.0, -5.0, 7.0]), (2.0, [1e-5, 0.0, 60.0]), (1.0, [3.0; 3])]
-        {
-            for time in [0.0, 0.1, 0.9, 1.3, 1.7, 30.0, 1e6] {
-                let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-                let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
-                let (flight, exact) = (Flight::new(&toss).unwrap(), ExactMotion::new(&toss).phase(time).unwrap());
-                assert!((flight.phase - exact).abs() <= 1e-14 * exact, "{k}, {rate:?}, {time}");
-                assert_eq!(flight.is_long(), exact > LONG_FLIGHT);
-                assert_eq!(flight.tightened(1e-3), tightened(1e-3, exact / LONG_FLIGHT));
-            }
-        }
-    }
 
     fn flight(rate: [f64; 3], time: f64) -> Flight {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
@@ -148,13 +124,13 @@ mod tests {
 
     #[test]
     fn above_a_hundred_radians_the_tolerance_of_the_steps_is_tightened() {
-        let method = Method::adaptive(crate::method::Scheme::Dopri5, 1e-6).unwrap();
+        let stepping = Stepping::adaptive(Scheme::DOPRI5, 1e-6).unwrap();
         for (time, tightened) in [(50.0, 1e-6), (100.0, 1e-6), (400.0, 0.25e-6)] {
             let flight = flight([1.0, 0.0, 0.0], time);
             assert_eq!(flight.is_long(), time > 100.0);
             let start = SVector::from([1.0, 0.0]);
-            let by = Method::adaptive(crate::method::Scheme::Dopri5, tightened).unwrap();
-            assert_eq!(flight.integrate(&Circle, start, &method), integrate(&Circle, start, time, 1.0, &by));
+            let by = Stepping::adaptive(Scheme::DOPRI5, tightened).unwrap();
+            assert_eq!(flight.integrate(&Circle, start, &stepping), integrate(&Circle, start, time, 1.0, &by));
         }
     }
 }

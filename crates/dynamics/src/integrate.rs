@@ -12,8 +12,9 @@ use ode_solvers::dop_shared::{IntegrationError, OutputType, SolverResult, System
 use ode_solvers::{Dop853, Dopri5, Rk4};
 
 use crate::error::{Singularity, SolveError};
-use crate::method::{Method, RungeKutta, StepControl};
+use crate::scheme::Scheme;
 use crate::solver::Work;
+use crate::stepping::{StepControl, Stepping};
 
 /// A flight may take this many steps; all of them are held in memory while it runs.
 pub const STEP_LIMIT: u32 = 1_000_000;
@@ -29,27 +30,46 @@ pub trait OdeSystem<const N: usize> {
     }
 }
 
+/// The schemes of `ode_solvers`.
+#[derive(Debug, Clone, Copy)]
+enum RungeKutta {
+    Dop853,
+    Dopri5,
+    Rk4,
+}
+
+impl RungeKutta {
+    fn of(scheme: Scheme) -> Result<Self, SolveError> {
+        match scheme {
+            Scheme::DOP853 => Ok(Self::Dop853),
+            Scheme::DOPRI5 => Ok(Self::Dopri5),
+            Scheme::RK4 => Ok(Self::Rk4),
+            other => Err(SolveError::NotOffered { scheme: other.name() }),
+        }
+    }
+}
+
 /// Follows `system` from `start` over `duration` (s), which is ≥ 0.
 ///
 /// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two (rad/s); see
-/// [`power_of_two_scale`](crate::scale::power_of_two_scale).
+/// [`power_of_two_scale`](numerics::scale::power_of_two_scale).
 ///
 /// # Errors
-/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a method that is not
-/// Runge and Kutta's.
+/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a scheme that is not in
+/// [`Scheme::RUNGE_KUTTA`].
 pub fn integrate<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
     duration: f64,
     scale: f64,
-    method: &Method,
+    stepping: &Stepping,
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
-    let scheme = method.scheme().runge_kutta()?;
+    let scheme = RungeKutta::of(stepping.scheme())?;
     let end = duration * scale;
     if end == 0.0 {
         return Ok((start, Work::default()));
     }
-    let steps = Steps::new(method.control(), duration, end)?;
+    let steps = Steps::new(stepping.control(), duration, end)?;
     let calls = Cell::new(0);
     let met = Cell::new(None);
     let counted = Counted { system, calls: &calls, met: &met, last: start };

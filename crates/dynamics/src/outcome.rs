@@ -1,4 +1,4 @@
-//! How a coin lands, heads for cos θ > 0 and tails for cos θ < 0, and what that rests on.
+//! How a coin lands: heads for cos θ > 0, tails for cos θ < 0.
 
 /// How the coin lands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -7,17 +7,18 @@ pub enum Outcome {
     Heads,
     /// cos θ < 0.
     Tails,
-    /// cos θ is nearer to 0 than the solver answers for; for a proven outcome only an exact tie, cos θ = 0.
+    /// cos θ is nearer to 0 than the solver's error estimate, or the solver has none; a proven outcome is undecided only
+    /// for an exact tie, cos θ = 0.
     Undecided,
 }
 
 impl Outcome {
-    /// The rule: heads or tails by the sign of `cos_tilt` where its size exceeds `resolution`, else undecided.
+    /// Heads or tails by the sign of `cos_tilt` where its size exceeds `error`, else undecided.
     #[inline]
-    pub fn of(cos_tilt: f64, resolution: f64) -> Self {
-        if cos_tilt > resolution {
+    pub fn of(cos_tilt: f64, error: f64) -> Self {
+        if cos_tilt > error {
             Self::Heads
-        } else if cos_tilt < -resolution {
+        } else if cos_tilt < -error {
             Self::Tails
         } else {
             Self::Undecided
@@ -34,41 +35,12 @@ impl Outcome {
     }
 }
 
-/// Which stage of a proof decided, from the cheapest on: see [`certified`](crate::certified).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage {
-    /// The one cosine of Keller's coin.
-    Keller,
-    /// No motion was evaluated: the face never changes, or the flight is too short for it.
-    Certain,
-    /// f64.
-    F64,
-    /// Double-double.
-    DoubleDouble,
-    /// 192 binary digits or more, or exact arithmetic for a tie.
-    Multiprecision,
-}
-
-impl Stage {
-    /// All stages, in their order.
-    pub const ALL: [Self; 5] = [Self::Keller, Self::Certain, Self::F64, Self::DoubleDouble, Self::Multiprecision];
-}
-
-/// An outcome, and what it rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Verdict {
-    /// How the toss lands.
-    pub outcome: Outcome,
-    /// The stage that proved it; `None` for an outcome that is only as good as the solver's error estimate.
-    pub proof: Option<Stage>,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_tie_is_undecided_whatever_the_resolution() {
+    fn a_tie_is_undecided_whatever_the_error() {
         assert_eq!(Outcome::of(0.0, 0.0), Outcome::Undecided);
         assert_eq!(Outcome::of(-0.0, 1e-16), Outcome::Undecided);
         assert_eq!(Outcome::of(1e-300, 0.0), Outcome::Heads);

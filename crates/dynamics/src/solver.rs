@@ -1,14 +1,18 @@
-//! What a solver is: a pure map from a toss to the state at its landing.
+//! What a solver is: a pure map from a toss to the state at its landing, with an estimate of its error.
 //!
-//! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`]. Each lives in one file and
-//! has one entry; every test and every check runs over the registry of entries.
+//! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`](crate::SolverEntry). It states
+//! no proof: a solver says how far it may be off, and the outcome follows from that. Proofs are made by the crate
+//! `exact` alone.
 
-use crate::batch::{BatchError, Filtered, Tosses};
-use crate::error::{InputError, SolveError, find_named};
+use std::sync::Arc;
+
+use crate::columns::Tosses;
+use crate::error::SolveError;
+use crate::failure::Error;
 use crate::launch::Toss;
-use crate::method::{Method, Scheme};
-use crate::outcome::{Outcome, Verdict};
+use crate::outcome::Outcome;
 use crate::state::State;
+use crate::stepping::Stepping;
 
 /// What a propagation cost, as counts that repeat exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,13 +27,14 @@ pub struct Work {
 
 /// The state at landing and what it cost to get there.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Propagation {
     /// State at landing.
     pub state: State,
     /// cos θ at landing, as the solver finds it: that of the state's attitude, or better.
     pub cos_tilt: f64,
-    /// Loss of norm of an integrated quaternion, ||Q| - 1|; 0 where attitudes need no norm.
-    pub defect: f64,
+    /// Norm error of an integrated quaternion, ||Q| - 1|; 0 where attitudes need no norm.
+    pub norm_error: f64,
     /// Its cost.
     pub work: Work,
 }
@@ -37,17 +42,29 @@ pub struct Propagation {
 impl Propagation {
     /// A landing whose cos θ is that of its attitude.
     pub fn new(state: State, work: Work) -> Self {
-        Self { state, cos_tilt: state.attitude.cos_tilt(), defect: 0.0, work }
+        Self { state, cos_tilt: state.attitude.cos_tilt(), norm_error: 0.0, work }
+    }
+
+    /// The same landing with a better cos θ than that of its attitude.
+    #[must_use]
+    pub fn with_cos_tilt(self, cos_tilt: f64) -> Self {
+        Self { cos_tilt, ..self }
+    }
+
+    /// The same landing of a quaternion whose norm was off by `norm_error`.
+    #[must_use]
+    pub fn with_norm_error(self, norm_error: f64) -> Self {
+        Self { norm_error, ..self }
     }
 }
 
 /// Solves the flight of a toss.
 pub trait Solver: Send + Sync {
     /// Its name in the registry.
-    fn name(&self) -> &'static str;
+    fn name(&self) -> &str;
 
-    /// Its method of integration; `None` for a closed form.
-    fn method(&self) -> Option<Method> {
+    /// How it steps through time; `None` for a closed form.
+    fn stepping(&self) -> Option<Stepping> {
         None
     }
 
@@ -57,7 +74,14 @@ pub trait Solver: Send + Sync {
     /// [`SolveError`] where the solver cannot go on; never a partial result.
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError>;
 
-    /// cos θ at landing; cheaper than the attitude where the solver knows how.
+    /// Estimate of the error of its cos θ at the landing of `toss`, finite and ≥ 0; `None` if it has none, and then it
+    /// decides no outcome. Integrators answer with [`Stepping::error_estimate`].
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError>;
+
+    /// cos θ at landing; a solver may know a cheaper way than by the attitude.
     ///
     /// # Errors
     /// As [`Solver::propagate`].
@@ -65,37 +89,27 @@ pub trait Solver: Send + Sync {
         self.propagate(toss).map(|landing| landing.cos_tilt)
     }
 
-    /// Error of its cos θ on `toss` that this solver answers for, by its [method](Method::resolution); 0 if it has none.
+    /// cos θ at landing of each of many tosses; a solver may know a cheaper way than one by one.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
-    fn resolution(&self, toss: &Toss) -> Result<f64, SolveError> {
-        self.method().map_or(Ok(0.0), |method| method.resolution(toss))
+    /// [`Error`] for the first toss that has no answer; the numbers in `out` then mean nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than `tosses`.
+    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
+        assert_eq!(out.len(), tosses.len(), "one result a toss");
+        out.iter_mut().enumerate().try_for_each(|(index, out)| {
+            *out = tosses.solve(index, |toss| self.cos_tilt(toss))?;
+            Ok(())
+        })
     }
 
-    /// Heads or tails by a `cos_tilt` of this solver, or undecided where it is within [`Solver::resolution`] of 0.
+    /// Heads or tails by `cos_tilt` (of this solver), or undecided where it is within the error estimate of 0.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
-    fn verdict_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Verdict, SolveError> {
-        Ok(Verdict { outcome: Outcome::of(cos_tilt, self.resolution(toss)?), proof: None })
-    }
-
-    /// How the toss lands, and whether that is proven.
-    ///
-    /// # Errors
-    /// As [`Solver::propagate`].
-    fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
-        self.verdict_at(toss, self.cos_tilt(toss)?)
-    }
-
-    /// Counts the outcomes of many tosses: those that are proven in a batch, while `rest` is told the others one by one.
-    ///
-    /// # Errors
-    /// [`BatchError`] for the first toss that has no outcome.
-    fn count(&self, tosses: &Tosses<'_>, rest: &mut dyn FnMut(Verdict)) -> Result<Filtered, BatchError> {
-        (0..tosses.len()).try_for_each(|index| tosses.solve(index, |toss| self.verdict(toss)).map(&mut *rest))?;
-        Ok(Filtered::default())
+    /// As [`Solver::error_estimate`].
+    fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+        Ok(self.error_estimate(toss)?.map_or(Outcome::Undecided, |error| Outcome::of(cos_tilt, error)))
     }
 
     /// How the toss lands.
@@ -103,104 +117,45 @@ pub trait Solver: Send + Sync {
     /// # Errors
     /// As [`Solver::propagate`].
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        self.verdict(toss).map(|verdict| verdict.outcome)
+        self.outcome_at(toss, self.cos_tilt(toss)?)
     }
 }
 
-/// How the kinematics are set up for integration. The motion is the same in each; what differs is where the equations
-/// are singular, and what happens there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Formulation {
-    /// Euler angles and γ-ODE in the transport frame with z along ±S, the angular momentum, on the side of n: S is fixed
-    /// in TF, so β is constant and at most π/2. Quaternions are projected onto unit norm.
-    #[default]
-    Momentum,
-    /// Euler angles and γ-ODE with z up, as the paper has them: singular whenever n is vertical, as at every horizontal
-    /// launch, which starts on the regular solution, and at each return, which is a typed error. Quaternions as above.
-    Vertical,
-    /// The equations exactly as the paper prints them, with z up and nothing to guard their singular points, and the
-    /// quaternion without projection. Kept to show where that fails: an answer may be wrong without an error.
-    Raw,
-}
-
-impl Formulation {
-    /// All formulations.
-    pub const ALL: [Self; 3] = [Self::Momentum, Self::Vertical, Self::Raw];
-
-    /// The formulation called `name`.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`].
-    pub fn named(name: &str) -> Result<Self, InputError> {
-        find_named("formulation", name, &Self::ALL, |formulation| formulation.name()).copied()
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Momentum => "momentum",
-            Self::Vertical => "vertical",
-            Self::Raw => "raw",
+/// A pointer to a solver is a solver.
+macro_rules! by_pointer {
+    ($pointer:ty) => {
+        impl<S: Solver + ?Sized> Solver for $pointer {
+            fn name(&self) -> &str {
+                (**self).name()
+            }
+            fn stepping(&self) -> Option<Stepping> {
+                (**self).stepping()
+            }
+            fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+                (**self).propagate(toss)
+            }
+            fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+                (**self).error_estimate(toss)
+            }
+            fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
+                (**self).cos_tilt(toss)
+            }
+            fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
+                (**self).cos_tilts(tosses, out)
+            }
+            fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+                (**self).outcome_at(toss, cos_tilt)
+            }
+            fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
+                (**self).outcome(toss)
+            }
         }
-    }
+    };
 }
 
-/// What a solver can be told at run time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Method of integration and step control.
-    pub method: Method,
-    /// How the kinematics are set up.
-    pub formulation: Formulation,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { method: Method::DEFAULT, formulation: Formulation::default() }
-    }
-}
-
-/// One line of the registry: how a solver is named and made at run time.
-#[derive(Debug, Clone, Copy)]
-pub struct SolverEntry {
-    /// Name.
-    pub name: &'static str,
-    /// What it solves, in a line.
-    pub summary: &'static str,
-    /// The formulations that differ for it; none for a closed form, which takes no steps.
-    pub formulations: &'static [Formulation],
-    /// The schemes that it can step by; none for a closed form.
-    pub schemes: &'static [Scheme],
-    /// Makes the solver. With a scheme that it does not offer, each flight is a [`SolveError::NotOffered`].
-    pub build: fn(&Settings) -> Box<dyn Solver>,
-}
-
-impl SolverEntry {
-    /// Whether it steps through time.
-    pub fn integrates(&self) -> bool {
-        !self.schemes.is_empty()
-    }
-
-    /// Refuses a scheme that the solver does not offer; a closed form has no use for one, and takes any.
-    ///
-    /// # Errors
-    /// [`InputError::UnknownName`] with the names of those that it offers.
-    pub fn require_scheme(&self, scheme: Scheme) -> Result<(), InputError> {
-        if !self.integrates() {
-            return Ok(());
-        }
-        find_named("method of this solver", scheme.name(), self.schemes, |offered| offered.name()).map(|_| ())
-    }
-
-    /// The solver with `settings`.
-    ///
-    /// # Errors
-    /// As [`SolverEntry::require_scheme`].
-    pub fn solver(&self, settings: &Settings) -> Result<Box<dyn Solver>, InputError> {
-        self.require_scheme(settings.method.scheme())?;
-        Ok((self.build)(settings))
-    }
-}
+by_pointer!(&S);
+by_pointer!(Box<S>);
+by_pointer!(Arc<S>);
 
 #[cfg(test)]
 mod tests {
@@ -209,25 +164,24 @@ mod tests {
     use super::*;
     use crate::attitude::Attitude;
     use crate::coin::Coin;
-    use crate::exact_solver::ExactSolver;
     use crate::launch::Launch;
     use crate::time_of_flight::TimeOfFlight;
 
-    /// Lands where it was launched, by RK4 or by no method.
-    struct Still(Option<Method>);
+    /// Lands where it was launched, with this estimate of its error.
+    struct Still(Option<f64>);
 
     impl Solver for Still {
-        fn name(&self) -> &'static str {
+        fn name(&self) -> &str {
             "still"
-        }
-
-        fn method(&self) -> Option<Method> {
-            self.0
         }
 
         fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
             let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
             Ok(Propagation::new(state, Work::default()))
+        }
+
+        fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+            Ok(self.0)
         }
     }
 
@@ -237,59 +191,45 @@ mod tests {
     }
 
     #[test]
-    fn a_solver_that_propagates_has_outcomes_as_far_as_it_answers_for_them() {
-        let method = Method::fixed(Scheme::Rk4, 0.05).unwrap();
-        for (solver, resolution) in [(Still(None), 0.0), (Still(Some(method)), method.resolution(&toss(0.0)).unwrap())]
-        {
-            let quarter = std::f64::consts::FRAC_PI_2;
+    fn an_outcome_is_decided_as_far_as_the_error_estimate_goes() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        for error in [0.0, 1e-3] {
+            let solver = Still(Some(error));
             for (tilt, outcome) in
-                [(0.3, Outcome::Heads), (3.0, Outcome::Tails), (quarter - 2.0 * resolution, Outcome::Heads)]
+                [(0.3, Outcome::Heads), (3.0, Outcome::Tails), (quarter - 2.0 * error, Outcome::Heads)]
             {
-                let toss = toss(tilt);
-                assert_eq!(solver.resolution(&toss), Ok(resolution));
-                assert_eq!(solver.cos_tilt(&toss), Ok(Attitude::about_x(tilt).cos_tilt()));
-                assert_eq!(solver.verdict(&toss), Ok(Verdict { outcome, proof: None }));
-                assert_eq!(solver.outcome(&toss), Ok(outcome));
+                assert_eq!(solver.cos_tilt(&toss(tilt)), Ok(Attitude::about_x(tilt).cos_tilt()));
+                assert_eq!(solver.outcome(&toss(tilt)), Ok(outcome));
             }
-            assert_eq!(
-                solver.outcome(&toss(quarter - 0.5 * resolution)).is_ok_and(|found| found == Outcome::Heads),
-                resolution == 0.0
-            );
+            let near = solver.outcome(&toss(quarter - 0.5 * error)).unwrap();
+            assert_eq!(near == Outcome::Heads, error == 0.0);
         }
+        assert_eq!(Still(None).outcome(&toss(0.3)), Ok(Outcome::Undecided));
     }
 
     #[test]
-    fn it_counts_a_batch_one_by_one() {
+    fn many_tosses_are_solved_one_by_one_also_through_pointers() {
         let [x, y, z, speed] = [[0.0, 1.0], [0.0; 2], [2.0, 3.0], [1.0, 1.5]];
-        let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
-        let mut verdicts = Vec::new();
-        let filtered = Still(None).count(&tosses, &mut |verdict| verdicts.push(verdict)).unwrap();
-        assert_eq!(
-            (filtered, verdicts),
-            (Filtered::default(), vec![Verdict { outcome: Outcome::Heads, proof: None }; 2])
-        );
-    }
-
-    #[test]
-    fn formulations_are_named() {
-        for (formulation, name) in Formulation::ALL.into_iter().zip(["momentum", "vertical", "raw"]) {
-            assert_eq!((formulation.name(), Formulation::named(name)), (name, Ok(formulation)));
+        let tosses = Tosses::new(Coin::DISC, Attitude::about_x(0.3), 9.81, [&x, &y, &z], &speed).unwrap();
+        let expected = [Attitude::about_x(0.3).cos_tilt(); 2];
+        let still: Arc<dyn Solver> = Arc::new(Still(Some(0.5)));
+        let solvers: [Box<dyn Solver>; 3] = [Box::new(Still(Some(0.5))), Box::new(&Still(Some(0.5))), Box::new(still)];
+        for solver in solvers {
+            let mut found = [f64::NAN; 2];
+            solver.cos_tilts(&tosses, &mut found).unwrap();
+            assert_eq!(found, expected);
+            assert_eq!((solver.name(), solver.stepping()), ("still", None));
+            assert_eq!(solver.error_estimate(&toss(0.3)), Ok(Some(0.5)));
+            assert_eq!(solver.outcome(&toss(0.3)), Ok(Outcome::Heads));
         }
     }
 
     #[test]
-    fn an_entry_builds_what_it_offers() {
-        const STILL: SolverEntry = SolverEntry {
-            name: "still",
-            summary: "",
-            formulations: &Formulation::ALL,
-            schemes: &Scheme::RUNGE_KUTTA,
-            build: |settings| Box::new(Still(Some(settings.method))),
-        };
-        let by_taylor = Settings { method: Method::adaptive(Scheme::Taylor, 1e-9).unwrap(), ..Settings::default() };
-        assert!(STILL.integrates() && !ExactSolver::ENTRY.integrates());
-        assert_eq!(STILL.solver(&Settings::default()).unwrap().method(), Some(Method::DEFAULT));
-        assert_eq!(STILL.solver(&by_taylor).err().map(|error| error.field()), Some("method of this solver"));
-        assert_eq!(ExactSolver::ENTRY.solver(&by_taylor).unwrap().name(), "exact");
+    fn a_toss_that_is_none_is_named_by_its_index() {
+        let [x, y, z, speed] = [[0.0, 1.0], [0.0; 2], [2.0, f64::NAN], [1.0, 1.5]];
+        let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
+        let error = Still(None).cos_tilts(&tosses, &mut [0.0; 2]).unwrap_err();
+        assert_eq!((error.kind(), error.field()), ("input", Some("rate z [rad/s]")));
+        assert!(error.to_string().starts_with("launch 1: rate z"), "{error}");
     }
 }

@@ -5,9 +5,10 @@
 //! T = (v0 + √(v0² + 2 g h))/g        caught h below it
 //! ```
 
-use crate::double_double::DoubleDouble;
+use numerics::double_double::DoubleDouble;
+use numerics::scale::mantissa_and_exponent;
+
 use crate::error::{InputError, require};
-use crate::scale::mantissa_and_exponent;
 
 /// Gravity used where none is given (m/s²). The paper gives no value.
 pub const DEFAULT_GRAVITY: f64 = 9.81;
@@ -77,7 +78,7 @@ impl TimeOfFlight {
 
     /// T (s) as f64, and what that leaves of it, to first order.
     #[inline]
-    pub(crate) fn compensated(&self) -> [f64; 2] {
+    pub fn compensated(&self) -> [f64; 2] {
         match *self {
             Self::Ballistic { speed, gravity } => {
                 let time = 2.0 * speed / gravity;
@@ -151,8 +152,8 @@ fn discriminant(speed: f64, gravity: f64, drop: f64) -> (DoubleDouble, i32) {
 /// A time (s) in twice the precision of f64: `mantissa` times 2^`exponent`, with a mantissa between ½ and 2, or 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactTime {
-    pub(crate) mantissa: DoubleDouble,
-    pub(crate) exponent: i32,
+    mantissa: DoubleDouble,
+    exponent: i32,
 }
 
 impl ExactTime {
@@ -160,6 +161,18 @@ impl ExactTime {
     fn new(value: DoubleDouble, exponent: i32) -> Self {
         let (_, own) = mantissa_and_exponent(value.hi());
         Self { mantissa: value.times_power_of_two(-own), exponent: exponent + own }
+    }
+
+    /// A number between ½ and 2, or 0.
+    #[inline]
+    pub fn mantissa(self) -> DoubleDouble {
+        self.mantissa
+    }
+
+    /// The exponent of the power of two that the mantissa is multiplied by (s).
+    #[inline]
+    pub fn exponent(self) -> i32 {
+        self.exponent
     }
 
     /// The nearest f64 (s).

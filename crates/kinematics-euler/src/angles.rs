@@ -12,55 +12,64 @@ use std::f64::consts::PI;
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Method, Propagation, Scheme, Settings, Singularity, SolveError, Solver,
-    SolverEntry, Toss,
+    EulerAngles, Flight, Formulation, Propagation, Scheme, Settings, Singularity, SolveError, Solver, SolverEntry,
+    Stepping, Toss,
 };
 use nalgebra::SVector;
 
+use crate::initial::InitialConditions;
 use crate::raw::RawAngles;
-use crate::start::Start;
 
 /// The Euler angles' solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAnglesSolver {
-    method: Method,
+    stepping: Stepping,
     formulation: Formulation,
 }
 
 impl EulerAnglesSolver {
-    /// The registry's line.
-    pub const ENTRY: SolverEntry = SolverEntry {
-        name: "euler",
-        summary: "the three Euler angles (5)",
-        formulations: &Formulation::ALL,
-        schemes: &Scheme::RUNGE_KUTTA,
-        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
-    };
+    /// Its name in the registry.
+    pub const NAME: &'static str = "euler";
 
-    /// A solver of `formulation` that steps by `method`.
-    pub fn new(method: Method, formulation: Formulation) -> Self {
-        Self { method, formulation }
+    /// Its entry in the registry.
+    pub fn entry() -> SolverEntry {
+        let build =
+            |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
+        SolverEntry::new(Self::NAME, "the three Euler angles (5)", build)
+            .with_schemes(&Scheme::RUNGE_KUTTA)
+            .with_formulations(&Formulation::ALL)
+            .with_color([0, 114, 178])
+    }
+
+    /// A solver of `formulation` that steps as `stepping` says.
+    pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
+        Self { stepping, formulation }
     }
 }
 
 impl Solver for EulerAnglesSolver {
-    fn name(&self) -> &'static str {
-        Self::ENTRY.name
+    fn name(&self) -> &str {
+        Self::NAME
     }
 
-    fn method(&self) -> Option<Method> {
-        Some(self.method)
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
-        let start = Start::new(toss, &flight.rate, self.formulation);
+        let start = InitialConditions::new(toss, &flight.rate, self.formulation);
         let (k, rate_z) = (toss.coin.inertia_ratio(), flight.rate.z);
         let EulerAngles { alpha, beta, gamma } = start.angles;
         let first = SVector::from([alpha, beta, gamma, flight.rate.x, flight.rate.y]);
-        let (end, work) = match self.formulation {
-            Formulation::Raw => flight.integrate(&RawAngles::new(k, rate_z), first, &self.method)?,
-            _ => flight.integrate(&AnglesSystem::new(k, rate_z), first, &self.method)?,
+        let (end, work) = if self.formulation.is_guarded() {
+            flight.integrate(&AnglesSystem::new(k, rate_z), first, &self.stepping)?
+        } else {
+            flight.integrate(&RawAngles::new(k, rate_z), first, &self.stepping)?
         };
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
         start.landing(&flight, &angles, [end[3], end[4]], work)
@@ -110,7 +119,8 @@ impl OdeSystem<5> for AnglesSystem {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
+    use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
+    use exact::ExactMotion;
 
     use super::*;
 
@@ -154,8 +164,8 @@ mod tests {
         let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         let first_return = 2.0 * PI / ExactMotion::new(&toss).precession_rate();
-        let method = Method::fixed(dynamics::Scheme::Rk4, 1e-3).unwrap();
-        let error = EulerAnglesSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
+        let method = Stepping::fixed(dynamics::Scheme::RK4, 1e-3).unwrap();
+        let error = EulerAnglesSolver::new(method, Formulation::VERTICAL).propagate(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
     }

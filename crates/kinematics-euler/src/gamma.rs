@@ -13,16 +13,16 @@
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Method, Propagation, Scheme, Settings, Singularity, SolveError, Solver,
-    SolverEntry, Toss,
+    EulerAngles, Flight, Formulation, Propagation, Scheme, Settings, Singularity, SolveError, Solver, SolverEntry,
+    Stepping, Toss,
 };
 use nalgebra::SVector;
 
+use crate::initial::InitialConditions;
 use crate::raw::RawGamma;
-use crate::start::Start;
 
 /// Where |D| is smaller than this part of |β'|, rounding leaves (10) no digit: √ε.
-const NO_DIGIT: f64 = 1.5e-8;
+const CANCELLATION_THRESHOLD: f64 = 1.5e-8;
 
 /// α' below this part of |ω|: D and u, from which β is recovered, have lost two digits against the rates that they are
 /// differences of.
@@ -31,51 +31,59 @@ const SMALLEST_PRECESSION: f64 = 1e-2;
 /// The γ-ODE's solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GammaSolver {
-    method: Method,
+    stepping: Stepping,
     formulation: Formulation,
 }
 
 impl GammaSolver {
-    /// The registry's line.
-    pub const ENTRY: SolverEntry = SolverEntry {
-        name: "gamma",
-        summary: "the γ-ODE (10), the paper's equation for the spin angle",
-        formulations: &Formulation::ALL,
-        schemes: &Scheme::RUNGE_KUTTA,
-        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
-    };
+    /// Its name in the registry.
+    pub const NAME: &'static str = "gamma";
 
-    /// A solver of `formulation` that steps by `method`.
-    pub fn new(method: Method, formulation: Formulation) -> Self {
-        Self { method, formulation }
+    /// Its entry in the registry.
+    pub fn entry() -> SolverEntry {
+        let build =
+            |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
+        SolverEntry::new(Self::NAME, "the γ-ODE (10), the paper's equation for the spin angle", build)
+            .with_schemes(&Scheme::RUNGE_KUTTA)
+            .with_formulations(&Formulation::ALL)
+            .with_color([213, 94, 0])
+    }
+
+    /// A solver of `formulation` that steps as `stepping` says.
+    pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
+        Self { stepping, formulation }
     }
 }
 
 impl Solver for GammaSolver {
-    fn name(&self) -> &'static str {
-        Self::ENTRY.name
+    fn name(&self) -> &str {
+        Self::NAME
     }
 
-    fn method(&self) -> Option<Method> {
-        Some(self.method)
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
-        let start = Start::new(toss, &rate, self.formulation);
+        let start = InitialConditions::new(toss, &rate, self.formulation);
         let k = toss.coin.inertia_ratio();
         let first = SVector::from([start.angles.gamma, rate.z - start.u, start.angles.alpha, rate.x, rate.y]);
-        if self.formulation == Formulation::Raw {
+        if !self.formulation.is_guarded() {
             let system = RawGamma::new(k, rate.z);
-            let (end, work) = flight.integrate(&system, first, &self.method)?;
+            let (end, work) = flight.integrate(&system, first, &self.stepping)?;
             return start.landing(&flight, &system.angles(&end), [end[3], end[4]], work);
         }
         let system = GammaSystem::new(k, rate.z, start.precession);
-        if system.precession_stops(&first) && !start.rests_at_the_pole(&rate) {
-            return Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
+        if system.precession_too_slow(&first) && !start.rests_at_the_pole(&rate) {
+            return Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 });
         }
-        let (end, work) = flight.integrate(&system, first, &self.method)?;
+        let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)
     }
 }
@@ -126,14 +134,14 @@ impl GammaSystem {
         let sum = a * gamma_rate + b * gamma_rate * gamma_rate + c;
         // On the regular solution through sin β = 0 the sum vanishes like D²: γ'' = O(D), and 0 is as near as rounding
         // lets any evaluation come. Without transverse rate (pure spin) γ' is constant.
-        let regular = sum.abs() <= NO_DIGIT * (rate_z * rate_z + gamma_rate * gamma_rate);
-        if beta_rate == 0.0 || (d.abs() <= NO_DIGIT * beta_rate.abs() && regular) {
+        let regular = sum.abs() <= CANCELLATION_THRESHOLD * (rate_z * rate_z + gamma_rate * gamma_rate);
+        if beta_rate == 0.0 || (d.abs() <= CANCELLATION_THRESHOLD * beta_rate.abs() && regular) {
             return 0.0;
         }
         -sum * (beta_rate / d)
     }
 
-    fn precession_stops(&self, y: &SVector<f64, 5>) -> bool {
+    fn precession_too_slow(&self, y: &SVector<f64, 5>) -> bool {
         let Terms { d, u, .. } = self.terms(y);
         d.hypot(u) < SMALLEST_PRECESSION * y[3].hypot(y[4]).max(self.rate_z.abs())
     }
@@ -156,13 +164,13 @@ impl OdeSystem<5> for GammaSystem {
         let (was, is) = (self.terms(before), self.terms(after));
         // A D of 0 is no crossing: along S a transverse rate next to nothing may underflow.
         let crossed = was.d * is.d < 0.0;
-        let stopped = self.precession_stops(after) && !self.precession_stops(before);
+        let stopped = self.precession_too_slow(after) && !self.precession_too_slow(before);
         let turned_back = crossed && was.u * is.u < 0.0;
         if stopped || turned_back {
-            return Some(Singularity::PrecessionStops);
+            return Some(Singularity::PrecessionTooSlow);
         }
         // At a launch from sin β = 0 the sign of D is a matter of rounding.
-        let started_there = was.d.abs() <= NO_DIGIT * was.beta_rate.abs();
+        let started_there = was.d.abs() <= CANCELLATION_THRESHOLD * was.beta_rate.abs();
         (crossed && !started_there).then_some(Singularity::NormalAlongAxis)
     }
 }

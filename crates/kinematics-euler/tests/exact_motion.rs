@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use dynamics::{
-    Attitude, Coin, EulerAngles, ExactMotion, Formulation, Launch, Method, Scheme, SolveError, Solver, TimeOfFlight,
-    Toss, Vector3,
+    Attitude, Coin, EulerAngles, Formulation, Launch, Scheme, SolveError, Solver, Stepping, TimeOfFlight, Toss, Vector3,
 };
+use exact::ExactMotion;
 use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 
-fn method() -> Method {
-    Method::adaptive(Scheme::Dop853, 1e-12).expect("valid")
+fn method() -> Stepping {
+    Stepping::adaptive(Scheme::DOP853, 1e-12).expect("valid")
 }
 
 fn solvers(formulation: Formulation) -> [Box<dyn Solver>; 2] {
@@ -61,7 +61,7 @@ fn along_the_momentum_every_launch_is_regular() {
     for k in [0.5, 1.0, 1.98] {
         let tosses: Vec<Toss> =
             RATES.iter().flat_map(|rate| launched.map(|attitude| toss(k, *rate, attitude, 3.0))).collect();
-        check(Formulation::Momentum, &tosses);
+        check(Formulation::MOMENTUM, &tosses);
     }
 }
 
@@ -73,7 +73,7 @@ fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
             let attitude = at(alpha, pole, gamma);
             let tosses: Vec<Toss> =
                 RATES.iter().filter(|rate| rate[2] != 0.0).map(|rate| toss(0.5, *rate, attitude, 0.7)).collect();
-            check(Formulation::Vertical, &tosses);
+            check(Formulation::VERTICAL, &tosses);
         }
     }
 }
@@ -104,16 +104,16 @@ fn away_from_the_poles_every_formulation_is_right() {
 fn as_printed_the_gamma_ode_loses_the_quadrant_of_beta() {
     let upside_down = at(0.0, 2.2, 0.0);
     for toss in [toss(0.5, [2.0, 5.0, 1.0], at(0.0, 1.2, 0.0), 0.4), toss(1.98, [0.3, 1.6, 1.4], upside_down, 0.2)] {
-        let [raw, angles] = solvers(Formulation::Raw);
+        let [raw, angles] = solvers(Formulation::RAW);
         assert!(errors(&*angles, &toss).expect("regular").0 < 1e-9);
         assert!(errors(&*raw, &toss).expect("no error, and wrong").0 > 1.0);
-        check(Formulation::Vertical, &[toss]);
+        check(Formulation::VERTICAL, &[toss]);
     }
 }
 
 #[test]
 fn as_printed_a_horizontal_launch_is_0_over_0() {
-    for solver in solvers(Formulation::Raw) {
+    for solver in solvers(Formulation::RAW) {
         let horizontal = toss(0.5, [1.0, 1.0, 2.5], Attitude::IDENTITY, 0.5);
         assert!(
             matches!(
@@ -130,7 +130,7 @@ fn as_printed_a_horizontal_launch_is_0_over_0() {
 fn solvers_say_what_they_are() {
     for formulation in Formulation::ALL {
         let [gamma, euler] = solvers(formulation);
-        assert_eq!((gamma.name(), gamma.method()), ("gamma", Some(method())));
-        assert_eq!((euler.name(), euler.method()), ("euler", Some(method())));
+        assert_eq!((gamma.name(), gamma.stepping()), ("gamma", Some(method())));
+        assert_eq!((euler.name(), euler.stepping()), ("euler", Some(method())));
     }
 }

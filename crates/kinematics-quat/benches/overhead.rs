@@ -5,10 +5,10 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::integrate::OdeSystem;
-use dynamics::scale::power_of_two_scale;
-use dynamics::{Coin, Formulation, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
+use dynamics::{Coin, Formulation, Launch, Scheme, Solver, Stepping, TimeOfFlight, Toss, Vector3};
 use kinematics_quat::{QuaternionSolver, QuaternionSystem};
 use nalgebra::SVector;
+use numerics::scale::power_of_two_scale;
 use ode_solvers::Dop853;
 use ode_solvers::dop_shared::{OutputType, System};
 
@@ -31,7 +31,7 @@ fn toss() -> Toss {
 
 /// The stepper with its own defaults, but sparse output as the solver has it.
 fn bare(toss: &Toss) -> SVector<f64, 6> {
-    let scale = power_of_two_scale(&toss.launch.rate());
+    let scale = power_of_two_scale(toss.launch.rate().amax());
     let rate = toss.launch.rate() / scale;
     let system = Bare(QuaternionSystem::new(toss.coin.inertia_ratio(), rate.z));
     let start = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x, rate.y]);
@@ -44,7 +44,7 @@ fn bare(toss: &Toss) -> SVector<f64, 6> {
 fn overhead(criterion: &mut Criterion) {
     let toss = toss();
     let solver = QuaternionSolver::new(
-        Method::adaptive(Scheme::Dop853, TOLERANCE).expect("a valid tolerance"),
+        Stepping::adaptive(Scheme::DOP853, TOLERANCE).expect("a valid tolerance"),
         Formulation::default(),
     );
     let mut group = criterion.benchmark_group("quaternion at 1e-9");

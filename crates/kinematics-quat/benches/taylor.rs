@@ -4,13 +4,13 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use dynamics::lanes::Path;
-use dynamics::{Coin, Formulation, Launch, Method, Scheme, Solver, TimeOfFlight, Toss, Vector3};
-use kinematics_quat::QuaternionSolver;
+use dynamics::{Coin, Formulation, Launch, Scheme, Solver, Stepping, TimeOfFlight, Toss, Vector3};
+use kinematics_quat::{QuaternionSolver, TAYLOR};
+use numerics::lanes::SimdLevel;
 
 /// Tolerances at which the largest error over the launches is about the same.
-const TAYLOR: f64 = 1e-10;
-const DOP853: f64 = 1e-12;
+const TAYLOR_TOLERANCE: f64 = 1e-10;
+const DOP853_TOLERANCE: f64 = 1e-12;
 
 /// Rates from 1 to 60 rad/s and speeds from 3 to 5 m/s, spread as the multiples of irrational numbers are.
 fn tosses() -> Vec<Toss> {
@@ -25,17 +25,17 @@ fn tosses() -> Vec<Toss> {
 }
 
 fn solver(scheme: Scheme, tolerance: f64) -> QuaternionSolver {
-    QuaternionSolver::new(Method::adaptive(scheme, tolerance).expect("a valid tolerance"), Formulation::default())
+    QuaternionSolver::new(Stepping::adaptive(scheme, tolerance).expect("a valid tolerance"), Formulation::default())
 }
 
 fn launches(criterion: &mut Criterion) {
     let tosses = tosses();
-    let (taylor, dop853) = (solver(Scheme::Taylor, TAYLOR), solver(Scheme::Dop853, DOP853));
+    let (taylor, dop853) = (solver(TAYLOR, TAYLOR_TOLERANCE), solver(Scheme::DOP853, DOP853_TOLERANCE));
     let mut group = criterion.benchmark_group("quaternion, 1000 launches");
     group.throughput(Throughput::Elements(tosses.len() as u64));
-    for path in Path::all() {
-        let name = format!("taylor in lanes, {}", path.name());
-        group.bench_function(name, |bencher| bencher.iter(|| taylor.propagate_all(black_box(&tosses), path)));
+    for level in SimdLevel::all() {
+        let name = format!("taylor in lanes, {}", level.name());
+        group.bench_function(name, |bencher| bencher.iter(|| taylor.propagate_all(black_box(&tosses), level)));
     }
     for (name, solver) in [("taylor", taylor), ("dop853", dop853)] {
         let fly = || black_box(&tosses).iter().filter(|toss| solver.propagate(toss).is_ok()).count();

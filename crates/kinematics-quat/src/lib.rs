@@ -8,58 +8,66 @@
 //! by Runge and Kutta's methods; Taylor series, which need more of a system than its right-hand side, are here:
 //! `taylor.rs` has a step, `lockstep.rs` the flights.
 
-mod compensated;
 mod lockstep;
+mod product;
 mod taylor;
 
-use dynamics::batch::{BatchError, Filtered, Tosses};
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
-use dynamics::lanes::Path;
 use dynamics::{
-    Attitude, Flight, Formulation, Method, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
-    StepControl, Toss, Verdict, Work,
+    Attitude, Error, Flight, Formulation, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
+    StepControl, Stepping, Toss, Tosses, Work,
 };
-use lockstep::Plans;
 use nalgebra::SVector;
+use numerics::lanes::SimdLevel;
+
+use crate::lockstep::Plans;
+
+/// Taylor series of an order that follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
+pub const TAYLOR: Scheme = Scheme::new("taylor", None).adaptive();
 
 /// The quaternion's solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuaternionSolver {
-    method: Method,
+    stepping: Stepping,
     projects: bool,
-    /// `None` for a Runge-Kutta method.
+    /// `None` for a Runge-Kutta scheme.
     taylor: Option<Plans>,
 }
 
 impl QuaternionSolver {
-    /// The registry's line.
-    pub const ENTRY: SolverEntry = SolverEntry {
-        name: "quaternion",
-        summary: "Q' = ½ Q ⊗ (0, ω): no singular attitude",
-        formulations: &[Formulation::Momentum, Formulation::Raw],
-        schemes: &Scheme::ALL,
-        build: |settings: &Settings| Box::new(Self::new(settings.method, settings.formulation)),
-    };
+    /// Its name in the registry.
+    pub const NAME: &'static str = "quaternion";
 
-    /// A solver that steps by `method`. All formulations are the same but [`Formulation::Raw`], whose cos θ is that of
-    /// the quaternion as it was integrated, without projection onto unit norm.
-    pub fn new(method: Method, formulation: Formulation) -> Self {
-        let taylor = match (method.scheme(), method.control()) {
-            (Scheme::Taylor, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
+    /// Its entry in the registry.
+    pub fn entry() -> SolverEntry {
+        let [dop853, dopri5, rk4] = Scheme::RUNGE_KUTTA;
+        let build =
+            |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
+        SolverEntry::new(Self::NAME, "Q' = ½ Q ⊗ (0, ω): no singular attitude", build)
+            .with_schemes(&[dop853, dopri5, rk4, TAYLOR])
+            .with_formulations(&[Formulation::MOMENTUM, Formulation::RAW])
+            .with_color([0, 158, 115])
+    }
+
+    /// A solver that steps as `stepping` says. Without [guards](Formulation::is_guarded) its cos θ is that of the quaternion
+    /// as it was integrated, without projection onto unit norm.
+    pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
+        let taylor = match (stepping.scheme(), stepping.control()) {
+            (TAYLOR, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
             _ => None,
         };
-        Self { method, projects: formulation != Formulation::Raw, taylor }
+        Self { stepping, projects: formulation.is_guarded(), taylor }
     }
 
     /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
-    /// [`Scheme::Taylor`] as many fly at once as a vector of `path` has lanes; by the others one after the other.
-    pub fn propagate_all(&self, tosses: &[Toss], path: Path) -> Vec<Result<Propagation, SolveError>> {
+    /// [`TAYLOR`] as many fly at once as a register at the SIMD `level` has lanes; by the others one after the other.
+    pub fn propagate_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
         let Some(plans) = &self.taylor else {
             return tosses.iter().map(|toss| self.propagate(toss)).collect();
         };
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        self.fly(tosses, plans, path, |index, landing| landings[index] = landing);
+        self.fly(tosses, plans, level, |index, landing| landings[index] = landing);
         landings
     }
 
@@ -68,10 +76,10 @@ impl QuaternionSolver {
         &self,
         tosses: &[Toss],
         plans: &Plans,
-        path: Path,
+        level: SimdLevel,
         mut land: impl FnMut(usize, Result<Propagation, SolveError>),
     ) {
-        plans.fly(tosses, path, |index, landed| {
+        plans.fly(tosses, level, |index, landed| {
             land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
         });
     }
@@ -84,42 +92,46 @@ impl QuaternionSolver {
         let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
         let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
         let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
-        Ok(Propagation { state, cos_tilt, defect: (norm - 1.0).abs(), work })
+        Ok(Propagation::new(state, work).with_cos_tilt(cos_tilt).with_norm_error((norm - 1.0).abs()))
     }
 }
 
 impl Solver for QuaternionSolver {
-    fn name(&self) -> &'static str {
-        Self::ENTRY.name
+    fn name(&self) -> &str {
+        Self::NAME
     }
 
-    fn method(&self) -> Option<Method> {
-        Some(self.method)
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         if let Some(plans) = &self.taylor {
             let mut landing = Err(SolveError::NotFinite { time: 0.0 });
-            self.fly(std::slice::from_ref(toss), plans, Path::for_one_lane(), |_, found| landing = found);
+            self.fly(std::slice::from_ref(toss), plans, SimdLevel::for_one_lane(), |_, found| landing = found);
             return landing;
         }
         let flight = Flight::new(toss)?;
         let system = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
-        let (end, work) = flight.integrate(&system, start, &self.method)?;
+        let (end, work) = flight.integrate(&system, start, &self.stepping)?;
         let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
         self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
     }
 
-    /// By Taylor series as many fly at once as a vector has lanes.
-    fn count(&self, tosses: &Tosses<'_>, rest: &mut dyn FnMut(Verdict)) -> Result<Filtered, BatchError> {
+    /// By Taylor series as many fly at once as a register has lanes.
+    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
+        assert_eq!(out.len(), tosses.len(), "one result a toss");
         let each = (0..tosses.len()).map(|index| tosses.solve(index, |toss| Ok(*toss)));
         let each = each.collect::<Result<Vec<Toss>, _>>()?;
-        for (index, (toss, landing)) in each.iter().zip(self.propagate_all(&each, Path::widest())).enumerate() {
-            let verdict = landing.and_then(|landing| self.verdict_at(toss, landing.cos_tilt));
-            rest(verdict.map_err(|error| BatchError { index, source: error.into() })?);
+        for (index, landing) in self.propagate_all(&each, SimdLevel::widest()).into_iter().enumerate() {
+            out[index] = tosses.solve(index, |_| landing.clone())?.cos_tilt;
         }
-        Ok(Filtered::default())
+        Ok(())
     }
 }
 
@@ -166,7 +178,8 @@ impl OdeSystem<6> for QuaternionSystem {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactMotion, Launch, Scheme, TimeOfFlight, Vector3};
+    use dynamics::{Coin, Launch, Scheme, TimeOfFlight, Vector3};
+    use exact::ExactMotion;
 
     use super::*;
 
@@ -197,12 +210,12 @@ mod tests {
 
     #[test]
     fn neither_work_nor_error_depends_on_the_tilt() {
-        let solver = QuaternionSolver::new(Method::DEFAULT, Formulation::default());
+        let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
         let horizontal = solver.propagate(&toss(0.0)).unwrap();
         for tilt in [1e-300, 1e-16, 1e-4, 1.0, 3.0] {
             let tilted = solver.propagate(&toss(tilt)).unwrap();
             assert_eq!(tilted.work, horizontal.work);
-            assert_eq!(tilted.defect, horizontal.defect);
+            assert_eq!(tilted.norm_error, horizontal.norm_error);
         }
     }
 
@@ -210,35 +223,35 @@ mod tests {
     fn the_defect_is_the_loss_of_norm_of_the_steps() {
         // A turn by RK4 loses (ωh/2)⁶/144 of its norm in each step.
         let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
-        let solver = QuaternionSolver::new(Method::fixed(Scheme::Rk4, 0.05).unwrap(), Formulation::default());
+        let solver = QuaternionSolver::new(Stepping::fixed(Scheme::RK4, 0.05).unwrap(), Formulation::default());
         let landing = solver.propagate(&Toss { coin: Coin::DISC, launch }).unwrap();
         let lost = 20.0 * (4.0 * 0.05 / 2.0_f64).powi(6) / 144.0;
-        assert!((landing.defect / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.defect);
+        assert!((landing.norm_error / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.norm_error);
     }
 
     #[test]
     fn raw_leaves_the_norm_in_cos_theta() {
         let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::DISC, launch };
-        let method = Method::fixed(Scheme::Rk4, 0.05).unwrap();
+        let method = Stepping::fixed(Scheme::RK4, 0.05).unwrap();
         let landing = |formulation| QuaternionSolver::new(method, formulation).propagate(&toss).unwrap();
-        let (projected, raw) = (landing(Formulation::Momentum), landing(Formulation::Raw));
+        let (projected, raw) = (landing(Formulation::MOMENTUM), landing(Formulation::RAW));
         assert_eq!(projected.cos_tilt, projected.state.attitude.cos_tilt());
-        let norm = 1.0 - raw.defect;
-        assert!(raw.defect > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
+        let norm = 1.0 - raw.norm_error;
+        assert!(raw.norm_error > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
     }
 
     #[test]
-    fn it_counts_a_batch_in_its_order_by_any_scheme() {
+    fn a_batch_has_the_landings_of_its_tosses_in_their_order_by_any_scheme() {
         let [x, y, z, speed] = [[9.0, 3.0, 0.0], [-4.0, 2.0, 1.0], [3.0, 0.5, 2.0], [3.0, 4.0, 5.0]];
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
-        for scheme in [Scheme::Taylor, Scheme::Dop853] {
-            let solver = QuaternionSolver::new(Method::adaptive(scheme, 1e-9).unwrap(), Formulation::default());
-            let mut verdicts = Vec::new();
-            assert_eq!(solver.count(&tosses, &mut |verdict| verdicts.push(verdict)), Ok(Filtered::default()));
-            let alone = (0..3).map(|index| solver.verdict(&tosses.toss(index).unwrap()).unwrap());
-            assert_eq!(verdicts, alone.collect::<Vec<_>>());
-            assert_eq!((solver.name(), solver.method().map(|method| method.scheme())), ("quaternion", Some(scheme)));
+        for scheme in [TAYLOR, Scheme::DOP853] {
+            let solver = QuaternionSolver::new(Stepping::adaptive(scheme, 1e-9).unwrap(), Formulation::default());
+            let mut found = [f64::NAN; 3];
+            solver.cos_tilts(&tosses, &mut found).unwrap();
+            let alone = [0, 1, 2].map(|index| solver.cos_tilt(&tosses.toss(index).unwrap()).unwrap());
+            assert_eq!(found, alone);
+            assert_eq!((solver.name(), solver.stepping().map(|by| by.scheme())), ("quaternion", Some(scheme)));
         }
     }
 }

@@ -5,10 +5,10 @@
 //! same bits in any company and on any machine.
 
 use dynamics::integrate::STEP_LIMIT;
-use dynamics::lanes::{Path, Real, Simd, WithSimd};
 use dynamics::{Flight, SolveError, Toss, Work};
+use numerics::lanes::{Real, Simd, SimdLevel, WithSimd, compensated_product, complex_product, polar};
 
-use crate::compensated::{compensated_product, complex_product, polar, turned};
+use crate::product::turned;
 use crate::taylor::{LARGEST_ORDER, Series};
 use crate::{Landed, QuaternionSystem};
 
@@ -83,8 +83,13 @@ impl Plans {
     }
 
     /// Flies `tosses`, the long flights after all others, and gives `land` the number and the landing of each.
-    pub(crate) fn fly(&self, tosses: &[Toss], path: Path, mut land: impl FnMut(usize, Result<Landed, SolveError>)) {
-        let mut run = |plan, long| path.run(Queue { plan, long, tosses, next: 0, skipped: false, land: &mut land });
+    pub(crate) fn fly(
+        &self,
+        tosses: &[Toss],
+        level: SimdLevel,
+        mut land: impl FnMut(usize, Result<Landed, SolveError>),
+    ) {
+        let mut run = |plan, long| level.run(Queue { plan, long, tosses, next: 0, skipped: false, land: &mut land });
         let skipped = run(&self.short, false);
         if skipped {
             run(&self.long, true);

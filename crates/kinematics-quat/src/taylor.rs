@@ -19,9 +19,7 @@
 //! Two convolutions stand for the eight products of components. Nothing is taken from the closed form of the motion:
 //! every step starts from the attitude and the rates that the one before it found.
 
-use dynamics::lanes::{Real, Simd};
-
-use crate::compensated::{Complex, Double, inverse, sum, times};
+use numerics::lanes::{Complex, Double, Real, Simd, inverse, sum, times};
 
 /// The highest order of a step.
 pub(crate) const LARGEST_ORDER: usize = 26;
@@ -177,7 +175,7 @@ fn horner<S: Simd>(coefficients: &[Real<S>], y: Real<S>) -> [Real<S>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::lanes::{Path, WithSimd};
+    use numerics::lanes::{SimdLevel, WithSimd};
 
     use super::*;
 
@@ -204,7 +202,7 @@ mod tests {
     }
 
     fn local_error(order: usize, h: f64) -> f64 {
-        let [rough, fine] = [order, LARGEST_ORDER].map(|order| Path::widest().run(Step(order, h)));
+        let [rough, fine] = [order, LARGEST_ORDER].map(|order| SimdLevel::widest().run(Step(order, h)));
         rough.iter().zip(fine).map(|(rough, fine)| (rough - fine).abs()).fold(0.0, f64::max)
     }
 
@@ -219,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_step_is_a_turn() {
-        let [w, z, x, y, cos, sin] = Path::widest().run(Step(LARGEST_ORDER, 1.0));
+        let [w, z, x, y, cos, sin] = SimdLevel::widest().run(Step(LARGEST_ORDER, 1.0));
         assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-15);
         assert!((cos * cos + sin * sin - 1.0).abs() < 1e-15);
         assert!((cos - 0.9_f64.cos()).abs() < 1e-15 && (sin + 0.9_f64.sin()).abs() < 1e-15);

@@ -1,14 +1,14 @@
 //! Taylor series: the same bits in any company and on any instruction set, right to the tolerance and down to rounding.
 
-use dynamics::lanes::Path;
 use dynamics::{
-    Attitude, Coin, ExactMotion, Formulation, Launch, Method, Propagation, Scheme, SolveError, Solver, TimeOfFlight,
-    Toss, Vector3, Work,
+    Attitude, Coin, Formulation, Launch, Propagation, SolveError, Solver, Stepping, TimeOfFlight, Toss, Vector3, Work,
 };
-use kinematics_quat::QuaternionSolver;
+use exact::ExactMotion;
+use kinematics_quat::{QuaternionSolver, TAYLOR};
+use numerics::lanes::SimdLevel;
 
 fn taylor(tolerance: f64) -> QuaternionSolver {
-    QuaternionSolver::new(Method::adaptive(Scheme::Taylor, tolerance).expect("valid"), Formulation::default())
+    QuaternionSolver::new(Stepping::adaptive(TAYLOR, tolerance).expect("valid"), Formulation::default())
 }
 
 fn toss(k: f64, rate: [f64; 3], time: f64) -> Toss {
@@ -50,16 +50,16 @@ fn landings_have_the_same_bits_in_any_company_and_on_any_path() {
     for tolerance in [1e-3, 1e-9, 1e-12, f64::EPSILON] {
         let solver = taylor(tolerance);
         let alone: Vec<Result<Propagation, SolveError>> = tosses.iter().map(|toss| solver.propagate(toss)).collect();
-        for path in Path::all() {
+        for level in SimdLevel::all() {
             for size in [1, 2, 3, 4, 5, 8, 9, 17, tosses.len()] {
-                let flown: Vec<_> = tosses.chunks(size).flat_map(|some| solver.propagate_all(some, path)).collect();
-                assert_eq!(flown, alone, "{tolerance:e} by {} in {size}", path.name());
+                let flown: Vec<_> = tosses.chunks(size).flat_map(|some| solver.propagate_all(some, level)).collect();
+                assert_eq!(flown, alone, "{tolerance:e} by {} in {size}", level.name());
             }
             let reversed: Vec<Toss> = tosses.iter().rev().copied().collect();
-            let mut flown = solver.propagate_all(&reversed, path);
+            let mut flown = solver.propagate_all(&reversed, level);
             flown.reverse();
-            assert_eq!(flown, alone, "{tolerance:e} by {}, reversed", path.name());
-            assert_eq!(solver.propagate_all(&[], path), []);
+            assert_eq!(flown, alone, "{tolerance:e} by {}, reversed", level.name());
+            assert_eq!(solver.propagate_all(&[], level), []);
         }
     }
 }
@@ -73,7 +73,8 @@ fn every_flight_is_within_what_the_solver_answers_for() {
                 assert_eq!(toss.launch.flight_time(), 1e300);
                 continue;
             };
-            let (found, allowed) = (error(&toss, &landing.state.attitude), solver.resolution(&toss).unwrap());
+            let (found, allowed) =
+                (error(&toss, &landing.state.attitude), solver.error_estimate(&toss).unwrap().unwrap());
             assert!(found <= allowed, "{found:e} > {allowed:e} at {tolerance:e}: {toss:?}");
             let exact = ExactMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().rate;
             let (found, size) = ((landing.state.rate - exact).amax(), exact.amax());

@@ -6,13 +6,14 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{ExactSolver, Formulation, Method, Solver, Toss};
+use dynamics::{Formulation, Solver, Stepping, Toss};
+use exact::ExactMotion;
 use kinematics_quat::QuaternionSolver;
-use sampling::{Counts, Found, Plan, Space, estimate, named_space, random_tosses};
+use sampling::{Found, Plan, Sampler, Space, named_space, random_tosses};
 
-fn heads(space: &Space, plan: Plan, solver: &dyn Solver) -> u64 {
-    match estimate(space, plan, solver, &|_| {}).expect("valid launches").found {
-        Found::Counts(Counts { heads, .. }) => heads,
+fn heads(space: &Space, plan: Plan, sampler: &Sampler<'_>) -> u64 {
+    match sampler.estimate(space, plan).expect("valid launches").found {
+        Found::Counts(counts) => counts.heads(),
         Found::Shares { .. } => 0,
     }
 }
@@ -20,11 +21,11 @@ fn heads(space: &Space, plan: Plan, solver: &dyn Solver) -> u64 {
 fn fig4(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").expect("it exists");
     // The phases of the same launches; their range matters to the cost of a sine.
-    let phase = |toss: &Toss| dynamics::ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
+    let phase = |toss: &Toss| ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
     let phases: Vec<f64> = random_tosses(&space, 1, 0..250_000).iter().map(phase).collect();
     let mut group = criterion.benchmark_group("fig4 grid");
     group.sample_size(20);
-    group.bench_function("exact", |bencher| bencher.iter(|| heads(black_box(&space), Plan::Grid, &ExactSolver)));
+    group.bench_function("exact", |bencher| bencher.iter(|| heads(black_box(&space), Plan::Grid, &Sampler::exact())));
     group.bench_function("sine and cosine", |bencher| {
         bencher.iter(|| phases.iter().map(|phase| black_box(*phase).sin_cos()).fold(0.0, |sum, (s, c)| sum + s + c));
     });
@@ -33,12 +34,12 @@ fn fig4(criterion: &mut Criterion) {
 
 fn quaternion(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").and_then(|space| space.with_grid_of(400)).expect("it exists");
-    let solver = QuaternionSolver::new(Method::DEFAULT, Formulation::default());
+    let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
     let plan = Plan::Random { points: 400, seed: 1 };
     let tosses = random_tosses(&space, 1, 0..400);
     let mut group = criterion.benchmark_group("quaternion");
     group.sample_size(50);
-    group.bench_function("estimate", |bencher| bencher.iter(|| heads(black_box(&space), plan, &solver)));
+    group.bench_function("estimate", |bencher| bencher.iter(|| heads(black_box(&space), plan, &Sampler::by(&solver))));
     group.bench_function("bare loop", |bencher| {
         bencher.iter(|| tosses.iter().filter(|toss| solver.outcome(black_box(toss)).is_ok()).count());
     });

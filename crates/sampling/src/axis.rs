@@ -1,6 +1,8 @@
 //! How one coordinate of a configuration space is distributed: fixed, uniform over lo ≤ x ≤ hi, or normal with μ and σ.
 
 use std::fmt;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
 
 use dynamics::InputError;
 use dynamics::error::require;
@@ -12,8 +14,18 @@ use crate::coordinate::Coordinate;
 /// number that a draw can give, is 8.21.
 pub const NORMAL_REACH: f64 = 8.3;
 
-/// A fixed value, a range or a normal distribution, with the number of points that a grid lays over it. Its numbers
-/// are finite and in order.
+/// A fixed value, a range or a normal distribution, with the number of points that a grid lays over it.
+///
+/// An axis is numbers alone. Whether they make sense depends on the coordinate that they are for, and is looked at when
+/// the axis becomes part of a [`Space`](crate::Space).
+///
+/// ```
+/// use sampling::Axis;
+///
+/// let axes: [Axis; 3] = [3.0.into(), (3.0..=5.0).into(), Axis::normal(20.0, 2.0).with_points(100)];
+/// assert_eq!(axes.map(|axis| axis.to_string()), ["3", "3:5", "normal:20:2:100"]);
+/// assert_eq!("3:5:500".parse(), Ok(Axis::range(3.0..=5.0).with_points(500)));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     distribution: Distribution,
@@ -41,74 +53,84 @@ pub enum Distribution {
 
 impl Axis {
     /// One value.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] that names `of` if it is not finite.
-    pub fn fixed(of: Coordinate, value: f64) -> Result<Self, InputError> {
-        Self::range(of, value, value)
+    pub const fn fixed(value: f64) -> Self {
+        Self { distribution: Distribution::Uniform { lo: value, hi: value }, points: None }
     }
 
-    /// The range from `lo` to `hi`, both included.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] that names `of` if a bound is not finite or they are reversed.
-    pub fn range(of: Coordinate, lo: f64, hi: f64) -> Result<Self, InputError> {
-        require(of.field(), lo, "finite", true)?;
-        require(of.field(), hi, "finite and at or above the lower bound", lo <= hi)?;
-        require(of.field(), hi - lo, "a range of finite length", true)?;
-        Ok(Self { distribution: Distribution::Uniform { lo, hi }, points: None })
+    /// A range, uniform over it, both ends included.
+    pub const fn range(range: RangeInclusive<f64>) -> Self {
+        let (lo, hi) = (*range.start(), *range.end());
+        Self { distribution: Distribution::Uniform { lo, hi }, points: None }
     }
 
     /// The normal distribution with mean `mean` and standard deviation `sd`.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] that names `of` for a mean that is not finite, and for a deviation that is not
-    /// positive or so large that the distribution leaves the range of f64.
-    pub fn normal(of: Coordinate, mean: f64, sd: f64) -> Result<Self, InputError> {
-        require(of.field(), mean, "a finite mean", true)?;
-        require(of.field(), sd, "a standard deviation > 0", sd > 0.0)?;
-        let widest = 2.0 * (mean.abs() + NORMAL_REACH * sd);
-        require(of.field(), widest, "a normal distribution within the range of f64", true)?;
-        Ok(Self { distribution: Distribution::Normal { mean, sd }, points: None })
+    pub const fn normal(mean: f64, sd: f64) -> Self {
+        Self { distribution: Distribution::Normal { mean, sd }, points: None }
     }
 
     /// The same axis with `points` grid points. On a range both ends are points; a range of one value is one point; on
     /// a normal distribution they are the medians of `points` parts of equal probability.
+    #[must_use]
+    pub const fn with_points(self, points: u64) -> Self {
+        Self { points: Some(points), ..self }
+    }
+
+    /// The axis, if its numbers make sense for the coordinate `of`.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] that names `of` for 0 points, and for 1 point on a range of more than one value.
-    pub fn with_points(self, of: Coordinate, points: u64) -> Result<Self, InputError> {
+    /// [`InputError::OutOfRange`] that names `of` for
+    /// - a range that is not finite or is reversed,
+    /// - a mean that is not finite, a deviation that is not positive, or one so large that the distribution leaves the
+    ///   range of f64,
+    /// - no grid points, or a single one on a range of more than one value.
+    pub(crate) fn validated(self, of: Coordinate) -> Result<Self, InputError> {
+        match self.distribution {
+            Distribution::Uniform { lo, hi } => {
+                require(of.field(), lo, "finite", true)?;
+                require(of.field(), hi, "finite and at or above the lower bound", lo <= hi)?;
+                require(of.field(), hi - lo, "a range of finite length", true)?;
+            }
+            Distribution::Normal { mean, sd } => {
+                require(of.field(), mean, "a finite mean", true)?;
+                require(of.field(), sd, "a standard deviation > 0", sd > 0.0)?;
+                let widest = 2.0 * (mean.abs() + NORMAL_REACH * sd);
+                require(of.field(), widest, "a normal distribution within the range of f64", true)?;
+            }
+        }
         let fewest = match self.distribution {
             Distribution::Uniform { lo, hi } if lo < hi => 2,
             _ => 1,
         };
+        let points = self.points.unwrap_or(fewest);
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         let shown = points as f64;
         let valid = "at least 2 grid points on a range, 1 on a single value or a normal distribution";
         require(of.field(), shown, valid, points >= fewest)?;
-        Ok(Self { points: Some(points), ..self })
+        Ok(self)
     }
 
-    /// Reads `VALUE`, `LO:HI`, `LO:HI:POINTS`, `normal:MEAN:SD` or `normal:MEAN:SD:POINTS`.
+    /// Reads the axis of the coordinate `of` as [`str::parse`] does.
     ///
     /// # Errors
-    /// [`InputError`] that names `of`.
-    pub fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
+    /// [`InputError::Malformed`] that names `of`.
+    pub(crate) fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
+        Self::read(of.field(), text)
+    }
+
+    fn read(field: &'static str, text: &str) -> Result<Self, InputError> {
         const EXPECTED: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS";
-        let malformed = || InputError::Malformed { field: of.field(), value: text.to_owned(), expected: EXPECTED };
+        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: EXPECTED };
         let number = |part: &str| part.parse::<f64>().map_err(|_| malformed());
         let count = |part: &str| part.parse::<u64>().map_err(|_| malformed());
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-        match parts[..] {
-            ["normal", mean, sd] => Self::normal(of, number(mean)?, number(sd)?),
-            ["normal", mean, sd, points] => {
-                Self::normal(of, number(mean)?, number(sd)?)?.with_points(of, count(points)?)
-            }
-            [value] => Self::fixed(of, number(value)?),
-            [lo, hi] => Self::range(of, number(lo)?, number(hi)?),
-            [lo, hi, points] => Self::range(of, number(lo)?, number(hi)?)?.with_points(of, count(points)?),
-            _ => Err(malformed()),
-        }
+        Ok(match parts[..] {
+            ["normal", mean, sd] => Self::normal(number(mean)?, number(sd)?),
+            ["normal", mean, sd, points] => Self::normal(number(mean)?, number(sd)?).with_points(count(points)?),
+            [value] => Self::fixed(number(value)?),
+            [lo, hi] => Self::range(number(lo)?..=number(hi)?),
+            [lo, hi, points] => Self::range(number(lo)?..=number(hi)?).with_points(count(points)?),
+            _ => return Err(malformed()),
+        })
     }
 
     /// How the coordinate is distributed.
@@ -156,7 +178,28 @@ impl Axis {
     }
 }
 
-/// As [`Axis::parse`] reads it.
+impl From<f64> for Axis {
+    fn from(value: f64) -> Self {
+        Self::fixed(value)
+    }
+}
+
+impl From<RangeInclusive<f64>> for Axis {
+    fn from(range: RangeInclusive<f64>) -> Self {
+        Self::range(range)
+    }
+}
+
+/// `VALUE`, `LO:HI`, `LO:HI:POINTS`, `normal:MEAN:SD` or `normal:MEAN:SD:POINTS`.
+impl FromStr for Axis {
+    type Err = InputError;
+
+    fn from_str(text: &str) -> Result<Self, InputError> {
+        Self::read("axis", text)
+    }
+}
+
+/// As [`str::parse`] reads it.
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.distribution, self.value()) {
@@ -229,8 +272,8 @@ mod tests {
 
     #[test]
     fn a_normal_distribution_may_be_as_wide_as_numbers_allow() {
-        assert!(Axis::parse(SPEED, "normal:0:1.08e307").is_ok());
-        assert!(Axis::parse(SPEED, "normal:-8.9e307:1").is_ok());
+        assert!(Axis::normal(0.0, 1.08e307).validated(SPEED).is_ok());
+        assert!(Axis::normal(-8.9e307, 1.0).validated(SPEED).is_ok());
     }
 
     #[test]
@@ -258,7 +301,7 @@ mod tests {
             "normal:-8e307:2e306",
             "uniform:0:1",
         ] {
-            let error = Axis::parse(SPEED, text).unwrap_err().to_string();
+            let error = Axis::parse(SPEED, text).and_then(|axis| axis.validated(SPEED)).unwrap_err().to_string();
             assert!(error.starts_with("speed [m/s] = "), "{text}: {error}");
         }
     }

@@ -1,7 +1,6 @@
 //! A block of launches in columns, as the batch kernels want them.
 
-use dynamics::Attitude;
-use dynamics::batch::Tosses;
+use dynamics::{Attitude, Tosses};
 
 use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};

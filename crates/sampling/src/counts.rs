@@ -1,102 +1,93 @@
 //! Outcomes, counted: P(heads) = heads/(heads + tails + undecided).
+//!
+//! Proven and estimated outcomes are counted apart, and by type: proven ones come from the crate `exact` alone.
 
 use std::ops::Range;
 
-use dynamics::batch::{BatchError, Filtered, TossError, Tosses};
-use dynamics::{Outcome, Solver, Stage, Verdict};
-use serde::Serialize;
+use dynamics::{Checked, Error, Outcome, Solver};
+use exact::{Batch, ProvenCounts};
 
-use crate::fold::{Failure, Progress, SampleError, Tally, fold};
+use crate::block::Block;
+use crate::fold::{Progress, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
 /// Outcomes, counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Launches that land heads.
-    pub heads: u64,
-    /// Launches that land tails.
-    pub tails: u64,
-    /// Launches nearer to the edge than the solver answers for; if outcomes are proven, exact ties.
-    pub undecided: u64,
-    /// Launches whose outcome is proven.
-    pub proven: Proven,
+    estimated: Estimated,
+    proven: ProvenCounts,
 }
 
-/// How many outcomes each stage of the proof decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Proven {
-    /// By the cosine of Keller's coin.
-    pub keller: u64,
-    /// Without evaluating the motion.
-    pub certain: u64,
-    /// By f64.
-    pub f64: u64,
-    /// By double-double.
-    pub double_double: u64,
-    /// By more digits than that.
-    pub multiprecision: u64,
+/// Outcomes that are as good as a solver's error estimate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Estimated {
+    heads: u64,
+    tails: u64,
+    undecided: u64,
 }
 
 impl Counts {
+    /// Launches that land heads.
+    pub fn heads(&self) -> u64 {
+        self.estimated.heads + self.proven.heads()
+    }
+
+    /// Launches that land tails.
+    pub fn tails(&self) -> u64 {
+        self.estimated.tails + self.proven.tails()
+    }
+
+    /// Launches nearer to the edge than the solver's error estimate, and exact ties.
+    pub fn undecided(&self) -> u64 {
+        self.estimated.undecided + self.proven.ties()
+    }
+
+    /// The proven ones among them.
+    pub fn proven(&self) -> ProvenCounts {
+        self.proven
+    }
+
     /// Number of launches.
     pub fn points(&self) -> u64 {
-        self.heads + self.tails + self.undecided
+        self.heads() + self.tails() + self.undecided()
     }
 
     /// Share of heads among all launches, from 0 to 1.
     #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
     pub fn probability(&self) -> f64 {
-        self.heads as f64 / self.points() as f64
+        self.heads() as f64 / self.points() as f64
     }
 
-    /// Whether every outcome is proven.
+    /// Whether there are outcomes, and every one is proven.
     pub fn are_certified(&self) -> bool {
-        let Proven { certain, keller, f64, double_double, multiprecision } = self.proven;
-        certain + keller + f64 + double_double + multiprecision == self.points()
+        self.proven.total() > 0 && self.estimated == Estimated::default()
     }
 
-    /// Adds the outcomes of a batch.
-    fn add_batch(&mut self, solver: &dyn Solver, tosses: &Tosses<'_>) -> Result<(), BatchError> {
-        let Filtered { heads, tails } = solver.count(tosses, &mut |verdict| self.add(verdict))?;
-        self.heads += heads;
-        self.tails += tails;
-        self.proven.f64 += heads + tails;
-        Ok(())
+    /// Adds an estimated outcome.
+    fn add(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Heads => self.estimated.heads += 1,
+            Outcome::Tails => self.estimated.tails += 1,
+            Outcome::Undecided => self.estimated.undecided += 1,
+        }
     }
 
-    #[inline]
-    fn add(&mut self, verdict: Verdict) {
-        match verdict.outcome {
-            Outcome::Heads => self.heads += 1,
-            Outcome::Tails => self.tails += 1,
-            Outcome::Undecided => self.undecided += 1,
-        }
-        match verdict.proof {
-            Some(Stage::Certain) => self.proven.certain += 1,
-            Some(Stage::Keller) => self.proven.keller += 1,
-            Some(Stage::F64) => self.proven.f64 += 1,
-            Some(Stage::DoubleDouble) => self.proven.double_double += 1,
-            Some(Stage::Multiprecision) => self.proven.multiprecision += 1,
-            None => {}
-        }
+    #[cfg(test)]
+    pub(crate) fn estimated(heads: u64, tails: u64, undecided: u64) -> Self {
+        Self { estimated: Estimated { heads, tails, undecided }, proven: ProvenCounts::default() }
     }
 }
 
 impl Tally for Counts {
     fn merge(self, other: Self) -> Self {
-        Self {
-            heads: self.heads + other.heads,
-            tails: self.tails + other.tails,
-            undecided: self.undecided + other.undecided,
-            proven: Proven {
-                certain: self.proven.certain + other.proven.certain,
-                keller: self.proven.keller + other.proven.keller,
-                f64: self.proven.f64 + other.proven.f64,
-                double_double: self.proven.double_double + other.proven.double_double,
-                multiprecision: self.proven.multiprecision + other.proven.multiprecision,
-            },
-        }
+        let (one, two) = (self.estimated, other.estimated);
+        let estimated = Estimated {
+            heads: one.heads + two.heads,
+            tails: one.tails + two.tails,
+            undecided: one.undecided + two.undecided,
+        };
+        Self { estimated, proven: self.proven + other.proven }
     }
 }
 
@@ -106,95 +97,112 @@ impl std::iter::Sum for Counts {
     }
 }
 
-/// Counts the outcomes of the launches `range`, by `solver`.
-pub(crate) fn count(
-    space: &Space,
-    launches: &Launches,
-    range: Range<u64>,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Counts, SampleError> {
-    fold(space, launches, range, progress, |first, block| {
-        let mut counts = Counts::default();
-        match space.tosses(block) {
-            Some(tosses) => counts.add_batch(solver, &tosses).map_err(|error| failure(first, &tosses, error))?,
-            None => {
-                for (index, values) in (first..).zip(block.all_values()) {
-                    let toss = space.toss(&values);
-                    counts.add(solver.verdict(&toss).map_err(|error| (index, Box::new(toss), error))?);
-                }
-            }
-        }
-        Ok(counts)
-    })
+/// What decides the outcomes of launches.
+#[derive(Clone)]
+pub(crate) enum Decider<'a> {
+    /// The exact motion, with a proof.
+    Exact,
+    /// A solver, as far as its error estimate goes.
+    Solver(Checked<&'a dyn Solver>),
 }
 
-/// What stands for an error in a batch whose first launch has the number `first`.
-fn failure(first: u64, tosses: &Tosses<'_>, BatchError { index, source }: BatchError) -> Failure {
-    let toss = tosses.toss(index).expect("every axis was checked when the space was made");
-    match source {
-        TossError::Solve(error) => (first + index as u64, Box::new(toss), error),
-        TossError::Input(_) => unreachable!("every axis was checked when the space was made"),
+impl Decider<'_> {
+    /// Counts the outcomes of the launches `range`.
+    ///
+    /// # Errors
+    /// As [`fold`].
+    pub(crate) fn count(
+        &self,
+        space: &Space,
+        launches: &Launches,
+        range: Range<u64>,
+        progress: Progress<'_>,
+    ) -> Result<Counts, Error> {
+        fold(space, launches, range, progress, |block| match self {
+            Self::Exact => proven(space, block).map(|proven| Counts { proven, ..Counts::default() }),
+            Self::Solver(solver) => estimated(space, block, solver),
+        })
     }
+}
+
+/// The proven outcomes of a block: in registers where its launches differ in rates and speed alone.
+fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
+    match space.tosses(block) {
+        Some(tosses) => Batch::new(tosses).count(),
+        None => ProvenCounts::of(block.all_values().map(|values| space.toss(&values))),
+    }
+}
+
+/// The outcomes of a block by `solver`.
+fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts, Error> {
+    let mut counts = Counts::default();
+    if let Some(tosses) = space.tosses(block) {
+        let mut cos_tilts = vec![0.0; tosses.len()];
+        solver.cos_tilts(&tosses, &mut cos_tilts)?;
+        for (index, cos_tilt) in cos_tilts.into_iter().enumerate() {
+            counts.add(tosses.solve(index, |toss| solver.outcome_at(toss, cos_tilt))?);
+        }
+        return Ok(counts);
+    }
+    for (index, values) in (0..).zip(block.all_values()) {
+        let toss = space.toss(&values);
+        let outcome = solver.outcome(&toss);
+        counts.add(outcome.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+    }
+    Ok(counts)
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactSolver};
+    use dynamics::Coin;
+    use exact::{ExactSolver, Stage};
 
     use super::*;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
     use crate::grid::Grid;
 
-    /// As many verdicts of each kind as its place in the list, from 1 on.
-    fn counts(times: u64) -> Counts {
-        let mut counts = Counts::default();
-        let proofs = [None].into_iter().chain(Stage::ALL.map(Some));
-        for (place, proof) in (1..).zip(proofs) {
-            for _ in 0..times * place {
-                counts.add(Verdict { outcome: Outcome::Heads, proof });
-            }
-        }
-        for _ in 0..times * 10 {
-            counts.add(Verdict { outcome: Outcome::Tails, proof: None });
-            counts.add(Verdict { outcome: Outcome::Tails, proof: None });
-            counts.add(Verdict { outcome: Outcome::Undecided, proof: None });
-        }
-        counts
+    fn counted(tilt: &str, decider: &Decider<'_>) -> Counts {
+        let texts = [(RateX, "1:20:20"), (RateY, "0"), (RateZ, "0"), (Speed, "3:5:20"), (Tilt, tilt)];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        let launches = Launches::Grid(Grid::new(&space).unwrap());
+        decider.count(&space, &launches, 0..space.grid_points().unwrap(), &|_| {}).unwrap()
     }
 
     #[test]
-    fn every_verdict_is_counted_once_by_its_outcome_and_once_by_its_proof() {
-        let proven = Proven { keller: 2, certain: 3, f64: 4, double_double: 5, multiprecision: 6 };
-        let once = Counts { heads: 21, tails: 20, undecided: 10, proven };
-        assert_eq!(counts(1), once);
-        assert_eq!((once.points(), once.probability()), (51, 21.0 / 51.0));
-        let proven = Proven { keller: 6, certain: 9, f64: 12, double_double: 15, multiprecision: 18 };
-        let thrice = Counts { heads: 63, tails: 60, undecided: 30, proven };
-        assert_eq!((counts(1).merge(counts(2)), [counts(2), counts(1)].into_iter().sum()), (thrice, thrice));
+    fn counts_add_up() {
+        let [once, twice] = [Counts::estimated(3, 4, 5), Counts::estimated(6, 8, 10)];
+        assert_eq!((once.merge(once), [once, once].into_iter().sum()), (twice, twice));
+        assert_eq!((once.heads(), once.tails(), once.undecided(), once.points()), (3, 4, 5, 12));
+        assert_eq!(once.probability(), 0.25);
     }
 
     #[test]
-    fn counts_are_certified_if_every_launch_is_proven() {
-        let proven = Proven { keller: 1, certain: 2, f64: 4, double_double: 8, multiprecision: 16 };
-        let counts = Counts { heads: 11, tails: 13, undecided: 7, proven };
-        assert!(counts.are_certified());
-        assert!(!Counts { heads: 12, ..counts }.are_certified());
+    fn counts_are_certified_if_there_are_any_and_every_launch_is_proven() {
+        let proven = counted("0", &Decider::Exact);
+        assert!(proven.are_certified());
+        assert!(!Counts::default().are_certified());
+        assert!(!Counts::estimated(0, 1, 0).are_certified());
+        assert!(!proven.merge(Counts::estimated(1, 0, 0)).are_certified());
+        assert!(!proven.merge(Counts::estimated(0, 0, 1)).are_certified());
     }
 
     /// A batch knows neither Keller's cosine nor outcomes that need no motion.
     #[test]
     fn launches_that_differ_in_rates_and_speed_are_a_batch() {
-        let counted = |tilt| {
-            let texts = [(RateX, "1:20:20"), (RateY, "0"), (RateZ, "0"), (Speed, "3:5:20"), (Tilt, tilt)];
-            let space = Space::parse(Coin::PAPER, &texts).unwrap();
-            let launches = Launches::Grid(Grid::new(&space).unwrap());
-            count(&space, &launches, 0..space.grid_points().unwrap(), &ExactSolver, &|_| {}).unwrap()
-        };
-        let batch = counted("0");
-        assert!(batch.are_certified() && batch.points() == 400, "{batch:?}");
-        assert_eq!((batch.proven.f64, batch.proven.keller), (400, 0));
-        let one_by_one = counted("0:1e-9:2");
-        assert!(one_by_one.are_certified() && one_by_one.proven.f64 < 800, "{one_by_one:?}");
+        let batch = counted("0", &Decider::Exact);
+        assert_eq!((batch.points(), batch.proven().by(Stage::F64), batch.proven().by(Stage::Keller)), (400, 400, 0));
+        let one_by_one = counted("0:1e-9:2", &Decider::Exact);
+        assert!(one_by_one.are_certified() && one_by_one.proven().by(Stage::F64) < 800, "{one_by_one:?}");
+    }
+
+    /// The exact solver's outcomes are right, but as those of any solver that is handed in they are no proof.
+    #[test]
+    fn no_outcome_of_a_solver_is_proven() {
+        for tilt in ["0", "0:1e-9:2"] {
+            let by_solver = counted(tilt, &Decider::Solver(Checked::new(&ExactSolver)));
+            let proven = counted(tilt, &Decider::Exact);
+            assert_eq!((by_solver.heads(), by_solver.tails()), (proven.heads(), proven.tails()));
+            assert_eq!((by_solver.are_certified(), by_solver.proven()), (false, ProvenCounts::default()));
+        }
     }
 }

@@ -1,27 +1,19 @@
-//! From a space to a probability, by any of the four methods.
+//! A probability of heads, and how far it may be off, for each of the four methods.
 //!
 //! | plan | launches | what the interval is |
 //! |---|---|---|
-//! | [`Plan::Grid`] (A) | a grid | none: a grid has an error of discretisation |
-//! | [`Plan::Random`] (B) | independent | Wilson's |
-//! | [`Plan::Sobol`] | scrambled Sobol points | from the spread of independent scrambles |
-//! | [`Plan::ExactSpeed`] | the speed in closed form | from the scrambles; of rounding if only the speed is free |
+//! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has an error of discretisation |
+//! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Wilson's |
+//! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles |
+//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | the speed in closed form | from the scrambles; of rounding if only the speed is free |
 //!
 //! Sums are integers, so no result depends on the number of threads.
 
 use std::fmt;
 
-use dynamics::Solver;
-
-use crate::counts::{Counts, count};
+use crate::counts::Counts;
 use crate::exact_speed::Share;
-use crate::fold::{Progress, SampleError};
-use crate::grid::Grid;
 use crate::interval::{Interval, from_scrambles, wilson};
-use crate::launches::Launches;
-use crate::plan::{Plan, Rest, Scrambled, cube_of_the_rest};
-use crate::shares::{Shares, add_shares};
-use crate::space::{Cube, Space};
 
 /// Confidence level of the intervals.
 pub const LEVEL: f64 = 0.95;
@@ -84,60 +76,6 @@ pub enum Found {
     },
 }
 
-/// Estimates the probability of heads in `space` by `plan`, on the threads of the current pool. `solver` decides the
-/// outcomes; [`Plan::ExactSpeed`] uses the exact motion instead.
-///
-/// # Errors
-/// [`SampleError`]; of several failing launches always the first.
-pub fn estimate(
-    space: &Space,
-    plan: Plan,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Estimate, SampleError> {
-    let points = plan.points(space)?;
-    let count = |launches: &Launches, each| count(space, launches, 0..each, solver, progress);
-    let add = |launches: &Launches, each| add_shares(space, launches, 0..each, progress);
-    match plan {
-        Plan::Grid => Ok(Estimate::of_grid_counts(count(&Launches::Grid(Grid::new(space)?), points)?)),
-        Plan::Random { seed, .. } => {
-            let cube = Cube::new(space, space.free());
-            Ok(Estimate::of_independent_counts(count(&Launches::Random { cube, seed }, points)?))
-        }
-        Plan::Sobol(scrambled) => {
-            let cube = Cube::new(space, space.free());
-            Ok(Estimate::of_scrambled_counts(&each_scramble(&cube, scrambled, count)?))
-        }
-        Plan::ExactSpeed(rest) => {
-            let cube = cube_of_the_rest(space);
-            match rest {
-                Rest::Sobol(scrambled) if cube.dimensions() > 0 => {
-                    let shares = each_scramble(&cube, scrambled, add)?;
-                    Ok(Estimate::of_scrambled_shares(&shares.iter().map(Shares::mean).collect::<Vec<_>>(), points))
-                }
-                _ => {
-                    let share = add(&Launches::Grid(Grid::without_speed(space)?), points)?.mean();
-                    Ok(Estimate::of_grid_share(share, points, cube.dimensions() == 0))
-                }
-            }
-        }
-    }
-}
-
-/// What `tally` finds in each scramble.
-fn each_scramble<T>(
-    cube: &Cube,
-    scrambled: Scrambled,
-    tally: impl Fn(&Launches, u64) -> Result<T, SampleError>,
-) -> Result<Vec<T>, SampleError> {
-    let each = scrambled.points_each()?;
-    let one = |scramble| {
-        let launches = Launches::sobol(cube.clone(), scrambled.seed, scramble);
-        tally(&launches, each).map_err(|error| error.later(scramble * each))
-    };
-    (0..scrambled.scrambles).map(one).collect()
-}
-
 impl Estimate {
     /// How far the interval reaches from the probability.
     pub fn half_width(&self) -> Option<f64> {
@@ -155,22 +93,22 @@ impl Estimate {
         }
     }
 
-    fn of_grid_counts(counts: Counts) -> Self {
+    pub(crate) fn of_grid_counts(counts: Counts) -> Self {
         Self::of_counts(counts, None, IntervalKind::Grid)
     }
 
-    fn of_independent_counts(counts: Counts) -> Self {
+    pub(crate) fn of_independent_counts(counts: Counts) -> Self {
         Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Wilson)
     }
 
-    fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
+    pub(crate) fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
         let counts: Counts = scrambles.iter().copied().sum();
-        if counts.heads == counts.points() || counts.heads == 0 {
+        if counts.heads() == counts.points() || counts.heads() == 0 {
             return Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Unanimous);
         }
         let means: Vec<f64> = scrambles.iter().map(Counts::probability).collect();
         #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
-        let undecided = counts.undecided as f64 / counts.points() as f64;
+        let undecided = counts.undecided() as f64 / counts.points() as f64;
         match from_scrambles(&means, LEVEL) {
             None => Self::of_counts(counts, None, IntervalKind::OneScramble),
             Some(Interval { lo, hi }) => {
@@ -186,7 +124,7 @@ impl Estimate {
     }
 
     /// The mean share over a grid; exact if nothing but the speed was free.
-    fn of_grid_share(share: Share, points: u64, exact: bool) -> Self {
+    pub(crate) fn of_grid_share(share: Share, points: u64, exact: bool) -> Self {
         if !exact {
             return Self::of_share(share, points, None, IntervalKind::Grid);
         }
@@ -194,7 +132,7 @@ impl Estimate {
         Self::of_share(share, points, Some(interval), IntervalKind::Rounding)
     }
 
-    fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {
+    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "a handful of scrambles")]
         let mean = |part: fn(&Share) -> f64| scrambles.iter().map(part).sum::<f64>() / scrambles.len() as f64;
         let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
@@ -218,8 +156,8 @@ impl Estimate {
 fn wilson_of(counts: Counts) -> Interval {
     let points = counts.points();
     Interval {
-        lo: wilson(counts.heads, points, LEVEL).lo,
-        hi: wilson(counts.heads + counts.undecided, points, LEVEL).hi,
+        lo: wilson(counts.heads(), points, LEVEL).lo,
+        hi: wilson(counts.heads() + counts.undecided(), points, LEVEL).hi,
     }
 }
 
@@ -229,10 +167,10 @@ mod tests {
 
     #[test]
     fn undecided_launches_widen_the_interval() {
-        let counts = Counts { heads: 500, tails: 300, undecided: 200, ..Counts::default() };
+        let counts = Counts::estimated(500, 300, 200);
         let interval = Estimate::of_independent_counts(counts).interval.unwrap();
         assert!(interval.lo < 0.5 && interval.hi > 0.7);
-        let scrambles = [Counts { heads: 5, tails: 3, undecided: 2, ..Counts::default() }; 8];
+        let scrambles = [Counts::estimated(5, 3, 2); 8];
         let interval = Estimate::of_scrambled_counts(&scrambles).interval.unwrap();
         assert!((interval.lo - 0.5).abs() < 1e-15 && (interval.hi - 0.7).abs() < 1e-15, "{interval:?}");
         assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
@@ -242,10 +180,10 @@ mod tests {
     fn an_interval_is_named_and_reaches_as_far_as_its_farther_end() {
         let estimate = |lo, hi| Estimate {
             interval: Some(Interval { lo, hi }),
-            ..Estimate::of_independent_counts(Counts { heads: 1, tails: 1, ..Counts::default() })
+            ..Estimate::of_independent_counts(Counts::estimated(1, 1, 0))
         };
         assert_eq!((estimate(0.25, 0.625).half_width(), estimate(0.375, 0.75).half_width()), (Some(0.25), Some(0.25)));
-        let none = Estimate::of_grid_counts(Counts { heads: 1, ..Counts::default() });
+        let none = Estimate::of_grid_counts(Counts::estimated(1, 0, 0));
         assert_eq!(none.half_width(), None);
         assert_eq!(IntervalKind::Scrambles(8).to_string(), "student 95 % of 8 scrambles");
         assert!(

@@ -14,14 +14,15 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use dynamics::exact::LARGEST_PHASE;
-use dynamics::{ExactSolver, HeadsPhases, Outcome, SolveError, Solver, TiltTerms, Toss};
+use dynamics::phase::require_phase;
+use dynamics::{Outcome, SolveError, Toss};
+use exact::{HeadsPhases, TiltTerms, certify};
 
 use crate::axis::{Distribution, NORMAL_REACH};
 use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};
 
-/// Relative error of a phase, 6 u by [`dynamics::tilt_terms::PHASE_ERROR`], and of a few rounded terms.
+/// Relative error of a phase, 6 u by [`exact::tilt_terms::PHASE_ERROR`], and of a few rounded terms.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A probability with a bound on its rounding error.
@@ -40,7 +41,7 @@ impl Share {
 
     /// The share of a single toss: all or nothing, and neither for an exact tie.
     fn of_one(toss: &Toss) -> Result<Self, SolveError> {
-        Ok(match ExactSolver.outcome(toss)? {
+        Ok(match certify(toss)?.outcome() {
             Outcome::Heads => Self::new(1.0, 0.0),
             Outcome::Tails => Self::new(0.0, 0.0),
             Outcome::Undecided => Self::new(0.5, 0.5),
@@ -57,13 +58,11 @@ pub(crate) fn share(space: &Space, values: &Values) -> Result<Share, (Box<Toss>,
         space.toss(&values)
     };
     let [slowest, fastest] = speeds.bounds().map(toss);
-    let failed = |error| (Box::new(fastest), error);
+    let failed = |error: SolveError| (Box::new(fastest), error);
     let terms = TiltTerms::new(&fastest);
     let [to, spin] = terms.phases(fastest.launch.flight_time());
     let [from, _] = terms.phases(slowest.launch.flight_time());
-    if to.max(spin) > LARGEST_PHASE {
-        return Err(failed(SolveError::PhaseTooLarge { phase: to.max(spin) }));
-    }
+    require_phase(to.max(spin)).map_err(failed)?;
     if from == to {
         return Share::of_one(&fastest).map_err(failed);
     }
@@ -160,7 +159,7 @@ mod tests {
         let heads = (0..PARTS).filter(|part| {
             let mut values = space.fixed_values();
             values[Speed as usize] = space.axis(Speed).quantile((f64::from(*part) + 0.5) / f64::from(PARTS));
-            ExactSolver.outcome(&space.toss(&values)) == Ok(Outcome::Heads)
+            certify(&space.toss(&values)).is_ok_and(|found| found.outcome() == Outcome::Heads)
         });
         heads.count() as f64 / f64::from(PARTS)
     }

@@ -155,16 +155,16 @@ impl Space {
         }
         free.into_iter()
             .zip(counts)
-            .try_fold(self, |space, (of, count)| space.with_axis(of, space.axis(of).with_points(of, count)?))
+            .try_fold(self, |space, (of, count)| space.with_axis(of, space.axis(of).with_points(count)))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
     use dynamics::Coin;
 
     use super::*;
-    use Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 
     fn space(texts: [&str; 4]) -> Space {
         let [x, y, z, speed] = texts;

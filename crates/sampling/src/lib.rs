@@ -5,9 +5,8 @@
 //!      → outcomes or shares → counts or means → estimate with its interval
 //! ```
 //!
-//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; [`estimate()`] answers. Sums
-//! are integers and do not depend on the number of threads. This is the only crate that knows a random number
-//! generator.
+//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; a [`Sampler`] answers. Sums are
+//! integers and do not depend on the number of threads. This is the only crate that knows a random number generator.
 
 pub mod axis;
 mod block;
@@ -24,24 +23,28 @@ pub mod long_flight_share;
 pub mod map;
 pub mod plan;
 pub mod random;
+pub mod sampler;
 pub mod series;
 mod shares;
 pub mod sobol;
 pub mod space;
+pub mod space_builder;
 mod space_data;
 pub mod space_file;
 
 pub use axis::{Axis, Distribution};
 pub use coordinate::Coordinate;
-pub use counts::{Counts, Proven};
-pub use estimate::{Estimate, Found, IntervalKind, estimate};
-pub use fold::{Progress, SampleError};
+pub use counts::Counts;
+pub use estimate::{Estimate, Found, IntervalKind};
+pub use fold::Progress;
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
-pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare, long_flight_shares};
-pub use map::{Map, Node, map};
+pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
+pub use map::{Map, Node};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;
-pub use series::{ESTIMATORS, Estimator, RunningStep, rms_error, running_shares};
+pub use sampler::Sampler;
+pub use series::{ESTIMATORS, Estimator, RunningStep, rms_error};
 pub use space::{AxisOrTie, Space};
-pub use space_file::{DescribedSpace, SpaceFileError, named_space, named_spaces};
+pub use space_builder::SpaceBuilder;
+pub use space_file::{DescribedSpace, named_space, named_spaces};

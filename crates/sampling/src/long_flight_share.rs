@@ -3,15 +3,13 @@
 use std::f64::consts::PI;
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use dynamics::{Coin, InputError, Solver};
+use dynamics::{Coin, Error, InputError};
 
-use crate::axis::Axis;
-use crate::coordinate::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
-use crate::estimate::{Estimate, estimate};
-use crate::fold::{Progress, SampleError};
+use crate::estimate::Estimate;
 use crate::long_flight::long_flight_probability;
 use crate::plan::Plan;
-use crate::space::{AxisOrTie, Space};
+use crate::sampler::Sampler;
+use crate::space::Space;
 
 /// ωL of the long flights (rad/s).
 const PRECESSION: f64 = 100.0;
@@ -38,58 +36,55 @@ pub struct LongFlightShare {
     pub estimate: Estimate,
 }
 
-/// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of [`LONG_FLIGHT_TURNS`] at random
-/// speeds. No two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and so on.
-///
-/// # Errors
-/// [`SampleError`]; an [`InputError`] for an angle that is no number, for no points, and for a rod (k = 0), whose
-/// ψ is 90° at any rate.
-pub fn long_flight_shares(
-    coin: Coin,
-    cone_angles: &[f64],
-    (points, seed): (u64, u64),
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Vec<LongFlightShare>, SampleError> {
-    let share = |(index, &cone_angle): (u64, &f64)| {
-        let space = long_flights(coin, cone_angle)?;
-        let plan = Plan::Random { points, seed: seed.wrapping_add(index) };
-        let estimate = estimate(&space, plan, solver, progress)?;
-        Ok(LongFlightShare { cone_angle, limit: long_flight_probability(cone_angle, cone_angle), estimate })
-    };
-    (0..).zip(cone_angles).map(share).collect()
+impl Sampler<'_> {
+    /// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of [`LONG_FLIGHT_TURNS`] at random
+    /// speeds. No two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and
+    /// so on.
+    ///
+    /// # Errors
+    /// As [`Sampler::estimate`]; an [`InputError`] for an angle that is no number, for no points, and for a rod (k = 0),
+    /// whose ψ is 90° at any rate.
+    pub fn long_flight_shares(
+        &self,
+        coin: Coin,
+        cone_angles: &[f64],
+        (points, seed): (u64, u64),
+    ) -> Result<Vec<LongFlightShare>, Error> {
+        let share = |(index, &cone_angle): (u64, &f64)| {
+            let space = long_flights(coin, cone_angle)?;
+            let estimate = self.estimate(&space, Plan::Random { points, seed: seed.wrapping_add(index) })?;
+            Ok(LongFlightShare { cone_angle, limit: long_flight_probability(cone_angle, cone_angle), estimate })
+        };
+        (0..).zip(cone_angles).map(share).collect()
+    }
 }
 
 /// Long flights at one cone angle: Ω = ωL sin ψ and k ωz = ωL cos ψ.
 fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
-    let fixed = |of, value| Axis::fixed(of, value).map(AxisOrTie::Axis);
     let [lo, hi] = SPEEDS;
-    let axes = [
-        fixed(RateX, PRECESSION * cone_angle.sin())?,
-        fixed(RateY, 0.0)?,
-        fixed(RateZ, PRECESSION * cone_angle.cos() / coin.inertia_ratio())?,
-        AxisOrTie::Axis(Axis::range(Speed, lo, hi)?),
-        fixed(Gravity, DEFAULT_GRAVITY)?,
-        fixed(Tilt, 0.0)?,
-    ];
-    Space::new(coin, axes)
+    Space::builder(coin)
+        .rate_x(PRECESSION * cone_angle.sin())
+        .rate_y(0.0)
+        .rate_z(PRECESSION * cone_angle.cos() / coin.inertia_ratio())
+        .speed(lo..=hi)
+        .build()
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{ExactMotion, ExactSolver};
+    use exact::ExactMotion;
 
     use super::*;
-    use crate::{Found, clopper_pearson};
+    use crate::{Coordinate, Found, clopper_pearson};
 
     #[test]
     fn the_shares_surround_their_limits() {
         let cones = [0.5, 0.9, 1.1, 1.3, 1.5, 1.9, 2.8];
         for coin in [Coin::PAPER, Coin::from_moments(5e-7, 9.9e-7).unwrap()] {
-            for found in long_flight_shares(coin, &cones, (4000, 1), &ExactSolver, &|_| {}).unwrap() {
+            for found in Sampler::exact().long_flight_shares(coin, &cones, (4000, 1)).unwrap() {
                 let Found::Counts(counts) = found.estimate.found else { panic!("flights are counted") };
                 // 1e-3 is what is left of a part of a turn.
-                let interval = clopper_pearson(counts.heads, counts.points(), 1.0 - 1e-6);
+                let interval = clopper_pearson(counts.heads(), counts.points(), 1.0 - 1e-6);
                 assert!(interval.lo - 1e-3 <= found.limit && found.limit <= interval.hi + 1e-3, "{found:?}");
             }
         }
@@ -98,8 +93,7 @@ mod tests {
     #[test]
     fn long_flights_have_so_many_turns() {
         let precessions = [300.0, 600.0].map(|speed| {
-            let speed = Axis::fixed(Speed, speed).unwrap();
-            let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Speed, speed).unwrap();
+            let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Coordinate::Speed, speed).unwrap();
             let toss = space.toss(&space.fixed_values());
             ExactMotion::new(&toss).precession_rate() * toss.launch.flight_time() / (2.0 * PI)
         });
@@ -111,6 +105,7 @@ mod tests {
     #[test]
     fn a_rod_has_no_long_flights_at_a_given_angle() {
         let rod = Coin::from_moments(5e-7, 0.0).unwrap();
-        assert!(matches!(long_flight_shares(rod, &[1.0], (10, 1), &ExactSolver, &|_| {}), Err(SampleError::Input(_))));
+        let refused = Sampler::exact().long_flight_shares(rod, &[1.0], (10, 1));
+        assert!(matches!(refused, Err(Error::Input(_))));
     }
 }

@@ -3,14 +3,13 @@
 //! The line on which heads becomes certain is where the least cos θ of the motion, cos(φ + ψ), is 0: from horizontal
 //! ψ = 45°.
 
-use dynamics::{ExactMotion, InputError, Solver};
+use dynamics::{Error, InputError};
+use exact::ExactMotion;
 use rayon::prelude::*;
 
-use crate::axis::Axis;
 use crate::coordinate::Coordinate;
-use crate::estimate::estimate;
-use crate::fold::{Progress, SampleError};
 use crate::plan::Plan;
+use crate::sampler::Sampler;
 use crate::space::{AxisOrTie, Space};
 
 /// P(heads) at the nodes of a grid over two coordinates, the others being what the space says.
@@ -34,33 +33,31 @@ pub struct Node {
     pub least_cos_tilt: Option<f64>,
 }
 
-/// Maps P(heads) of `space` over the grid of the coordinates `across` and `up`, estimating each node by `plan`.
-///
-/// # Errors
-/// [`SampleError`]; an [`InputError`] names the coordinate that is tied or has no range with a number of points.
-pub fn map(
-    space: &Space,
-    [across, up]: [Coordinate; 2],
-    plan: Plan,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Map, SampleError> {
-    if across == up {
-        let (field, value) = (up.field(), up.name().to_owned());
-        return Err(InputError::Malformed { field, value, expected: "two different coordinates" }.into());
+impl Sampler<'_> {
+    /// Maps P(heads) of `space` over the grid of the coordinates `across` and `up`, estimating each node by `plan`.
+    ///
+    /// # Errors
+    /// As [`Sampler::estimate`]; an [`InputError`] names the coordinate that is tied or has no range with a number of
+    /// points.
+    pub fn map(&self, space: &Space, [across, up]: [Coordinate; 2], plan: Plan) -> Result<Map, Error> {
+        if across == up {
+            let (field, value) = (up.field(), up.name().to_owned());
+            return Err(InputError::Malformed { field, value, expected: "two different coordinates" }.into());
+        }
+        let (columns, rows) = (values(space, across)?, values(space, up)?);
+        let sampler = self.silent();
+        let node = |index: usize| {
+            let (column, row) = (columns[index % columns.len()], rows[index / columns.len()]);
+            let here = space.with_axis(across, column)?.with_axis(up, row)?;
+            let probability = sampler.estimate(&here, plan)?.probability;
+            (self.progress)(1);
+            Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
+        };
+        let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, Error>>>();
+        // In order, so that of several errors it is always the first.
+        let nodes = nodes.into_iter().collect::<Result<_, _>>()?;
+        Ok(Map { across: (across, columns), up: (up, rows), nodes })
     }
-    let (columns, rows) = (values(space, across)?, values(space, up)?);
-    let node = |index: usize| {
-        let (column, row) = (columns[index % columns.len()], rows[index / columns.len()]);
-        let here = space.with_axis(across, Axis::fixed(across, column)?)?.with_axis(up, Axis::fixed(up, row)?)?;
-        let probability = estimate(&here, plan, solver, &|_| {})?.probability;
-        progress(1);
-        Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
-    };
-    let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, SampleError>>>();
-    // In order, so that of several errors it is always the first.
-    let nodes = nodes.into_iter().collect::<Result<_, _>>()?;
-    Ok(Map { across: (across, columns), up: (up, rows), nodes })
 }
 
 /// The grid's values of a coordinate.
@@ -88,7 +85,7 @@ fn least_cos_tilt(space: &Space) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactSolver};
+    use dynamics::Coin;
 
     use super::*;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
@@ -103,7 +100,7 @@ mod tests {
     #[test]
     fn a_map_has_the_probability_of_each_node_and_heads_for_sure_up_to_45_degrees() {
         let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "-10:30:5"), (Speed, "3:5")]);
-        let map = map(&space, [RateX, RateZ], EXACT, &ExactSolver, &|_| {}).unwrap();
+        let map = Sampler::exact().map(&space, [RateX, RateZ], EXACT).unwrap();
         assert_eq!((map.across.1.len(), map.up.1.len(), map.nodes.len()), (21, 5, 105));
         for (index, node) in map.nodes.iter().enumerate() {
             let (rate_x, rate_z) = (map.across.1[index % 21], map.up.1[index / 21]);
@@ -125,7 +122,7 @@ mod tests {
     fn a_tied_rate_follows_and_a_varying_one_blurs_the_line() {
         let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
-        let map = map(&space(&texts), [RateX, Tilt], plan, &ExactSolver, &|_| {}).unwrap();
+        let map = Sampler::exact().map(&space(&texts), [RateX, Tilt], plan).unwrap();
         assert!(map.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
         assert_eq!(map.nodes[0].probability, 1.0, "no rate but spin");
     }
@@ -133,7 +130,7 @@ mod tests {
     #[test]
     fn the_least_cos_tilt_is_that_of_the_motion_also_from_a_tilt() {
         let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0.6")];
-        let tilted = map(&space(&texts), [RateX, RateZ], EXACT, &ExactSolver, &|_| {}).unwrap();
+        let tilted = Sampler::exact().map(&space(&texts), [RateX, RateZ], EXACT).unwrap();
         for (index, node) in tilted.nodes.iter().enumerate() {
             let rates = [tilted.across.1[index % 5], 7.0, tilted.up.1[index / 5]];
             let motion = ExactMotion::new(&space(&texts).toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]));
@@ -144,7 +141,7 @@ mod tests {
         }
         let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0:0.6")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(8, 1)));
-        let blurred = map(&space(&texts), [RateX, RateZ], plan, &ExactSolver, &|_| {}).unwrap();
+        let blurred = Sampler::exact().map(&space(&texts), [RateX, RateZ], plan).unwrap();
         assert!(blurred.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
     }
 
@@ -157,7 +154,7 @@ mod tests {
             ([RateX, RateZ], "rate z"),
             ([Speed, RateX], "speed"),
         ] {
-            let error = map(&space, axes, EXACT, &ExactSolver, &|_| {}).unwrap_err().to_string();
+            let error = Sampler::exact().map(&space, axes, EXACT).unwrap_err().to_string();
             assert!(error.starts_with(field), "{error}");
         }
     }

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use dynamics::Toss;
-use dynamics::lanes::Path;
+use numerics::lanes::SimdLevel;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -47,7 +47,7 @@ impl Row {
     /// Numbers between `lo` and `hi` from every row of `words`.
     fn uniform(self, words: &[u64], column: &mut [f64], range: [f64; 2]) {
         let Self { dimension, dimensions } = self;
-        Path::widest().run(|| match dimensions {
+        SimdLevel::widest().run(|| match dimensions {
             1 => uniform::<1>(words, column, dimension, range),
             2 => uniform::<2>(words, column, dimension, range),
             3 => uniform::<3>(words, column, dimension, range),

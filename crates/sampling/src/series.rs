@@ -1,20 +1,17 @@
 //! How estimates converge as launches are added: p(n) over n, and √⟨(p(n) - P)²⟩ over independent estimates p(n).
 
-use dynamics::Solver;
+use dynamics::Error;
 use dynamics::error::require;
 use serde::Serialize;
 
-use crate::counts::{Counts, count};
-use crate::estimate::{LEVEL, estimate};
-use crate::fold::{Progress, SampleError};
+use crate::counts::Counts;
+use crate::estimate::LEVEL;
 use crate::grid::Grid;
 use crate::interval::wilson;
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled};
+use crate::sampler::Sampler;
 use crate::space::{Cube, Space};
-
-/// The outcomes of the first launches of a sequence.
-pub type Running = Vec<Counts>;
 
 /// The shares of heads among the first launches of both methods.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -40,85 +37,55 @@ impl RunningStep {
     }
 }
 
-/// The running probability of the whole grid of `space` (A) beside that of as many random launches (B), in `steps` equal
-/// steps.
-///
-/// # Errors
-/// [`SampleError`].
-pub fn running_shares(
-    space: &Space,
-    steps: u64,
-    seed: u64,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Vec<RunningStep>, SampleError> {
-    let grid = running_grid(space, steps, solver, progress)?;
-    let random = running_random(space, space.grid_points()?, seed, steps, solver, progress)?;
-    let step = |(grid, random): (&Counts, &Counts)| {
-        let interval = wilson(random.heads, random.points(), LEVEL);
-        RunningStep {
-            launches: grid.points(),
-            grid: grid.probability(),
-            random: random.probability(),
-            random_lo: interval.lo,
-            random_hi: interval.hi,
-        }
-    };
-    Ok(grid.iter().zip(&random).map(step).collect())
-}
+impl Sampler<'_> {
+    /// The running probability of the whole grid of `space` (A) beside that of as many random launches (B), in `steps`
+    /// equal steps.
+    ///
+    /// # Errors
+    /// As [`Sampler::estimate`].
+    pub fn running_shares(&self, space: &Space, steps: u64, seed: u64) -> Result<Vec<RunningStep>, Error> {
+        let grid = self.running_grid(space, steps)?;
+        let random = self.running_random(space, space.grid_points()?, seed, steps)?;
+        let step = |(grid, random): (&Counts, &Counts)| {
+            let interval = wilson(random.heads(), random.points(), LEVEL);
+            RunningStep {
+                launches: grid.points(),
+                grid: grid.probability(),
+                random: random.probability(),
+                random_lo: interval.lo,
+                random_hi: interval.hi,
+            }
+        };
+        Ok(grid.iter().zip(&random).map(step).collect())
+    }
 
-/// The running counts of method A, whose launches come in the grid's order: the speed fastest, ωx slowest of the four.
-/// `steps` equal steps, the last of them the whole grid.
-///
-/// # Errors
-/// [`SampleError`].
-fn running_grid(
-    space: &Space,
-    steps: u64,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Running, SampleError> {
-    let grid = Grid::new(space)?;
-    let points = space.grid_points()?;
-    running(space, &Launches::Grid(grid), points, steps, solver, progress)
-}
+    /// The running counts of method A, whose launches come in the grid's order: the speed fastest, ωx slowest of the four.
+    /// `steps` equal steps, the last of them the whole grid.
+    fn running_grid(&self, space: &Space, steps: u64) -> Result<Vec<Counts>, Error> {
+        self.running(space, &Launches::Grid(Grid::new(space)?), space.grid_points()?, steps)
+    }
 
-/// The running counts of method B over `points` launches, in `steps` equal steps.
-///
-/// # Errors
-/// [`SampleError`].
-fn running_random(
-    space: &Space,
-    points: u64,
-    seed: u64,
-    steps: u64,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Running, SampleError> {
-    let cube = Cube::new(space, space.free());
-    running(space, &Launches::Random { cube, seed }, points, steps, solver, progress)
-}
+    /// The running counts of method B over `points` launches, in `steps` equal steps.
+    fn running_random(&self, space: &Space, points: u64, seed: u64, steps: u64) -> Result<Vec<Counts>, Error> {
+        let cube = Cube::new(space, space.free());
+        self.running(space, &Launches::Random { cube, seed }, points, steps)
+    }
 
-fn running(
-    space: &Space,
-    launches: &Launches,
-    points: u64,
-    steps: u64,
-    solver: &dyn Solver,
-    progress: Progress<'_>,
-) -> Result<Running, SampleError> {
-    #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-    require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
-    // The step's end in whole launches, without overflow.
-    let end = |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);
-    let mut counts = Counts::default();
-    (0..steps)
-        .map(|step| {
-            let more = count(space, launches, end(step)..end(step + 1), solver, progress)?;
-            counts = [counts, more].into_iter().sum();
-            Ok(counts)
-        })
-        .collect()
+    fn running(&self, space: &Space, launches: &Launches, points: u64, steps: u64) -> Result<Vec<Counts>, Error> {
+        #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
+        require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
+        // The step's end in whole launches, without overflow.
+        let end =
+            |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);
+        let mut counts = Counts::default();
+        (0..steps)
+            .map(|step| {
+                let more = self.decider.count(space, launches, end(step)..end(step + 1), self.progress)?;
+                counts = [counts, more].into_iter().sum();
+                Ok(counts)
+            })
+            .collect()
+    }
 }
 
 /// A way to estimate a probability from a given number of launches.
@@ -158,18 +125,17 @@ impl Estimator {
     /// from the largest even grid of at most so many launches.
     ///
     /// # Errors
-    /// [`SampleError`].
+    /// As [`Sampler::estimate`].
     pub fn estimates(
         &self,
+        sampler: &Sampler<'_>,
         space: &Space,
         points: u64,
         replicates: u64,
-        solver: &dyn Solver,
-        progress: Progress<'_>,
-    ) -> Result<Vec<f64>, SampleError> {
+    ) -> Result<Vec<f64>, Error> {
         let space = if self.is_random { *space } else { space.with_grid_of(points)? };
         let seeds = if self.is_random { 1..=replicates } else { 1..=1 };
-        seeds.map(|seed| Ok(estimate(&space, (self.plan)(points, seed), solver, progress)?.probability)).collect()
+        seeds.map(|seed| Ok(sampler.estimate(&space, (self.plan)(points, seed))?.probability)).collect()
     }
 }
 
@@ -182,7 +148,7 @@ pub fn rms_error(estimates: &[f64], probability: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactSolver};
+    use dynamics::Coin;
 
     use super::*;
     use crate::axis::Axis;
@@ -194,31 +160,31 @@ mod tests {
     #[test]
     fn a_running_count_ends_with_the_whole() {
         let space = named_space("paper-fig4").unwrap();
-        let counts_of = |plan| match estimate(&space, plan, &ExactSolver, &|_| {}).unwrap().found {
+        let counts_of = |plan| match Sampler::exact().estimate(&space, plan).unwrap().found {
             Found::Counts(counts) => counts,
             Found::Shares { .. } => panic!("counts were asked for"),
         };
-        let grid = running_grid(&space, 7, &ExactSolver, &|_| {}).unwrap();
+        let grid = Sampler::exact().running_grid(&space, 7).unwrap();
         assert_eq!((grid.len(), grid[6]), (7, counts_of(Plan::Grid)));
-        let random = running_random(&space, 1000, 5, 1000, &ExactSolver, &|_| {}).unwrap();
+        let random = Sampler::exact().running_random(&space, 1000, 5, 1000).unwrap();
         assert_eq!(random[999], counts_of(Plan::Random { points: 1000, seed: 5 }));
         assert_eq!(random[99], counts_of(Plan::Random { points: 100, seed: 5 }));
         assert!(random.iter().zip(1..).all(|(counts, points)| counts.points() == points));
         for steps in [0, 1001] {
-            let refused = running_random(&space, 1000, 5, steps, &ExactSolver, &|_| {});
-            assert!(matches!(refused, Err(SampleError::Input(error)) if error.field() == "steps"));
+            let refused = Sampler::exact().running_random(&space, 1000, 5, steps);
+            assert!(matches!(refused, Err(Error::Input(error)) if error.field() == "steps"));
         }
     }
 
     #[test]
     fn running_shares_put_the_grid_beside_as_many_random_launches() {
-        let space = named_space("tails").unwrap().with_axis(Speed, Axis::parse(Speed, "0:5:90").unwrap()).unwrap();
-        let steps = running_shares(&space, 9, 5, &ExactSolver, &|_| {}).unwrap();
-        let grid = running_grid(&space, 9, &ExactSolver, &|_| {}).unwrap();
-        let random = running_random(&space, 90, 5, 9, &ExactSolver, &|_| {}).unwrap();
+        let space = named_space("tails").unwrap().with_axis(Speed, Axis::range(0.0..=5.0).with_points(90)).unwrap();
+        let steps = Sampler::exact().running_shares(&space, 9, 5).unwrap();
+        let grid = Sampler::exact().running_grid(&space, 9).unwrap();
+        let random = Sampler::exact().running_random(&space, 90, 5, 9).unwrap();
         assert_eq!(steps.len(), 9);
         for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
-            let Interval { lo, hi } = wilson(random.heads, random.points(), 0.95);
+            let Interval { lo, hi } = wilson(random.heads(), random.points(), 0.95);
             let columns = [grid.points() as f64, grid.probability(), random.probability(), lo, hi];
             assert_eq!(step.columns(), columns);
         }
@@ -231,7 +197,7 @@ mod tests {
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let probability = 0.580_665_055_2;
         let errors = ESTIMATORS.map(|estimator| {
-            rms_error(&estimator.estimates(&space, 1 << 14, 16, &ExactSolver, &|_| {}).unwrap(), probability)
+            rms_error(&estimator.estimates(&Sampler::exact(), &space, 1 << 14, 16).unwrap(), probability)
         });
         let [_, random, sobol, exact_speed, scrambled] = errors;
         assert!(sobol < random && 10.0 * exact_speed < sobol && 5.0 * scrambled < sobol, "{errors:?}");

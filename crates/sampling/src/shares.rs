@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
+use dynamics::Error;
+
 use crate::exact_speed::{Share, share};
-use crate::fold::{Progress, SampleError, Tally, fold};
+use crate::fold::{Progress, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -49,11 +51,12 @@ pub(crate) fn add_shares(
     launches: &Launches,
     range: Range<u64>,
     progress: Progress<'_>,
-) -> Result<Shares, SampleError> {
-    fold(space, launches, range, progress, |first, block| {
+) -> Result<Shares, Error> {
+    fold(space, launches, range, progress, |block| {
         let mut shares = Shares::default();
-        for (index, values) in (first..).zip(block.all_values()) {
-            shares.add(share(space, &values).map_err(|(toss, error)| (index, toss, error))?);
+        for (index, values) in (0..).zip(block.all_values()) {
+            let share = share(space, &values);
+            shares.add(share.map_err(|(toss, source)| Error::Launch { index, toss, source })?);
         }
         Ok(shares)
     })

@@ -6,7 +6,6 @@
 use std::fmt;
 
 use dynamics::error::require;
-use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
@@ -44,22 +43,19 @@ pub struct Space {
 }
 
 impl Space {
-    /// A space over the axes in the order of [`Coordinate::ALL`].
-    ///
-    /// # Errors
-    /// [`InputError`] for a range that includes negative speeds or a gravity that is not positive, for a flight that
-    /// may last for ever, and for a tie to anything but a rate with an axis of its own.
-    pub fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
-        let places = Coordinate::ALL.map(|of| match axes[of as usize] {
-            AxisOrTie::Axis(_) => of,
-            AxisOrTie::SameAs(other) => other,
-        });
-        let space = Self { coin, axes, places };
+    /// A space over axes that are all given, in the order of [`Coordinate::ALL`].
+    pub(crate) fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
+        let mut places = Coordinate::ALL;
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
-            if let AxisOrTie::SameAs(other) = axis {
-                require_tie(of, other, matches!(axes[other as usize], AxisOrTie::Axis(_)))?;
+            match axis {
+                AxisOrTie::Axis(axis) => _ = axis.validated(of)?,
+                AxisOrTie::SameAs(other) => {
+                    require_tie(of, other, matches!(axes[other as usize], AxisOrTie::Axis(_)))?;
+                    places[of as usize] = other;
+                }
             }
         }
+        let space = Self { coin, axes, places };
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
         let valid = "speeds >= 0 only; a normal distribution reaches 8.3 standard deviations";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
@@ -71,28 +67,6 @@ impl Space {
         Ok(space)
     }
 
-    /// A space from texts: `x`, `y` or `z` for a tie to that rate, else as [`Axis::parse`] reads them. The rates and
-    /// the speed are needed; gravity is 9.81 m/s² and the tilt 0 where they are not given.
-    ///
-    /// # Errors
-    /// [`InputError`] that names the coordinate.
-    pub fn parse(coin: Coin, texts: &[(Coordinate, &str)]) -> Result<Self, InputError> {
-        let text_of = |of| texts.iter().find(|(given, _)| *given == of).map(|(_, text)| text.trim());
-        let axis = |of: Coordinate| match (text_of(of), of) {
-            (Some(text), _) => match Coordinate::tied_to(text) {
-                Some(other) => require_tie(of, other, text_of(other).is_some()).map(|()| AxisOrTie::SameAs(other)),
-                None => Axis::parse(of, text).map(AxisOrTie::Axis),
-            },
-            (None, Coordinate::Gravity) => Axis::fixed(of, DEFAULT_GRAVITY).map(AxisOrTie::Axis),
-            (None, Coordinate::Tilt) => Axis::fixed(of, 0.0).map(AxisOrTie::Axis),
-            (None, _) => Err(InputError::Missing { field: of.field(), expected: "a value, a range or a tie" }),
-        };
-        let [x, y, z, speed, gravity, tilt] = Coordinate::ALL.map(axis);
-        // A tie without its partner is a clearer complaint than the missing partner.
-        let (y, z) = (y?, z?);
-        Self::new(coin, [x?, y, z, speed?, gravity?, tilt?])
-    }
-
     /// The same space for another coin.
     #[must_use]
     pub fn with_coin(self, coin: Coin) -> Self {
@@ -102,10 +76,10 @@ impl Space {
     /// The same space with another axis for one coordinate.
     ///
     /// # Errors
-    /// As [`Space::new`].
-    pub fn with_axis(self, of: Coordinate, axis: Axis) -> Result<Self, InputError> {
+    /// As [`SpaceBuilder::build`](crate::SpaceBuilder::build).
+    pub fn with_axis(self, of: Coordinate, axis: impl Into<Axis>) -> Result<Self, InputError> {
         let mut axes = self.axes;
-        axes[of as usize] = AxisOrTie::Axis(axis);
+        axes[of as usize] = AxisOrTie::Axis(axis.into());
         Self::new(self.coin, axes)
     }
 
@@ -155,7 +129,7 @@ impl Space {
     }
 }
 
-fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Result<(), InputError> {
+pub(crate) fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Result<(), InputError> {
     let is_rate = |of| of <= Coordinate::RateZ;
     if is_rate(of) && is_rate(to) && partner_has_an_axis {
         return Ok(());
@@ -191,8 +165,9 @@ impl Cube {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+
+    use super::*;
 
     fn parse(texts: &[(Coordinate, &str)]) -> Result<Space, InputError> {
         Space::parse(Coin::PAPER, texts)

@@ -14,7 +14,7 @@
 use std::ops::Range;
 
 use dynamics::error::find_named;
-use dynamics::{Coin, InputError};
+use dynamics::{Coin, Error, InputError};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -29,18 +29,6 @@ pub struct DescribedSpace {
     pub description: String,
     /// The space.
     pub space: Space,
-}
-
-/// Why a TOML text is no space.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}, column {column}: {message}")]
-pub struct SpaceFileError {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// What is wrong there; names the coordinate, where it is one.
-    pub message: String,
 }
 
 #[derive(Deserialize)]
@@ -62,10 +50,10 @@ impl DescribedSpace {
     /// Reads a space from TOML, as [this module](self) shows it. Without a coin it is the paper's.
     ///
     /// # Errors
-    /// [`SpaceFileError`] with line and column.
-    pub fn from_toml(text: &str) -> Result<Self, SpaceFileError> {
+    /// [`Error::Text`] with line and column.
+    pub fn from_toml(text: &str) -> Result<Self, Error> {
         let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = toml::from_str(text)
-            .map_err(|error: toml::de::Error| SpaceFileError::at(text, error.span(), error.message().to_owned()))?;
+            .map_err(|error: toml::de::Error| error_at(text, error.span(), error.message().to_owned()))?;
         let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
         let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
             .into_iter()
@@ -75,20 +63,18 @@ impl DescribedSpace {
         let texts: Vec<(Coordinate, &str)> = given.iter().map(|(of, _, text)| (*of, text.as_str())).collect();
         let space = Space::parse(coin, &texts).map_err(|error| {
             let blamed = given.iter().find(|(of, ..)| of.field() == error.field());
-            SpaceFileError::at(text, blamed.map(|(_, span, _)| span.clone()), error.to_string())
+            error_at(text, blamed.map(|(_, span, _)| span.clone()), error.to_string())
         })?;
         Ok(Self { description, space })
     }
 }
 
-impl SpaceFileError {
-    /// At the start of `span` in `text`; what is missing is missed at the end.
-    fn at(text: &str, span: Option<Range<usize>>, message: String) -> Self {
-        let before = text.get(..span.map_or(text.len(), |span| span.start)).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        Self { line, column, message }
-    }
+/// An error at the start of `span` in `text`; what is missing is missed at the end.
+fn error_at(text: &str, span: Option<Range<usize>>, message: String) -> Error {
+    let before = text.get(..span.map_or(text.len(), |span| span.start)).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+    Error::Text { line, column, message }
 }
 
 /// Names and texts of the spaces that can be named.
@@ -158,11 +144,11 @@ mod tests {
             (format!("{valid}coin = {{ moments = [1, 3] }}"), 5, 8, "I3 [kg m²] = 3.0"),
             (format!("{valid}coin = {{ mass = 1 }}"), 5, 8, "expected a name, { moments"),
             (format!("{valid}tilt = nan"), 5, 8, "tilt [rad] = NaN"),
-            (String::new(), 1, 1, "rate y [rad/s] is missing"),
+            (String::new(), 1, 1, "rate x [rad/s] is missing"),
         ] {
             let error = DescribedSpace::from_toml(&text).unwrap_err();
-            assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
-            assert!(error.message.contains(words), "{text}: {error}");
+            assert!(error.to_string().starts_with(&format!("line {line}, column {column}: ")), "{text}: {error}");
+            assert!(error.to_string().contains(words), "{text}: {error}");
         }
     }
 }

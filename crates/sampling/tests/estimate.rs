@@ -2,12 +2,10 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use dynamics::{Coin, ExactSolver, Propagation, SolveError, Solver, Toss};
-
+use dynamics::{Coin, Error, Propagation, SolveError, Solver, Toss};
+use exact::ExactSolver;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
-use sampling::{Found, IntervalKind, Plan, Rest, SampleError, Scrambled, Space, estimate, named_space};
-
-fn silent(_: u64) {}
+use sampling::{Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space, named_space};
 
 fn space(texts: [&str; 4]) -> Space {
     let [x, y, z, speed] = texts;
@@ -28,7 +26,7 @@ fn estimates_are_the_same_to_the_bit_for_any_number_of_threads() {
     for plan in PLANS {
         let estimates = [1, 2, 8].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| estimate(&space, plan, &ExactSolver, &silent)).unwrap()
+            pool.install(|| Sampler::exact().estimate(&space, plan)).unwrap()
         });
         assert!(estimates.iter().all(|estimate| *estimate == estimates[0]), "{estimates:?}");
     }
@@ -39,7 +37,10 @@ fn progress_adds_up_to_the_number_of_launches() {
     for (name, plan) in ["paper-fig4", "tails"].into_iter().flat_map(|name| PLANS.map(|plan| (name, plan))) {
         let space = named_space(name).unwrap();
         let done = AtomicU64::new(0);
-        let found = estimate(&space, plan, &ExactSolver, &|more| _ = done.fetch_add(more, Ordering::Relaxed)).unwrap();
+        let found = Sampler::exact()
+            .on_progress(&|more| _ = done.fetch_add(more, Ordering::Relaxed))
+            .estimate(&space, plan)
+            .unwrap();
         assert_eq!((done.into_inner(), found.points), (found.points, plan.points(&space).unwrap()));
     }
 }
@@ -49,7 +50,7 @@ fn all_methods_agree_on_the_same_space() {
     let space = named_space("paper-fig4").unwrap();
     // The grid's ends weigh as much as its inner points, which shifts its share by some 1e-3.
     for (plan, within) in PLANS.into_iter().zip([2e-3, 1e-2, 1e-3, 1e-3, 1e-4]) {
-        let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+        let found = Sampler::exact().estimate(&space, plan).unwrap();
         assert!((found.probability - 0.661_452).abs() < within, "{plan:?}: {found:?}");
         assert!(found.interval.is_none_or(|interval| interval.contains(found.probability)));
     }
@@ -60,7 +61,7 @@ fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampl
     for (name, probability) in [("cheated", 1.0), ("tails", 0.0)] {
         let space = named_space(name).unwrap();
         for plan in PLANS {
-            let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+            let found = Sampler::exact().estimate(&space, plan).unwrap();
             assert_eq!(found.probability, probability, "{name} {plan:?}");
             let width = found.interval.map(|interval| interval.hi - interval.lo);
             match plan {
@@ -80,7 +81,7 @@ fn exact_speed_admits_doubt_where_every_point_agrees() {
     // ψ < 45° throughout: heads at every speed of every point.
     let space = space(["0:10", "x", "60", "3:5"]);
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(4096, 1)));
-    let found = estimate(&space, plan, &ExactSolver, &silent).unwrap();
+    let found = Sampler::exact().estimate(&space, plan).unwrap();
     assert_eq!((found.probability, found.interval_kind), (1.0, IntervalKind::Unanimous));
     assert!((0.999..0.9992).contains(&found.interval.unwrap().lo), "{found:?}");
 }
@@ -88,15 +89,15 @@ fn exact_speed_admits_doubt_where_every_point_agrees() {
 #[test]
 fn a_union_of_cells_has_the_weighted_mean_of_their_probabilities() {
     let probability = |speeds: &str| {
-        let found = estimate(&space(["3", "2", "1", speeds]), PLANS[3], &ExactSolver, &silent).unwrap();
+        let found = Sampler::exact().estimate(&space(["3", "2", "1", speeds]), PLANS[3]).unwrap();
         found.probability
     };
     let parts = 0.25 * probability("3:3.5") + 0.75 * probability("3.5:5");
     assert!((probability("3:5") - parts).abs() < 1e-14);
     let heads = |speeds: &str| {
-        let grid = estimate(&space(["3", "2", "1", speeds]), Plan::Grid, &ExactSolver, &silent).unwrap();
+        let grid = Sampler::exact().estimate(&space(["3", "2", "1", speeds]), Plan::Grid).unwrap();
         let Found::Counts(counts) = grid.found else { panic!("a grid counts") };
-        counts.heads
+        counts.heads()
     };
     assert_eq!(heads("3:5:201"), heads("3:4:101") + heads("4.01:5:100"));
 }
@@ -113,21 +114,24 @@ fn plans_that_make_no_sense_are_refused_before_any_work() {
         Plan::Sobol(scrambled(1 << 40, 8)),
         Plan::ExactSpeed(Rest::Sobol(scrambled(7, 8))),
     ] {
-        let refused = estimate(&fig4, plan, &ExactSolver, &|_| panic!("nothing was to be done"));
-        assert!(matches!(&refused, Err(SampleError::Input(error)) if error.field() == "points"), "{refused:?}");
+        let refused = Sampler::exact().on_progress(&|_| panic!("nothing was to be done")).estimate(&fig4, plan);
+        assert!(matches!(&refused, Err(Error::Input(error)) if error.field() == "points"), "{refused:?}");
     }
     let no_grid = space(["0:1", "x", "7", "3:5"]);
     for plan in [Plan::Grid, Plan::ExactSpeed(Rest::Grid)] {
-        let refused = estimate(&no_grid, plan, &ExactSolver, &silent);
-        assert!(matches!(&refused, Err(SampleError::Input(error)) if error.field() == "rate x [rad/s]"));
+        let refused = Sampler::exact().estimate(&no_grid, plan);
+        assert!(matches!(&refused, Err(Error::Input(error)) if error.field() == "rate x [rad/s]"));
     }
 }
 
 /// Fails on every speed above 4 m/s.
 struct Fragile;
 impl Solver for Fragile {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         "fragile"
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(Some(1e-15))
     }
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let time = toss.launch.flight_time();
@@ -140,8 +144,8 @@ fn the_first_failing_launch_is_named_and_no_count_given() {
     let space = space(["1", "1", "1", "3:5:20001"]);
     for threads in [1, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let error = pool.install(|| estimate(&space, Plan::Grid, &Fragile, &silent)).unwrap_err();
-        assert!(matches!(error, SampleError::Solve { index: 10_001, .. }), "{error}");
+        let error = pool.install(|| Sampler::by(&Fragile).estimate(&space, Plan::Grid)).unwrap_err();
+        assert!(matches!(error, Error::Launch { index: 10_001, .. }), "{error}");
     }
 }
 
@@ -149,8 +153,11 @@ fn the_first_failing_launch_is_named_and_no_count_given() {
 #[derive(Default)]
 struct Worn(AtomicU64);
 impl Solver for Worn {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         "worn"
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(Some(1e-15))
     }
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let tosses = self.0.fetch_add(1, Ordering::Relaxed);
@@ -163,6 +170,14 @@ fn a_launch_of_a_later_scramble_is_counted_from_the_first() {
     let plan = Plan::Sobol(Scrambled { points: 32, scrambles: 8, seed: 1 });
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let worn = Worn::default();
-    let error = pool.install(|| estimate(&named_space("tails").unwrap(), plan, &worn, &silent)).unwrap_err();
-    assert!(matches!(error, SampleError::Solve { index: 9, .. }), "{error}");
+    let error = pool.install(|| Sampler::by(&worn).estimate(&named_space("tails").unwrap(), plan)).unwrap_err();
+    assert!(matches!(error, Error::Launch { index: 9, .. }), "{error}");
+}
+
+/// Exact-speed integrates the exact motion: a solver that is handed in would have no say.
+#[test]
+fn exact_speed_refuses_a_solver() {
+    let error = Sampler::by(&Fragile).estimate(&named_space("tails").unwrap(), PLANS[3]).unwrap_err();
+    assert_eq!((error.kind(), error.field()), ("input", Some("solver")));
+    assert!(error.to_string().contains("'fragile'"), "{error}");
 }

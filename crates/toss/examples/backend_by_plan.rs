@@ -5,7 +5,7 @@
 //! name.
 //!
 //! ```text
-//! certain      heads
+//! outcome      heads
 //! tilt         cos θ = 0.57818
 //! attitude     n = [0.77682, -0.24954, 0.57818]
 //! trace        25 points, the last one with cos θ = 0.57818
@@ -31,14 +31,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     for scene in scenes {
         let solution = scene.solve()?;
-        println!("{:<12} {}", solution.model.name(), text(&solution.answer));
+        println!("{:<12} {}", solution.model.name, text(&solution.answer));
     }
     Ok(())
 }
 
 fn text(answer: &Answer) -> String {
     match answer {
-        Answer::Outcome(verdict) => verdict.outcome.name().to_owned(),
+        Answer::Outcome(verdict) => verdict.outcome().name().to_owned(),
         Answer::Tilt(cos_tilt) => format!("cos θ = {cos_tilt:.5}"),
         Answer::Attitude(state) => format!("n = {:.5?}", state.attitude.normal().as_slice()),
         Answer::Trace(points) => {

@@ -8,8 +8,10 @@
 //!
 //! `cargo run --release -p toss --example backend_by_type`
 
-use toss::{Coin, ExactSolver, InputError, Launch, Method, QuaternionSolver, Scheme, SolveError, Solver};
-use toss::{Formulation, TimeOfFlight, Toss, Vector3};
+use toss::{
+    Coin, ExactSolver, Formulation, InputError, Launch, QuaternionSolver, Scheme, SolveError, Solver, Stepping,
+    TimeOfFlight, Toss, Vector3,
+};
 
 /// How often a coin lands heads when the hand's spin varies, by whichever backend the caller named as `S`.
 fn heads_by<S: Solver>(solver: &S, tosses: &[Toss]) -> Result<usize, SolveError> {
@@ -32,7 +34,7 @@ fn tosses() -> Result<Vec<Toss>, InputError> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let tosses = tosses()?;
-    let quaternion = QuaternionSolver::new(Method::adaptive(Scheme::Dop853, 1e-9)?, Formulation::default());
+    let quaternion = QuaternionSolver::new(Stepping::adaptive(Scheme::DOP853, 1e-9)?, Formulation::default());
     let (exact, integrated) = (heads_by(&ExactSolver, &tosses)?, heads_by(&quaternion, &tosses)?);
     println!("heads of {}: {exact} by the exact motion, {integrated} by the quaternion", tosses.len());
     assert_eq!(exact, integrated);

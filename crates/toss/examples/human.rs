@@ -21,12 +21,9 @@
 //!
 //! `cargo run --release -p toss --example human`
 
-use toss::ExactSolver;
 use toss::catalogue::named_coin;
 use toss::sampling::interval::from_scrambles;
-use toss::sampling::{
-    Coordinate, Estimate, Interval, Plan, SampleError, Space, clopper_pearson, estimate, long_flight_cone, rate_ratio,
-};
+use toss::sampling::{Axis, Estimate, Interval, Plan, Sampler, Space, clopper_pearson, long_flight_cone, rate_ratio};
 
 /// Flips of each person that landed on the side they started from, as the data set dat.bartos2023 of the R package
 /// metadat has them.
@@ -63,18 +60,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Launches of a real coin whose ψ should land the share `share` of them on the same side. It turns 40 times a second,
 /// so that ± 0.2 m/s blur the phase at landing by ± 10 rad: as good as a long flight.
-fn of_a_quarter(share: f64) -> Result<Estimate, SampleError> {
+fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
     const RATE: f64 = 251.0;
     let quarter = named_coin("us-quarter")?;
-    let (rate, spin) = (RATE.to_string(), (RATE / rate_ratio(share, quarter.inertia_ratio())?).to_string());
-    let axes = [
-        (Coordinate::RateX, rate.as_str()),
-        (Coordinate::RateY, "0"),
-        (Coordinate::RateZ, spin.as_str()),
-        (Coordinate::Speed, "normal:4:0.2"),
-    ];
-    let plan = Plan::Random { points: 4_000_000, seed: 1 };
-    estimate(&Space::parse(quarter, &axes)?, plan, &ExactSolver, &|_| {})
+    let spin = RATE / rate_ratio(share, quarter.inertia_ratio())?;
+    let space = Space::builder(quarter).rate_x(RATE).rate_y(0.0).rate_z(spin).speed(Axis::normal(4.0, 0.2)).build()?;
+    Sampler::exact().estimate(&space, Plan::Random { points: 4_000_000, seed: 1 })
 }
 
 /// Student's interval of 95 % for the share, with people as the units of the sample: a ratio of two sums over people,

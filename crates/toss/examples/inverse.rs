@@ -15,10 +15,8 @@
 //! `cargo run --release -p toss --example inverse`
 
 use toss::catalogue::named_coin;
-use toss::sampling::{
-    Coordinate, Estimate, Found, Interval, Plan, Rest, SampleError, Space, clopper_pearson, estimate, rate_ratio,
-};
-use toss::{Coin, ExactSolver};
+use toss::sampling::{Estimate, Found, Interval, Plan, Rest, Sampler, Space, clopper_pearson, rate_ratio};
+use toss::{Coin, Error};
 
 const WANTED: f64 = 0.95;
 const LAUNCHES: u64 = 1_000_000;
@@ -35,14 +33,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
         // Wider than the interval that is shown, so that chance fails it for one seed in 10 000.
         let Found::Counts(counts) = sample.found else { return Err("a sample has counts".into()) };
-        assert!(clopper_pearson(counts.heads, LAUNCHES, 0.9999).contains(WANTED));
+        assert!(clopper_pearson(counts.heads(), LAUNCHES, 0.9999).contains(WANTED));
     }
     Ok(())
 }
 
 /// The spin ωz (rad/s) at which the tumbling rate `rate` (rad/s) has the wanted share of heads. Without spin it is
 /// less; at ψ = 45°, Ω = k ωz, it is 1.
-fn spin(coin: Coin, rate: f64) -> Result<f64, SampleError> {
+fn spin(coin: Coin, rate: f64) -> Result<f64, Error> {
     let (mut less, mut more) = (0.0, rate / coin.inertia_ratio());
     for _ in 0..60 {
         let middle = 0.5 * (less + more);
@@ -53,13 +51,7 @@ fn spin(coin: Coin, rate: f64) -> Result<f64, SampleError> {
 }
 
 /// P(heads) at speeds from 3 to 5 m/s.
-fn heads(coin: Coin, rate: f64, spin: f64, plan: Plan) -> Result<Estimate, SampleError> {
-    let (rate, spin) = (rate.to_string(), spin.to_string());
-    let axes = [
-        (Coordinate::RateX, rate.as_str()),
-        (Coordinate::RateY, "0"),
-        (Coordinate::RateZ, spin.as_str()),
-        (Coordinate::Speed, "3:5"),
-    ];
-    estimate(&Space::parse(coin, &axes)?, plan, &ExactSolver, &|_| {})
+fn heads(coin: Coin, rate: f64, spin: f64, plan: Plan) -> Result<Estimate, Error> {
+    let space = Space::builder(coin).rate_x(rate).rate_y(0.0).rate_z(spin).speed(3.0..=5.0).build()?;
+    Sampler::exact().estimate(&space, plan)
 }

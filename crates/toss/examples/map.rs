@@ -27,21 +27,19 @@
 //!
 //! `cargo run --release -p toss --example map`
 
-use toss::ExactSolver;
 use toss::catalogue::named_coin;
-use toss::sampling::{Coordinate, Node, Plan, Rest, Space, map};
+use toss::sampling::{Axis, Coordinate, Node, Plan, Rest, Sampler, Space};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let axes = [
-        (Coordinate::RateX, "0:60:61"),
-        (Coordinate::RateY, "0"),
-        (Coordinate::RateZ, "0:30:16"),
-        (Coordinate::Speed, "3:5"),
-    ];
     let quarter = named_coin("us-quarter")?;
-    let space = Space::parse(quarter, &axes)?;
+    let space = Space::builder(quarter)
+        .rate_x(Axis::range(0.0..=60.0).with_points(61))
+        .rate_y(0.0)
+        .rate_z(Axis::range(0.0..=30.0).with_points(16))
+        .speed(3.0..=5.0)
+        .build()?;
     let across_and_up = [Coordinate::RateX, Coordinate::RateZ];
-    let mapped = map(&space, across_and_up, Plan::ExactSpeed(Rest::Grid), &ExactSolver, &|_| {})?;
+    let mapped = Sampler::exact().map(&space, across_and_up, Plan::ExactSpeed(Rest::Grid))?;
     let (rates, spins) = (&mapped.across.1, &mapped.up.1);
     for (spin, row) in spins.iter().zip(mapped.nodes.chunks(rates.len())).rev() {
         let certain = row.iter().take_while(|node| shows_only_heads(node)).count();

@@ -26,15 +26,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let landing = ExactSolver.propagate(&toss)?;
     let [w, x, y, z] = landing.state.attitude.components();
     let change = margin(&toss)?.speed.ok_or("no speed changes the outcome")?;
-    println!("outcome   {}, proven", proven.outcome.name());
+    println!("outcome   {}, proven", proven.outcome().name());
     println!("cos θ     {:.12}", landing.cos_tilt);
     println!("attitude  w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}");
     println!("margin    {:+.4} mm/s in v0", 1e3 * change);
     println!("ψ         {:.4}°, heads for ever up to 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
 
     // A little less than the margin keeps the outcome, a little more flips it.
-    assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome, proven.outcome);
-    assert_ne!(certify(&thrown(SPEED + change * (1.0 + 1e-9))?)?.outcome, proven.outcome);
+    assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome(), proven.outcome());
+    assert_ne!(certify(&thrown(SPEED + change * (1.0 + 1e-9))?)?.outcome(), proven.outcome());
     Ok(())
 }
 

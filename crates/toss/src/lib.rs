@@ -12,27 +12,27 @@
 //!
 //! # A toss
 //! The paper's cheated toss, ω = (1, 1, 2.5) rad/s thrown up at 3 m/s: its outcome is proven, and the speed would have
-//! to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certified`],
+//! to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certify`],
 //! [`margin()`].
 //!
 //! ```
-//! use toss::{Coin, ExactSolver, Launch, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
+//! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
 //!
 //! let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
 //! let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
-//! assert_eq!(certify(&toss)?.outcome.name(), "heads");
+//! assert_eq!(certify(&toss)?.outcome().name(), "heads");
 //! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
 //! assert_eq!(margin(&toss)?.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
 //!
 //! // The same flight by an integrator that is chosen at run time.
-//! let gamma = (toss::named_solver("gamma")?.build)(&toss::Settings::default());
+//! let gamma = Registry::standard().named("gamma")?.solver(&Settings::default())?;
 //! assert!((gamma.cos_tilt(&toss)? - ExactSolver.cos_tilt(&toss)?).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # A trace
-//! The flight at equal steps of time, by any solver. Read on at [`mod@trace`] and [`SOLVERS`]; whole columns of tosses
-//! at once are [`batch`].
+//! The flight at equal steps of time, by any solver. Read on at [`trace()`] and [`Registry`]; whole columns of tosses at
+//! once are a [`Batch`].
 //!
 //! ```
 //! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss, Vector3};
@@ -50,18 +50,17 @@
 //! says which launches are meant, its [`Plan`](sampling::Plan) which of them are tried.
 //!
 //! ```
-//! use toss::sampling::{Coordinate, Plan, Rest, Scrambled, Space, estimate};
-//! use toss::{ExactSolver, catalogue::named_coin};
+//! use toss::catalogue::named_coin;
+//! use toss::sampling::{Plan, Rest, Sampler, Scrambled, Space};
 //!
-//! let axes = [
-//!     (Coordinate::RateX, "20:60"),
-//!     (Coordinate::RateY, "0"),
-//!     (Coordinate::RateZ, "5:15"),
-//!     (Coordinate::Speed, "3:5"),
-//! ];
-//! let space = Space::parse(named_coin("us-quarter")?, &axes)?;
+//! let space = Space::builder(named_coin("us-quarter")?)
+//!     .rate_x(20.0..=60.0)
+//!     .rate_y(0.0)
+//!     .rate_z(5.0..=15.0)
+//!     .speed(3.0..=5.0)
+//!     .build()?;
 //! let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 14, 1)));
-//! let found = estimate(&space, plan, &ExactSolver, &|_| {})?;
+//! let found = Sampler::exact().estimate(&space, plan)?;
 //! let interval = found.interval.ok_or("eight scrambles have an interval")?;
 //! let found = format!("{:.4}, within {:.4} to {:.4}", found.probability, interval.lo, interval.hi);
 //! assert_eq!(found, "0.6247, within 0.6246 to 0.6248");
@@ -69,19 +68,19 @@
 //! ```
 //!
 //! # A plan
-//! Whoever wants heads or tails needs no trajectory: a [`Scene`] says what is wanted and how accurately, and the
-//! planner takes the cheapest model that serves. Read on at [`scene`], [`model`], [`mod@plan`].
+//! You don't need a trajectory to know the outcome: a [`Scene`] says what is wanted and how accurately, and the planner
+//! takes the cheapest model that serves. Read on at [`Want`], [`MODELS`], [`Scene::plan`].
 //!
 //! ```
-//! use toss::{Answer, Model, Scene, Want};
+//! use toss::{Answer, Scene, Want};
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
 //! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
 //!
 //! let outcome = Scene::new(Want::Outcome(toss), 1e-9).solve()?;
-//! assert_eq!(outcome.model, Model::Certain); // the flight is too short to flip
+//! assert!(matches!(outcome.answer, Answer::Outcome(verdict) if verdict.is_proven()));
 //! let tilt = Scene::new(Want::Tilt(toss), 1e-9);
-//! assert_eq!(tilt.plan()?.choice.model, Model::Tilt);
+//! assert_eq!(tilt.plan()?.choice.model.name, "tilt");
 //! assert!(matches!(tilt.solve()?.answer, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -89,29 +88,47 @@
 //! More questions, with their answers, are in the crate's `examples`: which launches are fair, how to launch for a
 //! wanted probability, how much people's coins wobble.
 
-pub mod choice;
+mod answer;
+mod choice;
 pub mod fitted;
-mod integrator_plan;
-pub mod model;
-pub mod plan;
-pub mod registry;
-pub mod scene;
-pub mod solve;
-pub mod space_plan;
-pub mod trace;
+mod integrators;
+mod model;
+mod plan;
+mod reason;
+mod registry;
+mod samples;
+mod scene;
+mod trace;
 
-pub use choice::{Choice, Decision};
-pub use dynamics::*;
+// The body, the launch and the flight.
+pub use dynamics::catalogue;
+pub use dynamics::{Attitude, Coin, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3};
+
+// What a solver is, for those who choose one and for those who write one.
+pub use dynamics::{
+    Checked, Formulation, Propagation, Scheme, Settings, Solver, SolverEntry, StepControl, Stepping, Work,
+};
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-pub use kinematics_quat::{QuaternionSolver, QuaternionSystem};
-pub use model::Model;
-pub use registry::{SOLVERS, named_solver};
-pub use sampling;
-pub use scene::{Integrator, Scene, SceneError, Want};
-pub use solve::{Answer, Solution};
-pub use trace::{TracePoint, trace};
+pub use kinematics_quat::{QuaternionSolver, TAYLOR};
+pub use registry::{Backend, Registry};
 
-/// The README's Rust is compiled and run.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+// The exact motion, and what it proves.
+pub use exact::{
+    Batch, Certificate, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify, margin, speeds_of_heads,
+};
+pub use numerics::lanes::SimdLevel;
+
+// Many launches.
+pub use sampling;
+
+// Questions, and the models that answer them.
+pub use answer::{Answer, Verdict};
+pub use choice::{Candidate, Choice, Decision, How, Offer};
+pub use model::{MODELS, Model};
+pub use plan::Solution;
+pub use reason::{Nanoseconds, Reason};
+pub use scene::{Integrator, Scene, Want, WantKind};
+pub use trace::{MOST_POINTS, TracePoint, trace};
+
+// What can go wrong.
+pub use dynamics::{Error, InputError, SolveError};

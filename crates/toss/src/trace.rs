@@ -1,8 +1,7 @@
 //! The flight at equal steps of time: Q(t) and cos θ(t) at t = i T/(n - 1), i = 0 to n - 1.
 
-use dynamics::{
-    Attitude, EulerAngles, ExactMotion, InputError, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3,
-};
+use dynamics::{Attitude, Checked, Error, EulerAngles, InputError, Launch, Solver, State, TimeOfFlight, Toss, Vector3};
+use exact::ExactMotion;
 
 /// More points than this are refused; a chart of a flight needs hundreds.
 pub const MOST_POINTS: usize = 1_000_000;
@@ -24,26 +23,16 @@ pub struct TracePoint {
     pub cos_tilt: f64,
 }
 
-/// Why there is no trace.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TraceError {
-    /// The number of points makes no sense.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The solver failed.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-}
-
 /// The flight of `toss` by `solver` at `points` equally spaced times, launch and landing included.
 ///
 /// An integrator propagates each point from the one before; a closed form takes each from the launch. The attitude
 /// fixes the Euler angles up to their branch; the branch is the one of the exact motion.
 ///
 /// # Errors
-/// [`TraceError`]: fewer than 2 or more than [`MOST_POINTS`] points, or what the solver says.
-pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, TraceError> {
+/// [`Error`]: fewer than 2 or more than [`MOST_POINTS`] points, or what the solver says.
+pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
     require_points(points)?;
+    let solver = Checked::new(solver);
     let motion = ExactMotion::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let mut last = (0.0, launch);
@@ -51,7 +40,7 @@ pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<Trac
     for index in 0..points {
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
         let time = toss.launch.flight_time() * (index as f64 / (points - 1) as f64);
-        let (since, from) = if solver.method().is_some() { last } else { (0.0, launch) };
+        let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
         let leg = Toss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
         let state = solver.propagate(&leg).map_err(|error| error.later(since))?.state;
         trace.push(TracePoint::new(time, state.attitude, &motion.euler_angles(time)?));
@@ -82,23 +71,24 @@ impl TracePoint {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, ExactSolver, Method, Propagation, Settings};
+    use dynamics::{Coin, Propagation, Settings, SolveError, Stepping};
+    use exact::ExactSolver;
 
     use super::*;
-    use crate::registry::SOLVERS;
+    use crate::registry::Registry;
 
     #[test]
     fn every_solver_traces_the_exact_motion_with_continuous_angles() {
         let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.5)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         let motion = ExactMotion::new(&toss);
-        for entry in SOLVERS {
-            let trace = trace((entry.build)(&Settings::default()).as_ref(), &toss, 301).unwrap();
+        for entry in Registry::standard().entries() {
+            let trace = trace(&entry.solver(&Settings::default()).unwrap(), &toss, 301).unwrap();
             assert_eq!((trace[0].time, trace[300].time), (0.0, 1.5));
             for point in &trace {
-                assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-7, "{}", entry.name);
+                assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-7, "{}", entry.name());
                 let exact = motion.euler_angles(point.time).unwrap();
-                assert!((point.angles.beta - exact.beta).abs() < 1e-6, "{} at {}", entry.name, point.time);
+                assert!((point.angles.beta - exact.beta).abs() < 1e-6, "{} at {}", entry.name(), point.time);
                 assert!(point.angles.attitude().angle_to(&point.attitude) < 1e-14);
                 assert!(point.normal.dot(&point.face).abs() < 1e-15);
             }
@@ -108,11 +98,14 @@ mod tests {
     /// An integrator that gives up in the middle of every leg but the first.
     struct Weary;
     impl Solver for Weary {
-        fn name(&self) -> &'static str {
+        fn name(&self) -> &str {
             "weary"
         }
-        fn method(&self) -> Option<Method> {
-            Some(Method::DEFAULT)
+        fn stepping(&self) -> Option<Stepping> {
+            Some(Stepping::DEFAULT)
+        }
+        fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+            Ok(None)
         }
         fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
             if toss.launch.attitude() == Attitude::IDENTITY {
@@ -126,7 +119,7 @@ mod tests {
     fn a_failing_leg_tells_the_time_since_launch() {
         let launch = Launch::new(Vector3::new(0.0, 40.0, 3.0), TimeOfFlight::Given(2.0)).unwrap();
         let error = trace(&Weary, &Toss { coin: Coin::PAPER, launch }, 3).unwrap_err();
-        assert_eq!(error, TraceError::Solve(SolveError::NotFinite { time: 1.5 }));
+        assert_eq!(error, Error::Solve(SolveError::NotFinite { time: 1.5 }));
     }
 
     #[test]
@@ -134,7 +127,7 @@ mod tests {
         let launch = Launch::new(Vector3::x(), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         for points in [0, 1, MOST_POINTS + 1] {
-            assert!(matches!(trace(&ExactSolver, &toss, points), Err(TraceError::Input(_))));
+            assert!(matches!(trace(&ExactSolver, &toss, points), Err(Error::Input(_))));
         }
     }
 }

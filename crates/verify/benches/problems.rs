@@ -5,17 +5,17 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use toss::{SOLVERS, Settings};
-use verify::work_precision::problems;
+use toss::{Registry, Settings};
+use verify::measure::work_precision::problems;
 
 fn solvers(criterion: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/problems.toml");
     for problem in problems::read(&path).expect("the problems") {
         let mut group = criterion.benchmark_group(&problem.name);
         group.sample_size(20);
-        for entry in SOLVERS {
-            let solver = (entry.build)(&Settings::default());
-            group.bench_function(entry.name, |bencher| {
+        for entry in Registry::standard().entries() {
+            let solver = entry.solver(&Settings::default()).expect("a solver of ours");
+            group.bench_function(entry.name(), |bencher| {
                 bencher.iter(|| {
                     for case in &problem.cases {
                         let _ = black_box(solver.propagate(black_box(&case.toss)));

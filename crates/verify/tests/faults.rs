@@ -5,18 +5,19 @@
 
 use std::path::Path;
 
+use dynamics::Flight;
+use dynamics::integrate::OdeSystem;
 use nalgebra::SVector;
-use toss::integrate::OdeSystem;
 use toss::{
-    Attitude, Coin, EulerAngles, ExactSolver, Flight, Formulation, Method, Propagation, QuaternionSolver, Scheme,
-    SolveError, Solver, SolverEntry, State, Toss, Vector3, Work,
+    Attitude, Coin, EulerAngles, ExactSolver, Formulation, Propagation, QuaternionSolver, Scheme, Settings, SolveError,
+    Solver, SolverEntry, State, Stepping, Toss, Vector3, Work,
 };
-use verify::bounds::Bounds;
+use verify::judge::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, judge};
 
 /// The γ-ODE (10)-(11) with the frame's z axis along S; `sign_of_c` is 1 where it is right.
 struct GammaCopy {
-    method: Method,
+    stepping: Stepping,
     sign_of_c: f64,
 }
 
@@ -45,11 +46,14 @@ impl OdeSystem<5> for GammaCopySystem {
 }
 
 impl Solver for GammaCopy {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         "gamma"
     }
-    fn method(&self) -> Option<Method> {
-        Some(self.method)
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
     }
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
@@ -63,7 +67,7 @@ impl Solver for GammaCopy {
         let start =
             EulerAngles { alpha: 0.0, beta: rate.x.hypot(rate.y).atan2(k * rate.z), gamma: rate.x.atan2(rate.y) };
         let first = SVector::from([start.gamma, (1.0 - k) * rate.z, 0.0, rate.x, rate.y]);
-        let (end, work) = flight.integrate(&system, first, &self.method)?;
+        let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         let (d, u, _) = system.terms(&end);
         let beta = if d == 0.0 && u == 0.0 { 0.0 } else { d.atan2(u) };
         let angles = EulerAngles { alpha: end[2], beta, gamma: end[0] };
@@ -88,7 +92,7 @@ impl GammaCopy {
 
 /// Q' = `half` Q ⊗ (0, ω); `half` is ½ where it is right.
 struct QuaternionCopy {
-    method: Method,
+    stepping: Stepping,
     half: f64,
 }
 
@@ -113,11 +117,14 @@ impl OdeSystem<6> for QuaternionCopySystem {
 }
 
 impl Solver for QuaternionCopy {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         "quaternion"
     }
-    fn method(&self) -> Option<Method> {
-        Some(self.method)
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
     }
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let flight = Flight::new(toss)?;
@@ -125,10 +132,10 @@ impl Solver for QuaternionCopy {
         let q = (toss.coin.inertia_ratio() - 1.0) * rate.z;
         let system = QuaternionCopySystem { rate_z: rate.z, q, half: self.half };
         let first = SVector::from([1.0, 0.0, 0.0, 0.0, rate.x, rate.y]);
-        let (end, work) = flight.integrate(&system, first, &self.method)?;
+        let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
         let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
-        Ok(Propagation { defect: (end.fixed_rows::<4>(0).norm() - 1.0).abs(), ..Propagation::new(state, work) })
+        Ok(Propagation::new(state, work).with_norm_error((end.fixed_rows::<4>(0).norm() - 1.0).abs()))
     }
 }
 
@@ -136,11 +143,11 @@ impl Solver for QuaternionCopy {
 struct Swapped<S>(S);
 
 impl<S: Solver> Solver for Swapped<S> {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         self.0.name()
     }
-    fn method(&self) -> Option<Method> {
-        self.0.method()
+    fn stepping(&self) -> Option<Stepping> {
+        self.0.stepping()
     }
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         match Coin::from_moments(toss.coin.i3(), toss.coin.i1()) {
@@ -152,15 +159,18 @@ impl<S: Solver> Solver for Swapped<S> {
             }
         }
     }
-    fn resolution(&self, toss: &Toss) -> Result<f64, SolveError> {
-        self.0.resolution(toss)
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.0.error_estimate(toss)
     }
 }
 
-const fn entry(name: &'static str, integrates: bool, build: fn(&toss::Settings) -> Box<dyn Solver>) -> SolverEntry {
-    let formulations: &[Formulation] = if integrates { &[Formulation::Momentum] } else { &[] };
-    let schemes: &[Scheme] = if integrates { &Scheme::RUNGE_KUTTA } else { &[] };
-    SolverEntry { name, summary: "", formulations, schemes, build }
+fn entry(name: &'static str, integrates: bool, build: fn(&Settings) -> Box<dyn Solver>) -> SolverEntry {
+    let entry = SolverEntry::new(name, "", build);
+    if integrates {
+        entry.with_schemes(&Scheme::RUNGE_KUTTA).with_formulations(&[Formulation::MOMENTUM])
+    } else {
+        entry
+    }
 }
 
 /// The checks that fail with `solver` beside the exact motion. Two checks need the vertical frame, which the copies lack,
@@ -176,7 +186,7 @@ fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
     ];
     let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
     let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
-    let registry = if solver.integrates() { vec![ExactSolver::ENTRY, solver] } else { vec![solver] };
+    let registry = if solver.integrates() { vec![ExactSolver::entry(), solver] } else { vec![solver] };
     let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
     CHECKS
         .iter()
@@ -199,28 +209,28 @@ fn assert_caught(solver: SolverEntry, by: &[&str]) {
 
 #[test]
 fn the_copies_pass_without_their_faults() {
-    let gamma = entry("gamma", true, |s| Box::new(GammaCopy { method: s.method, sign_of_c: 1.0 }));
+    let gamma = entry("gamma", true, |s| Box::new(GammaCopy { stepping: s.stepping, sign_of_c: 1.0 }));
     assert_eq!(failing_checks(gamma), [""; 0]);
-    let quaternion = entry("quaternion", true, |s| Box::new(QuaternionCopy { method: s.method, half: 0.5 }));
+    let quaternion = entry("quaternion", true, |s| Box::new(QuaternionCopy { stepping: s.stepping, half: 0.5 }));
     assert_eq!(failing_checks(quaternion), [""; 0]);
 }
 
 #[test]
 fn a_wrong_sign_in_c_is_caught() {
-    let faulty = entry("gamma", true, |s| Box::new(GammaCopy { method: s.method, sign_of_c: -1.0 }));
+    let faulty = entry("gamma", true, |s| Box::new(GammaCopy { stepping: s.stepping, sign_of_c: -1.0 }));
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "cross-method-attitude", "fig4-same-counts"]);
 }
 
 #[test]
 fn a_lost_half_is_caught() {
-    let faulty = entry("quaternion", true, |s| Box::new(QuaternionCopy { method: s.method, half: 1.0 }));
+    let faulty = entry("quaternion", true, |s| Box::new(QuaternionCopy { stepping: s.stepping, half: 1.0 }));
     let invariant = "invariant-momentum-vector";
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", invariant, "tails-in-flight", "first-flip"]);
 }
 
 #[test]
 fn swapped_moments_are_caught_in_an_integrator_and_in_the_exact_motion() {
-    let faulty = entry("quaternion", true, |s| Box::new(Swapped(QuaternionSolver::new(s.method, s.formulation))));
+    let faulty = entry("quaternion", true, |s| Box::new(Swapped(QuaternionSolver::new(s.stepping, s.formulation))));
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);
     let exact = entry("exact", false, |_| Box::new(Swapped(ExactSolver)));
     assert_caught(exact, &["reference-cos-tilt", "random-attitude", "invariant-momentum-vector", "first-flip"]);

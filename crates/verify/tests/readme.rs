@@ -9,7 +9,7 @@ const README: &str = include_str!("../../../README.md");
 #[test]
 fn the_table_is_that_of_the_newest_record() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/record");
-    let records = verify::record::read(&folder).unwrap();
+    let records = verify::judge::record::read(&folder).unwrap();
     let date = &records.last().unwrap().host.date;
     assert!(README.contains(&format!("record of {date}")), "{date}");
     let text = std::fs::read_to_string(folder.join(date).join("work-precision.jsonl")).unwrap();

@@ -2,6 +2,6 @@
 
 #[test]
 fn probability_tables() {
-    let lines: Vec<_> = verify::tables::tables().unwrap().into_iter().map(|(line, _)| line).collect();
+    let lines: Vec<_> = verify::measure::tables::tables().unwrap().into_iter().map(|(line, _)| line).collect();
     insta::assert_json_snapshot!("probability_tables", lines);
 }

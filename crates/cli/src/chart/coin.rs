@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use chart::{ChartError, Drawn, Panel, TEXT};
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use plotters::prelude::*;
-use toss::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Attitude, Outcome, TimeOfFlight, Toss, TracePoint, Vector3};
 
 use crate::chart::layout::{FACE, NORMAL, NUMBERS, times};

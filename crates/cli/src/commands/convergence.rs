@@ -1,10 +1,10 @@
 //! `unfair-toss convergence`: the running probability of methods A and B.
 
-use sampling::{RunningStep, running_shares};
+use sampling::{RunningStep, Sampler};
 
-use crate::args::SamplingSolverArgs;
 use crate::failure::Failure;
-use crate::output::{SeriesArgs, progress_bar};
+use crate::output::SeriesArgs;
+use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -20,7 +20,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SamplingSolverArgs,
+    solver: SolverArgs,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -28,15 +28,10 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver()?;
-        let points = space.grid_points()?;
-        let bar = progress_bar(2 * points, "launches");
-        let steps = self
-            .threads
-            .pool()?
-            .install(|| running_shares(&space, self.steps, self.seed, solver.as_ref(), &|more| bar.inc(more)));
-        bar.finish_and_clear();
-        let steps = steps?;
+        let backend = self.solver.backend()?;
+        let launches = (2 * space.grid_points()?, "launches");
+        let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, self.steps, self.seed);
+        let steps = self.threads.ask(backend.sampler(), launches, ask)?;
         self.series.draw(|| Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?))?;
         Ok(self.series.data(&steps))
     }

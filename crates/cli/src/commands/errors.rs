@@ -1,11 +1,11 @@
 //! `unfair-toss errors`: the error of every method of sampling against the number of launches.
 
-use sampling::{ESTIMATORS, Estimator, Plan, Progress, Rest, Scrambled, Space, estimate, rms_error};
-use toss::ExactSolver;
+use sampling::{ESTIMATORS, Estimator, Plan, Rest, Sampler, Scrambled, Space, rms_error};
+use toss::Error;
 
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
-use crate::output::{SeriesArgs, progress_bar};
+use crate::output::SeriesArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -35,22 +35,35 @@ fn probability(text: &str) -> Result<f64, String> {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let (lines, reference) = self.threads.pool()?.install(|| self.lines(&space))?;
+        let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);
+        let (lines, reference) = self.threads.ask(Sampler::exact(), (self.launches(), "launches"), ask)?;
         self.series.draw(|| Ok(chart::errors(&lines, &reference)?))?;
         Ok(self.series.data(&lines))
     }
 
-    fn lines(&self, space: &Space) -> Result<(Vec<ErrorLine>, Reference), Failure> {
-        let sizes = || (8..=self.up_to).map(|exponent| 1_u64 << exponent);
+    /// The numbers of launches that each method is tried with.
+    fn sizes(&self) -> impl Iterator<Item = u64> {
+        (8..=self.up_to).map(|exponent| 1 << exponent)
+    }
+
+    /// Launches of the reference.
+    fn reference_launches(&self) -> u64 {
+        64 << self.up_to
+    }
+
+    /// All launches together.
+    fn launches(&self) -> u64 {
         let seeds = |estimator: &Estimator| if estimator.is_random { self.replicates } else { 1 };
-        let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * sizes().sum::<u64>();
-        let bar = progress_bar(all + if self.reference.is_some() { 0 } else { 64 << self.up_to }, "launches");
-        let progress = |more| bar.inc(more);
-        let reference = self.reference(space, &progress)?;
+        let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * self.sizes().sum::<u64>();
+        all + if self.reference.is_some() { 0 } else { self.reference_launches() }
+    }
+
+    fn lines(&self, sampler: &Sampler<'_>, space: &Space) -> Result<(Vec<ErrorLine>, Reference), Error> {
+        let reference = self.reference(sampler, space)?;
         let mut lines = Vec::new();
         for estimator in ESTIMATORS {
-            for launches in sizes() {
-                let estimates = estimator.estimates(space, launches, self.replicates, &ExactSolver, &progress)?;
+            for launches in self.sizes() {
+                let estimates = estimator.estimates(sampler, space, launches, self.replicates)?;
                 lines.push(ErrorLine {
                     method: estimator.name,
                     launches,
@@ -61,17 +74,16 @@ impl Args {
                 });
             }
         }
-        bar.finish_and_clear();
         Ok((lines, reference))
     }
 
-    fn reference(&self, space: &Space, progress: Progress<'_>) -> Result<Reference, Failure> {
+    fn reference(&self, sampler: &Sampler<'_>, space: &Space) -> Result<Reference, Error> {
         if let Some(probability) = self.reference {
             return Ok(Reference { probability, error: 0.0 });
         }
         // A seed that no replicate has.
-        let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(64 << self.up_to, 0)));
-        let found = estimate(space, plan, &ExactSolver, progress)?;
+        let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(self.reference_launches(), 0)));
+        let found = sampler.estimate(space, plan)?;
         Ok(Reference { probability: found.probability, error: found.half_width().unwrap_or(0.0) })
     }
 }

@@ -1,13 +1,13 @@
 //! `unfair-toss intervals`: the speeds that land heads, for one rate.
 
-use sampling::{Axis, Coordinate};
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use sampling::{Coordinate, Space};
 use serde::Serialize;
-use toss::time_of_flight::DEFAULT_GRAVITY;
-use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
+use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
 
-use crate::args::{CoinArgs, numbers};
 use crate::failure::Failure;
 use crate::output::{self, Format, table};
+use crate::toss_args::{CoinArgs, numbers};
 
 /// More turns than this are refused: nobody reads so many intervals.
 const MOST_TURNS: f64 = 10_000.0;
@@ -45,14 +45,12 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
-        let [slowest, fastest] = Axis::parse(Coordinate::Speed, &self.speed)?.bounds();
+        let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
             return Err(Failure::Usage("--speed: a range LO:HI of more than one speed is needed".to_owned()));
         }
-        let thrown = |speed| TimeOfFlight::Ballistic { speed, gravity: self.gravity };
-        // The slowest first, which is the one that may be negative.
-        Launch::new(rate, thrown(slowest))?;
-        let toss = Toss { coin, launch: Launch::new(rate, thrown(fastest))?.with_tilt(self.tilt)? };
+        let thrown = TimeOfFlight::Ballistic { speed: fastest, gravity: self.gravity };
+        let toss = Toss { coin, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
         let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
             return Err(Failure::Usage(format!(
@@ -68,6 +66,12 @@ impl Args {
             Format::Text => answer.text(),
         })
     }
+}
+
+/// The slowest and the fastest of a range of speeds (m/s).
+fn speeds(text: &str) -> Result<[f64; 2], InputError> {
+    let of_no_turn = Space::builder(Coin::PAPER).rate_x(0.0).rate_y(0.0).rate_z(0.0);
+    Ok(of_no_turn.parse(Coordinate::Speed, text)?.build()?.axis(Coordinate::Speed).bounds())
 }
 
 impl Answer {

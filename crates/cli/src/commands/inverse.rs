@@ -4,9 +4,9 @@ use sampling::{long_flight_cone, rate_ratio};
 use serde::Serialize;
 use toss::Coin;
 
-use crate::args::CoinArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format};
+use crate::toss_args::CoinArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {

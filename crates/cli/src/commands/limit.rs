@@ -1,14 +1,15 @@
 //! `unfair-toss limit`: p(ψ), the probability of heads in the limit of long flights, beside the share of long flights.
 
-use sampling::{LongFlightShare, long_flight_shares};
+use sampling::{LongFlightShare, Sampler};
 use serde::Serialize;
 use toss::Coin;
 
-use crate::args::{CoinArgs, SamplingSolverArgs};
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{SeriesArgs, progress_bar};
+use crate::output::SeriesArgs;
+use crate::solver_args::SolverArgs;
 use crate::space_args::ThreadArgs;
+use crate::toss_args::CoinArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -23,7 +24,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SamplingSolverArgs,
+    solver: SolverArgs,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -42,17 +43,12 @@ struct Line {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let solver = self.solver.solver()?;
+        let backend = self.solver.backend()?;
         // Beyond 90° it all repeats the other way round.
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
-        let bar = progress_bar(self.points.saturating_mul(cone_angles.len() as u64), "flights");
-        let sampled = (self.points, self.seed);
-        let shares = self
-            .threads
-            .pool()?
-            .install(|| long_flight_shares(coin, &cone_angles, sampled, solver.as_ref(), &|more| bar.inc(more)));
-        bar.finish_and_clear();
-        let shares = shares?;
+        let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
+        let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
+        let shares = self.threads.ask(backend.sampler(), flights, ask)?;
         self.series.draw(|| Ok(chart::limit(&shares)?))?;
         Ok(self.series.data(&shares.iter().map(Line::from).collect::<Vec<_>>()))
     }

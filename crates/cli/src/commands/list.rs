@@ -2,10 +2,9 @@
 
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
-use toss::SOLVERS;
 use toss::catalogue::{Body, CATALOGUE, CatalogueEntry};
 use toss::fitted::FITTED;
-use toss::model::LADDER;
+use toss::{MODELS, Registry, SolverEntry};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, table};
@@ -85,26 +84,36 @@ struct SolverLine {
     name: &'static str,
     summary: &'static str,
     integrates: bool,
+    schemes: Vec<&'static str>,
+    /// The schemes by their former name.
     methods: Vec<&'static str>,
+    formulations: Vec<&'static str>,
+}
+
+impl From<&'static SolverEntry> for SolverLine {
+    fn from(entry: &'static SolverEntry) -> Self {
+        let schemes: Vec<&str> = entry.schemes().iter().map(|scheme| scheme.name()).collect();
+        Self {
+            name: entry.name(),
+            summary: entry.summary(),
+            integrates: entry.integrates(),
+            methods: schemes.clone(),
+            schemes,
+            formulations: entry.formulations().iter().map(|formulation| formulation.name()).collect(),
+        }
+    }
 }
 
 pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
-    let lines: Vec<SolverLine> = SOLVERS
-        .iter()
-        .map(|entry| SolverLine {
-            name: entry.name,
-            summary: entry.summary,
-            integrates: entry.integrates(),
-            methods: entry.schemes.iter().map(|scheme| scheme.name()).collect(),
-        })
-        .collect();
+    let lines: Vec<SolverLine> = Registry::standard().entries().iter().map(SolverLine::from).collect();
     if args.format == Format::Json {
         return Ok(output::json(&lines));
     }
-    let mut rows = vec![row(["name", "methods", "what"])];
+    let mut rows = vec![row(["name", "schemes", "formulations", "what"])];
     rows.extend(lines.iter().map(|line| {
-        let methods = if line.integrates { line.methods.join(", ") } else { "-".to_owned() };
-        row([line.name, &methods, line.summary])
+        let [schemes, formulations] = [&line.schemes, &line.formulations]
+            .map(|names| if names.is_empty() { "-".to_owned() } else { names.join(", ") });
+        row([line.name, &schemes, &formulations, line.summary])
     }));
     Ok(table(&rows))
 }
@@ -119,10 +128,15 @@ struct ModelLine {
 }
 
 pub(crate) fn models(args: &Args) -> Result<String, Failure> {
-    let cost = |model| FITTED.closed.iter().find(|fit| fit.model == model).map(|fit| fit.cost_ns);
-    let lines: Vec<ModelLine> = LADDER
+    let cost = |model| FITTED.closed(model).map(|fit| fit.cost_ns);
+    let lines: Vec<ModelLine> = MODELS
         .iter()
-        .map(|rung| ModelLine { name: rung.name, assumes: rung.assumes, gives: rung.gives, cost_ns: cost(rung.model) })
+        .map(|model| ModelLine {
+            name: model.name,
+            assumes: model.assumes,
+            gives: model.gives,
+            cost_ns: cost(model.name),
+        })
         .collect();
     if args.format == Format::Json {
         return Ok(output::json(&lines));

@@ -1,12 +1,12 @@
 //! `unfair-toss map`: the probability of heads over two coordinates of a space.
 
-use sampling::{Coordinate, Map, map};
+use sampling::{Coordinate, Map, Sampler};
 use serde::Serialize;
 
-use crate::args::SamplingSolverArgs;
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, SeriesArgs, progress_bar};
+use crate::output::{self, DataFormat, SeriesArgs};
+use crate::solver_args::SolverArgs;
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
 
 /// For a node.
@@ -30,7 +30,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SamplingSolverArgs,
+    solver: SolverArgs,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -38,15 +38,12 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver()?;
-        let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
+        let backend = self.solver.backend()?;
+        let plan = self.plan.plan(self.method, &space, DEFAULT_POINTS)?;
         let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
-        let nodes = axes.iter().filter_map(|of| space.axis(*of).points()).product();
-        let progress = progress_bar(nodes, "nodes");
-        let pool = self.threads.pool()?;
-        let mapped = pool.install(|| map(&space, axes, plan, solver.as_ref(), &|more| progress.inc(more)));
-        progress.finish_and_clear();
-        let mapped = mapped?;
+        let nodes = (axes.iter().filter_map(|of| space.axis(*of).points()).product(), "nodes");
+        let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
+        let mapped = self.threads.ask(backend.sampler(), nodes, ask)?;
         self.series.draw(|| Ok(chart::map(&mapped)?))?;
         Ok(match self.series.format {
             DataFormat::Csv => csv(&mapped),

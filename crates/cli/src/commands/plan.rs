@@ -4,13 +4,16 @@ use std::path::{Path, PathBuf};
 
 use sampling::Plan;
 use serde::Serialize;
-use toss::choice::{Candidate, How, Nanoseconds, Reason};
-use toss::{Choice, Decision, Integrator, Scene, Scheme, StepControl, Want};
+use toss::{
+    Candidate, Choice, Decision, ExactSolver, How, Integrator, Nanoseconds, Reason, Scene, Scheme, SolverEntry,
+    StepControl, Want,
+};
 
-use crate::args::TossArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format, table};
+use crate::solver_args;
 use crate::space_args::space_called;
+use crate::toss_args::TossArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -28,12 +31,12 @@ pub(crate) struct Args {
     /// A space for a probability, instead of a toss: a name (`spaces` lists them), or a file that ends in .toml
     #[arg(long, value_name = "NAME|FILE.toml", conflicts_with_all = ["rate", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
-    /// An integrator to be used, as a cross-check
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME",
+          help = format!("An integrator to be used, as a cross-check: {}", solver_args::solvers(SolverEntry::integrates)))]
     solver: Option<String>,
-    /// Its method, dop853, dopri5 or, of the quaternion, taylor [default: the cheapest one]
-    #[arg(long, value_name = "NAME", requires = "solver")]
-    method: Option<String>,
+    #[arg(long, value_name = "NAME", alias = "method", requires = "solver",
+          help = format!("Its scheme: {} [default: the cheapest one]", solver_args::schemes(Scheme::is_adaptive)))]
+    scheme: Option<String>,
     /// The whole scene from a TOML file instead, or a JSON one if it ends in .json
     #[arg(long, value_name = "FILE", conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate", "speed", "time",
               "gravity", "drop", "tilt", "drag", "bounce"])]
@@ -60,7 +63,10 @@ enum WantArg {
 #[derive(Serialize)]
 struct Answer {
     model: &'static str,
-    solver: &'static str,
+    solver: String,
+    /// The scheme of an integrator.
+    scheme: Option<&'static str>,
+    /// The scheme by its former name; of a sample, how its launches are chosen.
     method: Option<&'static str>,
     tolerance: Option<f64>,
     /// Launches of a sample.
@@ -92,10 +98,10 @@ impl Args {
     fn scene(&self) -> Result<Scene, Failure> {
         let space = || {
             let missing = || Failure::Usage("--space is needed for a probability".to_owned());
-            space_called(self.space.as_deref().ok_or_else(missing)?)
+            space_called(self.space.as_deref().ok_or_else(missing)?, &self.toss.coin)
         };
         let want = match self.want {
-            Some(WantArg::Probability) => Want::Probability(self.toss.with_coin(space()?)?),
+            Some(WantArg::Probability) => Want::Probability(space()?),
             _ if self.space.is_some() => {
                 return Err(Failure::Usage("--space is for --want probability; a toss has --rate".to_owned()));
             }
@@ -104,8 +110,7 @@ impl Args {
             Some(WantArg::Attitude) => Want::Attitude(self.toss.toss()?),
             Some(WantArg::Trace) | None => Want::Trace { toss: self.toss.toss()?, points: self.points },
         };
-        let method = self.method.as_deref().map(Scheme::named).transpose()?;
-        let by = self.solver.clone().map(|solver| Integrator { solver, method });
+        let by = self.solver.clone().map(|solver| Integrator { solver, scheme: self.scheme.clone() });
         Ok(Scene { want, accuracy: self.accuracy.unwrap_or(f64::NAN), by })
     }
 }
@@ -123,42 +128,45 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
 
 impl Answer {
     fn new(scene: &Scene, decision: &Decision) -> Result<Self, Failure> {
-        let Choice { model, how, expected_error, expected_cost_ns } = decision.choice;
-        let (solver, method, tolerance, points) = match how {
-            How::ClosedForm => ("exact", None, None, None),
-            How::Integrator(entry, method) => {
-                let tolerance = match method.control() {
+        let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
+        let mut answer = Self {
+            model: model.name,
+            solver: ExactSolver::NAME.to_owned(),
+            scheme: None,
+            method: None,
+            tolerance: None,
+            points: None,
+            expected_error: *expected_error,
+            expected_cost_ns: *expected_cost_ns,
+            passed_over: decision.passed_over.iter().map(PassedOver::new).collect(),
+        };
+        match (how, &scene.want) {
+            (How::Integrator(entry, stepping), _) => {
+                answer.solver = entry.name().to_owned();
+                answer.scheme = Some(stepping.scheme().name());
+                answer.method = answer.scheme;
+                answer.tolerance = match stepping.control() {
                     StepControl::Tolerance(tolerance) => Some(tolerance),
                     StepControl::Step(_) => None,
                 };
-                (entry.name, Some(method.scheme().name()), tolerance, None)
             }
-            How::Sampling(plan) => {
-                let points = if let Want::Probability(space) = &scene.want { Some(plan.points(space)?) } else { None };
-                ("exact", Some(way_to_sample(plan)), None, points)
+            (How::Sampling(plan), Want::Probability(space)) => {
+                answer.method = Some(way_to_sample(*plan));
+                answer.points = Some(plan.points(space)?);
             }
-        };
-        let passed_over = decision.passed_over.iter().map(PassedOver::new).collect();
-        Ok(Self {
-            model: model.name(),
-            solver,
-            method,
-            tolerance,
-            points,
-            expected_error,
-            expected_cost_ns,
-            passed_over,
-        })
+            _ => {}
+        }
+        Ok(answer)
     }
 
     fn text(&self, choice: &Choice) -> String {
-        let mut settings = self.solver.to_owned();
+        let mut settings = self.solver.clone();
         settings.extend(self.method.map(|method| format!(", {method}")));
         settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
         settings.extend(self.points.map(|points| format!(", {points} launches")));
         let error = if self.expected_error == 0.0 { "none".to_owned() } else { format!("{:.1e}", self.expected_error) };
         let mut rows = vec![
-            vec!["model".to_owned(), self.model.to_owned(), choice.model.rung().gives.to_owned()],
+            vec!["model".to_owned(), self.model.to_owned(), choice.model.gives.to_owned()],
             vec!["solver".to_owned(), settings, String::new()],
             vec!["expected".to_owned(), format!("error {error}"), format!("in {}", Nanoseconds(self.expected_cost_ns))],
         ];

@@ -1,11 +1,12 @@
 //! `unfair-toss probability`: the share of heads over a space of launches.
 
-use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Proven, estimate};
+use exact::{ProvenCounts, Stage};
+use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled};
 use serde::Serialize;
 
-use crate::args::SamplingSolverArgs;
 use crate::failure::Failure;
-use crate::output::{self, Format, progress_bar};
+use crate::output::{self, Format};
+use crate::solver_args::SolverArgs;
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
 
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 << 18 };
@@ -22,7 +23,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
-    solver: SamplingSolverArgs,
+    solver: SolverArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
@@ -42,7 +43,7 @@ struct Answer {
     certified: bool,
     /// How many outcomes each stage of the proof decided.
     #[serde(skip_serializing_if = "Option::is_none")]
-    proven_by: Option<Proven>,
+    proven_by: Option<ProvenBy>,
     seed: Option<u64>,
 }
 
@@ -53,20 +54,37 @@ struct CountsAnswer {
     undecided: u64,
 }
 
+/// By stage.
+#[derive(Serialize)]
+struct ProvenBy {
+    keller: u64,
+    certain: u64,
+    f64: u64,
+    double_double: u64,
+    multiprecision: u64,
+}
+
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let solver = self.solver.solver()?;
-        let plan = self.plan.plan(self.method, &space, solver.as_ref(), DEFAULT_POINTS)?;
-        let progress = progress_bar(plan.points(&space)?, "launches");
-        let pool = self.threads.pool()?;
-        let found = pool.install(|| estimate(&space, plan, solver.as_ref(), &|more| progress.inc(more)));
-        progress.finish_and_clear();
-        let found = found?;
+        let backend = self.solver.backend()?;
+        let plan = self.plan.plan(self.method, &space, DEFAULT_POINTS)?;
+        let launches = (plan.points(&space)?, "launches");
+        let ask = |sampler: &Sampler<'_>| sampler.estimate(&space, plan);
+        let found = self.threads.ask(backend.sampler(), launches, ask)?;
         Ok(match self.format {
-            Format::Json => output::json(&Answer::new(&found, self.plan.seed_of(plan))),
-            Format::Text => text(&found, solver.name()),
+            Format::Json => output::json(&Answer::new(&found, seed_of(plan))),
+            Format::Text => text(&found, backend.solver().name()),
         })
+    }
+}
+
+/// The seed of what is random in `plan`.
+fn seed_of(plan: Plan) -> Option<u64> {
+    match plan {
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+        Plan::Random { seed, .. } => Some(seed),
+        Plan::Sobol(Scrambled { seed, .. }) | Plan::ExactSpeed(Rest::Sobol(Scrambled { seed, .. })) => Some(seed),
     }
 }
 
@@ -76,18 +94,35 @@ impl Answer {
             Found::Counts(counts) => (Some(counts), None),
             Found::Shares { .. } => (None, found.half_width()),
         };
-        let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven);
-        let counts = counts.map(|Counts { heads, tails, undecided, .. }| CountsAnswer { heads, tails, undecided });
+        let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven());
         Self {
-            counts,
+            counts: counts.map(CountsAnswer::from),
             points: found.points,
             probability: found.probability,
             error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
             interval_kind: found.interval_kind.to_string(),
             certified: proven.is_some(),
-            proven_by: proven,
+            proven_by: proven.map(ProvenBy::from),
             seed,
+        }
+    }
+}
+
+impl From<Counts> for CountsAnswer {
+    fn from(counts: Counts) -> Self {
+        Self { heads: counts.heads(), tails: counts.tails(), undecided: counts.undecided() }
+    }
+}
+
+impl From<ProvenCounts> for ProvenBy {
+    fn from(proven: ProvenCounts) -> Self {
+        Self {
+            keller: proven.by(Stage::Keller),
+            certain: proven.by(Stage::TrigFree),
+            f64: proven.by(Stage::F64),
+            double_double: proven.by(Stage::DoubleDouble),
+            multiprecision: proven.by(Stage::Multiprecision),
         }
     }
 }
@@ -105,8 +140,8 @@ fn text(found: &Estimate, solver: &str) -> String {
         _ => (format!("{probability:.6}"), kind.to_string()),
     };
     let launches = match found.found {
-        Found::Counts(Counts { heads, tails, undecided, .. }) => {
-            format!("{heads} heads, {tails} tails, {undecided} undecided")
+        Found::Counts(counts) => {
+            format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
         }
         Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
     };
@@ -119,8 +154,8 @@ fn text(found: &Estimate, solver: &str) -> String {
     if let Found::Counts(counts) = found.found
         && counts.are_certified()
     {
-        let Proven { certain, keller, f64, double_double, multiprecision } = counts.proven;
-        lines.push(format!("proven by    Keller's cosine {keller}, no motion {certain}, f64 {f64}, double-double {double_double}, more digits {multiprecision}"));
+        let stages = Stage::ALL.map(|stage| format!("{} {}", stage.name(), counts.proven().by(stage)));
+        lines.push(format!("proven by    {}", stages.join(", ")));
     }
     lines.join("\n")
 }

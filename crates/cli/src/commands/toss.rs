@@ -1,11 +1,11 @@
 //! `unfair-toss toss`: one toss, one answer.
 
 use serde::Serialize;
-use toss::{Propagation, Solver, Toss, Work, margin};
+use toss::{Backend, Propagation, Toss, Work, margin};
 
-use crate::args::FlightArgs;
 use crate::failure::Failure;
 use crate::output::{self, Format};
+use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -25,8 +25,13 @@ struct Answer {
     certified: bool,
     margin: MarginAnswer,
     attitude: [f64; 4],
+    rate: [f64; 3],
+    norm_error: f64,
+    /// The norm error by its former name.
     defect: f64,
-    solver: &'static str,
+    solver: String,
+    scheme: Option<&'static str>,
+    /// The scheme by its former name.
     method: Option<&'static str>,
     work: WorkCounts,
 }
@@ -34,6 +39,7 @@ struct Answer {
 #[derive(Serialize)]
 struct Moments {
     i1: f64,
+    i2: f64,
     i3: f64,
 }
 
@@ -54,8 +60,8 @@ struct MarginAnswer {
 
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
-        let (toss, solver) = self.flight.parts()?;
-        let answer = Answer::new(&toss, solver.as_ref())?;
+        let (toss, backend) = self.flight.parts()?;
+        let answer = Answer::new(&toss, &backend)?;
         Ok(match self.format {
             Format::Json => output::json(&answer),
             Format::Text => answer.text(toss.coin.inertia_ratio()),
@@ -64,42 +70,48 @@ impl Args {
 }
 
 impl Answer {
-    fn new(toss: &Toss, solver: &dyn Solver) -> Result<Self, Failure> {
-        let Propagation { state, cos_tilt, defect, work } = solver.propagate(toss)?;
-        let verdict = solver.verdict_at(toss, cos_tilt)?;
+    fn new(toss: &Toss, backend: &Backend) -> Result<Self, Failure> {
+        let solver = backend.solver();
+        let Propagation { state, cos_tilt, norm_error, work, .. } = solver.propagate(toss)?;
+        let verdict = backend.verdict(toss, cos_tilt)?;
         let margin = margin(toss)?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
+        let (i1, i3) = (toss.coin.i1(), toss.coin.i3());
+        let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
         Ok(Self {
-            coin: Moments { i1: toss.coin.i1(), i3: toss.coin.i3() },
+            coin: Moments { i1, i2: i1, i3 },
             flight_time: toss.launch.flight_time(),
             cos_tilt,
-            outcome: verdict.outcome.name(),
-            certified: verdict.proof.is_some(),
+            outcome: verdict.outcome().name(),
+            certified: verdict.is_proven(),
             margin: MarginAnswer { time: margin.time, speed: margin.speed, rate: margin.rate },
             attitude: state.attitude.components(),
-            defect,
-            solver: solver.name(),
-            method: solver.method().map(|method| method.scheme().name()),
+            rate: state.rate.into(),
+            norm_error,
+            defect: norm_error,
+            solver: solver.name().to_owned(),
+            scheme,
+            method: scheme,
             work: WorkCounts { rhs_calls, accepted_steps, rejected_steps },
         })
     }
 
     fn text(&self, inertia_ratio: f64) -> String {
         let [w, x, y, z] = self.attitude;
-        let method = self.method.map(|name| format!(", {name}")).unwrap_or_default();
+        let scheme = self.scheme.map(|name| format!(", {name}")).unwrap_or_default();
         let mut lines = vec![
             format!("outcome      {}{}", self.outcome, if self.certified { ", proven" } else { "" }),
             format!("cos θ        {}", self.cos_tilt),
             format!("flight time  {} s", self.flight_time),
             format!("attitude     w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}"),
             format!("coin         I1 {:e} kg m², I3 {:e} kg m², k = {inertia_ratio}", self.coin.i1, self.coin.i3),
-            format!("solver       {}{method}", self.solver),
+            format!("solver       {}{scheme}", self.solver),
         ];
         lines.insert(1, format!("margin       {}", self.margin.text()));
-        if self.defect > 0.0 {
-            lines.push(format!("defect       {:.1e}, the loss of norm of the quaternion", self.defect));
+        if self.norm_error > 0.0 {
+            lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", self.norm_error));
         }
-        if self.method.is_some() {
+        if self.scheme.is_some() {
             let WorkCounts { rhs_calls, accepted_steps, rejected_steps } = self.work;
             lines.push(format!(
                 "work         {rhs_calls} right-hand sides, {accepted_steps} steps, {rejected_steps} rejected"

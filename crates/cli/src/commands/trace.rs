@@ -3,10 +3,10 @@
 use serde::Serialize;
 use toss::{TracePoint, trace};
 
-use crate::args::FlightArgs;
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, SeriesArgs};
+use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -52,20 +52,21 @@ struct Point {
 }
 
 #[derive(Serialize)]
-struct Answer {
-    solver: &'static str,
+struct Answer<'a> {
+    solver: &'a str,
     points: Vec<Point>,
 }
 
 impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
-        let (toss, solver) = self.flight.parts()?;
-        let flight = trace(solver.as_ref(), &toss, self.points)?;
-        self.series.draw(|| Ok(chart::flight(&flight, &toss, solver.outcome(&toss)?)?))?;
+        let (toss, backend) = self.flight.parts()?;
+        let flight = trace(backend.solver(), &toss, self.points)?;
+        self.series.draw(|| Ok(chart::flight(&flight, &toss, backend.outcome(&toss)?)?))?;
         Ok(match self.series.format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
-                output::json(&Answer { solver: solver.name(), points: flight.iter().map(Point::from).collect() })
+                let points = flight.iter().map(Point::from).collect();
+                output::json(&Answer { solver: backend.solver().name(), points })
             }
         })
     }

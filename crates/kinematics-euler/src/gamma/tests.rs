@@ -1,6 +1,7 @@
 //! The γ-ODE against the exact motion, and at the edges of what it takes.
 
-use dynamics::{Coin, ExactMotion, Launch, TimeOfFlight, Vector3};
+use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
+use exact::ExactMotion;
 
 use super::*;
 
@@ -35,7 +36,7 @@ fn the_acceleration_is_that_of_the_exact_motion() {
 fn from_horizontal_it_starts_on_the_regular_solution() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
     let rate = toss.launch.rate();
-    let start = Start::new(&toss, &rate, Formulation::Vertical);
+    let start = InitialConditions::new(&toss, &rate, Formulation::VERTICAL);
     assert_eq!((start.angles.beta, start.angles.gamma), (0.0, (-1.0_f64).atan2(1.0)));
     assert_eq!(rate.z - start.u, rate.z * (1.0 - 0.5 / 2.0), "γ'(0) = ωz (1 - k/2)");
     let system = GammaSystem::new(0.5, rate.z, start.precession);
@@ -47,7 +48,7 @@ fn from_horizontal_it_starts_on_the_regular_solution() {
 fn along_the_momentum_the_angles_turn_steadily() {
     for rate in [[1.0, 1.0, 2.5], [1.0, -2.0, -3.0], [1e-12, 0.0, -1.0]] {
         let toss = toss(1.98, rate, 0.4);
-        let start = Start::new(&toss, &toss.launch.rate(), Formulation::Momentum);
+        let start = InitialConditions::new(&toss, &toss.launch.rate(), Formulation::MOMENTUM);
         assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&start.angles.beta));
         let precession = ExactMotion::new(&toss).precession_rate();
         assert!((start.precession.abs() - precession).abs() < 1e-15 * precession);
@@ -66,13 +67,13 @@ fn along_the_momentum_the_angles_turn_steadily() {
 fn a_precession_that_turns_back_is_an_error_with_its_time() {
     let launch = Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
     let tilted = Toss { coin: Coin::PAPER, launch };
-    for scheme in [dynamics::Scheme::Dop853, dynamics::Scheme::Dopri5] {
-        let method = Method::adaptive(scheme, 1e-10).unwrap();
-        let error = GammaSolver::new(method, Formulation::Vertical).propagate(&tilted).unwrap_err();
-        let SolveError::Singular { point: Singularity::PrecessionStops, time } = error else { panic!("{error}") };
+    for scheme in [dynamics::Scheme::DOP853, dynamics::Scheme::DOPRI5] {
+        let method = Stepping::adaptive(scheme, 1e-10).unwrap();
+        let error = GammaSolver::new(method, Formulation::VERTICAL).propagate(&tilted).unwrap_err();
+        let SolveError::Singular { point: Singularity::PrecessionTooSlow, time } = error else { panic!("{error}") };
         assert!(time > 0.0 && time < 5.0, "{time}");
         // The same flight along the momentum.
-        let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&tilted).unwrap();
+        let landing = GammaSolver::new(method, Formulation::MOMENTUM).propagate(&tilted).unwrap();
         let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
         assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
     }
@@ -83,8 +84,8 @@ fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
     let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
     let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
     for step in [1e-3, 3e-4, 1e-4] {
-        let method = Method::fixed(dynamics::Scheme::Rk4, step).unwrap();
-        let error = GammaSolver::new(method, Formulation::Vertical).propagate(&toss).unwrap_err();
+        let method = Stepping::fixed(dynamics::Scheme::RK4, step).unwrap();
+        let error = GammaSolver::new(method, Formulation::VERTICAL).propagate(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
     }
@@ -106,7 +107,7 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
         let regular = 0.25 * rate_z;
         assert_eq!(acceleration(0.0, regular, 3.0), 0.0);
         // (10)'s sum vanishes at the regular u, and has this slope there.
-        let slack = NO_DIGIT * (rate_z * rate_z + (rate_z - regular).powi(2));
+        let slack = CANCELLATION_THRESHOLD * (rate_z * rate_z + (rate_z - regular).powi(2));
         let slope = system.q + rate_z;
         for (part, passes) in [(0.8, true), (-0.8, true), (1.25, false), (-1.25, false)] {
             let u = regular + part * slack / slope;
@@ -115,7 +116,8 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
         // Whether there is a digit in D is a matter of D over β'.
         for (d, passes) in [(0.8, true), (1.25, false)] {
             for beta_rate in [0.01, -7.0] {
-                let found = acceleration(d * NO_DIGIT * beta_rate, regular + 0.5 * slack / slope, beta_rate);
+                let found =
+                    acceleration(d * CANCELLATION_THRESHOLD * beta_rate, regular + 0.5 * slack / slope, beta_rate);
                 assert_eq!(found == 0.0, passes, "{d}, {beta_rate}");
             }
         }
@@ -123,17 +125,17 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
 }
 
 #[test]
-fn the_precession_stops_below_one_in_a_hundred_of_the_rate() {
+fn the_precession_too_slow_below_one_in_a_hundred_of_the_rate() {
     let system = GammaSystem::new(0.5, 0.0, 1.0);
-    assert!(!system.precession_stops(&state(&system, 0.0, 1e-2, 1.0)), "at 1 % it goes on");
-    assert!(system.precession_stops(&state(&system, 0.0, 0.99e-2, 1.0)));
+    assert!(!system.precession_too_slow(&state(&system, 0.0, 1e-2, 1.0)), "at 1 % it goes on");
+    assert!(system.precession_too_slow(&state(&system, 0.0, 0.99e-2, 1.0)));
     for scale in [1e-3, 8.0] {
         for transverse in [0.1, 5.0] {
             let system = GammaSystem::new(0.5, scale, 1.0);
             let largest = scale * f64::max(1.0, transverse);
             for (part, stops) in [(0.9, true), (1.1, false)] {
                 let y = state(&system, 0.6 * 1e-2 * part * largest, 0.8 * 1e-2 * part * largest, scale * transverse);
-                assert_eq!(system.precession_stops(&y), stops, "{scale}, {transverse}, {part}");
+                assert_eq!(system.precession_too_slow(&y), stops, "{scale}, {transverse}, {part}");
             }
         }
     }
@@ -153,12 +155,12 @@ fn a_step_meets_the_point_that_it_crosses() {
         assert_eq!(met([-0.3, 0.5, beta_rate], [0.2, 0.5, beta_rate]), pole);
         assert_eq!(met([0.2, 0.5, beta_rate], [0.0, 0.5, beta_rate]), None, "underflow");
         assert_eq!(met([-0.2, 0.5, beta_rate], [0.0, 0.5, beta_rate]), None, "underflow");
-        let rounding = NO_DIGIT * beta_rate;
+        let rounding = CANCELLATION_THRESHOLD * beta_rate;
         assert_eq!(met([0.9 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), None, "launched there");
         assert_eq!(met([1.1 * rounding, 0.5, beta_rate], [-0.3, 0.5, beta_rate]), pole);
     }
-    assert_eq!(met([NO_DIGIT, 0.5, 1.0], [-0.3, 0.5, 1.0]), None, "at the limit it was launched there");
-    let stops = Some(Singularity::PrecessionStops);
+    assert_eq!(met([CANCELLATION_THRESHOLD, 0.5, 1.0], [-0.3, 0.5, 1.0]), None, "at the limit it was launched there");
+    let stops = Some(Singularity::PrecessionTooSlow);
     assert_eq!(met([0.2, 0.5, 1.0], [1e-4, 1e-4, 1.0]), stops);
     assert_eq!(met([1e-4, 1e-4, 1.0], [1e-4, 1e-4, 1.0]), None, "it never went");
     assert_eq!(met([0.2, 0.5, 1.0], [-0.2, -0.1, 1.0]), stops, "it turned back");
@@ -169,20 +171,20 @@ fn a_step_meets_the_point_that_it_crosses() {
 
 #[test]
 fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
-    let method = Method::adaptive(Scheme::Dop853, 1e-10).unwrap();
-    for formulation in [Formulation::Momentum, Formulation::Vertical] {
+    let method = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
+    for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
         let solver = GammaSolver::new(method, formulation);
         for rate_z in [5.0, -5.0] {
             let spun = solver.propagate(&toss(0.0, [0.0, 0.0, rate_z], 0.0)).unwrap().state.attitude;
             assert!(spun.angle_to(&dynamics::Attitude::about_z(rate_z)) < 1e-9);
             for rate in [[1e-3, 0.0, rate_z], [0.0, 1e-3, rate_z]] {
                 let error = solver.propagate(&toss(0.0, rate, 0.0)).unwrap_err();
-                assert_eq!(error, SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 });
+                assert_eq!(error, SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 });
             }
         }
     }
-    let tilted = GammaSolver::new(method, Formulation::Vertical).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
-    assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionStops, time: 0.0 }));
+    let tilted = GammaSolver::new(method, Formulation::VERTICAL).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
+    assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 }));
 }
 
 #[test]
@@ -199,10 +201,10 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
         assert_eq!(beta(0.0, -sense).abs(), PI);
         assert_eq!([beta(0.0, 0.0), beta(-0.0, 0.0), beta(0.0, -0.0), beta(-0.0, -0.0)], [0.0; 4]);
     }
-    let method = Method::adaptive(Scheme::Dop853, 1e-9).unwrap();
+    let method = Stepping::adaptive(Scheme::DOP853, 1e-9).unwrap();
     for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
         let toss = toss(1.0, rest, PI);
-        let landing = GammaSolver::new(method, Formulation::Momentum).propagate(&toss).unwrap();
+        let landing = GammaSolver::new(method, Formulation::MOMENTUM).propagate(&toss).unwrap();
         assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
     }
 }

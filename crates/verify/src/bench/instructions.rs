@@ -4,16 +4,15 @@
 //! knows AVX2 but not AVX-512.
 
 use std::collections::BTreeMap;
-use std::path::Path as File;
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
-use toss::lanes::Path;
-use toss::{Formulation, Method, QuaternionSolver, Scheme};
+use toss::{Formulation, QuaternionSolver, SimdLevel, Stepping, TAYLOR};
 
 use super::tosses::Columns;
-use crate::report::write_file;
+use crate::files;
 
 /// Tosses of a work.
 const TOSSES: usize = 512;
@@ -21,7 +20,7 @@ const TOSSES: usize = 512;
 /// More than this times the instructions of the baseline are worse.
 const MORE: f64 = 1.05;
 
-/// Works by name; the part after the stroke is a path.
+/// Works by name; the part after the slash is a SIMD level.
 const WORKS: [&str; 8] = [
     "cos-tilts/plain",
     "cos-tilts/avx2",
@@ -36,21 +35,21 @@ const WORKS: [&str; 8] = [
 /// Does a work `times` times.
 ///
 /// # Errors
-/// For an unknown work, or a path that this machine has not.
+/// For an unknown work, or a SIMD level that this machine does not have.
 pub fn work(name: &str, times: u32) -> anyhow::Result<()> {
-    let (work, path) = name.split_once('/').context("a work is named as count/avx2")?;
-    let path = Path::all().into_iter().find(|known| known.name() == path).context("no such path here")?;
+    let (work, level) = name.split_once('/').context("a work is named as count/avx2")?;
+    let level = SimdLevel::all().into_iter().find(|known| known.name() == level).context("no such SIMD level here")?;
     let columns = Columns::new(TOSSES);
-    let tosses = columns.tosses(path);
+    let batch = columns.batch(level);
     let (mut out, mut quaternions) = (vec![0.0; TOSSES], [(); 4].map(|()| vec![0.0; TOSSES]));
     let each = columns.each();
-    let taylor = QuaternionSolver::new(Method::adaptive(Scheme::Taylor, 1e-10)?, Formulation::default());
+    let taylor = QuaternionSolver::new(Stepping::adaptive(TAYLOR, 1e-10)?, Formulation::default());
     for _ in 0..times {
         match work {
-            "cos-tilts" => tosses.cos_tilts(&mut out)?,
-            "count" => drop(tosses.count(|_| ())?),
-            "attitudes" => tosses.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
-            "taylor" => drop(taylor.propagate_all(&each, path)),
+            "cos-tilts" => batch.cos_tilts(&mut out)?,
+            "count" => drop(std::hint::black_box(batch.count()?)),
+            "attitudes" => batch.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
+            "taylor" => drop(taylor.propagate_all(&each, level)),
             _ => bail!("no such work"),
         }
     }
@@ -74,8 +73,8 @@ impl Instructions {
     /// # Errors
     /// If there is no valgrind, or it fails.
     pub fn count() -> anyhow::Result<Self> {
-        let paths = Path::all().into_iter().map(Path::name).collect::<Vec<_>>();
-        let here = |work: &&&str| paths.iter().any(|path| work.ends_with(path));
+        let levels = SimdLevel::all().into_iter().map(SimdLevel::name).collect::<Vec<_>>();
+        let here = |work: &&&str| levels.iter().any(|level| work.ends_with(level));
         let count =
             |work: &&str| Ok((work.to_string(), (collected(work, 3)? - collected(work, 1)?) / (2 * TOSSES) as f64));
         Ok(Self(WORKS.iter().filter(here).map(count).collect::<anyhow::Result<_>>()?))
@@ -85,7 +84,7 @@ impl Instructions {
     ///
     /// # Errors
     /// If it cannot be read.
-    pub fn read(path: &File) -> anyhow::Result<Self> {
+    pub fn read(path: &Path) -> anyhow::Result<Self> {
         if !path.exists() {
             return Ok(Self::default());
         }
@@ -98,7 +97,7 @@ impl Instructions {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn bless(&self, baseline: &Self, path: &File) -> anyhow::Result<()> {
+    pub fn bless(&self, baseline: &Self, path: &Path) -> anyhow::Result<()> {
         let mut best = baseline.0.clone();
         for (work, count) in &self.0 {
             best.entry(work.clone()).and_modify(|old| *old = old.min(*count)).or_insert(*count);
@@ -107,7 +106,7 @@ impl Instructions {
         for (work, count) in best {
             writer.serialize(Line { work, instructions: (10.0 * count).round() / 10.0 })?;
         }
-        write_file(path, &String::from_utf8(writer.into_inner()?)?)
+        files::write(path, &String::from_utf8(writer.into_inner()?)?)
     }
 
     /// The table, and whether a work takes more than the baseline allows.
@@ -131,7 +130,7 @@ fn collected(work: &str, times: u32) -> anyhow::Result<f64> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(program)
-        .args(["--work", work, "--times", &times.to_string()])
+        .args(["work", work, "--times", &times.to_string()])
         .output()
         .context("valgrind cannot be started; it counts the instructions")?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -164,9 +163,9 @@ mod tests {
 
     #[test]
     fn every_work_of_this_machine_can_be_done() {
-        let paths: Vec<&str> = Path::all().into_iter().map(Path::name).collect();
+        let levels: Vec<&str> = SimdLevel::all().into_iter().map(SimdLevel::name).collect();
         for name in WORKS {
-            let is_here = paths.iter().any(|path| name.ends_with(path));
+            let is_here = levels.iter().any(|level| name.ends_with(level));
             assert_eq!(work(name, 1).is_ok(), is_here, "{name}");
         }
         assert!(work("sums/plain", 1).is_err() && work("count", 1).is_err());

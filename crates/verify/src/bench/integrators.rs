@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use toss::lanes::Path;
-use toss::{Attitude, ExactMotion, Formulation, Method, QuaternionSolver, Scheme, Solver, Toss};
+use toss::{Attitude, ExactMotion, Formulation, QuaternionSolver, Scheme, SimdLevel, Solver, Stepping, TAYLOR, Toss};
 
 use super::contest::Contest;
 use super::tosses::Columns;
@@ -15,25 +14,25 @@ pub(super) const FLOWN: usize = 1024;
 const ERRORS: [f64; 4] = [1e-5, 1e-8, 1e-11, 5e-14];
 
 /// Lands all tosses.
-type Fly = Box<dyn Fn(&[Toss], Method) -> Vec<Attitude>>;
+type Fly = Box<dyn Fn(&[Toss], Stepping) -> Vec<Attitude>>;
 
 /// Each integrator with the loosest tolerance that keeps each error, or the smallest error that it reaches.
 pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>> {
     let tosses = columns.each();
-    let mut integrators: Vec<(String, Scheme, Fly)> = [Scheme::Dopri5, Scheme::Dop853, Scheme::Taylor]
+    let mut integrators: Vec<(String, Scheme, Fly)> = [Scheme::DOPRI5, Scheme::DOP853, TAYLOR]
         .map(|scheme| (format!("{}, one by one", scheme.name()), scheme, Box::new(one_by_one) as Fly))
         .into();
-    for path in Path::all() {
-        let fly = move |tosses: &[Toss], method: Method| in_lanes(tosses, method, path);
-        integrators.push((format!("taylor, lanes, {}", path.name()), Scheme::Taylor, Box::new(fly)));
+    for level in SimdLevel::all() {
+        let fly = move |tosses: &[Toss], stepping: Stepping| in_lanes(tosses, stepping, level);
+        integrators.push((format!("taylor, lanes, {}", level.name()), TAYLOR, Box::new(fly)));
     }
     let mut contests = Vec::new();
     for (name, scheme, fly) in integrators {
         let fly = Rc::new(fly);
         for asked in ERRORS {
-            let (method, error) = loosest(&tosses, scheme, &fly, asked)?;
+            let (stepping, error) = loosest(&tosses, scheme, &fly, asked)?;
             let (tosses, fly) = (tosses.clone(), Rc::clone(&fly));
-            let run = move || drop(std::hint::black_box(fly(&tosses, method)));
+            let run = move || drop(std::hint::black_box(fly(&tosses, stepping)));
             contests.push(Contest {
                 group: "attitude of a toss by integration, quaternion",
                 name: format!("{name}, asked {asked:.0e}"),
@@ -46,15 +45,15 @@ pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>
     Ok(contests)
 }
 
-/// The method with the loosest tolerance that keeps the error, and its error.
-fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Result<(Method, f64)> {
+/// The stepping with the loosest tolerance that keeps the error, and its error.
+fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Result<(Stepping, f64)> {
     const A_DECADE: i32 = 5;
-    let mut best: Option<(Method, f64)> = None;
+    let mut best: Option<(Stepping, f64)> = None;
     for step in 3 * A_DECADE..=15 * A_DECADE {
-        let method = Method::adaptive(scheme, 10f64.powf(-f64::from(step) / f64::from(A_DECADE)))?;
-        let error = error(tosses, &fly(tosses, method));
+        let stepping = Stepping::adaptive(scheme, 10f64.powf(-f64::from(step) / f64::from(A_DECADE)))?;
+        let error = error(tosses, &fly(tosses, stepping));
         if best.is_none_or(|(_, smallest)| error < smallest) {
-            best = Some((method, error));
+            best = Some((stepping, error));
         }
         if error <= asked {
             break;
@@ -63,13 +62,13 @@ fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Re
     anyhow::Context::context(best, "a tolerance was tried")
 }
 
-fn one_by_one(tosses: &[Toss], method: Method) -> Vec<Attitude> {
-    let solver = QuaternionSolver::new(method, Formulation::default());
+fn one_by_one(tosses: &[Toss], stepping: Stepping) -> Vec<Attitude> {
+    let solver = QuaternionSolver::new(stepping, Formulation::default());
     tosses.iter().map(|toss| solver.propagate(toss).expect("an ordinary flight").state.attitude).collect()
 }
 
-fn in_lanes(tosses: &[Toss], method: Method, path: Path) -> Vec<Attitude> {
-    let landings = QuaternionSolver::new(method, Formulation::default()).propagate_all(tosses, path);
+fn in_lanes(tosses: &[Toss], stepping: Stepping, level: SimdLevel) -> Vec<Attitude> {
+    let landings = QuaternionSolver::new(stepping, Formulation::default()).propagate_all(tosses, level);
     landings.into_iter().map(|landing| landing.expect("an ordinary flight").state.attitude).collect()
 }
 

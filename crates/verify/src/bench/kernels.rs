@@ -1,10 +1,7 @@
-//! Landings by the exact motion: one by one and in batches, on every path that the machine has.
+//! Landings by the exact motion: one by one and in batches, at every SIMD level of the machine.
 
-use toss::batch::Tosses;
-use toss::lanes::Path;
-use toss::{
-    Attitude, ExactMotion, ExactSolver, Outcome, Solver, Toss, certify, compensated_cos_tilt, compensated_landing,
-};
+use exact::{compensated_cos_tilt, compensated_landing};
+use toss::{Attitude, Batch, ExactMotion, ExactSolver, Outcome, SimdLevel, Solver, Toss, certify};
 
 use super::Row;
 use super::contest::Contest;
@@ -29,7 +26,7 @@ pub(super) fn contests(columns: &Columns) -> Vec<Contest<'_>> {
     let plain = contest(COS_TILT, "plain f64, one by one", Some(error), move || scalar(columns, &mut out));
     let mut contests = vec![plain];
     contests.extend(one_by_one(columns));
-    contests.extend(Path::all().into_iter().flat_map(|path| batches(columns, path)));
+    contests.extend(SimdLevel::all().into_iter().flat_map(|level| batches(columns, level)));
     contests.sort_by_key(|contest| [COS_TILT, OUTCOME, ATTITUDE].iter().position(|group| *group == contest.group));
     contests
 }
@@ -52,7 +49,7 @@ fn one_by_one<'a>(columns: &Columns) -> Vec<Contest<'a>> {
         |solve: fn(&Toss) -> f64| Some(cos_tilt_error(columns, &tosses.iter().map(solve).collect::<Vec<_>>()));
     let compensated = |toss: &Toss| compensated_cos_tilt(toss).unwrap_or(f64::NAN);
     let exact = |toss: &Toss| ExactSolver.cos_tilt(toss).unwrap_or(f64::NAN);
-    let certified = |toss: &Toss| certify(toss).map_or(f64::NAN, |found| f64::from(found.outcome as u8));
+    let certified = |toss: &Toss| certify(toss).map_or(f64::NAN, |found| f64::from(found.outcome() as u8));
     let landing = |toss: &Toss| compensated_landing(toss).map_or(f64::NAN, |landing| landing.rate.x);
     vec![
         contest(COS_TILT, "compensated, one by one", cos_tilt(compensated), over_all(compensated)),
@@ -62,32 +59,32 @@ fn one_by_one<'a>(columns: &Columns) -> Vec<Contest<'a>> {
     ]
 }
 
-fn batches<'a>(columns: &'a Columns, path: Path) -> Vec<Contest<'a>> {
-    let tosses = columns.tosses(path);
-    let name = format!("batch, {}", path.name());
+fn batches<'a>(columns: &'a Columns, level: SimdLevel) -> Vec<Contest<'a>> {
+    let batch = columns.batch(level);
+    let name = format!("batch, {}", level.name());
     let (mut cos_tilts, mut outcomes) = (vec![0.0; TOSSES], vec![Outcome::Undecided; TOSSES]);
     let mut attitudes: [Vec<f64>; 4] = std::array::from_fn(|_| vec![0.0; TOSSES]);
-    solve_cos_tilts(&tosses, &mut cos_tilts);
-    solve_attitudes(&tosses, &mut attitudes);
+    solve_cos_tilts(&batch, &mut cos_tilts);
+    solve_attitudes(&batch, &mut attitudes);
     let errors = [cos_tilt_error(columns, &cos_tilts), attitude_error(columns, &attitudes)];
     vec![
-        contest(COS_TILT, &name, Some(errors[0]), move || solve_cos_tilts(&tosses, &mut cos_tilts)),
+        contest(COS_TILT, &name, Some(errors[0]), move || solve_cos_tilts(&batch, &mut cos_tilts)),
         contest(OUTCOME, &format!("{name}, counted"), None, move || {
-            std::hint::black_box(tosses.count(|_| ()).expect("valid tosses"));
+            std::hint::black_box(batch.count().expect("valid tosses"));
         }),
         contest(OUTCOME, &format!("{name}, each"), None, move || {
-            tosses.outcomes(&mut outcomes).expect("valid tosses");
+            batch.outcomes(&mut outcomes).expect("valid tosses");
         }),
-        contest(ATTITUDE, &name, Some(errors[1]), move || solve_attitudes(&tosses, &mut attitudes)),
+        contest(ATTITUDE, &name, Some(errors[1]), move || solve_attitudes(&batch, &mut attitudes)),
     ]
 }
 
-fn solve_cos_tilts(tosses: &Tosses<'_>, out: &mut [f64]) {
-    tosses.cos_tilts(out).expect("valid tosses");
+fn solve_cos_tilts(batch: &Batch<'_>, out: &mut [f64]) {
+    batch.cos_tilts(out).expect("valid tosses");
 }
 
-fn solve_attitudes(tosses: &Tosses<'_>, out: &mut [Vec<f64>; 4]) {
-    tosses.attitudes(out.each_mut().map(Vec::as_mut_slice)).expect("valid tosses");
+fn solve_attitudes(batch: &Batch<'_>, out: &mut [Vec<f64>; 4]) {
+    batch.attitudes(out.each_mut().map(Vec::as_mut_slice)).expect("valid tosses");
 }
 
 /// The largest error against the exact motion in double-double.

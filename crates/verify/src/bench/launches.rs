@@ -2,8 +2,8 @@
 
 use anyhow::Context;
 use rayon::ThreadPoolBuilder;
-use sampling::{Coordinate, Plan, Space, estimate, named_space};
-use toss::{Coin, ExactSolver};
+use sampling::{Coordinate, Plan, Sampler, Space, named_space};
+use toss::Coin;
 
 use super::contest::Contest;
 
@@ -26,7 +26,7 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().context("threads")?;
             let points = usize::try_from(plan.points(&space)?)?;
             let run = move || {
-                let found = pool.install(|| estimate(&space, plan, &ExactSolver, &|_| {}));
+                let found = pool.install(|| Sampler::exact().estimate(&space, plan));
                 std::hint::black_box(found.expect("valid launches"));
             };
             let way = if plan == Plan::Grid { "grid" } else { "random" };

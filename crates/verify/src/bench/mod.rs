@@ -1,8 +1,8 @@
 //! What a toss costs: `cargo xtask bench`.
 //!
-//! Times are in nanoseconds, and in xR, parts of the time of a reference (`reference.rs`) that is measured beside them, so that
-//! they can be compared across machines. Each is the shortest of many runs in turn, so that a machine that slows down
-//! favours nobody. None is judged: they are for those who choose.
+//! Times are in nanoseconds, and in xR, multiples of the time of a reference (`reference.rs`) that is measured beside them, so
+//! that they can be compared across machines. Each is the shortest of many runs in turn, so that a machine that slows down
+//! affects all alike. Times are not judged.
 
 mod contest;
 pub mod instructions;
@@ -14,7 +14,7 @@ mod tosses;
 
 use std::fmt;
 
-use crate::record::Host;
+use crate::host::Host;
 use contest::{Contest, race};
 use reference::Reference;
 

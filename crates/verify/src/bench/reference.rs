@@ -72,7 +72,7 @@ fn read(answers: &mut impl BufRead) -> anyhow::Result<f64> {
     Ok(line.trim().parse()?)
 }
 
-/// The same loop in Rust.
+/// The reference's loop in Rust.
 pub(super) fn scalar(tosses: &Columns, out: &mut [f64]) {
     let Columns { rates: [x, y, z], speeds } = tosses;
     for (index, out) in out.iter_mut().enumerate() {

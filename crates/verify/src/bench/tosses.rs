@@ -1,8 +1,6 @@
 //! The tosses that benchmarks solve.
 
-use toss::batch::Tosses;
-use toss::lanes::Path;
-use toss::{Attitude, Coin, Toss};
+use toss::{Attitude, Batch, Coin, SimdLevel, Toss, Tosses};
 
 /// Number of tosses: their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
@@ -22,15 +20,20 @@ impl Columns {
     }
 
     /// The tosses of the paper's coin from horizontal.
-    pub(super) fn tosses(&self, path: Path) -> Tosses<'_> {
+    fn tosses(&self) -> Tosses<'_> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
-        tosses.expect("columns of one length").on(path)
+        tosses.expect("columns of one length")
     }
 
-    /// The same one by one.
+    /// The tosses as a batch, to be solved at a SIMD level.
+    pub(super) fn batch(&self, level: SimdLevel) -> Batch<'_> {
+        Batch::new(self.tosses()).on(level)
+    }
+
+    /// The tosses one by one.
     pub(super) fn each(&self) -> Vec<Toss> {
-        let tosses = self.tosses(Path::widest());
+        let tosses = self.tosses();
         (0..tosses.len()).map(|index| tosses.toss(index).expect("a valid toss")).collect()
     }
 }

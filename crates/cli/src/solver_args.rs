@@ -1,0 +1,146 @@
+//! Options about the solver. What they offer is what the registry holds: no list of solvers, schemes or formulations
+//! stands here.
+
+use clap::Args;
+use dynamics::Frame;
+use dynamics::error::find_named;
+use toss::{Backend, ExactSolver, Formulation, InputError, Registry, Scheme, Settings, SolverEntry, Stepping};
+
+use crate::failure::Failure;
+
+/// The solver and its settings.
+#[derive(Debug, Args)]
+pub(crate) struct SolverArgs {
+    #[arg(long, value_name = "NAME", default_value = ExactSolver::NAME,
+          help = format!("The solver: {}", solvers(|_| true)))]
+    solver: String,
+    #[arg(long, value_name = "NAME", help = scheme_help())]
+    scheme: Option<String>,
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true, help = tolerance_help())]
+    tolerance: Option<f64>,
+    #[arg(long, value_name = "H", allow_hyphen_values = true,
+          help = format!("Step of {} (s) [default: {}]", schemes_with_a_step(), Stepping::DEFAULT_STEP))]
+    step: Option<f64>,
+    #[arg(long, value_name = "NAME", alias = "frame", default_value = Formulation::default().name(),
+          help = format!("Set-up of the kinematics: {}", formulations()))]
+    formulation: String,
+}
+
+impl SolverArgs {
+    /// The solver with its settings.
+    pub(crate) fn backend(&self) -> Result<Backend, Failure> {
+        let registry = Registry::standard();
+        let scheme = self.scheme(registry.named(&self.solver)?)?;
+        let formulation = Formulation::named(&self.formulation)?;
+        Ok(registry.backend(&self.solver, &Settings { stepping: self.stepping(scheme)?, formulation })?)
+    }
+
+    fn scheme(&self, entry: &SolverEntry) -> Result<Scheme, InputError> {
+        match self.scheme.as_deref() {
+            None => Ok(default_scheme(entry)),
+            Some(name) if entry.integrates() => entry.scheme(name),
+            // A closed form has no use for a scheme, and takes any.
+            Some(name) => find_named("scheme", name, &all_schemes(), |scheme| scheme.name()).copied(),
+        }
+    }
+
+    fn stepping(&self, scheme: Scheme) -> Result<Stepping, Failure> {
+        let name = scheme.name();
+        match (scheme.is_adaptive(), self.tolerance, self.step) {
+            (true, tolerance, None) => {
+                Ok(Stepping::adaptive(scheme, tolerance.unwrap_or(Stepping::DEFAULT_TOLERANCE))?)
+            }
+            (false, None, step) => Ok(Stepping::fixed(scheme, step.unwrap_or(Stepping::DEFAULT_STEP))?),
+            (true, _, Some(_)) => {
+                Err(Failure::Usage(format!("--step is for {}; {name} takes --tolerance", schemes_with_a_step())))
+            }
+            (false, Some(_), _) => Err(Failure::Usage(format!("--tolerance: {name} takes --step"))),
+        }
+    }
+}
+
+/// The scheme of a solver for which none is asked for.
+fn default_scheme(entry: &SolverEntry) -> Scheme {
+    let default = Stepping::DEFAULT.scheme();
+    if entry.schemes().contains(&default) { default } else { entry.schemes().first().copied().unwrap_or(default) }
+}
+
+fn scheme_help() -> String {
+    let (schemes, default) = (schemes(|_| true), Stepping::DEFAULT.scheme().name());
+    format!(
+        "Scheme by which an integrator steps: {schemes}; `solvers` lists those of each [default: {default}, or the \
+         solver's first]"
+    )
+}
+
+fn tolerance_help() -> String {
+    let schemes = schemes(Scheme::is_adaptive);
+    format!("Local error per step of {schemes}, absolute and relative [default: {:e}]", Stepping::DEFAULT_TOLERANCE)
+}
+
+/// The schemes that have no use for a tolerance.
+fn schemes_with_a_step() -> String {
+    schemes(|scheme| !scheme.is_adaptive())
+}
+
+/// The names of the solvers that are `meant`, as `gamma, euler or quaternion`.
+pub(crate) fn solvers(meant: impl Fn(&SolverEntry) -> bool) -> String {
+    one_of(entries().filter(|entry| meant(entry)).map(|entry| entry.name().to_owned()))
+}
+
+/// The names of the schemes that are `meant`, as `dop853, dopri5 or taylor`.
+pub(crate) fn schemes(meant: impl Fn(Scheme) -> bool) -> String {
+    one_of(all_schemes().into_iter().filter(|scheme| meant(*scheme)).map(|scheme| scheme.name().to_owned()))
+}
+
+/// The formulations, each with what happens at its singular points.
+fn formulations() -> String {
+    one_of(each_once(entries().flat_map(SolverEntry::formulations)).into_iter().map(|formulation: Formulation| {
+        let words = match (formulation.frame(), formulation.is_guarded()) {
+            (_, false) => "as the paper prints it: an answer may be wrong without an error",
+            (Frame::Momentum, true) => "no flight is singular",
+            (Frame::Vertical, true) => "as the paper has it: typed errors where it is singular",
+        };
+        format!("{} ({words})", formulation.name())
+    }))
+}
+
+/// Every scheme that a solver offers.
+fn all_schemes() -> Vec<Scheme> {
+    each_once(entries().flat_map(SolverEntry::schemes))
+}
+
+fn entries() -> impl Iterator<Item = &'static SolverEntry> {
+    Registry::standard().entries().iter()
+}
+
+fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -> Vec<T> {
+    items.fold(Vec::new(), |mut all, item| {
+        if !all.contains(item) {
+            all.push(*item);
+        }
+        all
+    })
+}
+
+/// As `a, b or c`.
+fn one_of(items: impl Iterator<Item = String>) -> String {
+    let mut items: Vec<String> = items.collect();
+    match (items.pop(), items.is_empty()) {
+        (Some(last), false) => format!("{} or {last}", items.join(", ")),
+        (last, _) => last.unwrap_or_default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solver_without_the_default_scheme_steps_by_its_first() {
+        let offers = |schemes: &[Scheme]| SolverEntry::new("own", "", |_| Box::new(ExactSolver)).with_schemes(schemes);
+        assert_eq!(default_scheme(&offers(&[Scheme::RK4, Scheme::DOP853])), Scheme::DOP853);
+        assert_eq!(default_scheme(&offers(&[Scheme::RK4, Scheme::DOPRI5])), Scheme::RK4);
+        assert_eq!(default_scheme(&offers(&[])), Scheme::DOP853);
+    }
+}

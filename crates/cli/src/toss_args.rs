@@ -1,0 +1,122 @@
+//! Options about one toss: the coin, the launch, the solver.
+
+use clap::Args;
+use dynamics::data::{NO_BOUNCE, NO_DRAG};
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use toss::catalogue::named_coin;
+use toss::{Backend, Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
+
+use crate::failure::Failure;
+use crate::solver_args::SolverArgs;
+
+/// Reads numbers separated by commas.
+fn list(field: &'static str, text: &str, expected: &'static str) -> Result<Vec<f64>, InputError> {
+    let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    parts.map_err(|_| InputError::Malformed { field, value: text.to_owned(), expected })
+}
+
+/// Reads N numbers separated by commas.
+pub(crate) fn numbers<const N: usize>(
+    field: &'static str,
+    text: &str,
+    expected: &'static str,
+) -> Result<[f64; N], InputError> {
+    let malformed = |_| InputError::Malformed { field, value: text.to_owned(), expected };
+    list(field, text, expected)?.try_into().map_err(malformed)
+}
+
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+pub(crate) struct CoinArgs {
+    /// A coin of the catalogue [default: paper]
+    #[arg(long, value_name = "NAME")]
+    coin: Option<String>,
+    /// A homogeneous cylinder (kg, m, m)
+    #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
+    cylinder: Option<String>,
+    /// Principal moments of inertia (kg m²); I1,I2,I3 with I2 = I1 is understood too
+    #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
+    moments: Option<String>,
+}
+
+impl CoinArgs {
+    /// The coin, if one was asked for.
+    pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
+        if let Some(text) = &self.cylinder {
+            let [mass, radius, thickness] = numbers("cylinder", text, "MASS,RADIUS,THICKNESS [kg, m, m]")?;
+            return Coin::from_cylinder(mass, radius, thickness).map(Some);
+        }
+        if let Some(text) = &self.moments {
+            return Coin::from_listed_moments(&list("moments", text, "I1,I3 [kg m²]")?).map(Some);
+        }
+        self.coin.as_deref().map(named_coin).transpose()
+    }
+}
+
+/// A coin and its launch.
+#[derive(Debug, Args)]
+pub(crate) struct TossArgs {
+    #[command(flatten)]
+    pub(crate) coin: CoinArgs,
+    /// Body rate at launch, body frame (rad/s)
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
+    rate: Option<String>,
+    /// Launch speed v0 (m/s)
+    #[arg(long, value_name = "V0", allow_hyphen_values = true)]
+    speed: Option<f64>,
+    /// Time of flight, instead of a speed (s)
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"])]
+    time: Option<f64>,
+    /// Gravity (m/s²) [default: 9.81]
+    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    gravity: Option<f64>,
+    /// How far below the launch the coin lands; negative: above it (m) [default: 0]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    drop: Option<f64>,
+    /// Attitude at launch: a turn about the lab's x axis (rad)
+    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
+    tilt: f64,
+    /// Outside the model, and refused with the reason
+    #[arg(long, value_name = "C", allow_hyphen_values = true)]
+    drag: Option<String>,
+    /// Outside the model, and refused with the reason
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    bounce: Option<String>,
+}
+
+impl TossArgs {
+    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
+        if self.drag.is_some() {
+            return Err(NO_DRAG.into());
+        }
+        if self.bounce.is_some() {
+            return Err(NO_BOUNCE.into());
+        }
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let rate = self.rate.as_deref().ok_or_else(|| Failure::Usage("--rate WX,WY,WZ is needed".to_owned()))?;
+        let rate = Vector3::from(numbers("rate", rate, "WX,WY,WZ [rad/s]")?);
+        let time_of_flight = match (self.speed, self.time) {
+            (_, Some(time)) => TimeOfFlight::Given(time),
+            (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
+            (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
+        };
+        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
+        Ok(Toss { coin, launch })
+    }
+}
+
+/// One toss and its solver.
+#[derive(Debug, Args)]
+#[command(mut_arg("scheme", |scheme| scheme.alias("method")))]
+pub(crate) struct FlightArgs {
+    #[command(flatten)]
+    toss: TossArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
+
+impl FlightArgs {
+    pub(crate) fn parts(&self) -> Result<(Toss, Backend), Failure> {
+        Ok((self.toss.toss()?, self.solver.backend()?))
+    }
+}

@@ -1,0 +1,105 @@
+//! Many tosses as columns: what batches are made from.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::coin::Coin;
+use crate::error::{InputError, SolveError, require};
+use crate::failure::Error;
+use crate::launch::{Launch, Toss};
+use crate::time_of_flight::TimeOfFlight;
+
+/// Tosses of one coin from one attitude under one gravity, which differ in rates and speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Tosses<'a> {
+    coin: Coin,
+    attitude: Attitude,
+    gravity: f64,
+    rates: [&'a [f64]; 3],
+    speeds: &'a [f64],
+}
+
+impl<'a> Tosses<'a> {
+    /// Tosses with the body rates `rates` (BF, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s) under `gravity`
+    /// (m/s²) and caught at the same height. With a gravity of 2 m/s² a speed is a time of flight.
+    ///
+    /// # Errors
+    /// [`InputError`] if the columns differ in length, or for a gravity that is not positive and finite. The tosses
+    /// themselves are looked at when they are solved.
+    pub fn new(
+        coin: Coin,
+        attitude: Attitude,
+        gravity: f64,
+        rates: [&'a [f64]; 3],
+        speeds: &'a [f64],
+    ) -> Result<Self, InputError> {
+        require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0)?;
+        if rates.iter().any(|column| column.len() != speeds.len()) {
+            let lengths = [rates[0].len(), rates[1].len(), rates[2].len(), speeds.len()];
+            let expected = "as many rates of each kind as speeds";
+            return Err(InputError::Malformed { field: "columns", value: format!("{lengths:?}"), expected });
+        }
+        Ok(Self { coin, attitude, gravity, rates, speeds })
+    }
+
+    /// Number of tosses.
+    pub fn len(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.speeds.is_empty()
+    }
+
+    /// The coin of all tosses.
+    pub fn coin(&self) -> &Coin {
+        &self.coin
+    }
+
+    /// The attitude at launch of all tosses.
+    pub fn attitude(&self) -> Attitude {
+        self.attitude
+    }
+
+    /// The gravity of all tosses (m/s²).
+    pub fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    /// The columns of some of the tosses: ωx, ωy, ωz (BF, rad/s) and v0 (m/s).
+    #[inline(always)]
+    pub fn columns(&self, range: Range<usize>) -> [&'a [f64]; 4] {
+        let [x, y, z] = self.rates;
+        [&x[range.clone()], &y[range.clone()], &z[range.clone()], &self.speeds[range]]
+    }
+
+    /// Some of the tosses.
+    #[must_use]
+    pub fn part(&self, range: Range<usize>) -> Self {
+        let [x, y, z, speeds] = self.columns(range);
+        Self { rates: [x, y, z], speeds, ..*self }
+    }
+
+    /// Toss number `index`, which is below [`Tosses::len`].
+    ///
+    /// # Errors
+    /// As [`Launch::new`].
+    pub fn toss(&self, index: usize) -> Result<Toss, InputError> {
+        let [x, y, z] = self.rates.map(|column| column[index]);
+        let time = TimeOfFlight::Ballistic { speed: self.speeds[index], gravity: self.gravity };
+        let launch = Launch::new(Vector3::new(x, y, z), time)?.with_attitude(self.attitude);
+        Ok(Toss { coin: self.coin, launch })
+    }
+
+    /// The result of `solve` for toss `index`.
+    ///
+    /// # Errors
+    /// [`Error::BadLaunch`] or [`Error::Launch`] with that index.
+    pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
+        let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
+        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss), source })
+    }
+}

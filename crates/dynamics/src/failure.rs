@@ -1,0 +1,109 @@
+//! Why a question has no answer: the one error of everything that takes input and solves flights.
+
+use crate::error::{InputError, SolveError};
+use crate::launch::Toss;
+
+/// Why a question has no answer: because of its input, or because of the solver.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The input describes nothing that could be solved. Nothing was computed.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The solver failed.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The solver failed on one of many launches: the first one on which it does.
+    #[error("launch {index} (rate {:?}, {:?}, {:?} rad/s, {:?} s): {source}",
+        toss.launch.rate().x, toss.launch.rate().y, toss.launch.rate().z, toss.launch.flight_time())]
+    Launch {
+        /// Its index.
+        index: u64,
+        /// The toss.
+        toss: Box<Toss>,
+        /// Why the solver failed.
+        source: SolveError,
+    },
+    /// One of many launches is none: the first one that is not.
+    #[error("launch {index}: {source}")]
+    BadLaunch {
+        /// Its index.
+        index: u64,
+        /// What is wrong with it.
+        source: InputError,
+    },
+    /// A text that describes nothing.
+    #[error("line {line}, column {column}: {message}")]
+    Text {
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What is wrong there; names the field, where it is one.
+        message: String,
+    },
+    /// The launches that were allowed did not reach the accuracy.
+    #[error("after {points} launches the probability is known to {reached:.1e}, not to {accuracy:e}")]
+    NotReached {
+        /// Launches that were tried.
+        points: u64,
+        /// Half the width of the interval.
+        reached: f64,
+        /// The accuracy that was wanted.
+        accuracy: f64,
+    },
+}
+
+impl Error {
+    /// A short name of the kind of error, for machine-readable output.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Input(InputError::OutsideModel { .. }) => "outside_model",
+            Self::Input(_) | Self::BadLaunch { .. } | Self::Text { .. } | Self::NotReached { .. } => "input",
+            Self::Solve(source) | Self::Launch { source, .. } => source.kind(),
+        }
+    }
+
+    /// The input field that is at fault, if one is.
+    pub fn field(&self) -> Option<&'static str> {
+        match self {
+            Self::Input(source) | Self::BadLaunch { source, .. } => Some(source.field()),
+            Self::NotReached { .. } => Some("accuracy"),
+            Self::Solve(_) | Self::Launch { .. } | Self::Text { .. } => None,
+        }
+    }
+
+    /// Whether the input is at fault, and not the solver.
+    pub fn is_input(&self) -> bool {
+        !matches!(self, Self::Solve(_) | Self::Launch { .. })
+    }
+
+    /// The same error of a sequence that begins with launch number `first`.
+    #[must_use]
+    pub fn after(mut self, first: u64) -> Self {
+        if let Self::Launch { index, .. } | Self::BadLaunch { index, .. } = &mut self {
+            *index += first;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt;
+
+    use super::*;
+
+    #[test]
+    fn the_error_of_downstream_code_has_a_kind_a_field_and_a_source() {
+        use std::error::Error as _;
+        let input = InputError::OutOfRange { field: "speed [m/s]", value: -1.0, valid: ">= 0" };
+        let bad = Error::BadLaunch { index: 3, source: input.clone() };
+        assert_eq!((bad.kind(), bad.field(), bad.is_input()), ("input", Some("speed [m/s]"), true));
+        assert_eq!(bad.source().map(ToString::to_string), Some(input.to_string()));
+        assert_eq!(bad.after(4), Error::BadLaunch { index: 7, source: input });
+        let solve = Error::from(SolveError::failed("own", fmt::Error));
+        assert_eq!((solve.kind(), solve.field(), solve.is_input()), ("failed", None, false));
+        assert_eq!(solve.clone().after(4), solve);
+    }
+}

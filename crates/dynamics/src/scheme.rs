@@ -1,0 +1,75 @@
+//! Schemes of integration: a name, an order, and how its steps can be controlled.
+
+/// A scheme by which an integrator steps. Whoever writes an integrator may make one of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Scheme {
+    name: &'static str,
+    order: Option<u32>,
+    adaptive: bool,
+    takes_steps: bool,
+}
+
+impl Scheme {
+    /// Dormand and Prince's method of order 8(5,3) (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
+    pub const DOP853: Self = Self::new("dop853", Some(8)).adaptive().with_fixed_steps();
+    /// Dormand and Prince's method of order 5(4) (J. Comput. Appl. Math. 6, 1980).
+    pub const DOPRI5: Self = Self::new("dopri5", Some(5)).adaptive().with_fixed_steps();
+    /// The classical method of order 4, without an error estimate.
+    pub const RK4: Self = Self::new("rk4", Some(4)).with_fixed_steps();
+
+    /// The Runge-Kutta schemes, which [`integrate`](crate::integrate::integrate()) runs: they need no more of a system than
+    /// its right-hand side.
+    pub const RUNGE_KUTTA: [Self; 3] = [Self::DOP853, Self::DOPRI5, Self::RK4];
+
+    /// A scheme called `name` whose global error has this `order`; `None` if the tolerance chooses the order.
+    pub const fn new(name: &'static str, order: Option<u32>) -> Self {
+        Self { name, order, adaptive: false, takes_steps: false }
+    }
+
+    /// The same scheme, with an estimate of its local error, so that a tolerance can control its steps.
+    #[must_use]
+    pub const fn adaptive(self) -> Self {
+        Self { adaptive: true, ..self }
+    }
+
+    /// The same scheme, which can take equal steps of a given length.
+    #[must_use]
+    pub const fn with_fixed_steps(self) -> Self {
+        Self { takes_steps: true, ..self }
+    }
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// Order of the global error; `None` where the tolerance chooses it.
+    pub const fn order(self) -> Option<u32> {
+        self.order
+    }
+
+    /// Whether it estimates its local error, so that a tolerance can control its steps.
+    pub const fn is_adaptive(self) -> bool {
+        self.adaptive
+    }
+
+    /// Whether it can take equal steps of a given length.
+    pub const fn takes_steps(self) -> bool {
+        self.takes_steps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scheme_has_a_name_an_order_and_the_steps_that_it_can_take() {
+        let table = [("dop853", Some(8), true, true), ("dopri5", Some(5), true, true), ("rk4", Some(4), false, true)];
+        for (scheme, expected) in Scheme::RUNGE_KUTTA.into_iter().zip(table) {
+            assert_eq!((scheme.name(), scheme.order(), scheme.is_adaptive(), scheme.takes_steps()), expected);
+        }
+        let own = Scheme::new("own", None).adaptive();
+        assert_eq!((own.name(), own.order(), own.is_adaptive(), own.takes_steps()), ("own", None, true, false));
+    }
+}

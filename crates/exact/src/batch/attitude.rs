@@ -1,0 +1,83 @@
+//! Attitudes at landing, Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ).
+
+use dynamics::{Error, SolveError, Toss};
+use numerics::lanes::{Real, Simd, sin_cos_to_sign};
+
+use super::Batch;
+use super::kernel::{Kernel, Run};
+use super::momentum::{Constants, Extent};
+use crate::compensated::compensated_landing;
+
+impl Batch<'_> {
+    /// The attitude at landing of each toss, body to LF, as columns of the quaternion's w, x, y and z. Its sign means
+    /// nothing.
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has none; what is in `out` then means nothing.
+    ///
+    /// # Panics
+    /// If a column has another length than the batch has tosses.
+    pub fn attitudes(&self, out: [&mut [f64]; 4]) -> Result<(), Error> {
+        assert!(out.iter().all(|column| column.len() == self.tosses.len()), "one result a toss");
+        let constants = Constants::new(&self.tosses);
+        let start = if self.is_flat() { None } else { Some(self.tosses.attitude().components()) };
+        self.level.run(Run { kernel: &Attitudes { constants, start }, tosses: self.tosses, out })
+    }
+}
+
+struct Attitudes {
+    constants: Constants,
+    /// Q0, if it is not 1.
+    start: Option<[f64; 4]>,
+}
+
+impl Kernel<7, 4> for Attitudes {
+    fn constants(&self) -> &Constants {
+        &self.constants
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 7] {
+        let motion = self.constants.motion(rates, speed, extent);
+        let [x, y, z] = rates;
+        let ([turns, rest], [spin, spin_rest]) = (motion.turns, self.constants.spin_turns(z, speed));
+        let inverse = motion.size * (motion.half_inverse + motion.half_inverse);
+        // Half an angle in quarters of a turn is twice the angle in turns.
+        let twice = [turns + turns, rest + rest, spin + spin, spin_rest + spin_rest];
+        [twice[0], twice[1], twice[2], twice[3], x * inverse, y * inverse, motion.along * inverse]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turn, turn_rest, spin, spin_rest, x, y, z]: [Real<S>; 7]) -> [Real<S>; 4] {
+        let ([sin, cos], _) = sin_cos_to_sign(turn, turn_rest);
+        let ([sin_spin, cos_spin], _) = sin_cos_to_sign(spin, spin_rest);
+        let (x, y, z) = (x * sin, y * sin, z * sin);
+        let turned = [
+            cos.mul_add(cos_spin, z * sin_spin),
+            x.mul_add(cos_spin, -(y * sin_spin)),
+            x.mul_add(sin_spin, y * cos_spin),
+            z.mul_add(cos_spin, -(cos * sin_spin)),
+        ];
+        match self.start {
+            None => turned,
+            Some(start) => product(start, turned),
+        }
+    }
+
+    fn solve_one(&self, toss: &Toss) -> Result<[f64; 4], SolveError> {
+        compensated_landing(toss).map(|landing| landing.attitude.components())
+    }
+}
+
+/// `left` ⊗ `right`.
+#[inline(always)]
+fn product<S: Simd>(left: [f64; 4], right: [Real<S>; 4]) -> [Real<S>; 4] {
+    let [w, x, y, z] = right;
+    let (a, b, c, d) = (w.constant(left[0]), w.constant(left[1]), w.constant(left[2]), w.constant(left[3]));
+    [
+        a.mul_add(w, -b.mul_add(x, c.mul_add(y, d * z))),
+        a.mul_add(x, b.mul_add(w, c.mul_add(z, -(d * y)))),
+        a.mul_add(y, c.mul_add(w, d.mul_add(x, -(b * z)))),
+        a.mul_add(z, d.mul_add(w, b.mul_add(y, -(c * x)))),
+    ]
+}

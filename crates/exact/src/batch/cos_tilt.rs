@@ -1,0 +1,110 @@
+//! cos θ at landing, with φ = |L| T and the terms of [`TiltTerms`](crate::TiltTerms):
+//!
+//! ```text
+//! cos θ = (Lz² + (Lx² + Ly²) cos φ)/|L|²              from horizontal
+//! cos θ = (A + B cos φ + C sin φ)/(|q|² |L|²)          from any attitude
+//! ```
+
+use dynamics::{Error, SolveError, Toss};
+use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
+
+use super::Batch;
+use super::kernel::{Kernel, Run};
+use super::momentum::{Constants, Extent, TiltTerms};
+use crate::compensated::compensated_cos_tilt;
+
+impl Batch<'_> {
+    /// cos θ at landing of each toss.
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has none; what is in `out` then means nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than the batch has tosses.
+    pub fn cos_tilts(&self, out: &mut [f64]) -> Result<(), Error> {
+        assert_eq!(out.len(), self.tosses.len(), "one result a toss");
+        let constants = Constants::new(&self.tosses);
+        if self.is_flat() {
+            self.level.run(Run { kernel: &Flat(constants), tosses: self.tosses, out: [out] })
+        } else {
+            let kernel = &Tilted(constants, TiltTerms::new(&self.tosses));
+            self.level.run(Run { kernel, tosses: self.tosses, out: [out] })
+        }
+    }
+}
+
+/// (Lz² + Ω² cos φ)/|L|²: from horizontal.
+struct Flat(Constants);
+
+impl Kernel<4, 1> for Flat {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
+        let motion = self.0.motion(rates, speed, extent);
+        let [turns, rest] = motion.turns;
+        [cosine_as_sine(turns, rest), motion.across_squared, motion.along_squared, motion.half_inverse]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [left, across_squared, along_squared, half_inverse]: [Real<S>; 4]) -> [Real<S>; 1] {
+        let height = across_squared.mul_add(sin_of_turns(left), along_squared);
+        [((height + height) * half_inverse).clamp_to_cosine()]
+    }
+
+    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
+    }
+}
+
+/// (A + B cos φ + C sin φ)/|L|²: from any attitude.
+struct Tilted(Constants, TiltTerms);
+
+impl Kernel<6, 1> for Tilted {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 6] {
+        let motion = self.0.motion(rates, speed, extent);
+        let [mean, cosine, sine] = self.1.terms(rates, motion.along, motion.across_squared, motion.size);
+        let [turns, rest] = motion.turns;
+        [turns, rest, mean, cosine, sine, motion.half_inverse * turns.constant(2.0 / self.1.norm)]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, rest, mean, cosine, sine, inverse]: [Real<S>; 6]) -> [Real<S>; 1] {
+        let four = turns.constant(4.0);
+        let [sin, cos] = sin_cos(turns * four, rest * four);
+        [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
+    }
+
+    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Coin, Tosses};
+
+    use super::*;
+
+    #[test]
+    fn a_quaternion_of_any_norm_is_the_same_attitude() {
+        let speeds = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let columns = [[3.0; 5], [4.0; 5], [5.0; 5]];
+        let columns = columns.each_ref().map(<[f64; 5]>::as_slice);
+        let tosses = Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, &speeds).unwrap();
+        let (mut expected, mut found) = ([f64::NAN; 5], [f64::NAN; 5]);
+        Batch::new(tosses).cos_tilts(&mut expected).unwrap();
+        let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
+        let doubled = TiltTerms { vertical: vertical.map(|part| 4.0 * part), norm: 4.0 * norm };
+        let kernel = &Tilted(Constants::new(&tosses), doubled);
+        Batch::new(tosses).level.run(Run { kernel, tosses, out: [&mut found] }).unwrap();
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,248 @@
+//! Angular momenta and phases of as many tosses as a register holds, with what rounding lost of them.
+//!
+//! As [`compensated`](crate::compensated), but with phases in turns and without a unit of rates: what could leave the
+//! range of f64 is no ordinary toss.
+
+use dynamics::Tosses;
+use dynamics::attitude::vertical_in_body;
+use numerics::DoubleDouble;
+use numerics::lanes::{MOST_TURNS, Real, Simd};
+
+use crate::tilt_terms::terms;
+
+/// Largest |L|² ((rad/s)²), and inverse of the smallest.
+const LARGEST_SQUARE: f64 = 1e100;
+
+/// 1/π.
+const INVERSE_PI: [f64; 2] = [std::f64::consts::FRAC_1_PI, -1.967_867_667_518_248_6e-17];
+
+/// What is the same for all tosses of a batch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Constants {
+    ratio: [f64; 2],
+    /// 1/(π g), turns of ωL T by a unit of ωL v0, and what f64 leaves of it, relative.
+    turns: [f64; 2],
+    /// (k - 1)/(π g), turns of q T by a unit of ωz v0, and what f64 leaves of it.
+    spin_turns: [f64; 2],
+    most_turns: f64,
+}
+
+/// The motion of tosses.
+pub(super) struct Motion<S: Simd> {
+    /// Lz = k ωz (rad/s).
+    pub(super) along: Real<S>,
+    /// Lz² ((rad/s)²).
+    pub(super) along_squared: Real<S>,
+    /// Ω² = Lx² + Ly².
+    pub(super) across_squared: Real<S>,
+    /// |L| = ωL (rad/s).
+    pub(super) size: Real<S>,
+    /// ½/|L|².
+    pub(super) half_inverse: Real<S>,
+    /// ωL T (turns).
+    pub(super) turns: [Real<S>; 2],
+}
+
+/// The same in plain f64.
+pub(super) struct PlainMotion<S: Simd> {
+    pub(super) along: Real<S>,
+    pub(super) across_squared: Real<S>,
+    /// |L|².
+    pub(super) squared: Real<S>,
+    pub(super) size: Real<S>,
+    pub(super) turns: Real<S>,
+}
+
+/// Sums over many tosses that tell whether all of them are ordinary.
+pub(super) struct Extent<S: Simd> {
+    squared: Real<S>,
+    inverse: Real<S>,
+    turns: Real<S>,
+    sign: Real<S>,
+}
+
+impl Constants {
+    pub(super) fn new(tosses: &Tosses<'_>) -> Self {
+        let k = tosses.coin().exact_inertia_ratio();
+        let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
+        let turns = inverse_pi / tosses.gravity().into();
+        let spin_turns = turns * (k - 1.0.into());
+        // In this range no product of a gravity loses digits.
+        let is_ordinary = (1e-50..1e50).contains(&tosses.gravity());
+        Self {
+            ratio: [k.hi(), k.lo()],
+            turns: [turns.hi(), turns.lo() / turns.hi()],
+            spin_turns: [spin_turns.hi(), spin_turns.lo()],
+            // The spin turns by at most 1/k times as much.
+            most_turns: if is_ordinary { MOST_TURNS * k.hi().min(1.0) } else { 0.0 },
+        }
+    }
+
+    /// The motion after launches with these rates (rad/s) and speeds (m/s).
+    #[inline(always)]
+    pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
+        let [along, along_rest] = x.constant(self.ratio[0]).product(z);
+        let along_rest = x.constant(self.ratio[1]).mul_add(z, along_rest);
+        let (x_squared, y_squared, along_squared) = (x.product(x), y.product(y), along.product(along));
+        let along_squared_rest = (along + along).mul_add(along_rest, along_squared[1]);
+        let [across, across_rest] = x_squared[0].sum(y_squared[0]);
+        let [squared, squared_rest] = across.sum(along_squared[0]);
+        let squared_rest = (squared_rest + along_squared_rest) + (across_rest + (x_squared[1] + y_squared[1]));
+        let size = squared.sqrt();
+        let half_inverse = x.constant(0.5) / squared;
+        // Relative, and so for all that is proportional to |L|.
+        let size_rest = ((-size).mul_add(size, squared) + squared_rest) * half_inverse;
+        let [turned, turned_rest] = size.product(speed);
+        let [turns, turns_rest] = turned.product(x.constant(self.turns[0]));
+        let turns_rest = turned_rest.mul_add(x.constant(self.turns[0]), turns_rest);
+        let turns_rest = turns.mul_add(size_rest + x.constant(self.turns[1]), turns_rest);
+        extent.add(squared, half_inverse, turns, speed);
+        Motion {
+            along,
+            along_squared: along_squared[0],
+            across_squared: across,
+            size,
+            half_inverse,
+            turns: [turns, turns_rest],
+        }
+    }
+
+    /// Turns of q T, and the rest, for ωz (rad/s) and v0 (m/s).
+    #[inline(always)]
+    pub(super) fn spin_turns<S: Simd>(&self, z: Real<S>, speed: Real<S>) -> [Real<S>; 2] {
+        let [turned, turned_rest] = z.product(speed);
+        let [turns, turns_rest] = turned.product(z.constant(self.spin_turns[0]));
+        let turns_rest = turned_rest.mul_add(z.constant(self.spin_turns[0]), turns_rest);
+        [turns, turned.mul_add(z.constant(self.spin_turns[1]), turns_rest)]
+    }
+
+    /// As [`Constants::motion`], without what rounding loses.
+    #[inline(always)]
+    pub(super) fn plain_motion<S: Simd>(
+        &self,
+        [x, y, z]: [Real<S>; 3],
+        speed: Real<S>,
+        extent: &mut Extent<S>,
+    ) -> PlainMotion<S> {
+        let along = z * z.constant(self.ratio[0]);
+        let across_squared = x.mul_add(x, y * y);
+        let squared = along.mul_add(along, across_squared);
+        let size = squared.sqrt();
+        let turns = size * (speed * size.constant(self.turns[0]));
+        extent.add(squared, squared.constant(0.0), turns, speed);
+        PlainMotion { along, across_squared, squared, size, turns }
+    }
+
+    /// Whether a toss with these rates (rad/s) and this speed (m/s) is ordinary: no square and no phase leaves its range.
+    pub(super) fn is_ordinary(&self, [x, y, z, speed]: [f64; 4]) -> bool {
+        let simd = pulp::Scalar;
+        let mut extent = Extent::new(simd);
+        self.motion([x, y, z].map(|rate| Real::splat(simd, rate)), Real::splat(simd, speed), &mut extent);
+        extent.is_ordinary(self)
+    }
+}
+
+impl<S: Simd> Extent<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        let zero = Real::splat(simd, 0.0);
+        Self { squared: zero, inverse: zero, turns: zero, sign: zero }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, squared: Real<S>, half_inverse: Real<S>, turns: Real<S>, speed: Real<S>) {
+        self.squared = self.squared + squared;
+        self.inverse = self.inverse + half_inverse;
+        self.turns = self.turns + turns;
+        self.sign = self.sign.either_sign(speed);
+    }
+
+    /// Whether all tosses are ordinary. Sums are compared, of which no part is negative, or else the sign tells: so one
+    /// toss that is not ordinary is always seen, and ordinary ones may together be taken for one that is not.
+    #[inline(always)]
+    pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
+        let Self { squared, inverse, turns, sign } = *self;
+        let scale = squared.constant(1.0 / LARGEST_SQUARE);
+        let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
+        extent.at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
+    }
+}
+
+/// A, B and C of [`TiltTerms`](crate::TiltTerms) for tosses from one attitude.
+pub(super) struct TiltTerms {
+    /// The vertical seen from the body at launch, times |q|².
+    pub(super) vertical: [f64; 3],
+    /// |q|².
+    pub(super) norm: f64,
+}
+
+impl TiltTerms {
+    pub(super) fn new(tosses: &Tosses<'_>) -> Self {
+        let (vertical, norm) = vertical_in_body(tosses.attitude().components());
+        Self { vertical, norm }
+    }
+
+    /// A, B and C ((rad/s)²) for these rates (BF, rad/s), Lz, Ω² and |L|.
+    #[inline(always)]
+    pub(super) fn terms<S: Simd>(
+        &self,
+        [x, y, _]: [Real<S>; 3],
+        along: Real<S>,
+        across_squared: Real<S>,
+        size: Real<S>,
+    ) -> [Real<S>; 3] {
+        let [m_x, m_y, m_z] = self.vertical;
+        let vertical = [x.constant(m_x), x.constant(m_y), x.constant(m_z)];
+        let [mean, cosine, sine] = terms(vertical, [x, y, along], across_squared);
+        [mean, cosine, sine * size]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use dynamics::{Attitude, Coin};
+
+    use super::*;
+
+    fn constants(k: f64, gravity: f64) -> Constants {
+        let coin = Coin::from_moments(1.0, k).unwrap();
+        Constants::new(&Tosses::new(coin, Attitude::IDENTITY, gravity, [&[]; 3], &[]).unwrap())
+    }
+
+    #[test]
+    fn ordinary_tosses_end_where_they_are_said_to() {
+        let of_square = |squared: f64| constants(0.5, 1.0).is_ordinary([squared.sqrt(), 0.0, 0.0, 0.0]);
+        assert!([0.51e-100, 1.0, 0.99e100].into_iter().all(of_square));
+        assert!(![0.0, 0.49e-100, 1.01e100, 1e305, f64::INFINITY, f64::NAN].into_iter().any(of_square));
+        for (k, most) in [(0.25, 0.25 * MOST_TURNS), (1.5, MOST_TURNS)] {
+            // ωL T = 2π · 10 v0/(π g).
+            let of_turns = |turns: f64| constants(k, 2.0).is_ordinary([6.0, 8.0, 0.0, 0.2 * PI * turns]);
+            assert!(of_turns(0.0) && of_turns(0.999 * most) && !of_turns(1.001 * most), "{k}");
+        }
+        let of_gravity = |gravity: f64| constants(0.5, gravity).is_ordinary([1.0, 0.0, 0.0, 0.0]);
+        assert!(of_gravity(1e-50) && of_gravity(0.99e50) && !of_gravity(0.99e-50) && !of_gravity(1e50));
+        let of_speed = |speed: f64| constants(0.5, 1.0).is_ordinary([1.0, 0.0, 0.0, speed]);
+        assert!(of_speed(1.0) && !of_speed(-1.0) && !of_speed(f64::INFINITY) && !of_speed(f64::NAN));
+    }
+
+    #[test]
+    fn a_toss_that_is_not_ordinary_is_seen_in_any_company() {
+        let are_ordinary = |tosses: [[f64; 4]; 2]| {
+            let mut extent = Extent::new(pulp::Scalar);
+            for toss in tosses {
+                let [squared, half_inverse, turns, speed] = toss.map(|value| Real::splat(pulp::Scalar, value));
+                extent.add(squared, half_inverse, turns, speed);
+            }
+            extent.is_ordinary(&constants(0.5, 1.0))
+        };
+        let ordinary = [2.0, 0.25, 3.0, 4.0];
+        assert!(are_ordinary([ordinary, [1.0, 0.5, 2.0, 3.0]]));
+        for other in
+            [[1.01e100, 0.0, 0.0, 0.0], [1.0, 1.01e100, 0.0, 0.0], [1.0, 0.5, MOST_TURNS, 0.0], [1.0, 0.5, 0.0, -1.0]]
+        {
+            assert!(!are_ordinary([ordinary, other]) && !are_ordinary([other, ordinary]), "{other:?}");
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! Proven outcomes: a filter in f64 decides nearly all of them, and [`certify`] the rest.
+//!
+//! With x half the phase φ = 2πτ, in turns reduced to |x| ≤ ½, s and c its sine and cosine, G = A + B cos φ + C sin φ
+//! of [`TiltTerms`](crate::TiltTerms) is
+//!
+//! ```text
+//! G = (A + B) + 2 s (C c - B s)
+//! ```
+//!
+//! whatever the common sign of s and c. In units of `size`, with u = 2^-53 and ε the error of the rough s and c, which
+//! have no need of many digits where G is far from 0:
+//!
+//! ```text
+//! A, B, C            41u          12u (1 + √2 + 1), as derived there; fused products round less
+//! s, c               7ε           2|C|(ε|c| + ε|s|) + 4|B| ε|s|
+//! φ                  44u τ        7u φ: |L| 4u, 1/(πg) 1.5u, two products; |dG/dφ| ≤ size
+//! operations         12u          six, of numbers below 4
+//! ```
+//!
+//! [`THRESHOLD`] is more than twice the sum without φ, and the part of φ is rounded up. What underflows is below
+//! 2^-1000, and [`SMALLEST`] is above it.
+
+use std::ops::Range;
+
+use dynamics::{Error, Outcome, SolveError, Toss};
+use numerics::UNIT_ROUNDOFF;
+use numerics::lanes::{ROUGH_ERROR, Real, Simd, WithSimd, rough_cos_of_half, rough_sin_of_half};
+
+use super::Batch;
+use super::kernel::{Kernel, Run};
+use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
+use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::certified::certify;
+
+/// How near to 0 the filter leaves a G/size undecided, beside what the phase adds.
+const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
+
+/// What a turn adds to it.
+const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
+
+/// How near to 0 a G is left undecided that is not measured in its size ((rad/s)²).
+const SMALLEST: f64 = 1e-200;
+
+/// Tosses that are filtered before the rest of them is proven otherwise.
+const BLOCK: usize = 512;
+
+/// Outcomes that the filter decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct FilterCounts {
+    heads: u64,
+    tails: u64,
+}
+
+impl Batch<'_> {
+    /// How each toss lands, proven. It is undecided only for an exact tie.
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome; what is in `out` then means nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than the batch has tosses.
+    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
+        assert_eq!(out.len(), self.tosses.len(), "one result a toss");
+        let filter = Filter::new(self);
+        let mut heights = Column([0.0; BLOCK]);
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            let start = block * BLOCK;
+            let heights = &mut heights.0[..out.len()];
+            filter.run(self, start..start + out.len(), heights)?;
+            for (index, (height, out)) in heights.iter().zip(out).enumerate() {
+                *out = of_sign(*height);
+                if *out == Outcome::Undecided {
+                    *out = self.tosses.solve(start + index, certify)?.outcome();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts the outcomes, all of them proven: nearly all by the filter in f64, the others by [`certify`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome.
+    pub fn count(&self) -> Result<ProvenCounts, Error> {
+        self.count_and(|_| ())
+    }
+
+    /// As [`Batch::count`]; `left` is called with each outcome that the filter left to [`certify`].
+    ///
+    /// # Errors
+    /// As [`Batch::count`].
+    pub fn count_and(&self, mut left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+        let filter = Filter::new(self);
+        let mut heights = Column([0.0; BLOCK]);
+        let mut counts = ProvenCounts::default();
+        for start in (0..self.tosses.len()).step_by(BLOCK) {
+            let heights = &mut heights.0[..(self.tosses.len() - start).min(BLOCK)];
+            filter.run(self, start..start + heights.len(), heights)?;
+            let decided = self.level.run(Signs(heights));
+            counts.add_many(decided.heads, decided.tails, Stage::F64);
+            if decided.heads + decided.tails < heights.len() as u64 {
+                for (index, _) in
+                    heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided)
+                {
+                    let certificate = self.tosses.solve(start + index, certify)?;
+                    left(certificate);
+                    counts.add(certificate);
+                }
+            }
+        }
+        Ok(counts)
+    }
+}
+
+/// Heads or tails by the sign of a height. A table, since which face it is is chance: a branch would be foreseen wrongly
+/// every other time.
+#[inline]
+fn of_sign(height: f64) -> Outcome {
+    const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
+    OF_SIGNS[usize::from(height > 0.0) + 2 * usize::from(height < 0.0)]
+}
+
+/// As registers are loaded and stored best.
+#[repr(align(64))]
+struct Column([f64; BLOCK]);
+
+/// The kernel for a batch.
+enum Filter {
+    Flat(Flat),
+    Tilted(Tilted),
+}
+
+impl Filter {
+    fn new(batch: &Batch<'_>) -> Self {
+        let constants = Constants::new(&batch.tosses);
+        if batch.is_flat() {
+            Self::Flat(Flat(constants))
+        } else {
+            Self::Tilted(Tilted(constants, TiltTerms::new(&batch.tosses)))
+        }
+    }
+
+    /// What G exceeds its threshold by, with its sign; 0 where it does not.
+    fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        let (level, tosses) = (batch.level, batch.tosses.part(range));
+        match self {
+            Self::Flat(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
+            Self::Tilted(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
+        }
+    }
+}
+
+/// From horizontal, where A + B = |L|², B = Ω² and C = 0.
+struct Flat(Constants);
+
+/// From any attitude.
+struct Tilted(Constants, TiltTerms);
+
+impl Kernel<4, 1> for Flat {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 4] {
+        let PlainMotion { across_squared, squared, turns, .. } = self.0.plain_motion(rates, speed, extent);
+        [turns, squared, threshold(turns, squared), across_squared + across_squared]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, squared, threshold, twice_across_squared]: [Real<S>; 4]) -> [Real<S>; 1] {
+        let sin = rough_sin_of_half(turns - turns.round());
+        [beyond(squared - twice_across_squared * (sin * sin), threshold)]
+    }
+
+    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
+    }
+}
+
+impl Kernel<5, 1> for Tilted {
+    fn constants(&self) -> &Constants {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 5] {
+        let PlainMotion { along, across_squared, squared, size, turns } = self.0.plain_motion(rates, speed, extent);
+        let [mean, cosine, sine] = self.1.terms(rates, along, across_squared, size);
+        [turns, threshold(turns, squared * turns.constant(self.1.norm)), mean, cosine, sine]
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, [turns, threshold, mean, cosine, sine]: [Real<S>; 5]) -> [Real<S>; 1] {
+        let part = turns - turns.round();
+        let (sin, cos) = (rough_sin_of_half(part), rough_cos_of_half(part));
+        let change = sin * sine.mul_add(cos, -(cosine * sin));
+        [beyond((mean + cosine) + (change + change), threshold)]
+    }
+
+    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
+    }
+}
+
+/// How near to 0 a G of this `size` is left undecided.
+#[inline(always)]
+fn threshold<S: Simd>(turns: Real<S>, size: Real<S>) -> Real<S> {
+    let relative = turns.mul_add(turns.constant(THRESHOLD_OF_TURN), turns.constant(THRESHOLD));
+    relative.mul_add(size, turns.constant(SMALLEST))
+}
+
+/// |`height`| - `threshold` with the sign of `height`, or 0.
+#[inline(always)]
+fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
+    (height.abs() - threshold).max(height.constant(0.0)).times_sign_of(height)
+}
+
+/// Counts the signs of numbers.
+struct Signs<'a>(&'a [f64]);
+
+impl WithSimd for Signs<'_> {
+    type Output = FilterCounts;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> FilterCounts {
+        let (zero, one) = (Real::splat(simd, 0.0), Real::splat(simd, 1.0));
+        let smallest = Real::splat(simd, f64::from_bits(1));
+        let (mut heads, mut tails) = (zero, zero);
+        let (whole, rest) = self.0.split_at(self.0.len() - self.0.len() % Real::<S>::LANES);
+        for at in (0..whole.len()).step_by(Real::<S>::LANES) {
+            let height = Real::load(simd, &whole[at..]);
+            heads = heads + smallest.at_most(height).choose(one, zero);
+            tails = tails + height.at_most(-smallest).choose(one, zero);
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts below 2^53")]
+        let mut decided = FilterCounts { heads: heads.total() as u64, tails: tails.total() as u64 };
+        for height in rest {
+            decided.heads += u64::from(*height > 0.0);
+            decided.tails += u64::from(*height < 0.0);
+        }
+        decided
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Coin, Tosses};
+    use numerics::lanes::SimdLevel;
+
+    use super::*;
+
+    const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
+
+    fn speeds() -> [f64; 20] {
+        std::array::from_fn(|index| 0.3 * index as f64)
+    }
+
+    fn tosses(speeds: &[f64]) -> Tosses<'_> {
+        let columns = RATES.each_ref().map(|column| &column[..speeds.len()]);
+        Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, speeds).unwrap()
+    }
+
+    #[test]
+    fn counts_are_those_of_the_outcomes_also_where_no_register_is_full() {
+        let speeds = speeds();
+        for (level, length) in
+            SimdLevel::all().into_iter().flat_map(|level| (0..=20).map(move |length| (level, length)))
+        {
+            let batch = Batch::new(tosses(&speeds[..length])).on(level);
+            let mut outcomes = vec![Outcome::Undecided; length];
+            batch.outcomes(&mut outcomes).unwrap();
+            let number = |of: Outcome| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
+            let counted = batch.count().unwrap();
+            let expected = (number(Outcome::Heads), number(Outcome::Tails), length as u64);
+            let found = (counted.heads(), counted.tails(), counted.by(Stage::F64));
+            assert_eq!(found, expected, "{length} at {}", level.name());
+            assert!(length < 20 || (counted.heads() > 3 && counted.tails() > 3), "{counted:?}");
+        }
+    }
+
+    #[test]
+    fn heights_and_thresholds_grow_with_the_norm_of_the_quaternion() {
+        let speeds = speeds();
+        let tosses = tosses(&speeds);
+        let heights = |factor: f64| {
+            let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
+            let terms = TiltTerms { vertical: vertical.map(|part| factor * part), norm: factor * norm };
+            let mut heights = [f64::NAN; 20];
+            let filter = Filter::Tilted(Tilted(Constants::new(&tosses), terms));
+            filter.run(&Batch::new(tosses), 0..20, &mut heights).unwrap();
+            heights
+        };
+        assert_eq!(heights(1024.0), heights(1.0).map(|height| 1024.0 * height));
+    }
+}

@@ -1,0 +1,211 @@
+//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed
+//! and gravity.
+//!
+//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
+//! `keller.rs` (Keller's coin) and `trig_free.rs` (no sine or cosine). Three have more digits, one than the
+//! other, after the adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
+//!
+//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units
+//! of `size` ≥ |A|, √(B² + C²), |G|:
+//!
+//! ```text
+//! A                                    12u
+//! B, C                                 14.8u       √(10.9² + 9.9²), as cos² + sin² = 1
+//! cos, sin                             2.9u        √2 · 2u: std is taken to be right to 2 ulp, of numbers below 1
+//! φ                                    6u φ        |dG/dφ| ≤ size
+//! B cos, C sin                         1.42u       rounded products, |B| + |C| ≤ √2 size
+//! the two sums                         2u
+//! sum                                  33.2u + 6u φ
+//! ```
+//!
+//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
+//! 2^-1000, and `size` is above 10^-200.
+//!
+//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations
+//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time
+//! 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both),
+//! turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
+//! [`double_double_bound`].
+//!
+//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann),
+//! so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
+//! arithmetic first.
+
+use dynamics::attitude::vertical_in_body;
+use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
+use numerics::big::{Big, exactly};
+use numerics::{DoubleDouble, UNIT_ROUNDOFF};
+
+use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::keller::{keller_outcome, keller_phase};
+use crate::motion::ExactMotion;
+use crate::tilt_terms::{TiltTerms, terms};
+use crate::trig_free::{phase_in_range, trig_free_by};
+
+/// The proven outcome of a toss.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
+#[inline]
+pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
+    match cheaply(toss) {
+        Some(certificate) => Ok(certificate),
+        None => with_more_digits(toss),
+    }
+}
+
+impl ProvenCounts {
+    /// The proven outcomes of `tosses`, counted.
+    ///
+    /// # Errors
+    /// [`Error::Launch`] for the first toss that has no outcome.
+    pub fn of(tosses: impl IntoIterator<Item = Toss>) -> Result<Self, Error> {
+        let mut counts = Self::default();
+        for (index, toss) in (0..).zip(tosses) {
+            let certificate = certify(&toss);
+            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+        }
+        Ok(counts)
+    }
+}
+
+/// The stages in f64.
+#[inline]
+fn cheaply(toss: &Toss) -> Option<Certificate> {
+    let by = |stage| move |outcome| Certificate::new(outcome, stage);
+    if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
+        return Some(by(Stage::Keller)(outcome));
+    }
+    let terms = TiltTerms::new(toss);
+    let phase = phase_in_range(toss, &terms)?;
+    trig_free_by(&terms, phase).map(by(Stage::TrigFree)).or_else(|| by_terms(&terms, phase).map(by(Stage::F64)))
+}
+
+/// The stage in f64, from the terms of a toss and the phase of its landing (rad), which is in range; `None` where it cannot
+/// decide.
+#[inline]
+fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
+    match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
+        Outcome::Undecided => None,
+        decided => Some(decided),
+    }
+}
+
+/// The stages with more digits than f64.
+///
+/// # Errors
+/// As [`certify`].
+#[cold]
+fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
+    let motion = ExactMotion::new(toss);
+    let time = toss.launch.time_of_flight();
+    motion.phase(time)?;
+    Ok(match by_double_double(&motion, time)? {
+        Some(outcome) => Certificate::new(outcome, Stage::DoubleDouble),
+        None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
+    })
+}
+
+/// The stage in double-double; `None` where it cannot decide.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+fn by_double_double(motion: &ExactMotion, time: TimeOfFlight) -> Result<Option<Outcome>, SolveError> {
+    let (cos_tilt, phase) = motion.cos_tilt_parts(time)?;
+    Ok(match Outcome::of(cos_tilt.hi(), double_double_bound(phase)) {
+        Outcome::Undecided => None,
+        decided => Some(decided),
+    })
+}
+
+/// Bound of the error of cos θ in the double-double stage at a `phase` (rad).
+pub fn double_double_bound(phase: DoubleDouble) -> f64 {
+    const CONSTANT: f64 = 4.0 * UNIT_ROUNDOFF;
+    const OF_REST: f64 = 8.0 * UNIT_ROUNDOFF;
+    const OF_PHASE: f64 = 80.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+    CONSTANT + OF_REST * phase.lo().abs() + OF_PHASE * phase.hi()
+}
+
+/// Bound of the error of the f64 stage's height at a `phase` (rad), in parts of the terms' size.
+#[inline]
+pub fn f64_bound(phase: f64) -> f64 {
+    (34.0 + 7.0 * phase) * UNIT_ROUNDOFF
+}
+
+/// The stage in as many digits as it takes. It always decides, but for exact ties.
+pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
+    if is_tie(toss) {
+        return Outcome::Undecided;
+    }
+    let mut digits: isize = 192;
+    loop {
+        let (cos_tilt, bound) = (cos_tilt(toss, digits), multiprecision_bound(digits));
+        if cos_tilt > bound {
+            return Outcome::Heads;
+        }
+        if cos_tilt < -bound {
+            return Outcome::Tails;
+        }
+        digits *= 2;
+    }
+}
+
+/// Bound of the error of cos θ in `digits` binary digits: some twenty operations, the phase's error multiplied by up to 2^53.
+fn multiprecision_bound(digits: isize) -> Big {
+    Big::ONE >> (digits - 80)
+}
+
+/// The vertical in BF times |q|², exactly.
+fn vertical(toss: &Toss) -> [Big; 3] {
+    vertical_in_body(toss.launch.attitude().components().map(exactly)).0
+}
+
+/// Whether cos θ = 0 exactly at landing.
+fn is_tie(toss: &Toss) -> bool {
+    let [m_x, m_y, m_z] = vertical(toss);
+    let zero = exactly(0.0);
+    if m_z != zero {
+        // At a phase of 0, cos θ = mz. Without B and C, either Ω = 0 and cos θ = mz too, or m is along L, where A = 0
+        // needs Lz = 0 and with it mz = 0.
+        return false;
+    }
+    let rate = toss.launch.rate();
+    let landed_at_once = !toss.launch.time_of_flight().is_positive();
+    let precesses = rate.x != 0.0 || rate.y != 0.0;
+    let level_momentum = rate.z == 0.0 || toss.coin.i3() == 0.0;
+    landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
+}
+
+/// cos θ at landing in `digits` binary digits.
+fn cos_tilt(toss: &Toss, digits: isize) -> Big {
+    let digits = digits.unsigned_abs();
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let round = |value: Big| value.with_precision(digits).value();
+    let rate = toss.launch.rate();
+    let (x, y, z) = (big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z));
+    let across = &x * &x + &y * &y;
+    let squared = &across + &z * &z;
+    let vertical = vertical(toss).map(round);
+    if squared == big(0.0) {
+        let [.., m_z] = vertical;
+        return m_z;
+    }
+    let momentum = squared.sqrt();
+    let time = match toss.launch.time_of_flight() {
+        TimeOfFlight::Given(time) => big(time),
+        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            let (speed, gravity) = (exactly(speed), exactly(gravity));
+            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
+            (round(speed) + round(discriminant).sqrt()) / round(gravity)
+        }
+    };
+    let (sin, cos) = (&momentum * time).sin_cos();
+    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
+    let height = mean + cosine * cos + sine * &momentum * sin;
+    // |q|² is 1 to rounding wherever the attitude comes from; only the sign counts, and the scale to a factor of two.
+    height / squared
+}
+
+#[cfg(test)]
+mod tests;

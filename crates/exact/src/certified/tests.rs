@@ -1,0 +1,136 @@
+//! Ties, agreement of the stages, and the bounds of the derivations.
+
+use dynamics::{Attitude, Coin, Launch};
+use nalgebra::Vector3;
+
+use super::*;
+
+fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+    Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
+}
+
+/// On edge, exactly: w = x, so that mz = w² - x² = 0 and m is along y.
+fn on_edge() -> Attitude {
+    let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
+    assert_eq!(edge.components()[0], edge.components()[1]);
+    edge
+}
+
+#[test]
+fn exact_ties_are_undecided_and_nothing_else_is() {
+    let certified = |k, rate, time| certify(&toss(k, rate, on_edge(), time)).unwrap();
+    let tie = Certificate::new(Outcome::Undecided, Stage::Multiprecision);
+    // At rest, at once, in pure spin, and about a vertical S in the middle plane.
+    for (k, rate, time) in [
+        (1.5, [0.0; 3], 1.0),
+        (1.5, [1.0, 2.0, 3.0], 0.0),
+        (1.5, [0.0, 0.0, 7.0], 1.0),
+        (0.0, [0.0, 0.0, 7.0], 1.0),
+        (1.5, [0.0, 7.0, 0.0], 1.0),
+        (0.0, [0.0, -7.0, 3.0], 1.0),
+    ] {
+        assert_eq!(certified(k, rate, time), tie, "{k} {rate:?} {time}");
+    }
+    // A momentum that is not level makes no tie, though m is along its part across the normal.
+    assert_ne!(by_multiprecision(&toss(1.5, [0.0, 7.0, 3.0], on_edge(), 1.0)), Outcome::Undecided);
+    // Dropped, not thrown, it does not land at once.
+    let dropped = TimeOfFlight::BallisticTo { speed: 0.0, gravity: 9.81, drop: 1.0 };
+    let launch = Launch::new(Vector3::new(1.0, 2.0, 3.0), dropped).unwrap().with_attitude(on_edge());
+    assert_ne!(by_multiprecision(&Toss { coin: Coin::PAPER, launch }), Outcome::Undecided);
+    // cos θ = (mx Ly - my Lx) t to first order, here -ωx t.
+    for (rate, time, outcome) in [
+        ([1e-300, 7.0, 0.0], 1.0, Outcome::Tails),
+        ([-1e-300, 7.0, 0.0], 1.0, Outcome::Heads),
+        ([1.0, 2.0, 0.0], 5e-324, Outcome::Tails),
+        ([-1.0, 2.0, 3.0], 1e-310, Outcome::Heads),
+    ] {
+        let found = certified(1.5, rate, time);
+        assert_eq!((found.outcome(), found.stage()), (outcome, Stage::Multiprecision), "{rate:?} {time}");
+    }
+}
+
+#[test]
+fn every_stage_gives_the_same_outcome_where_it_decides() {
+    let mut decided = [0, 0];
+    for index in 1..=300 {
+        let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
+        let rate = [40.0 * part(2f64.sqrt()), 40.0 * part(3f64.sqrt()), 40.0 * part(5f64.sqrt())];
+        let attitude = [7f64, 13.0, 17.0, 19.0].map(|n| part(n.sqrt()));
+        let attitude = Attitude::from_components(attitude).unwrap();
+        let (speed, gravity) = (4.0 + 3.0 * part(11f64.sqrt()), 9.81);
+        let time = match index % 3 {
+            0 => TimeOfFlight::Given(speed),
+            1 => TimeOfFlight::Ballistic { speed, gravity },
+            _ => TimeOfFlight::BallisticTo { speed, gravity, drop: 2.0 },
+        };
+        let launch = Launch::new(Vector3::from(rate), time).unwrap().with_attitude(attitude);
+        let toss = Toss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
+        let exact = by_multiprecision(&toss);
+        let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight()).unwrap();
+        let terms = TiltTerms::new(&toss);
+        let by_f64 = phase_in_range(&toss, &terms).and_then(|phase| by_terms(&terms, phase));
+        for (stage, outcome) in [by_f64, double].into_iter().enumerate() {
+            assert!(outcome.is_none_or(|outcome| outcome == exact), "stage {stage} of {toss:?}");
+            decided[stage] += u32::from(outcome.is_some());
+        }
+    }
+    assert_eq!(decided, [300, 300]);
+}
+
+#[test]
+fn a_phase_above_two_to_the_53_is_refused() {
+    let fast = toss(0.5, [1e10, 0.0, 0.0], Attitude::IDENTITY, 1e6);
+    assert!(matches!(certify(&fast), Err(SolveError::PhaseTooLarge { .. })));
+    let spinning = toss(0.0, [0.0, 0.0, 1e300], Attitude::IDENTITY, 1.0);
+    assert!(matches!(certify(&spinning), Err(SolveError::PhaseTooLarge { .. })));
+}
+
+#[test]
+fn the_cheapest_stage_that_can_decides() {
+    let stage = |k, rate, time| certify(&toss(k, rate, Attitude::IDENTITY, time)).unwrap().stage();
+    assert_eq!(stage(0.5, [20.0, 3.0, 0.0], 0.6), Stage::Keller);
+    assert_eq!(stage(2.0, [1.0, 1.0, 2.5], 0.6), Stage::TrigFree);
+    assert_eq!(stage(0.5, [20.0, 3.0, 1.0], 0.6), Stage::F64);
+    // cos θ is -10^-15, and 6·10^-17.
+    let quarter = std::f64::consts::FRAC_PI_2;
+    assert_eq!(stage(1.0, [1.0, 0.0, 0.0], quarter + 1e-15), Stage::DoubleDouble);
+    assert_eq!(stage(1.0, [1.0, 0.0, 0.0], quarter), Stage::Multiprecision);
+}
+
+#[test]
+fn bounds_are_those_of_the_derivations() {
+    const U: f64 = UNIT_ROUNDOFF;
+    assert_eq!([0.0, 2.0].map(f64_bound), [34.0 * U, 48.0 * U]);
+    let bound = |hi: f64, lo: f64| double_double_bound(DoubleDouble::exactly(hi) + DoubleDouble::exactly(lo));
+    assert_eq!(bound(0.0, 0.0), 4.0 * U);
+    assert_eq!(bound(f64::exp2(53.0), 0.5), (4.0 + 4.0 + 80.0) * U);
+    assert_eq!(bound(f64::exp2(52.0), -0.25), (4.0 + 2.0 + 40.0) * U);
+}
+
+#[test]
+fn the_stage_in_f64_decides_beyond_its_bound_in_parts_of_the_size() {
+    let mut terms = TiltTerms::new(&toss(1.0, [1.0, 0.0, 0.0], Attitude::IDENTITY, 1.0));
+    (terms.cosine, terms.sine, terms.size) = (0.0, 0.0, 3.0);
+    for (units, outcome) in [(101.0, None), (103.0, Some(Outcome::Heads)), (-103.0, Some(Outcome::Tails))] {
+        terms.mean = units * UNIT_ROUNDOFF;
+        assert_eq!(by_terms(&terms, 0.0), outcome, "{units}");
+    }
+}
+
+#[test]
+fn more_digits_change_cos_theta_by_less_than_its_bound() {
+    let attitude = Attitude::from_components([0.3, -0.7, 0.5, 0.4]).unwrap();
+    for time in [1.0, 1e15] {
+        let toss = toss(0.7, [1.0, -2.0, 3.0], attitude, time);
+        for digits in [192, 384] {
+            let (rough, fine) = (cos_tilt(&toss, digits), cos_tilt(&toss, 2 * digits));
+            let difference = if rough > fine { &rough - &fine } else { &fine - &rough };
+            assert!(difference < multiprecision_bound(digits), "{digits}, {time}");
+            let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
+            assert!((fine.to_f64().value() - exact).abs() < 1e-15, "{digits}, {time}");
+            // And the bound is what the phase's loss of digits makes of the last one.
+            assert!(multiprecision_bound(digits) < (Big::ONE >> (digits - 81)));
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! The exact motion of a free coin.
+//!
+//! With k = I3/I1, ωL = |S|/I1 = √(ωx² + ωy² + (k ωz)²), ŝ = (ωx, ωy, k ωz)/ωL and q = (k - 1) ωz, all at launch:
+//!
+//! ```text
+//! Q(t)    = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)           precession about the fixed S, then spin in the body
+//! ω(t)    = (ωx, ωy) turned by q t, ωz                    (2)-(4)
+//! cos θ(t) = a + b cos(ωL t) + c sin(ωL t)
+//! ```
+//!
+//! where, with m the vertical seen from the body at launch, a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ). From
+//! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
+//!
+//! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
+//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. ωL and q, the
+//! phases ωL t and q t, and a, b, c are carried in double-double ([`DoubleDouble`]). What is left is the rounding of
+//! sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any phase that a toss can
+//! have.
+
+use dynamics::attitude::vertical_in_body;
+use dynamics::phase::require_phase;
+use dynamics::time_of_flight::ExactTime;
+use dynamics::{Attitude, EulerAngles, SolveError, State, Toss};
+use nalgebra::Vector3;
+use numerics::DoubleDouble;
+use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
+
+use crate::heads::HeadsPhases;
+use crate::polar::{continuous_polar, flat, half_turns};
+use crate::tilt_terms::terms;
+
+/// Error of [`ExactMotion::cos_tilt`], if std's sine and cosine are right to 0.6 ulp.
+pub const COS_TILT_ERROR: f64 = 2.3e-16;
+
+/// The closed-form motion that follows a launch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactMotion {
+    launch: State,
+    /// Exponent of the power of two (rad/s) in which the rates below are measured.
+    exponent: i32,
+    /// Direction of S at launch (BF).
+    momentum_direction: Vector3<f64>,
+    /// ωL.
+    precession_rate: DoubleDouble,
+    /// q.
+    spin_rate: DoubleDouble,
+    /// a, b, c of cos θ = a + b cos(ωL t) + c sin(ωL t).
+    tilt: [DoubleDouble; 3],
+}
+
+impl ExactMotion {
+    /// The motion of a toss.
+    pub fn new(toss: &Toss) -> Self {
+        let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
+        let k = toss.coin.exact_inertia_ratio();
+        let scale = power_of_two_scale(rate.amax());
+        let scaled = rate / scale;
+        let spin = k * scaled.z;
+        // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
+        let unit = power_of_two_scale(scaled.x.abs().max(scaled.y.abs()).max(spin.hi().abs()));
+        let (_, unit_exponent) = mantissa_and_exponent(unit);
+        let momentum = [(scaled.x / unit).into(), (scaled.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
+        let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
+        let precession_rate = norm.times_power_of_two(unit_exponent);
+        let [s_x, s_y, s_z] =
+            if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };
+        let direction = [s_x, s_y, s_z];
+        Self {
+            launch: State { attitude, rate },
+            exponent: mantissa_and_exponent(scale).1,
+            momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
+            precession_rate,
+            spin_rate: (k - 1.0.into()) * scaled.z,
+            tilt: terms(unit_vertical(attitude), direction, s_x * s_x + s_y * s_y),
+        }
+    }
+
+    /// ωL = |S|/I1, the rate of the precession about S (rad/s); infinite if it leaves the range of f64.
+    pub fn precession_rate(&self) -> f64 {
+        self.precession_rate.times_power_of_two(self.exponent).hi()
+    }
+
+    /// ψ, the half-angle of the cone that n describes about S (rad), from 0 to π.
+    pub fn cone_angle(&self) -> f64 {
+        let s = &self.momentum_direction;
+        s.x.hypot(s.y).atan2(s.z)
+    }
+
+    /// φ, the angle between S and the vertical (rad), from 0 to π.
+    pub fn momentum_tilt(&self) -> f64 {
+        let s = self.launch.attitude.body_to_lab(&self.momentum_direction);
+        s.x.hypot(s.y).atan2(s.z)
+    }
+
+    /// The larger of the phases ωL t and |q| t (rad): how far the motion turns.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
+    pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        self.phases(time).map(|(precession, spin)| precession.hi().max(spin.hi().abs()))
+    }
+
+    /// ωL t and q t (rad).
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`] if either is above 2^53.
+    pub fn phases(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
+        let time = time.into();
+        let turned = |rate: DoubleDouble| (rate * time.mantissa()).times_power_of_two(self.exponent + time.exponent());
+        let (precession, spin) = (turned(self.precession_rate), turned(self.spin_rate));
+        let largest = precession.hi().max(spin.hi().abs());
+        require_phase(largest).map(|_| (precession, spin))
+    }
+
+    /// cos θ, `time` (s) after launch: one sine and cosine.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        self.cos_tilt_parts(time).map(|(cos_tilt, _)| cos_tilt.hi().clamp(-1.0, 1.0))
+    }
+
+    /// cos θ before it is rounded, and the phase ωL t (rad), in double-double.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn cos_tilt_parts(&self, time: impl Into<ExactTime>) -> Result<(DoubleDouble, DoubleDouble), SolveError> {
+        let phase = self.phases(time)?.0;
+        let (sin, cos) = phase.sin_cos();
+        let [a, b, c] = self.tilt;
+        Ok((a + b * cos + c * sin, phase))
+    }
+
+    /// Attitude and body rate, `time` (s) after launch.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
+        let (phase, spin) = self.phases(time)?;
+        let precession = Attitude::about_unit_axis(&self.momentum_direction, (phase * 0.5).rounded_sin_cos());
+        let spun = Attitude::about_unit_axis(&Vector3::z(), (-spin * 0.5).rounded_sin_cos());
+        let ((sin, cos), rate) = (spin.rounded_sin_cos(), self.launch.rate);
+        Ok(State {
+            attitude: self.launch.attitude * precession * spun,
+            rate: Vector3::new(rate.x * cos - rate.y * sin, rate.x * sin + rate.y * cos, rate.z),
+        })
+    }
+
+    /// Euler angles, `time` (s) after launch, continuous from launch on through every sin β = 0.
+    ///
+    /// A motion that passes sin β = 0 exactly, as from every horizontal launch, keeps α and γ continuous and carries
+    /// β on to negative values. At a horizontal launch α(0) = -γ(0) = atan2(ωy, ωx), the limit of the motion.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn euler_angles(&self, time: impl Into<ExactTime>) -> Result<EulerAngles, SolveError> {
+        let (phase, spin) = self.phases(time)?;
+        let half_phase = phase * 0.5;
+        // Precession alone: cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin only lowers γ by q t.
+        let start = self.launch.attitude;
+        let [w0, x0, y0, z0] = start.components();
+        let [w1, x1, y1, z1] = (start * Attitude::half_turn(&self.momentum_direction)).components();
+        let half_sum = continuous_polar([w0, z0], [w1, z1], half_phase);
+        let half_difference = continuous_polar([x0, y0], [x1, y1], half_phase);
+        let half_beta = match (flat([w0, z0], [w1, z1]), flat([x0, y0], [x1, y1])) {
+            // n turns end over end through the vertical: both change sign, and β runs on past π.
+            (Some((_, [c0, c1])), Some((_, [s0, s1]))) => continuous_polar([c0, s0], [c1, s1], half_phase).argument(),
+            _ => half_difference.radius.atan2(half_sum.radius),
+        };
+        let alpha = half_turns(half_sum.half_turns + half_difference.half_turns)
+            + (half_sum.base + half_difference.base).into();
+        let gamma = half_turns(half_sum.half_turns - half_difference.half_turns)
+            + (half_sum.base - half_difference.base).into()
+            - spin;
+        Ok(EulerAngles { alpha: alpha.hi(), beta: 2.0 * half_beta, gamma: gamma.hi() })
+    }
+
+    /// The phases at which the motion shows heads.
+    pub fn heads(&self) -> HeadsPhases {
+        HeadsPhases::new(self.tilt.map(DoubleDouble::hi), COS_TILT_ERROR)
+    }
+
+    /// The first time after launch at which the outcome changes (s); `None` if it never does.
+    pub fn first_flip(&self) -> Option<f64> {
+        Some(self.heads().first_flip()? / self.precession_rate()).filter(|time| time.is_finite())
+    }
+}
+
+/// The vertical in BF, exactly normalised whatever the norm of the components.
+fn unit_vertical(attitude: Attitude) -> [DoubleDouble; 3] {
+    if attitude == Attitude::IDENTITY {
+        return [0.0, 0.0, 1.0].map(DoubleDouble::from);
+    }
+    let (vertical, norm) = vertical_in_body(attitude.components().map(DoubleDouble::from));
+    vertical.map(|part| part / norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+        ExactMotion::new(&Toss { coin, launch })
+    }
+
+    fn samples() -> Vec<ExactMotion> {
+        let rates = [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 2.0, -9.0]];
+        let tilts = [0.0, 1e-9, 0.7, FRAC_PI_2, 2.8];
+        let coins = [0.5, 2.0, 1.0, 0.0].map(|k| Coin::from_moments(1.0, k).unwrap());
+        let launches = rates.iter().flat_map(|rate| tilts.map(|tilt| (*rate, tilt)));
+        launches.flat_map(|(rate, tilt)| coins.map(|coin| motion(coin, rate, tilt))).collect()
+    }
+
+    #[test]
+    fn attitude_tilt_and_euler_angles_agree() {
+        for motion in samples() {
+            for step in 0..60 {
+                let time = 0.05 * f64::from(step);
+                let attitude = motion.state(time).unwrap().attitude;
+                let angles = motion.euler_angles(time).unwrap();
+                assert!((motion.cos_tilt(time).unwrap() - attitude.cos_tilt()).abs() < 1e-14);
+                assert!(angles.attitude().angle_to(&attitude) < 1e-13, "{motion:?} at {time}: {angles:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn euler_angles_start_at_the_limit_of_a_horizontal_launch() {
+        for rate in [[1.0, 1.0, 2.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]] {
+            let start = motion(Coin::PAPER, rate, 0.0).euler_angles(0.0).unwrap();
+            assert!((start.alpha - rate[1].atan2(rate[0])).abs() < 1e-15);
+            assert_eq!((start.beta, start.gamma), (0.0, -start.alpha));
+        }
+    }
+
+    #[test]
+    fn euler_angles_are_continuous_for_many_turns() {
+        let horizontal =
+            [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]].map(|rate| (rate, 0.0));
+        // End over end from a tilt in both senses, and cones that do and do not enclose the vertical.
+        let tilted = [([3.0, 0.0, 0.0], 0.7), ([-3.0, 0.0, 0.0], 0.7), ([0.8, 1.6, 0.9], 1.3), ([0.3, 0.3, 5.0], 1.0)];
+        for (rate, tilt) in horizontal.into_iter().chain(tilted) {
+            let motion = motion(Coin::PAPER, rate, tilt);
+            let mut last = motion.euler_angles(0.0).unwrap();
+            for step in 1..20_000 {
+                let time = 1e-3 * f64::from(step);
+                let next = motion.euler_angles(time).unwrap();
+                for (a, b) in [(next.alpha, last.alpha), (next.beta, last.beta), (next.gamma, last.gamma)] {
+                    assert!((a - b).abs() < 0.05, "{rate:?}, {tilt} at step {step}: {last:?} → {next:?}");
+                }
+                assert!(next.attitude().angle_to(&motion.state(time).unwrap().attitude) < 1e-12);
+                last = next;
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_flip_changes_the_outcome_and_none_comes_before() {
+        for motion in samples() {
+            let launch = motion.cos_tilt(0.0).unwrap();
+            if launch.abs() < 1e-9 {
+                continue;
+            }
+            let until = motion.first_flip().unwrap_or(50.0);
+            for part in 1..100 {
+                assert!(motion.cos_tilt(until * f64::from(part) / 100.0).unwrap() * launch > 0.0, "{motion:?}");
+            }
+            if motion.first_flip().is_some() {
+                assert!(motion.cos_tilt(until * (1.0 + 1e-9)).unwrap() * launch < 0.0, "{motion:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cone_and_momentum_tilt_are_the_angles_of_the_geometry() {
+        // Ω = k ωz: n and S enclose 45°.
+        let motion = motion(Coin::DISC, [2.0, 0.0, 1.0], 0.0);
+        assert!([motion.cone_angle(), motion.momentum_tilt()].iter().all(|angle| (angle - FRAC_PI_4).abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_phase_above_two_to_the_53_is_refused_and_a_coin_at_rest_never_is() {
+        let fast = motion(Coin::PAPER, [1e10, 0.0, 0.0], 0.0);
+        assert!(matches!(fast.cos_tilt(1e6), Err(SolveError::PhaseTooLarge { .. })));
+        let spinning_sphere = motion(Coin::from_moments(1.0, 0.0).unwrap(), [0.0, 0.0, 1e300], 0.0);
+        assert!(matches!(spinning_sphere.state(1.0), Err(SolveError::PhaseTooLarge { .. })));
+        assert_eq!(motion(Coin::PAPER, [0.0; 3], 0.0).cos_tilt(1e308), Ok(1.0));
+    }
+
+    #[test]
+    fn huge_and_subnormal_rates_stay_in_range() {
+        let slow = motion(Coin::PAPER, [5e-324, 0.0, 5e-324], 0.3).cos_tilt(1e300).unwrap();
+        assert!((slow - 0.3f64.cos()).abs() < 1e-15);
+        let fast = motion(Coin::PAPER, [1e300, 1e300, 2.5e300], 0.0);
+        let paper = motion(Coin::PAPER, [1.0, 1.0, 2.5], 0.0);
+        assert!((fast.cos_tilt(1e-300).unwrap() - paper.cos_tilt(1.0).unwrap()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_vertical_in_the_body_is_normalised_in_double_double() {
+        for components in [[0.3, -0.7, 0.5, 0.4], [0.3, 0.7, -0.5, 0.4], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]] {
+            let attitude = Attitude::from_components(components).unwrap();
+            let vertical = unit_vertical(attitude);
+            let rounded = Vector3::from(vertical.map(DoubleDouble::hi));
+            approx::assert_abs_diff_eq!(rounded, attitude.lab_to_body(&Vector3::z()), epsilon = 1e-15);
+            let square = vertical.into_iter().fold(DoubleDouble::ZERO, |sum, part| sum + part * part);
+            assert!((square - 1.0.into()).hi().abs() < 1e-30, "{square:?}");
+        }
+    }
+}

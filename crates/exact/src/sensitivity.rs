@@ -1,0 +1,95 @@
+//! How the landing answers to the launch: derivatives of attitude and cos θ.
+//!
+//! The landing is Q0 turned by exp(Φ), Φ = T L with L = (ωx, ωy, k ωz), and then by -q T about n. With φ = |Φ|,
+//! ŝ = L/|L| and v the vertical in BF at landing, a change of the launch turns the landed coin, seen in BF, by
+//!
+//! ```text
+//! δϑ = T z(qT) Jr diag(1, 1, k) δω - (k - 1) T ẑ δωz + ω(T) δT
+//! Jr = 1 - (1 - cos φ)/φ [ŝ]× + (1 - sin φ/φ) [ŝ]×²          the right Jacobian of the rotation group
+//! δ cos θ = (ẑ × v)·δϑ
+//! ```
+
+use dynamics::{SolveError, Toss};
+use nalgebra::{Matrix3, Matrix3x4, Rotation3, Vector3, Vector4};
+
+use crate::motion::ExactMotion;
+
+/// Derivatives of a landing by ωx, ωy, ωz at launch (BF, rad/s) and the time of flight (s), in this order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitivity {
+    /// Of the attitude: the turn δϑ (BF at landing, rad) by each input.
+    pub attitude: Matrix3x4<f64>,
+    /// Of cos θ.
+    pub cos_tilt: Vector4<f64>,
+}
+
+impl Sensitivity {
+    /// At the landing of `toss`.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        let (k, rate, time) = (toss.coin.inertia_ratio(), toss.launch.rate(), toss.launch.flight_time());
+        let motion = ExactMotion::new(toss);
+        let landing = motion.state(toss.launch.time_of_flight())?;
+        let (_, spin) = motion.phases(toss.launch.time_of_flight())?;
+        let turn = Vector3::new(rate.x, rate.y, k * rate.z) * time;
+        let unspun = Rotation3::from_axis_angle(&Vector3::z_axis(), spin.hi());
+        let mut by_rate = unspun * right_jacobian(&turn) * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, k)) * time;
+        by_rate[(2, 2)] -= (k - 1.0) * time;
+        let mut attitude = Matrix3x4::zeros();
+        attitude.fixed_columns_mut::<3>(0).copy_from(&by_rate);
+        attitude.set_column(3, &landing.rate);
+        let vertical = landing.attitude.lab_to_body(&Vector3::z());
+        Ok(Self { attitude, cos_tilt: attitude.tr_mul(&Vector3::z().cross(&vertical)) })
+    }
+}
+
+/// Jr of the turn Φ (rad).
+fn right_jacobian(turn: &Vector3<f64>) -> Matrix3<f64> {
+    let phase = turn.norm();
+    if phase == 0.0 {
+        return Matrix3::identity();
+    }
+    let across = (turn / phase).cross_matrix();
+    let (sin_half, sin) = ((0.5 * phase).sin(), phase.sin());
+    Matrix3::identity() - across * (2.0 * sin_half * sin_half / phase) + across * across * (1.0 - sin / phase)
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    fn toss([x, y, z]: [f64; 3], time: f64, tilt: f64) -> Toss {
+        let launch = Launch::new(Vector3::new(x, y, z), TimeOfFlight::Given(time)).unwrap();
+        Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
+    }
+
+    /// Both derivatives against central differences of the exact motion.
+    #[test]
+    fn the_derivatives_are_those_of_finite_differences() {
+        const STEP: f64 = 1e-5;
+        let rates = [[1.0, 1.0, 2.5], [2.0, -3.1, 0.7], [0.0, 3.0, 0.0], [-0.3, 0.4, -0.6], [0.0, 0.0, 2.0], [0.0; 3]];
+        for rate in rates {
+            for tilt in [0.0, 0.6, 2.0, -1.1] {
+                let landing = |change: Vector4<f64>| {
+                    let [x, y, z] = rate;
+                    let toss = toss([x + change.x, y + change.y, z + change.z], 0.7 + change.w, tilt);
+                    ExactMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().attitude
+                };
+                let found = Sensitivity::new(&toss(rate, 0.7, tilt)).unwrap();
+                for input in 0..4 {
+                    let step = Vector4::ith(input, STEP);
+                    let (before, after) = (landing(-step), landing(step));
+                    let [w, x, y, z] = (before.inverse() * after).components();
+                    let turn = Vector3::new(x, y, z) * (w.signum() / STEP);
+                    assert!((found.attitude.column(input) - turn).norm() < 1e-8, "{rate:?} {tilt} {input}: {found:?}");
+                    let slope = (after.cos_tilt() - before.cos_tilt()) / (2.0 * STEP);
+                    assert!((found.cos_tilt[input] - slope).abs() < 1e-8, "{rate:?} {tilt} {input}: {found:?}");
+                }
+            }
+        }
+    }
+}

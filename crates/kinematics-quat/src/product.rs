@@ -1,0 +1,50 @@
+//! The product of quaternions in registers.
+
+use numerics::lanes::{Complex, Real, Simd};
+
+/// P ⊗ R of a quaternion and a turn by its u = w + i z and v = x + i y.
+#[inline(always)]
+pub(crate) fn turned<S: Simd>(p: [Real<S>; 4], [[w2, z2], [x2, y2]]: [Complex<Real<S>>; 2]) -> [Real<S>; 4] {
+    let [w1, x1, y1, z1] = p;
+    [
+        w1.mul_add(w2, -z1.mul_add(z2, x1.mul_add(x2, y1 * y2))),
+        w1.mul_add(x2, x1.mul_add(w2, y1.mul_add(z2, -(z1 * y2)))),
+        w1.mul_add(y2, y1.mul_add(w2, z1.mul_add(x2, -(x1 * z2)))),
+        w1.mul_add(z2, z1.mul_add(w2, x1.mul_add(y2, -(y1 * x2)))),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::Attitude;
+    use numerics::lanes::{SimdLevel, WithSimd};
+
+    use super::*;
+
+    /// The number in the first lane.
+    fn first<S: Simd>(value: Real<S>) -> f64 {
+        let mut number = [0.0];
+        value.store_up_to(&mut number);
+        number[0]
+    }
+
+    struct Turned([f64; 4], [Complex<f64>; 2]);
+
+    impl WithSimd for Turned {
+        type Output = [f64; 4];
+
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 4] {
+            let splat = |value| Real::splat(simd, value);
+            turned(self.0.map(splat), self.1.map(|number| number.map(splat))).map(first)
+        }
+    }
+
+    #[test]
+    fn a_turn_is_the_product_of_attitudes() {
+        let of = |components: [f64; 4]| Attitude::from_components(components).unwrap();
+        let (p, r) = (of([0.3, -0.7, 0.5, 0.4]), of([-0.2, 0.6, 0.1, 0.9]));
+        let [w, x, y, z] = r.components();
+        let found = of(SimdLevel::widest().run(Turned(p.components(), [[w, z], [x, y]])));
+        assert!(found.angle_to(&(p * r)) < 1e-15);
+    }
+}

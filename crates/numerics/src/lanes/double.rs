@@ -1,0 +1,185 @@
+//! Sums and products in registers that keep what rounding takes from them, and complex numbers.
+//!
+//! A number and its error stand beside each other, fused and without the renormalisation of
+//! [`DoubleDouble`](crate::DoubleDouble) after each operation, which registers do not need for a handful of them.
+
+use pulp::Simd;
+
+use super::real::Real;
+
+/// A complex number, as its real and imaginary part.
+pub type Complex<R> = [R; 2];
+
+/// A number and what rounding took from it.
+pub type Double<R> = [R; 2];
+
+/// 1/n. The halves of its digits are multiplied by n exactly, so that the remainder is exact.
+pub const fn inverse(n: usize) -> Double<f64> {
+    let n = n as f64;
+    let rounded = 1.0 / n;
+    let upper = f64::from_bits(rounded.to_bits() & !0xffff_ffff);
+    [rounded, ((1.0 - n * upper) - n * (rounded - upper)) / n]
+}
+
+/// `a` × `b`.
+#[inline(always)]
+pub fn times<S: Simd>(a: Double<Real<S>>, b: Double<Real<S>>) -> Double<Real<S>> {
+    let [product, error] = a[0].product(b[0]);
+    [product, a[0].mul_add(b[1], a[1].mul_add(b[0], error))]
+}
+
+/// `a` + `b`.
+#[inline(always)]
+pub fn sum<S: Simd>(a: Double<Real<S>>, b: Double<Real<S>>) -> Double<Real<S>> {
+    let [sum, error] = a[0].sum(b[0]);
+    [sum, error + (a[1] + b[1])]
+}
+
+/// `a` × `b`.
+#[inline(always)]
+pub fn complex_product<S: Simd>(a: Complex<Real<S>>, b: Complex<Real<S>>) -> Complex<Real<S>> {
+    [a[0].mul_add(b[0], -(a[1] * b[1])), a[0].mul_add(b[1], a[1] * b[0])]
+}
+
+/// `a` × `b`.
+#[inline(always)]
+pub fn compensated_product<S: Simd>(
+    a: Complex<Double<Real<S>>>,
+    b: Complex<Double<Real<S>>>,
+) -> Complex<Double<Real<S>>> {
+    let minus = [-a[1][0], -a[1][1]];
+    let [real, imaginary] = [sum(times(a[0], b[0]), times(minus, b[1])), sum(times(a[0], b[1]), times(a[1], b[0]))];
+    [normal(real), normal(imaginary)]
+}
+
+/// `a` with an error of at most half a bit of its number.
+#[inline(always)]
+fn normal<S: Simd>(a: Double<Real<S>>) -> Double<Real<S>> {
+    let rounded = a[0] + a[1];
+    [rounded, a[1] - (rounded - a[0])]
+}
+
+/// The modulus and the direction of `a`, which is 1 for 0, and where the square of the modulus underflows.
+#[inline(always)]
+pub fn polar<S: Simd>([x, y]: Complex<Real<S>>) -> (Real<S>, Complex<Real<S>>) {
+    let one = x.constant(1.0);
+    let size = x.mul_add(x, y * y).sqrt();
+    let turns = x.constant(0.0).less_than(size);
+    let inverse = one / turns.choose(size, one);
+    (size, [turns.choose(x * inverse, one), y * inverse])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DoubleDouble;
+    use crate::lanes::{SimdLevel, WithSimd};
+
+    #[test]
+    fn inverses_have_twice_as_many_digits() {
+        for n in 1..30 {
+            let [rounded, error] = inverse(n);
+            assert_eq!(rounded, 1.0 / n as f64);
+            // 1 - n fl(1/n), rounded once.
+            let remainder = (-(n as f64)).mul_add(rounded, 1.0);
+            assert_eq!(error, remainder / n as f64);
+        }
+    }
+
+    /// Some numbers of either sign with what follows their last bit.
+    fn doubles() -> [Double<f64>; 4] {
+        [[0.7, 3.1e-17], [-1.9, 0.8e-16], [1.0 / 3.0, -2.2e-17], [0.01, 0.7e-18]]
+    }
+
+    struct Doubles<'a>(&'a dyn Fn(Double<f64>, Double<f64>, [Double<f64>; 2]));
+
+    impl WithSimd for Doubles<'_> {
+        type Output = ();
+
+        fn with_simd<S: Simd>(self, simd: S) {
+            for a in doubles() {
+                for b in doubles() {
+                    let [x, y] = [a, b].map(|number| number.map(|part| Real::splat(simd, part)));
+                    self.0(a, b, [times(x, y), sum(x, y)].map(|number| number.map(first)));
+                }
+            }
+        }
+    }
+
+    /// The number in the first lane.
+    fn first<S: Simd>(value: Real<S>) -> f64 {
+        let mut number = [0.0];
+        value.store_up_to(&mut number);
+        number[0]
+    }
+
+    fn double_double([high, low]: Double<f64>) -> DoubleDouble {
+        DoubleDouble::exactly(high) + DoubleDouble::exactly(low)
+    }
+
+    /// Of 2^-106, the rounding of numbers with twice as many digits, for a number near 1.
+    fn error(found: Double<f64>, expected: DoubleDouble) -> f64 {
+        (double_double(found) - expected).hi().abs() * f64::exp2(106.0)
+    }
+
+    #[test]
+    fn products_and_sums_keep_twice_as_many_digits() {
+        for level in SimdLevel::all() {
+            level.run(Doubles(&|a, b, [product, sum]| {
+                let (x, y) = (double_double(a), double_double(b));
+                assert!(error(product, x * y) < 16.0, "{a:?} × {b:?}: {product:?}");
+                assert!(error(sum, x + y) < 16.0, "{a:?} + {b:?}: {sum:?}");
+            }));
+        }
+    }
+
+    /// What the complex numbers and turns of a step are made of, of two complex numbers and their errors.
+    struct OfAStep([Complex<Double<f64>>; 2]);
+
+    struct Found {
+        product: Complex<f64>,
+        compensated: Complex<Double<f64>>,
+        modulus: f64,
+        direction: Complex<f64>,
+    }
+
+    impl WithSimd for OfAStep {
+        type Output = Found;
+
+        fn with_simd<S: Simd>(self, simd: S) -> Found {
+            let [a, b] = self.0.map(|number| number.map(|part| part.map(|value| Real::splat(simd, value))));
+            let rough = |number: Complex<Double<Real<S>>>| number.map(|part| part[0]);
+            let (modulus, direction) = polar(rough(a));
+            Found {
+                product: complex_product(rough(a), rough(b)).map(first),
+                compensated: compensated_product(a, b).map(|part| part.map(first)),
+                modulus: first(modulus),
+                direction: direction.map(first),
+            }
+        }
+    }
+
+    #[test]
+    fn complex_numbers_are_multiplied_and_have_a_modulus_and_a_direction() {
+        let [a, b, c, d] = doubles();
+        for [[x, y], [s, t]] in [[[a, b], [c, d]], [[b, c], [a, b]], [[d, a], [c, c]]] {
+            let found = SimdLevel::widest().run(OfAStep([[x, y], [s, t]]));
+            let [x, y, s, t] = [x, y, s, t].map(double_double);
+            for (part, expected) in [x * s - y * t, x * t + y * s].into_iter().enumerate() {
+                assert!((found.product[part] - expected.hi()).abs() < 4e-16);
+                assert!(error(found.compensated[part], expected) < 64.0);
+                let [rounded, rest] = found.compensated[part];
+                assert_eq!(rounded + rest, rounded, "the rest is below half a bit");
+            }
+            let modulus = x.hi().hypot(y.hi());
+            assert!((found.modulus - modulus).abs() < 4e-16);
+            assert!((found.direction[0] - x.hi() / modulus).abs() < 4e-16);
+            assert!((found.direction[1] - y.hi() / modulus).abs() < 4e-16);
+        }
+        for size in [0.0, 1e-200] {
+            let found = SimdLevel::widest().run(OfAStep([[[size, 0.0], [-size, 0.0]], [a, b]]));
+            assert_eq!((found.modulus, found.direction[0]), (0.0, 1.0));
+            assert!(found.direction[1].abs() <= 1e-200);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Every operation in every lane at every SIMD level, against f64.
+
+use super::*;
+use crate::lanes::{SimdLevel, WithSimd};
+
+/// Three numbers for each lane of the widest SIMD level.
+struct Numbers([[f64; 8]; 3]);
+
+/// Names of operations, each with what it makes of the numbers in each lane.
+type Found = Vec<(&'static str, Vec<f64>)>;
+
+impl WithSimd for Numbers {
+    type Output = Found;
+
+    fn with_simd<S: Simd>(self, simd: S) -> Found {
+        let [a, b, c] = self.0.each_ref().map(|numbers| Real::load(simd, numbers));
+        let ([product, product_error], [sum, sum_error]) = (a.product(b), a.sum(b));
+        let operations = [
+            ("a + b", a + b),
+            ("a - b", a - b),
+            ("a b", a * b),
+            ("a / b", a / b),
+            ("-a", -a),
+            ("√|a|", a.abs().sqrt()),
+            ("a b + c", a.mul_add(b, c)),
+            ("product", product),
+            ("error of the product", product_error),
+            ("sum", sum),
+            ("error of the sum", sum_error),
+            ("a with the sign of b", a.times_sign_of(b)),
+            ("1 with either sign", a.constant(1.0).times_sign_of(a.either_sign(b))),
+            ("larger", a.max(b)),
+            ("cosine", a.clamp_to_cosine()),
+            ("round", (a * a.constant(10.0)).round()),
+            ("less", a.less_than(b).choose(a, c)),
+            ("at most", a.at_most(b).choose(a, c)),
+        ];
+        let lanes = |value: Real<S>| {
+            let mut lanes = vec![f64::NAN; Real::<S>::LANES];
+            value.store(&mut lanes);
+            lanes
+        };
+        operations.map(|(name, value)| (name, lanes(value))).to_vec()
+    }
+}
+
+/// The same in f64.
+fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
+    match name {
+        "a + b" | "sum" => a + b,
+        "a - b" => a - b,
+        "a b" | "product" => a * b,
+        "a / b" => a / b,
+        "-a" => -a,
+        "√|a|" => a.abs().sqrt(),
+        "a b + c" => a.mul_add(b, c),
+        "error of the product" => a.mul_add(b, -(a * b)),
+        // Exact for |a| ≥ |b|, and one of them is.
+        "error of the sum" if a.abs() >= b.abs() => b - ((a + b) - a),
+        "error of the sum" => a - ((a + b) - b),
+        "a with the sign of b" => a * b.signum(),
+        "1 with either sign" if a < 0.0 || b < 0.0 => -1.0,
+        "1 with either sign" => 1.0,
+        "larger" => a.max(b),
+        "cosine" => a.clamp(-1.0, 1.0),
+        "round" => (10.0 * a).round_ties_even(),
+        "less" => {
+            if a < b {
+                a
+            } else {
+                c
+            }
+        }
+        "at most" => {
+            if a <= b {
+                a
+            } else {
+                c
+            }
+        }
+        _ => unreachable!("an operation of the list"),
+    }
+}
+
+#[test]
+fn operations_are_those_of_f64_in_each_lane() {
+    let part = |index: usize, square: f64| 4.0 * ((index + 1) as f64 * square.sqrt()).fract() - 2.0;
+    let mut numbers = [2.0, 3.0, 5.0].map(|square| std::array::from_fn(|index| part(index, square)));
+    // Equal ones in some lane.
+    numbers[1][0] = numbers[0][0];
+    numbers[1][5] = numbers[0][5];
+    for level in SimdLevel::all() {
+        for (name, lanes) in level.run(Numbers(numbers)) {
+            for (lane, found) in lanes.into_iter().enumerate() {
+                let [a, b, c] = numbers.map(|numbers| numbers[lane]);
+                assert_eq!(
+                    found.to_bits(),
+                    expected(name, a, b, c).to_bits(),
+                    "{name} in lane {lane} on {}",
+                    level.name()
+                );
+            }
+        }
+    }
+}
+
+/// The total, whether all numbers are below the bound, and the first of them.
+struct Reduced<'a>(&'a [f64; 8], f64, &'a mut [f64]);
+
+impl WithSimd for Reduced<'_> {
+    type Output = (usize, f64, bool);
+
+    fn with_simd<S: Simd>(self, simd: S) -> (usize, f64, bool) {
+        let value = Real::load(simd, self.0);
+        value.store_up_to(self.2);
+        (Real::<S>::LANES, value.total(), value.less_than(value.constant(self.1)).everywhere())
+    }
+}
+
+#[test]
+fn lanes_are_added_compared_and_stored_as_far_as_there_is_room() {
+    let numbers = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
+    for level in SimdLevel::all() {
+        for room in 0..=8 {
+            let mut stored = vec![f64::NAN; room];
+            let (lanes, total, below) = level.run(Reduced(&numbers, 1e3, &mut stored));
+            assert_eq!((total, below), (numbers[..lanes].iter().sum(), true), "{}", level.name());
+            let filled = room.min(lanes);
+            assert_eq!(stored[..filled], numbers[..filled], "{}", level.name());
+            assert!(stored[filled..].iter().all(|number| number.is_nan()));
+            // The last lane alone, and none.
+            for bound in [numbers[lanes - 1], 0.5] {
+                assert!(!level.run(Reduced(&numbers, bound, &mut [])).2, "{}", level.name());
+            }
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! Arithmetic that knows no mechanics.
+//!
+//! | what | module |
+//! |---|---|
+//! | numbers of twice the precision of f64, and the exact sums and products that they are made of | [`double_double`] |
+//! | numbers of any precision | [`big`] |
+//! | the operations that a formula needs, so that it is written once for all kinds of numbers | [`number`] |
+//! | powers of two as units | [`scale`] |
+//! | vectors of f64 in the machine's registers, with the same bits on every machine | [`lanes`] |
+//!
+//! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]; each bound stands where its operation does.
+
+pub mod big;
+pub mod double_double;
+pub mod lanes;
+pub mod number;
+pub mod scale;
+
+pub use big::Big;
+pub use double_double::DoubleDouble;
+pub use number::Number;
+
+/// Half of ε: the largest relative error of one rounded operation.
+pub const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;

@@ -1,0 +1,130 @@
+//! A space is made axis by axis, each by the name of its coordinate.
+
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use dynamics::{Coin, InputError};
+
+use crate::axis::Axis;
+use crate::coordinate::Coordinate;
+use crate::space::{AxisOrTie, Space, require_tie};
+
+/// Collects the axes of a [`Space`], each by the name of its coordinate.
+#[derive(Debug, Clone)]
+#[must_use]
+pub struct SpaceBuilder {
+    coin: Coin,
+    axes: [Option<AxisOrTie>; Coordinate::COUNT],
+}
+
+impl SpaceBuilder {
+    /// The axis of the coordinate `of`.
+    pub fn axis(mut self, of: Coordinate, axis: impl Into<Axis>) -> Self {
+        self.axes[of as usize] = Some(AxisOrTie::Axis(axis.into()));
+        self
+    }
+
+    /// The body rate ωx (rad/s): a value, a range, or any other [`Axis`].
+    pub fn rate_x(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::RateX, axis)
+    }
+
+    /// The body rate ωy (rad/s).
+    pub fn rate_y(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::RateY, axis)
+    }
+
+    /// The body rate ωz about the normal (rad/s).
+    pub fn rate_z(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::RateZ, axis)
+    }
+
+    /// The speed v0 (m/s).
+    pub fn speed(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::Speed, axis)
+    }
+
+    /// Gravity (m/s²); 9.81 if it is not given.
+    pub fn gravity(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::Gravity, axis)
+    }
+
+    /// The turn of the coin about the lab's x axis at launch (rad); 0 if it is not given.
+    pub fn tilt(self, axis: impl Into<Axis>) -> Self {
+        self.axis(Coordinate::Tilt, axis)
+    }
+
+    /// The rate `of` has the same value as the rate `to`, which has an axis of its own.
+    pub fn tie(mut self, of: Coordinate, to: Coordinate) -> Self {
+        self.axes[of as usize] = Some(AxisOrTie::SameAs(to));
+        self
+    }
+
+    /// ωy = ωx.
+    pub fn tie_rate_y_to_x(self) -> Self {
+        self.tie(Coordinate::RateY, Coordinate::RateX)
+    }
+
+    /// The coordinate `of` as a text: `x`, `y` or `z` for a tie to that rate, else an [`Axis`].
+    ///
+    /// # Errors
+    /// [`InputError::Malformed`] that names `of`.
+    pub fn parse(self, of: Coordinate, text: &str) -> Result<Self, InputError> {
+        Ok(match Coordinate::tied_to(text.trim()) {
+            Some(other) => self.tie(of, other),
+            None => {
+                let axis = Axis::parse(of, text.trim())?;
+                self.axis(of, axis)
+            }
+        })
+    }
+
+    /// The space.
+    ///
+    /// # Errors
+    /// [`InputError`] that names the coordinate: for numbers that make no sense, a range that includes negative speeds or a
+    /// gravity that is not positive, a flight that may last for ever, a tie to anything but a rate with an axis of its
+    /// own, and for a rate or a speed that is not given.
+    pub fn build(mut self) -> Result<Space, InputError> {
+        for (of, default) in [(Coordinate::Gravity, DEFAULT_GRAVITY), (Coordinate::Tilt, 0.0)] {
+            self.axes[of as usize].get_or_insert(AxisOrTie::Axis(Axis::fixed(default)));
+        }
+        // A tie without its partner is a clearer complaint than the missing partner.
+        for of in Coordinate::ALL {
+            if let Some(AxisOrTie::SameAs(other)) = self.axes[of as usize] {
+                require_tie(of, other, matches!(self.axes[other as usize], Some(AxisOrTie::Axis(_))))?;
+            }
+        }
+        let missing = |of: Coordinate| InputError::Missing { field: of.field(), expected: "a value, a range or a tie" };
+        let given = |of: Coordinate| self.axes[of as usize].ok_or_else(|| missing(of));
+        let [x, y, z, speed, gravity, tilt] = Coordinate::ALL.map(given);
+        Space::new(self.coin, [x?, y?, z?, speed?, gravity?, tilt?])
+    }
+}
+
+impl Space {
+    /// A builder of a space for `coin`; see [`SpaceBuilder`].
+    ///
+    /// ```
+    /// use dynamics::Coin;
+    /// use sampling::{Axis, Space};
+    ///
+    /// let space = Space::builder(Coin::PAPER)
+    ///     .rate_x(0.0..=50.0)
+    ///     .tie_rate_y_to_x()
+    ///     .rate_z(Axis::normal(30.0, 2.0))
+    ///     .speed(Axis::range(3.0..=5.0).with_points(500))
+    ///     .build()?;
+    /// assert_eq!(space.free().count(), 3);
+    /// # Ok::<(), dynamics::InputError>(())
+    /// ```
+    pub fn builder(coin: Coin) -> SpaceBuilder {
+        SpaceBuilder { coin, axes: [None; Coordinate::COUNT] }
+    }
+
+    /// A space from texts, as the command line and files have them; see [`SpaceBuilder::parse`].
+    ///
+    /// # Errors
+    /// As [`SpaceBuilder::build`].
+    pub fn parse(coin: Coin, texts: &[(Coordinate, &str)]) -> Result<Self, InputError> {
+        texts.iter().try_fold(Self::builder(coin), |builder, (of, text)| builder.parse(*of, text))?.build()
+    }
+}

@@ -1,0 +1,183 @@
+//! Which integrator, scheme and tolerance: the cheapest whose tabulated error stays within the accuracy.
+//!
+//! An outcome needs 100 × tolerance × (1 + phase) ≤ accuracy; a trace of n legs has errors of the attitude and of the
+//! rate handed on, so that each leg may err by accuracy/(2 n).
+
+use dynamics::{Error, InputError, Scheme, Settings, SolverEntry, Stepping};
+
+use crate::answer::{Answer, Verdict};
+use crate::choice::{Candidate, Choice, How, Offer};
+use crate::fitted::{FITTED, Fitted, IntegratorFit, Setting, Turn};
+use crate::model::{Kind, MODELS, Model};
+use crate::reason::Reason;
+use crate::registry::Registry;
+use crate::samples::no_integrator_for_a_space;
+use crate::scene::{Integrator, Want};
+use crate::trace::trace;
+
+/// The flights that an integrator has to make, one after the other.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Flights {
+    /// How far they turn in all.
+    pub(crate) turn: Turn,
+    /// What they are for.
+    pub(crate) aim: Aim,
+    /// The error that is allowed at the end of any of them.
+    pub(crate) accuracy: f64,
+}
+
+/// What flights are for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// An outcome, decided where |cos θ| exceeds the accuracy.
+    Outcome,
+    /// cos θ.
+    Tilt,
+    /// An attitude.
+    Attitude,
+    /// As many attitudes, one after the other.
+    Trace(usize),
+}
+
+/// The offers of every adaptive scheme of the integrator that was asked for, or of all in the registry.
+///
+/// # Errors
+/// [`InputError`] for a name that is unknown, the exact solver, and a scheme that the integrator does not offer or that
+/// has no error estimate.
+pub(crate) fn integrators(
+    registry: &Registry,
+    by: Option<&Integrator>,
+    flights: Flights,
+) -> Result<Vec<(Candidate, Offer)>, InputError> {
+    let entries = match by {
+        None => registry.entries(),
+        Some(by) => std::slice::from_ref(integrator(registry, &by.solver)?),
+    };
+    let mut offers = Vec::new();
+    for entry in entries.iter().filter(|entry| entry.integrates()) {
+        let schemes = match by.and_then(|by| by.scheme.as_deref()) {
+            None => entry.schemes().iter().copied().filter(|scheme| scheme.is_adaptive()).collect(),
+            Some(asked) => {
+                let scheme = entry.scheme(asked)?;
+                Stepping::adaptive(scheme, Stepping::DEFAULT_TOLERANCE)?;
+                vec![scheme]
+            }
+        };
+        offers.extend(schemes.into_iter().map(|scheme| flights.by(entry, scheme)));
+    }
+    match by {
+        Some(by) if offers.iter().all(|(_, offer)| matches!(offer, Err(Reason::NotMeasured))) => Err(unmeasured(by)),
+        _ => Ok(offers),
+    }
+}
+
+fn unmeasured(by: &Integrator) -> InputError {
+    let expected = "an integrator whose errors and costs were measured into the planner's table";
+    InputError::Malformed { field: "solver", value: by.solver.clone(), expected }
+}
+
+fn integrator<'a>(registry: &'a Registry, name: &str) -> Result<&'a SolverEntry, InputError> {
+    let entry = registry.named(name)?;
+    let expected = "an integrator; the exact motion is what is used where none is asked for";
+    let malformed = || InputError::Malformed { field: "solver", value: name.to_owned(), expected };
+    entry.integrates().then_some(entry).ok_or_else(malformed)
+}
+
+/// The model of all integrators.
+fn model() -> &'static Model {
+    MODELS.iter().find(|model| matches!(model.kind, Kind::Integrator)).expect("a row of the table")
+}
+
+/// The answer to `want` by an integrator.
+///
+/// # Errors
+/// What the solver says; [`InputError`] for a space.
+pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -> Result<Answer, Error> {
+    let solver = entry.solver(&Settings { stepping, ..Settings::default() })?;
+    Ok(match want {
+        Want::Outcome(toss) => Answer::Outcome(Verdict::Estimated(solver.outcome(toss)?)),
+        Want::Tilt(toss) => Answer::Tilt(solver.cos_tilt(toss)?),
+        Want::Attitude(toss) => Answer::Attitude(solver.propagate(toss)?.state),
+        Want::Trace { toss, points } => Answer::Trace(trace(solver.as_ref(), toss, *points)?),
+        Want::Probability(_) => return Err(no_integrator_for_a_space().into()),
+    })
+}
+
+impl Flights {
+    /// The offer of a scheme of an integrator, which has to be in the record.
+    fn by(&self, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
+        let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
+        let offer = match FITTED.integrator(entry.name(), scheme.name()) {
+            None => Err(Reason::NotMeasured),
+            Some(fit) => self.fitted(&FITTED, &Measured { entry, scheme, fit }),
+        };
+        (candidate, offer)
+    }
+
+    fn fitted(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
+        match self.aim {
+            Aim::Outcome => self.decided(fitted, by),
+            Aim::Tilt => self.flown(fitted, by, true),
+            Aim::Attitude => self.flown(fitted, by, false),
+            Aim::Trace(legs) => self.traced(fitted, by, legs),
+        }
+    }
+
+    /// With the tolerance at which the [error estimate](Stepping::error_estimate) is the accuracy: a decided outcome is
+    /// right.
+    fn decided(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
+        let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
+        let estimate = |tolerance: f64| 100.0 * tolerance * (1.0 + self.turn.phase);
+        let too_rough = |_| Reason::TooRough { expected_error: estimate(f64::EPSILON) };
+        let stepping = Stepping::adaptive(by.scheme, tolerance).map_err(too_rough)?;
+        Ok(by.choice(stepping, 0.0, fitted.cost_ns(by.fit, &self.turn, tolerance)))
+    }
+
+    /// Tolerances are not rougher than those of the record.
+    const ROUGHEST: f64 = 1e-3;
+
+    fn flown(&self, fitted: &Fitted, by: &Measured<'_>, of_tilt: bool) -> Offer {
+        let too_rough = |expected_error: f64| Reason::TooRough { expected_error };
+        let Setting { tolerance, error, cost_ns } =
+            fitted.setting(by.fit, of_tilt, &self.turn, self.accuracy).map_err(too_rough)?;
+        let stepping = Stepping::adaptive(by.scheme, tolerance).map_err(|_| too_rough(error))?;
+        Ok(by.choice(stepping, error, cost_ns))
+    }
+
+    /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much
+    /// again.
+    fn traced(&self, fitted: &Fitted, by: &Measured<'_>, legs: usize) -> Offer {
+        #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
+        let legs = legs as f64;
+        let handed_on = 2.0 * legs;
+        let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
+        let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
+        // A trace has its own cost for each point, of which there is one more than legs.
+        let cost_of = |model: &str| fitted.closed(model).map_or(0.0, |fit| fit.cost_ns);
+        let tracing_ns = cost_of("trace") - cost_of("attitude");
+        match leg.fitted(fitted, by) {
+            Ok(leg) => Ok(Choice {
+                expected_error: leg.expected_error * handed_on,
+                expected_cost_ns: leg.expected_cost_ns * legs + tracing_ns * (legs + 1.0),
+                ..leg
+            }),
+            Err(Reason::TooRough { expected_error }) => {
+                Err(Reason::TooRough { expected_error: expected_error * handed_on })
+            }
+            Err(other) => Err(other),
+        }
+    }
+}
+
+/// A scheme of an integrator, and what was measured of it.
+struct Measured<'a> {
+    entry: &'a SolverEntry,
+    scheme: Scheme,
+    fit: &'a IntegratorFit,
+}
+
+impl Measured<'_> {
+    fn choice(&self, stepping: Stepping, expected_error: f64, expected_cost_ns: f64) -> Choice {
+        Choice { model: model(), how: How::Integrator(self.entry.clone(), stepping), expected_error, expected_cost_ns }
+    }
+}

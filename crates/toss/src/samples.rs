@@ -1,0 +1,101 @@
+//! Models that sample a space: with how many launches, N = (e/accuracy)^(1/p) for a tabulated error of e N^-p, and
+//! twice as many as long as the interval that they find is too wide.
+
+use dynamics::{Error, InputError};
+use sampling::plan::SCRAMBLES;
+use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space};
+
+use crate::choice::{Candidate, Choice, How, Offer};
+use crate::fitted::{FITTED, SamplingFit};
+use crate::model::{Kind, MODELS, Model};
+use crate::reason::Reason;
+use crate::scene::{Scene, Want};
+
+/// Seed of what is sampled; any other would do.
+const SEED: u64 = 1;
+
+/// More launches than this are not planned.
+const MOST_LAUNCHES: u64 = 1 << 36;
+
+/// The offers of the models that sample the space of a scene, in the order of [`MODELS`]; none for another scene.
+///
+/// # Errors
+/// [`InputError`] where an integrator is asked for: outcomes are proven, and shares follow from the exact motion.
+pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputError> {
+    if scene.by.is_some() {
+        return Err(no_integrator_for_a_space());
+    }
+    let Want::Probability(space) = &scene.want else { return Ok(Vec::new()) };
+    let offer = |model: &'static Model| match model.kind {
+        Kind::Sample { refuses, plan } => {
+            let refused = refuses(space).map(Err);
+            Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
+        }
+        _ => None,
+    };
+    Ok(MODELS.iter().filter_map(offer).collect())
+}
+
+/// The error of an integrator that is asked for a probability.
+pub(crate) fn no_integrator_for_a_space() -> InputError {
+    InputError::OutsideModel {
+        field: "by",
+        why: "probabilities are planned with the exact motion; `sampling::Sampler::by` takes an integrator",
+    }
+}
+
+fn offer(model: &'static Model, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Offer {
+    let of = |points, expected_error, expected_cost_ns| {
+        Ok(Choice { model, how: How::Sampling(plan(points, SEED)), expected_error, expected_cost_ns })
+    };
+    if let Some(fit) = FITTED.sampling(model.name) {
+        let points = points_for(fit, plan, accuracy)?;
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        let launches = points as f64;
+        return of(points, fit.error * launches.powf(-fit.power), fit.cost_ns + fit.launch_ns * launches);
+    }
+    match FITTED.closed(model.name) {
+        None => Err(Reason::NotMeasured),
+        Some(fit) if fit.error > accuracy => Err(Reason::TooRough { expected_error: fit.error }),
+        Some(fit) => of(1, fit.error, fit.cost_ns),
+    }
+}
+
+/// As many launches as the fitted error needs; of scrambled points a power of two.
+fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Result<u64, Reason> {
+    #[expect(clippy::cast_precision_loss, reason = "a power of two")]
+    let most = MOST_LAUNCHES as f64;
+    let needed = (fit.error / accuracy).powf(1.0 / fit.power).max(1.0);
+    if needed > most {
+        return Err(Reason::TooRough { expected_error: fit.error * most.powf(-fit.power) });
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 2^36")]
+    let needed = needed.ceil() as u64;
+    let is_independent = matches!(plan(needed, SEED), Plan::Random { .. });
+    Ok(if is_independent { needed } else { needed.next_power_of_two().max(SCRAMBLES * 2) })
+}
+
+/// The estimate of `plan`, with twice the launches as long as its interval reaches beyond the accuracy.
+pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
+    let found = Sampler::exact().estimate(space, plan)?;
+    match (found.half_width(), doubled(plan)) {
+        (Some(reached), Some(more)) if reached > accuracy => {
+            if found.points >= MOST_LAUNCHES {
+                return Err(Error::NotReached { points: found.points, reached, accuracy });
+            }
+            sampled(space, more, accuracy)
+        }
+        _ => Ok(found),
+    }
+}
+
+/// The plan with twice the launches; `None` where nothing is sampled.
+fn doubled(plan: Plan) -> Option<Plan> {
+    let twice = |scrambled: Scrambled| Scrambled { points: 2 * scrambled.points, ..scrambled };
+    match plan {
+        Plan::Random { points, seed } => Some(Plan::Random { points: 2 * points, seed }),
+        Plan::Sobol(scrambled) => Some(Plan::Sobol(twice(scrambled))),
+        Plan::ExactSpeed(Rest::Sobol(scrambled)) => Some(Plan::ExactSpeed(Rest::Sobol(twice(scrambled)))),
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+    }
+}

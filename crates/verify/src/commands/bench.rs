@@ -1,0 +1,36 @@
+//! `verify bench`: what a toss costs.
+
+use clap::Args;
+use verify::bench::Table;
+use verify::bench::instructions::Instructions;
+
+use super::Folders;
+
+/// Measure what a toss costs, in ns and beside a reference in C
+#[derive(Debug, Args)]
+pub(super) struct Bench {
+    /// Count instructions by valgrind instead, and compare them with the baseline
+    #[arg(long)]
+    instructions: bool,
+    /// Take fewer instructions into the baseline; times are never judged
+    #[arg(long, requires = "instructions")]
+    bless: bool,
+}
+
+impl Bench {
+    /// 3 if a work takes more instructions than the baseline allows.
+    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
+        if !self.instructions {
+            print!("{}", Table::measure()?);
+            return Ok(0);
+        }
+        let path = folders.validation.join("baseline").join("instructions.csv");
+        let (baseline, found) = (Instructions::read(&path)?, Instructions::count()?);
+        let (text, is_worse) = found.compared(&baseline);
+        print!("{text}");
+        if self.bless {
+            found.bless(&baseline, &path)?;
+        }
+        Ok(if is_worse { 3 } else { 0 })
+    }
+}

@@ -1,0 +1,17 @@
+//! `verify history`: the accuracy of the committed records over time.
+
+use toss::Registry;
+use verify::files;
+use verify::judge::record;
+use verify::render::{charts, history};
+
+use super::Folders;
+
+pub(super) fn history(folders: &Folders) -> anyhow::Result<u8> {
+    let records = record::read(&folders.validation.join("record"))?;
+    anyhow::ensure!(!records.is_empty(), "there are no records yet; `cargo xtask verify --bless` writes one");
+    let path = folders.out.join("history.svg");
+    files::write(&path, &charts::history(&records, Registry::standard().entries())?)?;
+    println!("{}\nchart: {}", history::text(&records), path.display());
+    Ok(0)
+}

@@ -1,0 +1,27 @@
+//! `verify replay`: one toss by every contestant.
+
+use clap::Args;
+use toss::Registry;
+use verify::measure::atlas;
+use verify::measure::atlas::conditioning::Conditioning;
+use verify::measure::case::Case;
+use verify::render::runs;
+
+/// Fly one toss by every solver, scheme and formulation
+#[derive(Debug, Args)]
+pub(super) struct Replay {
+    /// The toss, as the hex floats of a worst input
+    #[arg(value_parser = input)]
+    pub(super) input: Case,
+}
+
+/// The toss that hex floats describe.
+pub(super) fn input(line: &str) -> Result<Case, String> {
+    Case::from_hex(line).map_err(|error| format!("{error:#}"))
+}
+
+pub(super) fn replay(case: &Case) -> anyhow::Result<u8> {
+    let runs = atlas::replay(Registry::standard().entries(), case)?;
+    print!("{}", runs::text(&runs, Conditioning::new(&case.toss)?));
+    Ok(0)
+}

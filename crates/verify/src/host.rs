@@ -1,0 +1,61 @@
+//! The machine and the code of a measurement.
+
+use std::process::Command;
+
+use serde::{Deserialize, Serialize};
+
+/// Version of the layout of records.
+const SCHEMA: u32 = 1;
+
+/// The machine and the code of a record.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Host {
+    /// Version of the layout of the record.
+    pub schema: u32,
+    /// Day of the run (UTC).
+    pub date: String,
+    /// The commit, with `+` if files were changed.
+    pub commit: String,
+    /// The compiler.
+    pub rustc: String,
+    /// Architecture and operating system.
+    pub target: String,
+    /// The processor.
+    pub cpu: String,
+    /// Its cores that may be used.
+    pub cores: usize,
+}
+
+impl Host {
+    /// This machine, now. What can't be found out is `unknown`.
+    pub fn here() -> Self {
+        // What `--bless` writes itself is no change of the code.
+        let status = ["status", "--porcelain", "--untracked-files=no", "--", ".", ":!validation"];
+        let changed = output("git", &status).is_some_and(|files| !files.is_empty());
+        let commit = output("git", &["rev-parse", "HEAD"]).unwrap_or_else(unknown);
+        Self {
+            schema: SCHEMA,
+            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
+            commit: format!("{commit}{}", if changed { "+" } else { "" }),
+            rustc: output("rustc", &["--version"]).unwrap_or_else(unknown),
+            target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
+            cpu: cpu().unwrap_or_else(unknown),
+            cores: std::thread::available_parallelism().map_or(0, usize::from),
+        }
+    }
+}
+
+fn unknown() -> String {
+    "unknown".to_owned()
+}
+
+fn output(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok().filter(|output| output.status.success())?;
+    Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+}
+
+fn cpu() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}

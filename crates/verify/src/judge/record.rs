@@ -1,0 +1,60 @@
+//! Dated records: what a run found, with the machine that found it beside it.
+
+use std::path::Path;
+
+use anyhow::Context;
+
+use super::baseline::Baseline;
+use crate::files;
+use crate::host::Host;
+use crate::measure::work_precision::{Sample, Sweep};
+
+/// The file of a record's runs, one a line.
+const SAMPLES: &str = "work-precision.jsonl";
+
+/// One committed record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// Where and when it was made.
+    pub host: Host,
+    /// What it found.
+    pub accuracy: Baseline,
+}
+
+/// Writes the record of a run into `folder`/DATE.
+///
+/// # Errors
+/// If a file can't be written.
+pub fn write(folder: &Path, host: &Host, accuracy: &Baseline, sweep: &Sweep) -> anyhow::Result<()> {
+    let folder = folder.join(&host.date);
+    let lines: Result<Vec<String>, _> = sweep.samples.iter().map(serde_json::to_string).collect();
+    files::write(&folder.join(SAMPLES), &(lines?.join("\n") + "\n"))?;
+    files::write(&folder.join("accuracy.csv"), &accuracy.csv()?)?;
+    files::write(&folder.join("host.json"), &(serde_json::to_string_pretty(host)? + "\n"))
+}
+
+/// The records in `folder`, by date.
+///
+/// # Errors
+/// If one can't be read.
+pub fn read(folder: &Path) -> anyhow::Result<Vec<Record>> {
+    let failed = || format!("cannot read {}", folder.display());
+    let mut dates: Vec<_> = std::fs::read_dir(folder).with_context(failed)?.collect::<Result<_, _>>()?;
+    dates.sort_by_key(std::fs::DirEntry::file_name);
+    let record = |folder: &Path| {
+        let path = folder.join("host.json");
+        let host = serde_json::from_str(&files::read(&path)?).with_context(|| format!("in {}", path.display()))?;
+        Ok(Record { host, accuracy: Baseline::read(&folder.join("accuracy.csv"))? })
+    };
+    dates.iter().filter(|entry| entry.path().is_dir()).map(|entry| record(&entry.path())).collect()
+}
+
+/// The runs of the record in `folder`/`date`.
+///
+/// # Errors
+/// If they can't be read.
+pub fn samples(folder: &Path, date: &str) -> anyhow::Result<Vec<Sample>> {
+    let path = folder.join(date).join(SAMPLES);
+    let sample = |line: &str| serde_json::from_str(line).with_context(|| format!("in {}", path.display()));
+    files::read(&path)?.lines().map(sample).collect()
+}

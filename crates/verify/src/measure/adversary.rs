@@ -1,0 +1,96 @@
+//! Launches that an adversary would pick: random ones of all sizes, and ones at and next to everything that is special.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
+
+use crate::measure::case::Case;
+
+/// Launch `index` of the sequence of `seed`; it depends on nothing else.
+///
+/// # Errors
+/// Never: every launch is valid.
+pub fn launch(seed: u64, index: u64) -> Result<Case, InputError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(index);
+    let coin = Coin::from_moments(1.0, inertia_ratio(&mut rng))?;
+    let rate = rate(&mut rng, coin.inertia_ratio());
+    let still = Toss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
+    let motion = ExactMotion::new(&still);
+    let tilt = tilt(&mut rng, motion.cone_angle());
+    let time = time(&mut rng, &motion, &rate);
+    Ok(Case { toss: Toss { launch: Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?, ..still }, tilt })
+}
+
+/// One of `values`.
+fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
+    values[rng.random_range(0..N)]
+}
+
+/// 10 to a power that is uniform.
+fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..high))
+}
+
+/// A number of either sign, of a size from 1e-17 to 1, as likely in each decade.
+fn near(rng: &mut ChaCha8Rng) -> f64 {
+    decades(rng, -17.0, 0.0) * one(rng, [-1.0, 1.0])
+}
+
+/// From rod to flat disc, the sphere and its neighbours included.
+fn inertia_ratio(rng: &mut ChaCha8Rng) -> f64 {
+    match rng.random_range(0..3) {
+        0 => one(rng, [0.0, 5e-324, 1e-300, 1e-9, 0.5, 1.0 - f64::EPSILON, 1.0, 1.0 + f64::EPSILON, 1.98, 2.0]),
+        1 => (1.0 + near(rng)).clamp(0.0, 2.0),
+        _ => rng.random_range(0.0..2.0),
+    }
+}
+
+/// ω (rad/s) of a coin of inertia ratio `k`: a hand's; near pure spin, no spin or ψ = 45°; of three sizes; or of any size.
+fn rate(rng: &mut ChaCha8Rng, k: f64) -> Vector3<f64> {
+    let hand = Vector3::from_fn(|_, _| rng.random_range(-60.0..60.0));
+    match rng.random_range(0..6) {
+        0 | 1 => hand,
+        2 => {
+            let part = near(rng);
+            let [across, along] = if rng.random() { [part, 1.0] } else { [1.0, part] };
+            Vector3::new(hand.x * across, hand.y * across, hand.z * along)
+        }
+        3 => {
+            let diagonal = hand.x.hypot(hand.y) / k.max(1e-3) * (1.0 + near(rng));
+            Vector3::new(hand.x, hand.y, diagonal)
+        }
+        4 => hand.map(|part| part * one(rng, [0.0, 1.0, 1e-8, 1e-16, 1e-160, 1e-320])),
+        _ => hand * decades(rng, -320.0, 300.0),
+    }
+}
+
+/// β at launch (rad), from 0 to π: level, on edge, upside down, with S upright, where `cone` is its angle to n; next to
+/// these; or any.
+fn tilt(rng: &mut ChaCha8Rng, cone: f64) -> f64 {
+    let special = one(rng, [0.0, FRAC_PI_2, PI, cone, PI - cone]);
+    match rng.random_range(0..4) {
+        0 => special,
+        1 => (special + near(rng)).clamp(0.0, PI),
+        2 => one(rng, [0.0, 1e-300, 1e-16, 1e-8]),
+        _ => rng.random_range(0.0..PI),
+    }
+}
+
+/// Time of flight (s). Slow and fast coins get times in which they turn by up to 300 rad; one in fifty flies for up to 100 s
+/// if it is of ordinary speed, and one in a hundred turns beyond 2^53 rad. Between these phases integrators only run
+/// into their largest number of steps, at a second a flight.
+fn time(rng: &mut ChaCha8Rng, motion: &ExactMotion, rate: &Vector3<f64>) -> f64 {
+    let turns_in_a_second = motion.phase(1.0).unwrap_or(f64::INFINITY).max(rate.amax()).max(f64::MIN_POSITIVE);
+    let ordinary = (1e-3..200.0).contains(&turns_in_a_second);
+    let time = match rng.random_range(0..100) {
+        0 => decades(rng, 16.0, 300.0) / turns_in_a_second,
+        1 | 2 if ordinary => rng.random_range(0.0..100.0),
+        3 => 0.0,
+        _ => decades(rng, -3.0, 2.5) / turns_in_a_second,
+    };
+    // Beyond the range of f64 nothing is left to try.
+    if time.is_finite() { time } else { f64::MAX }
+}

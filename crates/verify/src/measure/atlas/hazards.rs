@@ -1,0 +1,135 @@
+//! Where methods fail, as tosses at a distance from the failure.
+//!
+//! But for the hazard itself each toss is regular: a flight that tests α' = 0 keeps away from sin β = 0 and cos β = 0, so
+//! that a failure has one cause.
+
+use std::f64::consts::FRAC_PI_2;
+
+use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
+
+use crate::measure::case::Case;
+
+/// A place where some method fails.
+pub struct Hazard {
+    /// `F1` to `F8`.
+    pub id: &'static str,
+    /// What happens there.
+    pub name: &'static str,
+    /// What the distance is.
+    pub distance: &'static str,
+    /// The toss at a distance; 0 is the failure itself.
+    pub case: fn(f64) -> Result<Case, InputError>,
+    /// The distances, from far to near.
+    pub distances: &'static [f64],
+}
+
+const DECADES: &[f64] =
+    &[1e0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 0.0];
+
+/// All hazards.
+pub const HAZARDS: &[Hazard] = &[
+    Hazard {
+        id: "F1",
+        name: "sin β = 0: n along the vertical",
+        distance: "tilt at launch (rad)",
+        case: |distance| case([9.0, 4.0, 3.0], distance, 1.5),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F2",
+        name: "α' = 0: the precession turns back",
+        distance: "ωy/ωx at launch, which is α' sin β/ωx",
+        case: |distance| case([0.3, 0.3 * distance, 5.0], 1.0, 5.0),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F3",
+        name: "cos β = 0: launch on edge",
+        distance: "angle at launch (rad)",
+        case: |distance| case([2.0, 5.0, 1.0], FRAC_PI_2 - distance, 0.9),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F4",
+        name: "ωz = 0: no spin",
+        distance: "ωz/Ω at launch",
+        case: |distance| case([3.0, 4.0, 5.0 * distance], 0.0, 0.5),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F5",
+        name: "Ω = 0: pure spin",
+        distance: "Ω/ωz at launch",
+        case: |distance| case([3.0 * distance, 4.0 * distance, 5.0], 1.0, 2.0),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F6",
+        name: "a large phase",
+        distance: "1/phase at landing (1/rad)",
+        case: |distance| {
+            let rate = ExactMotion::new(&regular(1.0)?.toss).precession_rate();
+            regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
+        },
+        // Between 1e-6 and 1e-15 an integrator takes its largest number of steps, at a second a flight.
+        distances: &[1e0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-16, 0.0],
+    },
+    Hazard {
+        id: "F7",
+        name: "cos θ = 0: landing on edge",
+        distance: "time left to the flip, in times of flight",
+        case: |distance| {
+            let falling = |time| case([2.0, 5.0, 1.0], 1.0, time);
+            let flip = ExactMotion::new(&falling(0.0)?.toss).first_flip().unwrap_or(f64::NAN);
+            falling(flip / (1.0 + distance))
+        },
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F8",
+        name: "a long flight",
+        distance: "1 s/time of flight",
+        case: |distance| regular(1.0 / distance),
+        distances: &[1e0, 1e-1, 1e-2, 1e-3, 1e-4],
+    },
+];
+
+/// The paper's coin at `rate` (rad/s) from `tilt` (rad), for `time` (s).
+fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?.with_tilt(tilt)?;
+    Ok(Case { toss: Toss { coin: Coin::PAPER, launch }, tilt })
+}
+
+/// A flight on which β stays between 29° and 74°.
+fn regular(time: f64) -> Result<Case, InputError> {
+    case([0.0, 4.0, 6.5], 0.5, time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// n passes the vertical where the cone's angle is that of its axis, α' = 0 where the cone does not enclose the
+    /// vertical, and cos β = 0 where the two angles exceed 90° together.
+    #[test]
+    fn each_failure_has_one_cause() {
+        for hazard in HAZARDS {
+            for &distance in hazard.distances {
+                let toss = (hazard.case)(distance).unwrap().toss;
+                let motion = ExactMotion::new(&toss);
+                let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
+                let passes_the_vertical = (cone - axis).abs() < 0.2;
+                let (stops, levels) = (cone < axis, cone + axis > FRAC_PI_2);
+                match hazard.id {
+                    "F1" => assert!((cone - axis).abs() <= distance + 1e-15),
+                    "F2" => assert!(!passes_the_vertical && stops && !levels),
+                    "F3" | "F7" => assert!(!passes_the_vertical && !stops && levels),
+                    // From horizontal, but not back there before it lands.
+                    "F4" => assert!(motion.phase(toss.launch.flight_time()).unwrap() < 3.0),
+                    "F5" => assert!(cone <= 2.0 * distance),
+                    _ => assert!(!passes_the_vertical && !stops && !levels),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! The exact motion to its last bit, and outcomes that are proven, against 256 bits.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use exact::TiltTerms;
+use exact::certified::{double_double_bound, f64_bound};
+use rayon::prelude::*;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+use sampling::{Space, random_tosses};
+use toss::{Coin, ExactMotion, Launch, SolveError, Stage, TimeOfFlight, Toss, Vector3, certify};
+
+use crate::measure::case::Case;
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::effort::Effort;
+use crate::measure::measurement::{Deviation, Measurement};
+use crate::measure::reference::Reference;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "last-bit-cos-tilt",
+    claim: "cos θ of the exact motion is right to its last bit, whatever the phase",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| last_bit(context, |toss, reference| Ok(reference.cos_tilt_error(exact_cos_tilt(toss)?))),
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "last-bit-attitude",
+    claim: "the attitude of the exact motion is right to its last bits, whatever the phase",
+    basis: Basis::ClosedForm,
+    unit: "rad",
+    measure: |context| {
+        last_bit(context, |toss, reference| {
+            let landing = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
+            Ok(reference.attitude_error(&landing.attitude))
+        })
+    },
+};
+
+pub(super) const EULER_ANGLES: Check = Check {
+    id: "last-bit-euler-angles",
+    claim: "the Euler angles of the exact motion give its attitude to the last bits of the angles (measured: in ulp of 1 + |angle|)",
+    basis: Basis::ClosedForm,
+    unit: "ulp",
+    measure: |context| {
+        last_bit(context, |toss, reference| {
+            let angles = ExactMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
+            let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
+            Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
+        })
+    },
+};
+
+pub(super) const OUTCOMES: Check = Check {
+    id: "certified-outcomes",
+    claim: "certified outcomes are those of 256 bits, also within 3 ulp of the edge (measured: that differ, or are undecided)",
+    basis: Basis::ClosedForm,
+    unit: "tosses",
+    measure: outcomes,
+};
+
+pub(super) const BOUNDS: Check = Check {
+    id: "certified-bounds",
+    claim: "the error of each stage is within the bound that it proves by (measured: largest error over bound)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: bounds,
+};
+
+fn exact_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+    ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
+}
+
+/// Tosses in a set; a check has three sets or so.
+pub(super) fn tries(context: &Context) -> u64 {
+    match context.effort {
+        Effort::Quick => 1000,
+        Effort::Standard => 8000,
+        Effort::Deep => 350_000,
+    }
+}
+
+/// Tosses of five coins, half of them tilted, whose phases go up to `phase` (rad).
+pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
+    let fastest = format!("{0:?}:{1:?}", -phase / 2.0, phase / 2.0);
+    let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
+    let space = Space::parse(Coin::PAPER, &axes)?;
+    let coins = [0.5, 1.0, 1.98, 2.0, 0.0].map(|k| Coin::from_moments(5e-7, k * 5e-7));
+    let case = |(index, toss): (usize, Toss)| {
+        let tilt = if index % 2 == 0 { 0.0 } else { 2.0 * toss.launch.attitude().components()[1].asin() };
+        let launch = Launch::new(toss.launch.rate(), toss.launch.time_of_flight())?.with_tilt(tilt)?;
+        Ok(Case { toss: Toss { coin: coins[index % 5].clone()?, launch }, tilt })
+    };
+    random_tosses(&space, seed, 0..number).into_iter().enumerate().map(case).collect()
+}
+
+/// Pure spin, no spin, spheres, rods, discs, slow and subnormal rates, all at several tilts and for short and long times.
+pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
+    let rates = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 7.0],
+        [3.0, -4.0, 0.0],
+        [1.0, 1.0, 2.5],
+        [20.0, 0.0, 10.0],
+        [1e-9, 0.0, 60.0],
+        [5e-324, 0.0, 5e-324],
+        [1e-160, 1e-170, 1.0],
+        [1e5, -2e5, 3e5],
+    ];
+    let tilts = [0.0, 1e-300, 1e-16, 1e-8, 0.5, FRAC_PI_2, 2.0, PI, -1.0];
+    let times = [0.0, 1e-300, 1e-3, 0.7, 1000.0];
+    let mut cases = Vec::new();
+    for k in [0.0, 1e-300, 0.5, 1.0, 2.0] {
+        for rate in rates {
+            for tilt in tilts {
+                for time in times {
+                    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?.with_tilt(tilt)?;
+                    cases.push(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt });
+                }
+            }
+        }
+    }
+    Ok(cases)
+}
+
+/// Tosses that land within 3 ulp of the speed at which the outcome changes: of random launches, of launches within 3 ulp
+/// of ψ = 45° at half a turn, and of tilted ones whose cone touches the horizontal.
+pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
+    const GRAVITY: f64 = 9.81;
+    let mut cases = Vec::new();
+    for (index, case) in random(number, 100.0, 77)?.into_iter().enumerate() {
+        let rate = case.toss.launch.rate();
+        let (rate, tilt) = match index % 3 {
+            // ωz for which Ω = k ωz: ψ = 45°.
+            1 => (
+                Vector3::new(rate.x, rate.y, ulps(rate.x.hypot(rate.y) / case.toss.coin.inertia_ratio(), index / 3)),
+                0.0,
+            ),
+            2 => (rate, grazing_tilt(&case.toss, index / 3)),
+            _ => (rate, case.tilt),
+        };
+        if !(rate.z.is_finite() && rate.z.abs() < 1e6) {
+            continue;
+        }
+        let toss = |time| -> anyhow::Result<Toss> {
+            Ok(Toss { launch: Launch::new(rate, time)?.with_tilt(tilt)?, ..case.toss })
+        };
+        let motion = ExactMotion::new(&toss(TimeOfFlight::Given(0.0))?);
+        let heads = motion.heads();
+        // From the trough of cos θ where it has no edge: there it comes nearest to 0.
+        let turns = std::f64::consts::TAU * (index % 7) as f64;
+        for edge in [heads.crest + heads.half_width, heads.crest - heads.half_width] {
+            let phase = edge.rem_euclid(std::f64::consts::TAU) + turns;
+            let speed = ulps(0.5 * GRAVITY * phase / motion.precession_rate(), index);
+            if speed.is_finite() && speed >= 0.0 {
+                cases.push(Case { toss: toss(TimeOfFlight::Ballistic { speed, gravity: GRAVITY })?, tilt });
+            }
+        }
+    }
+    Ok(cases)
+}
+
+/// `value` and its neighbours up to 3 ulp away, in turn.
+fn ulps(value: f64, turn: usize) -> f64 {
+    let offset = i64::try_from(turn % 7).unwrap_or(0) - 3;
+    f64::from_bits(value.to_bits().wrapping_add_signed(offset))
+}
+
+/// The tilt for which φ + ψ = 90°, with ulps of disturbance: cos θ only touches 0.
+fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
+    // A turn by β about the lab's x axis takes S from the polar angle ψ in the plane of x to where its height is
+    // sin β Sy + cos β Sz = sin ψ.
+    let rate = toss.launch.rate();
+    let spin = toss.coin.inertia_ratio() * rate.z;
+    let reach = rate.y.hypot(spin);
+    let height = rate.x.hypot(rate.y) / reach;
+    if height > 1.0 { 0.3 } else { ulps(rate.y.atan2(spin) + height.acos(), turn) }
+}
+
+fn last_bit(
+    context: &Context,
+    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+) -> anyhow::Result<Vec<Measurement>> {
+    let sets = [
+        ("phases to 1e2", random(tries(context), 1e2, 1)?),
+        ("phases to 6e4", random(tries(context), 6e4, 2)?),
+        ("phases to 1e9", random(tries(context), 1e9, 3)?),
+        ("corners", corners()?),
+    ];
+    Ok(largest_errors(&sets, error))
+}
+
+/// The largest error in each set, against 256 bits.
+pub(super) fn largest_errors(
+    sets: &[(&str, Vec<Case>)],
+    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+) -> Vec<Measurement> {
+    let measure = |(name, cases): &(&str, Vec<Case>)| {
+        let one = |case: &Case| (*case, error(&case.toss, &Reference::new(&case.toss)));
+        let solved = cases.par_iter().map(one).filter(|(_, error)| is_in_range(error));
+        let (cases, errors): (Vec<Case>, Vec<Deviation>) = solved.unzip();
+        Measurement::of_set(name, &errors, |index| cases[index])
+    };
+    sets.iter().map(measure).collect()
+}
+
+/// A phase above 2^53 is refused; another check tries that.
+fn is_in_range(result: &Deviation) -> bool {
+    !matches!(result, Err(SolveError::PhaseTooLarge { .. }))
+}
+
+fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let sets = [("random", random(3 * tries(context), 6e4, 4)?), ("adversarial", adversarial(tries(context))?)];
+    sets.into_iter()
+        .map(|(name, cases)| {
+            let judged: Vec<_> = cases
+                .par_iter()
+                .map(|case| certify(&case.toss).map(|found| (found, Reference::new(&case.toss).outcome())))
+                .collect();
+            let stages = Stage::ALL.map(|stage| {
+                judged.iter().filter(|found| found.as_ref().is_ok_and(|(found, _)| found.stage() == stage)).count()
+            });
+            let differs = judged.into_iter().map(|judged| judged.map(|(found, right)| found.outcome() != right));
+            let mut counted = Measurement::count_of_set(name, &differs.collect::<Vec<_>>(), |index| cases[index]);
+            if let Some(worst) = &mut counted.worst {
+                worst.input = format!("decided by Keller's cosine, without the motion, by f64, double-double, more digits: {stages:?}; {}", worst.input);
+            }
+            Ok(counted)
+        })
+        .collect()
+}
+
+fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let mut cases = Vec::new();
+    for (seed, phase) in [(5, 1.0), (6, 1e2), (7, 6e4), (8, 1e9)] {
+        cases.extend(random(tries(context) / 4, phase, seed)?);
+    }
+    cases.extend(adversarial(tries(context) / 4)?);
+    let largest = |name: &str, ratio: fn(&Toss) -> Result<f64, SolveError>| {
+        let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss)).collect();
+        Measurement::of_set(name, &ratios, |index| cases[index])
+    };
+    Ok(vec![largest("f64", of_f64), largest("double-double", of_double_double)])
+}
+
+/// Error of the f64 stage over its bound.
+fn of_f64(toss: &Toss) -> Result<f64, SolveError> {
+    let terms = TiltTerms::new(toss);
+    let [phase, _] = terms.phases(toss.launch.flight_time());
+    let error = Reference::new(toss).cos_tilt_error(terms.height(phase) / terms.size);
+    Ok(error / f64_bound(phase))
+}
+
+/// Error of the double-double stage over its bound.
+fn of_double_double(toss: &Toss) -> Result<f64, SolveError> {
+    let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
+    Ok(Reference::new(toss).cos_tilt_error(cos_tilt.hi()) / double_double_bound(phase))
+}

@@ -1,0 +1,80 @@
+//! The checks, one line each; one file per kind of claim.
+
+mod adversarial;
+mod atlas;
+mod batch;
+mod certified;
+mod detest;
+mod figures;
+mod first_return;
+mod invariants;
+mod long_flights;
+mod methods;
+mod numbers;
+mod order;
+mod paper;
+mod planner;
+mod probability;
+mod random;
+mod sensitivity;
+mod tolerance;
+mod work_precision;
+
+use crate::measure::check::Check;
+
+/// All checks, in the order in which they run.
+pub const CHECKS: &[Check] = &[
+    numbers::COS_TILT,
+    numbers::ATTITUDE,
+    detest::STATE,
+    random::COS_TILT,
+    random::ATTITUDE,
+    random::CROSS_METHOD,
+    certified::COS_TILT,
+    certified::ATTITUDE,
+    certified::EULER_ANGLES,
+    certified::OUTCOMES,
+    certified::BOUNDS,
+    batch::COS_TILT,
+    batch::ATTITUDE,
+    batch::OUTCOMES,
+    batch::SIMD_LEVELS,
+    first_return::ATTITUDE,
+    invariants::MOMENTUM,
+    invariants::ENERGY,
+    invariants::NORMAL_MOMENTUM_BODY,
+    invariants::NORMAL_MOMENTUM_TRANSPORT,
+    invariants::MOMENTUM_VECTOR,
+    invariants::PROJECTION,
+    atlas::ANSWERS,
+    atlas::TILT_WORK,
+    atlas::RETURN_WORK,
+    adversarial::SILENTLY_WRONG,
+    adversarial::REFUSED,
+    long_flights::ERROR,
+    long_flights::DRIFT,
+    sensitivity::DERIVATIVES,
+    work_precision::WITHIN_ESTIMATE,
+    order::ORDER,
+    tolerance::PROPORTION,
+    planner::DELIVERS,
+    planner::EXPECTS,
+    planner::TIGHT,
+    planner::COST_RATIO,
+    paper::CHEATED_IN_FLIGHT,
+    paper::CHEATED_FOREVER,
+    paper::TAILS_IN_FLIGHT,
+    paper::FIRST_FLIP,
+    probability::LONG_FLIGHT,
+    probability::LONG_FLIGHT_SHARE,
+    probability::TABLES,
+    probability::FIG4_GRID_IN_RANDOM,
+    probability::FIG4_SAME_COUNTS,
+    figures::SHARES,
+    figures::SHARE_BOUNDS,
+    figures::ISOTROPIC,
+    figures::FIGURES,
+    methods::ERRORS,
+    methods::COVERAGE,
+    methods::EXACT_COVERAGE,
+];

@@ -1,0 +1,54 @@
+//! The reference numbers: the paper's tosses, Kane's body, and flights at the corners of the model.
+
+use toss::{SolveError, Solver};
+
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::motions::ReferenceFlight;
+use crate::measure::run::Allowance;
+use crate::measure::subject::Subject;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "reference-cos-tilt",
+    claim: "cos θ at landing has the reference digits",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: cos_tilt,
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "reference-attitude",
+    claim: "the attitude at landing has the reference digits",
+    basis: Basis::ClosedForm,
+    unit: "rad",
+    measure: attitude,
+};
+
+fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
+        Ok((solver.cos_tilt(&flight.case.toss)? - flight.cos_tilt).abs())
+    };
+    Ok(over_flights(context, error, |allowance| allowance.cos_tilt))
+}
+
+fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
+        Ok(solver.propagate(&flight.case.toss)?.state.attitude.angle_to(&flight.attitude))
+    };
+    Ok(over_flights(context, error, |allowance| allowance.attitude))
+}
+
+/// The largest deviation of each subject over the reference flights.
+fn over_flights(
+    context: &Context,
+    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError>,
+    allowed: fn(&Allowance) -> f64,
+) -> Vec<Measurement> {
+    let flights = &context.data.flights;
+    let measure = |subject: &Subject| {
+        let deviations = flights.iter().map(|flight| deviation(subject.solver.as_ref(), flight));
+        Measurement::largest(subject, deviations, |index| flights[index].case, allowed)
+    };
+    context.subjects.iter().map(measure).collect()
+}

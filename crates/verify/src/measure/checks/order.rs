@@ -1,0 +1,24 @@
+//! Order of convergence.
+
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::convergence::Convergence;
+use crate::measure::measurement::Measurement;
+
+pub(super) const ORDER: Check = Check {
+    id: "convergence-order",
+    claim: "the error falls with the power of a fixed step that theory gives the scheme (measured: distance from it)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure,
+};
+
+fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let row = |found: &Convergence| {
+        let observed = found.observed.unwrap_or(f64::NAN);
+        let input = format!("observed order {observed:.3} over {:.1} halvings of the step", found.halvings);
+        let distance = (observed - f64::from(found.order)).abs();
+        Measurement::figure(ORDER.id, &found.subject, distance, found.points.len() as u64, input).without_claim()
+    };
+    Ok(context.convergence()?.iter().map(row).collect())
+}

@@ -1,0 +1,123 @@
+//! The paper's own tosses: the cheated one lands heads, the other tails.
+//!
+//! "Heads with certainty" has two meanings. With the paper's moments ψ = 48.5°, and the cheated toss is heads only for
+//! flights up to its first flip at 1.3073 s, which covers the paper's speeds of 3 to 5 m/s. As a disc ψ = 15.8° ≤ 45°, and
+//! it is heads forever. Both are checked.
+
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use toss::{Coin, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Toss, Vector3};
+
+use crate::measure::case::Case;
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::motions::FirstFlip;
+use crate::measure::run::Allowance;
+use crate::measure::subject::Subject;
+
+pub(super) const CHEATED_IN_FLIGHT: Check = Check {
+    id: "cheated-heads-in-flight",
+    claim: "(d) the cheated toss (1, 1, 2.5) lands heads at every speed of 3 to 5 m/s (measured: launches that don't)",
+    basis: Basis::PublishedFigure,
+    unit: "launches",
+    measure: |context| at_every_speed(context, Vector3::new(1.0, 1.0, 2.5), Outcome::Heads),
+};
+
+pub(super) const TAILS_IN_FLIGHT: Check = Check {
+    id: "tails-in-flight",
+    claim: "the toss (2, 2, 0.5) of Fig. 3 lands tails at every speed of 3 to 5 m/s (measured: launches that don't)",
+    basis: Basis::PublishedFigure,
+    unit: "launches",
+    measure: |context| at_every_speed(context, Vector3::new(2.0, 2.0, 0.5), Outcome::Tails),
+};
+
+pub(super) const CHEATED_FOREVER: Check = Check {
+    id: "cheated-heads-forever",
+    claim: "(d) as a disc the cheated toss is heads at all times, to 10 000 s by the exact motion, 30 s by the others",
+    basis: Basis::ClosedForm,
+    unit: "launches",
+    measure: forever,
+};
+
+pub(super) const FIRST_FLIP: Check = Check {
+    id: "first-flip",
+    claim: "the outcomes of the cheated toss and of the tails toss change first at 1.3073 s and 0.5560 s",
+    basis: Basis::ClosedForm,
+    unit: "s",
+    measure: first_flip,
+};
+
+fn at_every_speed(context: &Context, rate: Vector3<f64>, expected: Outcome) -> anyhow::Result<Vec<Measurement>> {
+    let speeds = (0..=200).map(|step| 3.0 + 0.01 * f64::from(step));
+    let flights = speeds.map(|speed| TimeOfFlight::Ballistic { speed, gravity: DEFAULT_GRAVITY });
+    let cases = cases(Coin::PAPER, rate, flights)?;
+    Ok(context.subjects.iter().map(|subject| misses(subject, &cases, expected)).collect())
+}
+
+fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let rate = Vector3::new(1.0, 1.0, 2.5);
+    let measure = |subject: &Subject| {
+        let (count, last): (u32, f64) = if subject.stepping.is_none() { (100_000, 10_000.0) } else { (60, 30.0) };
+        let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
+        let cases = cases(Coin::DISC, rate, times)?;
+        Ok(misses(subject, &cases, Outcome::Heads))
+    };
+    context.subjects.iter().map(measure).collect()
+}
+
+fn cases(coin: Coin, rate: Vector3<f64>, flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Case>> {
+    flights.map(|flight| Ok(Case { toss: Toss { coin, launch: Launch::new(rate, flight)? }, tilt: 0.0 })).collect()
+}
+
+/// How many of `cases` do not land as `expected`. By its own claim a solver may leave an outcome undecided.
+fn misses(subject: &Subject, cases: &[Case], expected: Outcome) -> Measurement {
+    let outcomes: Vec<_> = cases.iter().map(|case| subject.solver.outcome(&case.toss)).collect();
+    let count = |is: &dyn Fn(Outcome) -> bool| {
+        let found: Vec<_> = outcomes.iter().map(|outcome| outcome.clone().map(is)).collect();
+        Measurement::count(subject, &found, |index| cases[index])
+    };
+    let wrong = count(&|outcome| ![expected, Outcome::Undecided].contains(&outcome));
+    let is_claimed = cases.iter().all(|case| !matches!(Allowance::new(subject, &case.toss), Ok(None)));
+    Measurement { claim: wrong.claiming(is_claimed.then_some(0.0)).claim, ..count(&|outcome| outcome != expected) }
+}
+
+fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |subject: &Subject| {
+        let mut flips = Vec::new();
+        let mut cases = Vec::new();
+        for flip in &context.data.first_flips {
+            flips.push(flip_time(subject.solver.as_ref(), flip)?.map(|time| (time - flip.time).abs()));
+            cases.push(flight(flip, flip.time)?);
+        }
+        let allowed = |index: usize| flip_allowance(subject, &cases[index]);
+        Ok(Measurement::largest_within(subject, flips, |index| cases[index], allowed))
+    };
+    context.subjects.iter().map(measure).collect()
+}
+
+/// How far off (s) the flip at the landing of `case` may be: the error of cos θ over the rate at which it changes, twice
+/// because it does not change evenly, and the rounding of the time.
+fn flip_allowance(subject: &Subject, case: &Case) -> Result<Option<f64>, SolveError> {
+    let rate = Sensitivity::new(&case.toss)?.cos_tilt[3].abs();
+    let rounding = 4.0 * f64::EPSILON * case.toss.launch.flight_time();
+    Ok(Allowance::new(subject, &case.toss)?.map(|allowance| 2.0 * allowance.cos_tilt / rate + rounding))
+}
+
+fn flight(flip: &FirstFlip, time: f64) -> anyhow::Result<Case> {
+    let launch = Launch::new(flip.rate, TimeOfFlight::Given(time))?;
+    Ok(Case { toss: Toss { coin: flip.coin, launch }, tilt: 0.0 })
+}
+
+/// The sign change of cos θ between launch and 1.5 times the expected time, by bisection.
+fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64, SolveError>> {
+    let (mut heads, mut tails) = (0.0, 1.5 * flip.time);
+    for _ in 0..60 {
+        let middle = 0.5 * (heads + tails);
+        match solver.cos_tilt(&flight(flip, middle)?.toss) {
+            Ok(cos_tilt) if cos_tilt > 0.0 => heads = middle,
+            Ok(_) => tails = middle,
+            Err(error) => return Ok(Err(error)),
+        }
+    }
+    Ok(Ok(0.5 * (heads + tails)))
+}

@@ -1,0 +1,145 @@
+//! Probabilities: the long-flight limit, and the tables of the named spaces by every method.
+
+use anyhow::Context as _;
+use sampling::{
+    Counts, Found, Plan, RunningStep, Sampler, Space, clopper_pearson, long_flight_probability, named_space,
+    random_tosses,
+};
+use toss::{Coin, ExactMotion, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Toss, Vector3};
+
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::effort::Effort;
+use crate::measure::measurement::Measurement;
+use crate::measure::subject::{Subject, usual};
+use crate::measure::tables::Probability;
+
+pub(super) const LONG_FLIGHT: Check = Check {
+    id: "long-flight-probability",
+    claim: "p(ψ) = ½ + asin(cot²ψ)/π has the reference digits at 45° to 90°",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: long_flight,
+};
+
+pub(super) const LONG_FLIGHT_SHARE: Check = Check {
+    id: "long-flight-share",
+    claim: "the share of heads over a million phases of one turn of the exact motion is p(ψ)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: long_flight_share,
+};
+
+pub(super) const TABLES: Check = Check {
+    id: "probability-tables",
+    claim: "P(heads) by every method is the paper's: 0.66 (Fig. 4), 1 (cheated), 0 (tails)",
+    basis: Basis::PublishedFigure,
+    unit: "1",
+    measure: published,
+};
+
+pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
+    id: "fig4-grid-in-random",
+    claim: "method A lies in the exact interval of method B at a false-alarm rate of 1e-6 (measured: distance from it)",
+    basis: Basis::CrossMethod,
+    unit: "1",
+    measure: grid_in_random,
+};
+
+pub(super) const FIG4_SAME_COUNTS: Check = Check {
+    id: "fig4-same-counts",
+    claim: "every solver counts the heads of the exact motion in Fig. 4's space (measured: difference)",
+    basis: Basis::CrossMethod,
+    unit: "launches",
+    measure: same_counts,
+};
+
+fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |found: &Probability| {
+        let expected = match found.space {
+            "cheated" => 1.0,
+            "tails" => 0.0,
+            _ => 0.66,
+        };
+        let subject = format!("{}/{}", found.space, found.method);
+        let input = format!("P = {}, {}", found.probability, found.interval_kind);
+        Measurement::figure(TABLES.id, &subject, (found.probability - expected).abs(), found.points, input)
+    };
+    Ok(context.probabilities()?.iter().map(measure).collect())
+}
+
+fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("a series has its end")?;
+    let heads = (random * launches as f64).round() as u64;
+    let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
+    let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
+    let input = format!("A: {grid}; B: {:.6} to {:.6}", interval.lo, interval.hi);
+    Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, launches, input)])
+}
+
+fn counts(space: &Space, sampler: &Sampler<'_>) -> anyhow::Result<Counts> {
+    match sampler.estimate(space, Plan::Grid)?.found {
+        Found::Counts(counts) => Ok(counts),
+        Found::Shares { .. } => anyhow::bail!("a grid is counted"),
+    }
+}
+
+fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let space = match context.effort {
+        Effort::Quick => named_space("paper-fig4")?.with_grid_of(10_000)?,
+        Effort::Standard | Effort::Deep => named_space("paper-fig4")?,
+    };
+    let exact = counts(&space, &Sampler::exact())?;
+    let one = random_tosses(&space, 1, 0..1)[0];
+    let measure = |entry: &SolverEntry| {
+        let stepping = entry.schemes().first().map(|scheme| usual(*scheme)).transpose()?;
+        let subject = Subject::new(entry, stepping, Formulation::default());
+        let (difference, undecided, input) = match counts(&space, &Sampler::by(subject.solver.as_ref())) {
+            Ok(counts) => {
+                let [heads, tails, undecided] = [counts.heads(), counts.tails(), counts.undecided()];
+                let difference = heads.abs_diff(exact.heads()) + tails.abs_diff(exact.tails());
+                (difference as f64, undecided as f64, format!("{heads} heads, {tails} tails, {undecided} undecided"))
+            }
+            Err(error) => (f64::INFINITY, 0.0, error.to_string()),
+        };
+        let is_unclaimed = matches!(subject.solver.error_estimate(&one), Ok(None));
+        let found = Measurement::figure(FIG4_SAME_COUNTS.id, entry.name(), difference, exact.points(), input);
+        // By its own claim a solver may leave launches undecided.
+        Ok(found.claiming((!is_unclaimed).then_some(undecided)))
+    };
+    context.registry.iter().filter(|entry| entry.name() != ExactSolver::NAME).map(measure).collect()
+}
+
+fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let deviation = |&(cone, probability): &(f64, f64)| (long_flight_probability(cone, cone) - probability).abs();
+    worst_cone(LONG_FLIGHT.id, &context.data.long_flights, 1, deviation)
+}
+
+/// Over one turn, at the middles of a million equal parts, from a horizontal launch with the cone angle ψ.
+fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    const PHASES: u32 = 1_000_000;
+    let deviation = |&(cone, _): &(f64, f64)| {
+        let rate = Vector3::new(cone.sin(), 0.0, cone.cos() / Coin::PAPER.inertia_ratio());
+        let launch = Launch::new(rate, TimeOfFlight::Given(0.0)).expect("sines and cosines are finite");
+        let motion = ExactMotion::new(&Toss { coin: Coin::PAPER, launch });
+        let turn = std::f64::consts::TAU / motion.precession_rate();
+        let heads = (0..PHASES)
+            .map(|part| turn * (f64::from(part) + 0.5) / f64::from(PHASES))
+            .filter(|time| motion.cos_tilt(*time).is_ok_and(|cos_tilt| cos_tilt > 0.0))
+            .count();
+        (heads as f64 / f64::from(PHASES) - long_flight_probability(cone, cone)).abs()
+    };
+    worst_cone(LONG_FLIGHT_SHARE.id, &context.data.long_flights, u64::from(PHASES), deviation)
+}
+
+fn worst_cone(
+    check: &str,
+    cones: &[(f64, f64)],
+    cases_each: u64,
+    deviation: impl Fn(&(f64, f64)) -> f64,
+) -> anyhow::Result<Vec<Measurement>> {
+    let worst = cones.iter().map(|cone| (deviation(cone), cone.0)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let (deviation, cone) = worst.ok_or_else(|| anyhow::anyhow!("no cone angle in the reference numbers"))?;
+    let input = format!("ψ = {}°", cone.to_degrees());
+    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * cones.len() as u64, input)])
+}

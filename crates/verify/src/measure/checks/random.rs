@@ -1,0 +1,84 @@
+//! Random launches: every subject against the exact motion in 256 bits, and the solvers against each other.
+
+use toss::{Propagation, SolveError};
+
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::Reference;
+use crate::measure::run::Allowance;
+use crate::measure::subject::Subject;
+use crate::measure::survey::Survey;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "random-cos-tilt",
+    claim: "cos θ at landing is the exact motion's, from random launches",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure: |context| {
+        let error = |reference: &Reference, landing: &Propagation| reference.cos_tilt_error(landing.cos_tilt);
+        against_reference(context, error, |allowance| allowance.cos_tilt)
+    },
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "random-attitude",
+    claim: "the attitude at landing is the exact motion's, from random launches",
+    basis: Basis::ClosedForm,
+    unit: "rad",
+    measure: |context| {
+        let error = |reference: &Reference, landing: &Propagation| reference.attitude_error(&landing.state.attitude);
+        against_reference(context, error, |allowance| allowance.attitude)
+    },
+};
+
+pub(super) const CROSS_METHOD: Check = Check {
+    id: "cross-method-attitude",
+    claim: "each two solvers land in the same attitude, by the same scheme, from random launches",
+    basis: Basis::CrossMethod,
+    unit: "rad",
+    measure: cross_method,
+};
+
+fn against_reference(
+    context: &Context,
+    error: fn(&Reference, &Propagation) -> f64,
+    allowed: fn(&Allowance) -> f64,
+) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey()?;
+    let measure = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
+        let deviations = landings.iter().zip(&survey.references).map(|(landing, reference)| {
+            landing.as_ref().map(|landing| error(reference, landing)).map_err(Clone::clone)
+        });
+        Measurement::largest(subject, deviations, |index| survey.cases[index], allowed)
+    };
+    Ok(context.subjects.iter().zip(&survey.landings).map(measure).collect())
+}
+
+fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey()?;
+    let mut measurements = Vec::new();
+    for (index, one) in context.subjects.iter().enumerate() {
+        for (offset, other) in context.subjects[index + 1..].iter().enumerate() {
+            let comparable = one.stepping == other.stepping || one.stepping.is_none() || other.stepping.is_none();
+            if comparable {
+                measurements.push(pair(survey, (index, one), (index + 1 + offset, other)));
+            }
+        }
+    }
+    Ok(measurements)
+}
+
+fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): (usize, &Subject)) -> Measurement {
+    let deviations = survey.landings[index].iter().zip(&survey.landings[other_index]).map(|pair| match pair {
+        (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
+        (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+    });
+    // Both may be off by what they allow themselves.
+    let allowed = |case: usize| -> Result<Option<f64>, SolveError> {
+        let allowance = |subject| Allowance::new(subject, &survey.cases[case].toss);
+        Ok(allowance(one)?.zip(allowance(other)?).map(|(one, other)| one.attitude + other.attitude))
+    };
+    let measurement = Measurement::largest_within(other, deviations, |index| survey.cases[index], allowed);
+    Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..measurement }
+}

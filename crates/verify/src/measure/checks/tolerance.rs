@@ -1,0 +1,59 @@
+//! What a tolerance means: the error is proportional to it.
+
+use rayon::prelude::*;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
+use sampling::{Space, random_tosses};
+use toss::{Coin, Formulation, InputError, Stepping};
+
+use crate::measure::check::{Basis, Check};
+use crate::measure::context::Context;
+use crate::measure::convergence::error;
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::Reference;
+use crate::measure::slope::slope;
+use crate::measure::subject::{Subject, usual};
+
+pub(super) const PROPORTION: Check = Check {
+    id: "tolerance-proportion",
+    claim: "the error is proportional to the tolerance, from 1e-3 down to 1e-11, whatever the order of the steps (measured: \
+            distance of the logarithms' slope from 1)",
+    basis: Basis::ClosedForm,
+    unit: "1",
+    measure,
+};
+
+/// Flights whose errors are added up: where the last step ends is chance, and moves the error of each.
+const FLIGHTS: u64 = 100;
+
+/// Errors below it are rounding (rad, summed over the flights).
+const ROUNDING: f64 = 3e-12;
+
+/// Tolerances in a decade.
+const PER_DECADE: i32 = 4;
+
+fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5"), (Tilt, "0:3")];
+    let tosses = random_tosses(&Space::parse(Coin::PAPER, &axes)?, 1, 0..FLIGHTS);
+    let flights: Vec<_> = tosses.into_iter().map(|toss| (toss, Reference::new(&toss))).collect();
+    let mut measurements = Vec::new();
+    for entry in &context.registry {
+        for scheme in entry.schemes().iter().filter(|scheme| scheme.is_adaptive()) {
+            let point = |part: i32| -> Result<Option<[f64; 2]>, InputError> {
+                let tolerance = 10f64.powf(-3.0 - f64::from(part) / f64::from(PER_DECADE));
+                let stepping = Stepping::adaptive(*scheme, tolerance)?;
+                let solver = Subject::new(entry, Some(stepping), Formulation::default()).solver;
+                // A solver that fails has no error; one that always does has no slope.
+                let found = error(solver.as_ref(), &flights).ok().filter(|error| *error > ROUNDING);
+                Ok(found.map(|error| [tolerance.ln(), error.ln()]))
+            };
+            let found: Vec<_> = (0..=8 * PER_DECADE).into_par_iter().map(point).collect::<Result<_, _>>()?;
+            let points: Vec<[f64; 2]> = found.into_iter().flatten().collect();
+            let slope = slope(&points);
+            let subject = Subject::new(entry, Some(usual(*scheme)?), Formulation::default()).name;
+            let input = format!("slope {slope:.4}");
+            let (distance, cases) = ((slope - 1.0).abs(), points.len() as u64);
+            measurements.push(Measurement::figure(PROPORTION.id, &subject, distance, cases, input).without_claim());
+        }
+    }
+    Ok(measurements)
+}

@@ -1,0 +1,203 @@
+//! What checks share: the subjects, the data from outside, and what is computed once for several of them.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use anyhow::{Context as _, ensure};
+use sampling::RunningStep;
+use serde::Serialize;
+use toss::{InputError, SolverEntry};
+
+use crate::measure::atlas::Atlas;
+use crate::measure::atlas::expected::Expected;
+use crate::measure::convergence::{Convergence, convergence};
+use crate::measure::effort::Effort;
+use crate::measure::long_flights::LongFlights;
+use crate::measure::planner::Trial;
+use crate::measure::planner::summary::PlannerSummary;
+use crate::measure::reference::motions::ReferenceData;
+use crate::measure::reference::probabilities::ReferenceProbabilities;
+use crate::measure::search::{Findings, search};
+use crate::measure::subject::{Subject, subjects, tight};
+use crate::measure::survey::Survey;
+use crate::measure::tables::{Probability, fig4, probabilities};
+use crate::measure::work_precision::Sweep;
+use crate::measure::work_precision::problems::{self, Problem};
+
+/// What checks share: the subjects, the data, and what is computed once for several of them.
+pub struct Context {
+    /// How much is tried.
+    pub effort: Effort,
+    /// The registry under verification.
+    pub registry: Vec<SolverEntry>,
+    /// Its subjects.
+    pub subjects: Vec<Subject>,
+    /// Motions from outside.
+    pub data: ReferenceData,
+    /// Probabilities from outside.
+    pub reference_probabilities: ReferenceProbabilities,
+    /// The flights over which speed is compared with accuracy.
+    pub problems: Vec<Problem>,
+    /// What contestants are known to do at hazards.
+    pub expected: Expected,
+    survey: OnceLock<Survey>,
+    atlas: OnceLock<Atlas>,
+    long_flights: OnceLock<LongFlights>,
+    search: OnceLock<Vec<Findings>>,
+    sweep: OnceLock<Sweep>,
+    convergence: OnceLock<Vec<Convergence>>,
+    trial: OnceLock<Trial>,
+    probabilities: OnceLock<Vec<Probability>>,
+    fig4: OnceLock<Vec<RunningStep>>,
+}
+
+impl Context {
+    /// A context over `registry`, with the reference numbers under `validation`.
+    ///
+    /// # Errors
+    /// If the reference numbers can't be read, two solvers have the same name, or a scheme takes neither a tolerance nor steps.
+    pub fn new(registry: &[SolverEntry], effort: Effort, validation: &Path) -> anyhow::Result<Self> {
+        require_own_names(registry)?;
+        Ok(Self {
+            effort,
+            registry: registry.to_vec(),
+            subjects: subjects(registry, tight).context("the registry's solvers can't be made")?,
+            data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
+            reference_probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
+            problems: problems::read(&validation.join("problems.toml"))?,
+            expected: Expected::read(&validation.join("atlas.toml"))?,
+            survey: OnceLock::new(),
+            atlas: OnceLock::new(),
+            long_flights: OnceLock::new(),
+            search: OnceLock::new(),
+            sweep: OnceLock::new(),
+            convergence: OnceLock::new(),
+            trial: OnceLock::new(),
+            probabilities: OnceLock::new(),
+            fig4: OnceLock::new(),
+        })
+    }
+
+    /// The landings of every subject from random launches; computed when first asked for.
+    ///
+    /// # Errors
+    /// Never for the survey's own space.
+    pub fn survey(&self) -> Result<&Survey, InputError> {
+        once(&self.survey, || Survey::new(&self.subjects, self.effort.launches()))
+    }
+
+    /// The atlas of failures; computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`Atlas::new`].
+    pub fn atlas(&self) -> anyhow::Result<&Atlas> {
+        once(&self.atlas, || Atlas::new(&self.registry))
+    }
+
+    /// The long flights; computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`LongFlights::new`].
+    pub fn long_flights(&self) -> anyhow::Result<&LongFlights> {
+        once(&self.long_flights, || LongFlights::new(&self.registry))
+    }
+
+    /// What the search by adversarial launches found; done when first asked for.
+    ///
+    /// # Errors
+    /// As [`search`].
+    pub fn search(&self) -> Result<&Vec<Findings>, InputError> {
+        once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
+    }
+
+    /// The sweep of tolerances and steps; done when first asked for.
+    ///
+    /// # Errors
+    /// As [`Sweep::new`].
+    pub fn sweep(&self) -> Result<&Sweep, InputError> {
+        once(&self.sweep, || Sweep::new(&self.registry, &self.problems, self.effort))
+    }
+
+    /// Errors by fixed step; measured when first asked for.
+    ///
+    /// # Errors
+    /// As [`convergence`].
+    pub fn convergence(&self) -> anyhow::Result<&Vec<Convergence>> {
+        once(&self.convergence, || convergence(&self.registry))
+    }
+
+    /// Random scenes solved as planned and by every other model; solved when first asked for.
+    ///
+    /// # Errors
+    /// As [`Trial::new`].
+    pub fn trial(&self) -> anyhow::Result<&Trial> {
+        once(&self.trial, || Trial::new(self.effort))
+    }
+
+    /// Every named space by every method; estimated when first asked for.
+    ///
+    /// # Errors
+    /// As [`probabilities`].
+    pub fn probabilities(&self) -> anyhow::Result<&Vec<Probability>> {
+        once(&self.probabilities, probabilities)
+    }
+
+    /// The running shares of Fig. 4's space; counted when first asked for.
+    ///
+    /// # Errors
+    /// As [`fig4`].
+    pub fn fig4(&self) -> anyhow::Result<&Vec<RunningStep>> {
+        once(&self.fig4, fig4)
+    }
+
+    /// What was asked for so far, for the reports.
+    pub fn records(&self) -> Records<'_> {
+        Records {
+            atlas: self.atlas.get(),
+            long_flights: self.long_flights.get(),
+            sweep: self.sweep.get(),
+            convergence: self.convergence.get(),
+            planner: self.trial.get().map(Trial::summary),
+            probabilities: self.probabilities.get(),
+            fig4: self.fig4.get(),
+        }
+    }
+}
+
+/// Runs behind the rows, where a check asked for them.
+#[derive(Debug, Clone, Serialize)]
+pub struct Records<'a> {
+    /// The atlas of failures.
+    pub atlas: Option<&'a Atlas>,
+    /// Error and drift by time.
+    pub long_flights: Option<&'a LongFlights>,
+    /// Error and work by tolerance or step.
+    pub sweep: Option<&'a Sweep>,
+    /// Planner accuracy and cost.
+    pub planner: Option<PlannerSummary>,
+    /// Error by fixed step.
+    pub convergence: Option<&'a Vec<Convergence>>,
+    /// P(heads) of the named spaces.
+    pub probabilities: Option<&'a Vec<Probability>>,
+    /// Fig. 4's running shares.
+    pub fig4: Option<&'a Vec<RunningStep>>,
+}
+
+/// # Errors
+/// If two solvers have the same name: their rows could not be told apart.
+fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
+    let mut names = BTreeSet::new();
+    for entry in registry {
+        ensure!(names.insert(entry.name()), "the registry has two solvers called '{}'", entry.name());
+    }
+    Ok(())
+}
+
+/// What is in `cell`, made first if it is empty.
+fn once<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+    if cell.get().is_none() {
+        let _ = cell.set(make()?);
+    }
+    Ok(cell.get().expect("it was just set"))
+}

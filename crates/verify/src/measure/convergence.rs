@@ -1,0 +1,137 @@
+//! Order of convergence: the error of each scheme with fixed steps, against the step.
+//!
+//! The error is that of the whole state: attitude, body rate and the norm error. The attitude alone would flatter DOPRI5:
+//! for a turn its leading error is one of length, which a normalised attitude does not see.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
+use rayon::prelude::*;
+use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+use sampling::{Space, random_tosses};
+use serde::Serialize;
+use toss::{
+    Coin, ExactMotion, Formulation, InputError, Propagation, Scheme, SolveError, Solver, SolverEntry, State, Stepping,
+    Toss,
+};
+
+use crate::measure::reference::Reference;
+use crate::measure::subject::Subject;
+
+/// Flights whose errors are added up, so that no cancellation in a single one passes for a higher order.
+const FLIGHTS: usize = 12;
+
+/// Time of flight (s).
+const TIME: f64 = 2.0;
+
+/// The errors of one subject, and the order that they show.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Convergence {
+    /// `solver/scheme`.
+    pub subject: String,
+    /// Order by theory.
+    pub order: u32,
+    /// Order observed in the asymptotic window; null if too few errors are in it.
+    pub observed: Option<f64>,
+    /// How often the step was halved in that window.
+    pub halvings: f64,
+    /// Steps (s) and errors, from large to small.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Every integrator of `registry` by every scheme that takes equal steps and has an order.
+///
+/// # Errors
+/// If no regular flights are found, which the fixed space of launches does not let happen.
+pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
+    let tosses = regular_flights()?;
+    let flights: Vec<(Toss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
+    let integrators = registry.iter().filter(|entry| entry.integrates());
+    let subjects: Vec<(&SolverEntry, Scheme, u32)> = integrators
+        .flat_map(|entry| {
+            let stepped = entry.schemes().iter().filter(|scheme| scheme.takes_steps());
+            stepped.filter_map(move |scheme| Some((entry, *scheme, scheme.order()?)))
+        })
+        .collect();
+    let all = subjects.into_par_iter().map(|(entry, scheme, order)| Convergence::new(entry, scheme, order, &flights));
+    Ok(all.collect::<Result<_, _>>()?)
+}
+
+/// Flights whose cone encloses the vertical at a distance, so that the vertical frame, where all three angles are at
+/// work, is regular.
+fn regular_flights() -> anyhow::Result<Vec<Toss>> {
+    const CLEARANCE: f64 = 0.8;
+    // Flights of TIME s.
+    let gravity = (2.0 / TIME).to_string();
+    let axes = [(RateX, "-3:3"), (RateY, "-3:3"), (RateZ, "0:3"), (Speed, "1"), (Gravity, &gravity), (Tilt, "1.2:1.4")];
+    let space = Space::parse(Coin::DISC, &axes)?;
+    let mut tosses = Vec::new();
+    for toss in random_tosses(&space, 1, 0..10_000) {
+        let motion = ExactMotion::new(&toss);
+        let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
+        if cone - axis > CLEARANCE && cone + axis < PI - CLEARANCE {
+            tosses.push(toss);
+        }
+    }
+    tosses.truncate(FLIGHTS);
+    anyhow::ensure!(tosses.len() == FLIGHTS, "only {} regular flights", tosses.len());
+    Ok(tosses)
+}
+
+/// Errors below it drown in rounding, errors above it are not asymptotic. For order 8 the two are a halving of the step
+/// apart: four halvings would be a factor of 2^32 in the error, which f64 does not have.
+fn window(scheme: Scheme) -> Range<f64> {
+    if scheme == Scheme::DOP853 { 3e-12..1e-9 } else { 3e-12..1e-5 }
+}
+
+impl Convergence {
+    fn new(entry: &SolverEntry, scheme: Scheme, order: u32, flights: &[(Toss, Reference)]) -> Result<Self, InputError> {
+        let offered = entry.formulations().contains(&Formulation::VERTICAL);
+        let formulation = if offered { Formulation::VERTICAL } else { Formulation::default() };
+        let mut points = Vec::new();
+        for eighth_octave in 0..120 {
+            let step = TIME / (2.0 * 2f64.powf(0.125 * f64::from(eighth_octave))).round();
+            let subject = Subject::new(entry, Some(Stepping::fixed(scheme, step)?), formulation);
+            // Steps of half a flight may well fail; too few that succeed leave the order undefined.
+            let Ok(error) = error(subject.solver.as_ref(), flights) else { continue };
+            if error < window(scheme).start {
+                break;
+            }
+            points.push((step, error));
+        }
+        let asymptotic: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.1 < window(scheme).end).collect();
+        let halvings = asymptotic.first().zip(asymptotic.last()).map_or(0.0, |(first, last)| (first.0 / last.0).log2());
+        Ok(Self {
+            subject: format!("{}/{}", entry.name(), scheme.name()),
+            order,
+            observed: observed_order(&asymptotic),
+            halvings,
+            points,
+        })
+    }
+}
+
+/// The sum over `flights` of the errors of the whole state.
+pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
+    let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
+        let Propagation { state: State { attitude, rate }, norm_error, .. } = solver.propagate(toss)?;
+        Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + norm_error)
+    };
+    flights.iter().map(of_one).sum()
+}
+
+/// p of the least-squares fit of `ln C + p ln h + c h²` to the logarithms of the errors: the leading term and a trace of
+/// the next ones.
+fn observed_order(points: &[(f64, f64)]) -> Option<f64> {
+    if points.len() < 6 {
+        return None;
+    }
+    let design = Mat::from_fn(points.len(), 3, |row, column| {
+        let step = points[row].0;
+        [1.0, step.ln(), step * step][column]
+    });
+    let values = Mat::from_fn(points.len(), 1, |row, _| points[row].1.ln());
+    Some(design.qr().solve_lstsq(&values)[(1, 0)]).filter(|order| order.is_finite())
+}

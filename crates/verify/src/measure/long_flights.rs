@@ -1,0 +1,99 @@
+//! Error and drift by time of flight: the paper's cheated toss, flown far longer than any coin.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use toss::{Coin, InputError, Launch, Scheme, SolveError, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3};
+
+use crate::measure::drift;
+use crate::measure::reference::Reference;
+use crate::measure::run::Allowance;
+use crate::measure::subject::{Subject, subjects, usual};
+
+/// Step of schemes without a tolerance (s); the default of 1e-3 s would need too many.
+const STEP: f64 = 1e-2;
+
+/// Times of flight (s): two a decade.
+const TIMES: [f64; 9] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4];
+
+/// One subject after one time. What is relative is so to its value at launch.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LongFlight {
+    /// The subject's name.
+    pub subject: String,
+    /// Time of flight (s).
+    pub time: f64,
+    /// What was found, or the error.
+    #[serde(flatten)]
+    pub found: Result<Drift, String>,
+}
+
+/// Error and drift at landing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Drift {
+    /// Angle to the exact attitude (rad).
+    pub err_attitude: f64,
+    /// What the solver's error estimate allows (rad), if it has one.
+    pub allowed: Option<f64>,
+    /// Of |S|, relative.
+    pub momentum: f64,
+    /// Of the kinetic energy, relative.
+    pub energy: f64,
+    /// Of n·S, relative to |S|.
+    pub normal_momentum: f64,
+    /// Of S in TF, as a vector, relative.
+    pub momentum_vector: f64,
+    /// Norm error of an integrated quaternion.
+    pub norm_error: f64,
+}
+
+/// All subjects at all times.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct LongFlights(pub Vec<LongFlight>);
+
+impl LongFlights {
+    /// Flies every solver of `registry`, each integrator by every scheme.
+    ///
+    /// # Errors
+    /// Never for the library's own solvers.
+    pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
+        let subjects = subjects(registry, stepping)?;
+        let flights: Vec<(&Subject, f64)> =
+            subjects.iter().flat_map(|subject| TIMES.map(|time| (subject, time))).collect();
+        let fly = |(subject, time): (&Subject, f64)| -> Result<LongFlight, InputError> {
+            let launch = Launch::new(Vector3::new(1.0, 1.0, 2.5), TimeOfFlight::Given(time))?;
+            let found = Drift::new(subject, &Toss { coin: Coin::PAPER, launch }).map_err(|error| error.to_string());
+            Ok(LongFlight { subject: subject.name.clone(), time, found })
+        };
+        Ok(Self(flights.into_par_iter().with_max_len(1).map(fly).collect::<Result<_, _>>()?))
+    }
+
+    /// The names of the subjects, in their order.
+    pub fn subjects(&self) -> impl Iterator<Item = &str> {
+        self.0.chunk_by(|a, b| a.subject == b.subject).map(|flights| flights[0].subject.as_str())
+    }
+
+    /// What `subject` found, by time (s).
+    pub fn of<'a>(&'a self, subject: &'a str) -> impl Iterator<Item = (f64, &'a Result<Drift, String>)> {
+        self.0.iter().filter(move |flight| flight.subject == subject).map(|flight| (flight.time, &flight.found))
+    }
+}
+
+fn stepping(scheme: Scheme) -> Result<Stepping, InputError> {
+    if scheme.is_adaptive() { usual(scheme) } else { Stepping::fixed(scheme, STEP) }
+}
+
+impl Drift {
+    fn new(subject: &Subject, toss: &Toss) -> Result<Self, SolveError> {
+        let landing = subject.solver.propagate(toss)?;
+        Ok(Self {
+            err_attitude: Reference::new(toss).attitude_error(&landing.state.attitude),
+            allowed: Allowance::new(subject, toss)?.map(|allowance| allowance.attitude),
+            momentum: drift::momentum(toss, &landing.state),
+            energy: drift::energy(toss, &landing.state),
+            normal_momentum: drift::normal_momentum(toss, &landing.state),
+            momentum_vector: drift::momentum_vector(toss, &landing.state),
+            norm_error: landing.norm_error,
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! How far an answer is off.
+
+use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
+use toss::{
+    Answer, Error, InputError, Launch, Outcome, Scene, TimeOfFlight, Toss, TracePoint, Vector3, speeds_of_heads,
+};
+
+use crate::measure::reference::Reference;
+
+/// The exact answer to a scene about a toss.
+pub struct Truth {
+    landing: Reference,
+    toss: Toss,
+}
+
+impl Truth {
+    /// Solves `toss` in 256 bits.
+    pub fn new(toss: &Toss) -> Self {
+        Self { landing: Reference::new(toss), toss: *toss }
+    }
+
+    /// The error of an answer to a scene: of cos θ, or the angle between attitudes (rad). An outcome has none or is wrong
+    /// altogether; it may be undecided where cos θ is within the accuracy of the integrator that was asked for.
+    ///
+    /// # Errors
+    /// Never: the times of a trace are valid.
+    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, InputError> {
+        let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
+        Ok(match answer {
+            Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
+                wrong(self.landing.cos_tilt_error(0.0) > 2.0 * scene.accuracy)
+            }
+            Answer::Outcome(verdict) => wrong(verdict.outcome() != self.landing.outcome()),
+            Answer::Tilt(cos_tilt) => self.landing.cos_tilt_error(*cos_tilt),
+            Answer::Attitude(state) => self.landing.attitude_error(&state.attitude),
+            Answer::Trace(points) => self.trace_error(points)?,
+            Answer::Probability(_) => f64::INFINITY,
+        })
+    }
+
+    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, InputError> {
+        let mut largest = 0.0_f64;
+        for point in points {
+            let launch = self.toss.launch;
+            let until = Launch::new(launch.rate(), TimeOfFlight::Given(point.time))?.with_attitude(launch.attitude());
+            let exact = Reference::new(&Toss { launch: until, ..self.toss });
+            largest = largest.max(exact.attitude_error(&point.attitude));
+        }
+        Ok(largest)
+    }
+}
+
+/// The probability of heads in `space`, by other means than the planned ones: the lengths of the intervals of speeds where
+/// nothing else is free, else many more launches of other points.
+///
+/// # Errors
+/// Never for the spaces of [`scenes`](super::scenes).
+pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
+    const OTHER_SEED: u64 = 987_654_321;
+    let free: Vec<Coordinate> = space.free().collect();
+    let scrambled = Scrambled::new(points, OTHER_SEED);
+    if free == [Coordinate::Speed] {
+        return share_by_intervals(space);
+    }
+    let plan = if free.contains(&Coordinate::Speed) {
+        Plan::ExactSpeed(Rest::Sobol(scrambled))
+    } else {
+        Plan::Sobol(scrambled)
+    };
+    let Estimate { probability, .. } = Sampler::exact().estimate(space, plan)?;
+    Ok(probability)
+}
+
+fn share_by_intervals(space: &Space) -> Result<f64, Error> {
+    let value = |of| space.axis(of).bounds()[0];
+    let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
+    let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
+    let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
+    let toss = Toss { coin: space.coin(), launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let intervals = speeds_of_heads(&toss, slowest)?;
+    let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
+    Ok(length / (fastest - slowest))
+}

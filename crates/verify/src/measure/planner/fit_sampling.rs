@@ -1,0 +1,89 @@
+//! How far ways to sample a space are off and what they cost, by the number of launches.
+
+use anyhow::Context;
+use rayon::ThreadPool;
+use sampling::{Plan, Sampler, Space};
+use toss::fitted::SamplingFit;
+use toss::{Model, Scene, Want};
+
+use super::clock::{median, nanoseconds};
+use super::delivered::true_probability;
+use super::figures::{SAFETY, SEED, rounded};
+use super::fit::SHARE;
+use super::scenes::{self, served};
+use crate::measure::slope::slope;
+
+/// The model of shares over the speed at Sobol points of the rest.
+const SHARE_SOBOL: &str = "share-sobol";
+
+/// The models whose error falls with the number of launches.
+const SAMPLES: [&str; 3] = [SHARE_SOBOL, "sobol", "random"];
+
+pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
+    let mut spaces = Vec::new();
+    for index in 0..60 {
+        let space = scenes::space(SEED, index)?;
+        let samples = served(&Scene::new(Want::Probability(space), f64::MAX))?;
+        if samples.iter().any(|choice| choice.model.name == SHARE) {
+            continue;
+        }
+        let with_shares = samples.iter().any(|choice| choice.model.name == SHARE_SOBOL);
+        spaces.push((space, with_shares, true_probability(&space, 1 << 19)?));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().context("one thread")?;
+    let fit = |name: &str| {
+        let model = Model::named(name).with_context(|| format!("no model {name}"))?;
+        let spaces = spaces.iter().filter(|(_, with_shares, _)| *with_shares || name != SHARE_SOBOL);
+        Sample { model, spaces: spaces.map(|(space, _, truth)| (*space, *truth)).collect() }.fit(&pool)
+    };
+    SAMPLES.into_iter().map(fit).collect()
+}
+
+/// A model that samples, and spaces with their probabilities.
+struct Sample {
+    model: &'static Model,
+    spaces: Vec<(Space, f64)>,
+}
+
+impl Sample {
+    fn plan(&self, points: u64) -> anyhow::Result<Plan> {
+        self.model.plan(points, SEED).with_context(|| format!("{} samples nothing", self.model.name))
+    }
+
+    fn fit(&self, pool: &ThreadPool) -> anyhow::Result<SamplingFit> {
+        let [error, power] = self.error()?;
+        let (few, many) = (self.cost_ns(16, pool)?, self.cost_ns(1 << 12, pool)?);
+        let launch_ns = rounded((many - few) / f64::from((1 << 12) - 16));
+        let cost_ns = rounded((few - 16.0 * launch_ns).max(0.0));
+        let (error, power) = (rounded(SAFETY * error), rounded(power));
+        Ok(SamplingFit { model: self.model.name.to_owned(), cost_ns, launch_ns, error, power })
+    }
+
+    /// C and p of the error C N^-p: p by least squares through the root mean squares over the spaces, C so that every error
+    /// is below.
+    #[expect(clippy::cast_precision_loss, reason = "dozens of spaces, thousands of launches")]
+    fn error(&self) -> anyhow::Result<[f64; 2]> {
+        let mut points = Vec::new();
+        let mut all = Vec::new();
+        for size in [6, 8, 10, 12, 14].map(|power| 1_u64 << power) {
+            let mut squares = 0.0;
+            for (space, truth) in &self.spaces {
+                let error = (Sampler::exact().estimate(space, self.plan(size)?)?.probability - truth).abs();
+                squares += error * error;
+                all.push((size, error));
+            }
+            points.push([(size as f64).ln(), 0.5 * (squares / self.spaces.len() as f64).ln()]);
+        }
+        let is_independent = matches!(self.plan(1)?, Plan::Random { .. });
+        let power = if is_independent { 0.5 } else { -slope(&points) };
+        let error = all.iter().map(|(size, error)| error * (*size as f64).powf(power)).fold(0.0, f64::max);
+        Ok([error, power])
+    }
+
+    /// What an estimate by so many launches costs (ns).
+    fn cost_ns(&self, launches: u64, pool: &ThreadPool) -> anyhow::Result<f64> {
+        let plan = self.plan(launches)?;
+        let cost = |(space, _): &(Space, f64)| pool.install(|| nanoseconds(|| Sampler::exact().estimate(space, plan)));
+        Ok(median(self.spaces.iter().take(12).map(cost).collect()))
+    }
+}

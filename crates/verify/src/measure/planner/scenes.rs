@@ -1,0 +1,146 @@
+//! Random scenes: tosses as hands and machines make them, and spaces of such tosses.
+
+use std::f64::consts::PI;
+
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use sampling::{Coordinate, Space};
+use toss::catalogue::CATALOGUE;
+use toss::fitted::FITTED;
+use toss::{Choice, Coin, InputError, Launch, Registry, Scene, SolverEntry, TimeOfFlight, Toss, Vector3, Want};
+
+use crate::measure::case::Case;
+
+/// A scene about a toss.
+#[derive(Debug, Clone)]
+pub struct TossScene {
+    /// Its kind: what is wanted, or `integrator` if one was asked for.
+    pub kind: &'static str,
+    /// The scene.
+    pub scene: Scene,
+    /// Its toss.
+    pub case: Case,
+}
+
+fn stream(seed: u64, index: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(index);
+    rng
+}
+
+/// 10 to a power that is uniform.
+fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..high))
+}
+
+/// Toss `index` of the sequence of `seed`.
+///
+/// # Errors
+/// Never: every toss is valid.
+pub fn toss(seed: u64, index: u64) -> Result<Case, InputError> {
+    random_toss(&mut stream(seed, index))
+}
+
+/// A coin of the catalogue or any other; rates of up to 60 rad/s, or of any size from 0.1 to 1000 rad/s, sometimes without
+/// spin or nearly without wobble; half of the launches from horizontal; caught, one in six at another height.
+fn random_toss(rng: &mut ChaCha8Rng) -> Result<Case, InputError> {
+    let coin = match rng.random_range(0..3) {
+        0 => CATALOGUE[rng.random_range(0..CATALOGUE.len())].coin()?,
+        1 => Coin::from_moments(1.0, rng.random_range(1.9..2.0))?,
+        _ => Coin::from_moments(1.0, rng.random_range(0.0..2.0))?,
+    };
+    let largest = if rng.random_range(0..3) == 0 { decades(rng, -1.0, 3.0) } else { 60.0 };
+    let any = Vector3::from_fn(|_, _| rng.random_range(-largest..largest));
+    let rate = match rng.random_range(0..6) {
+        0 => Vector3::new(any.x, any.y, 0.0),
+        1 => Vector3::new(0.1 * any.x, 0.1 * any.y, any.z),
+        _ => any,
+    };
+    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..PI) };
+    let (speed, gravity) = (rng.random_range(1.0..6.0), 9.81);
+    let time = match rng.random_range(0..6) {
+        0 => TimeOfFlight::thrown(speed, gravity, Some(rng.random_range(-0.9..1.5) * speed * speed / (2.0 * gravity))),
+        1 => TimeOfFlight::Given(decades(rng, -2.0, 1.0)),
+        _ => TimeOfFlight::thrown(speed, gravity, None),
+    };
+    Ok(Case { toss: Toss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? }, tilt })
+}
+
+/// A toss much like `case`, whose errors are as large in the mean but not the same.
+///
+/// # Errors
+/// Never: every toss is valid.
+pub fn neighbour(case: &Case, seed: u64, index: u64) -> Result<Toss, InputError> {
+    let mut rng = stream(seed, index);
+    let launch = case.toss.launch;
+    let rate = launch.rate().map(|part| part * rng.random_range(0.99..1.01));
+    let time = TimeOfFlight::Given(launch.flight_time() * rng.random_range(0.99..1.01));
+    Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..case.toss })
+}
+
+/// Scene `index` of the sequence of `seed`: of ten scenes three want an outcome, three cos θ, two an attitude and one a trace,
+/// with accuracies from 1e-2 to 2e-15; one asks for an integrator, with accuracies down to 1e-11.
+///
+/// # Errors
+/// Never: every scene is valid.
+pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+    let mut rng = stream(seed, index);
+    let case = random_toss(&mut rng)?;
+    let kinds =
+        ["outcome", "outcome", "outcome", "tilt", "tilt", "tilt", "attitude", "attitude", "trace", "integrator"];
+    let kind = kinds[rng.random_range(0..kinds.len())];
+    let wanted = if kind == "integrator" { kinds[rng.random_range(0..9)] } else { kind };
+    let want = match wanted {
+        "outcome" => Want::Outcome(case.toss),
+        "tilt" => Want::Tilt(case.toss),
+        "attitude" => Want::Attitude(case.toss),
+        _ => Want::Trace { toss: case.toss, points: rng.random_range(2..8) },
+    };
+    let scene = if kind == "integrator" {
+        // The planner passes over what nobody has measured, so that no scene asks for it.
+        let measured = |entry: &&SolverEntry| FITTED.integrators.iter().any(|fit| fit.solver == entry.name());
+        let entries: Vec<_> = Registry::standard().entries().iter().filter(measured).collect();
+        let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
+        let solver = entries[rng.random_range(0..entries.len())].name();
+        Scene::new(want, decades(&mut rng, -11.0, -2.0)).by(solver, scheme)
+    } else {
+        Scene::new(want, decades(&mut rng, -14.7, -2.0))
+    };
+    Ok(TossScene { kind, scene, case })
+}
+
+/// What serves a scene.
+pub(super) fn served(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
+    Ok(scene.candidates()?.into_iter().filter_map(|(_, verdict)| verdict.ok()).collect())
+}
+
+/// Space `index` of the sequence of `seed`: rates and a tilt that are fixed or vary, a range of speeds in four of five.
+///
+/// # Errors
+/// Never: every space is valid.
+pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
+    let mut rng = stream(seed, index);
+    let mut range = |free: f64, from: f64, to: f64, width: f64| {
+        let lo = rng.random_range(from..to);
+        if rng.random_range(0.0..1.0) < free {
+            format!("{lo}:{}", lo + rng.random_range(0.1..1.0) * width)
+        } else {
+            lo.to_string()
+        }
+    };
+    let texts = [
+        (Coordinate::RateX, range(0.6, 0.0, 40.0, 30.0)),
+        (Coordinate::RateY, range(0.3, 0.0, 40.0, 30.0)),
+        (Coordinate::RateZ, range(0.3, 0.0, 40.0, 30.0)),
+        (Coordinate::Speed, range(0.8, 2.0, 4.0, 3.0)),
+        (Coordinate::Tilt, range(0.2, 0.0, 0.5, 1.0)),
+    ];
+    let texts = texts.each_ref().map(|(of, text)| (*of, text.as_str()));
+    let coin = if index.is_multiple_of(2) { Coin::PAPER } else { Coin::from_moments(1.0, 1.95)? };
+    Space::parse(coin, &texts)
+}
+
+/// The accuracy that is asked of a probability: from 1e-1 to 1e-3.
+pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
+    decades(&mut stream(seed, index), -3.0, -1.0)
+}

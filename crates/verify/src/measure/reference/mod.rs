@@ -1,0 +1,165 @@
+//! The exact motion in 256 bits: what every error is measured against.
+//!
+//! It takes the f64 inputs of a toss as exact numbers and evaluates
+//! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is some 2^-250 for the
+//! phases of a toss. It shares no code with the solvers, and its tests hold it against numbers from outside, which
+//! [`motions`] and [`probabilities`] read.
+
+pub mod motions;
+pub mod probabilities;
+
+use std::cmp::Ordering;
+
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use toss::{Attitude, Outcome, TimeOfFlight, Toss, Vector3};
+
+/// Binary digits.
+const PRECISION: usize = 256;
+
+type Big = FBig<HalfEven>;
+
+fn big(value: f64) -> Big {
+    Big::try_from(value).expect("a validated toss is finite").with_precision(PRECISION).value()
+}
+
+/// The exact landing of a toss.
+pub struct Reference {
+    attitude: [Big; 4],
+    rate: [Big; 3],
+}
+
+impl Reference {
+    /// Solves `toss`.
+    pub fn new(toss: &Toss) -> Self {
+        let rate = toss.launch.rate();
+        let (x, y, z) = (big(rate.x), big(rate.y), big(rate.z));
+        let k = big(toss.coin.i3()) / big(toss.coin.i1());
+        let momentum_z = &k * &z;
+        let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
+        let time = match toss.launch.time_of_flight() {
+            TimeOfFlight::Given(time) => big(time),
+            TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+                let (speed, gravity) = (big(speed), big(gravity));
+                let fall = big(2.0) * &gravity * big(drop);
+                (&speed + (&speed * &speed + fall).sqrt()) / gravity
+            }
+        };
+        let half_time = time / big(2.0);
+        let (sin, cos) = (&precession * &half_time).sin_cos();
+        // Without angular momentum there is no precession, and no direction to turn about.
+        let still = precession == big(0.0);
+        let along = |part: Big| if still { big(0.0) } else { part / &precession * &sin };
+        let turn = [cos, along(x.clone()), along(y.clone()), along(momentum_z)];
+        let half_spin = (k - big(1.0)) * &z * half_time;
+        let (sin_half, cos_half) = half_spin.sin_cos();
+        let spin = [cos_half, big(0.0), big(0.0), -sin_half];
+        let launch = normalised(toss.launch.attitude().components().map(big));
+        let (sin_spin, cos_spin) = (half_spin * big(2.0)).sin_cos();
+        let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
+        Self { attitude: product(&product(&launch, &turn), &spin), rate }
+    }
+
+    /// |Δ cos θ| of a computed value.
+    pub fn cos_tilt_error(&self, cos_tilt: f64) -> f64 {
+        to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
+    }
+
+    /// The outcome; undecided for cos θ = 0 in all digits.
+    pub fn outcome(&self) -> Outcome {
+        match self.cos_tilt().partial_cmp(&big(0.0)) {
+            Some(Ordering::Greater) => Outcome::Heads,
+            Some(Ordering::Less) => Outcome::Tails,
+            _ => Outcome::Undecided,
+        }
+    }
+
+    /// Angle between a computed attitude and the exact one (rad).
+    pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
+        let [w, x, y, z] = turn(&attitude.components().map(big), &self.attitude);
+        let sine = to_f64(&(&x * &x + &y * &y + &z * &z).sqrt());
+        2.0 * sine.atan2(to_f64(&w).abs())
+    }
+
+    /// The small turn from this landing to `other`: its axis in BF times its angle (rad), to third order in it.
+    pub fn turn_to(&self, other: &Self) -> Vector3<f64> {
+        let [w, x, y, z] = turn(&self.attitude, &other.attitude);
+        Vector3::from([x, y, z].map(|part| 2.0 * to_f64(&(part / &w))))
+    }
+
+    /// cos θ of `other` less that of this landing.
+    pub fn cos_tilt_to(&self, other: &Self) -> f64 {
+        to_f64(&(other.cos_tilt() - self.cos_tilt()))
+    }
+
+    /// Largest |Δω| of a computed body rate (rad/s).
+    pub fn rate_error(&self, rate: &Vector3<f64>) -> f64 {
+        self.rate.iter().zip(rate).map(|(exact, found)| to_f64(&(exact - big(*found))).abs()).fold(0.0, f64::max)
+    }
+
+    fn cos_tilt(&self) -> Big {
+        let [w, x, y, z] = &self.attitude;
+        w * w + z * z - x * x - y * y
+    }
+}
+
+fn to_f64(value: &Big) -> f64 {
+    value.to_f64().value()
+}
+
+/// The turn that leads from one attitude to another, seen in BF.
+fn turn(from: &[Big; 4], to: &[Big; 4]) -> [Big; 4] {
+    let [w, x, y, z] = from.clone();
+    product(&[w, -x, -y, -z], to)
+}
+
+fn product(a: &[Big; 4], b: &[Big; 4]) -> [Big; 4] {
+    [
+        &a[0] * &b[0] - &a[1] * &b[1] - &a[2] * &b[2] - &a[3] * &b[3],
+        &a[0] * &b[1] + &a[1] * &b[0] + &a[2] * &b[3] - &a[3] * &b[2],
+        &a[0] * &b[2] - &a[1] * &b[3] + &a[2] * &b[0] + &a[3] * &b[1],
+        &a[0] * &b[3] + &a[1] * &b[2] - &a[2] * &b[1] + &a[3] * &b[0],
+    ]
+}
+
+fn normalised(q: [Big; 4]) -> [Big; 4] {
+    let norm = q.iter().fold(big(0.0), |sum, part| sum + part * part).sqrt();
+    q.map(|part| part / &norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::str::FromStr;
+
+    use dashu_float::DBig;
+
+    use super::motions::ReferenceData;
+    use super::*;
+
+    fn decimal(text: &str) -> Big {
+        let value = DBig::from_str(text).unwrap().with_precision(40).value();
+        value.with_base_and_precision::<2>(PRECISION).value().with_rounding()
+    }
+
+    /// Flights whose inputs are exact in f64 agree with the numbers from outside in every printed digit; the others
+    /// within the rounding of their inputs.
+    #[test]
+    fn it_agrees_with_the_numbers_from_outside() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/reference/motion.toml");
+        let mut exact_inputs = 0;
+        for flight in ReferenceData::read(&folder).unwrap().flights {
+            let reference = Reference::new(&flight.case.toss);
+            let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt_digits))).abs();
+            let exact =
+                flight.case.tilt == 0.0 && matches!(flight.case.toss.launch.time_of_flight(), TimeOfFlight::Given(_));
+            exact_inputs += usize::from(exact);
+            let within = if exact { 1e-31 } else { 3e-16 };
+            assert!(error < within, "{}: {error:e}", flight.name);
+            let attitude_error = reference.attitude_error(&flight.attitude);
+            assert!(attitude_error < 3e-16, "{}: {attitude_error:e}", flight.name);
+        }
+        assert!(exact_inputs >= 3);
+    }
+}

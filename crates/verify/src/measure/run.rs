@@ -1,0 +1,167 @@
+//! A run: one toss flown by one subject, with its errors against the exact motion. Records are made of these.
+
+use exact::motion::COS_TILT_ERROR;
+use serde::{Deserialize, Serialize};
+use toss::{Outcome, Propagation, SolveError, Toss};
+
+use super::case::Case;
+use super::drift;
+use super::reference::Reference;
+use super::subject::Subject;
+
+/// What an answer is worth, from the best to the worst.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Answer {
+    /// Within the [allowance](Allowance), and no wrong outcome.
+    Right,
+    /// No answer but an error that says why.
+    TypedError,
+    /// An answer of a solver that claims no error, and no wrong outcome.
+    Unclaimed,
+    /// An answer outside the allowance, or the wrong outcome, without an error.
+    SilentlyWrong,
+}
+
+impl Answer {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::TypedError => "typed error",
+            Self::Unclaimed => "claims no error",
+            Self::SilentlyWrong => "silently wrong",
+        }
+    }
+}
+
+/// The errors that an answer may have by the solver's own error estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Allowance {
+    /// Of cos θ: the error estimate, or the last bit of the exact motion where that is less.
+    pub cos_tilt: f64,
+    /// Of the attitude (rad), and relative errors of conserved quantities: ten times that.
+    pub attitude: f64,
+}
+
+impl Allowance {
+    /// What `subject` may be off by on `toss`; `None` if it has no error estimate.
+    ///
+    /// # Errors
+    /// As [`Solver::error_estimate`](toss::Solver::error_estimate).
+    pub fn new(subject: &Subject, toss: &Toss) -> Result<Option<Self>, SolveError> {
+        let allowance = |estimate: f64| {
+            let cos_tilt = estimate.max(COS_TILT_ERROR);
+            Self { cos_tilt, attitude: 10.0 * cos_tilt }
+        };
+        Ok(subject.solver.error_estimate(toss)?.map(allowance))
+    }
+}
+
+/// A toss flown and compared with the exact motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Run {
+    /// The subject's name.
+    pub subject: String,
+    /// The toss, as hex floats.
+    pub inputs: String,
+    /// What the answer is worth.
+    pub answer: Answer,
+    /// The error that was returned.
+    pub failure: Option<String>,
+    /// |Δ cos θ| at landing.
+    pub err_cos_tilt: Option<f64>,
+    /// Angle to the exact attitude at landing (rad).
+    pub err_attitude: Option<f64>,
+    /// The attitude's error, divided by what the solver's error estimate allows.
+    pub err_by_allowance: Option<f64>,
+    /// Drift of S in TF, relative; null also for a coin at rest.
+    pub err_invariants: Option<f64>,
+    /// Whether the outcome is the exact one; null where none was stated.
+    pub outcome_ok: Option<bool>,
+    /// Norm error of an integrated quaternion.
+    pub norm_error: Option<f64>,
+    /// Evaluations of the right-hand side.
+    pub rhs_calls: Option<u64>,
+    /// Steps that were kept.
+    pub accepted_steps: Option<u64>,
+    /// Steps that were thrown away.
+    pub rejected_steps: Option<u64>,
+}
+
+impl Run {
+    /// Flies `case` by `subject`.
+    pub fn new(subject: &Subject, case: &Case, reference: &Reference) -> Self {
+        match Compared::new(subject, &case.toss, reference) {
+            Ok(compared) => compared.run(subject, case),
+            Err(error) => Self {
+                subject: subject.name.clone(),
+                inputs: case.hex(),
+                answer: Answer::TypedError,
+                failure: Some(error.to_string()),
+                err_cos_tilt: None,
+                err_attitude: None,
+                err_by_allowance: None,
+                err_invariants: None,
+                outcome_ok: None,
+                norm_error: None,
+                rhs_calls: None,
+                accepted_steps: None,
+                rejected_steps: None,
+            },
+        }
+    }
+}
+
+/// An answer beside the exact one.
+struct Compared {
+    landing: Propagation,
+    err_cos_tilt: f64,
+    err_attitude: f64,
+    outcome_ok: Option<bool>,
+    allowance: Option<Allowance>,
+}
+
+impl Compared {
+    fn new(subject: &Subject, toss: &Toss, reference: &Reference) -> Result<Self, SolveError> {
+        let landing = subject.solver.propagate(toss)?;
+        let outcome = subject.solver.outcome_at(toss, landing.cos_tilt)?;
+        Ok(Self {
+            err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
+            err_attitude: reference.attitude_error(&landing.state.attitude),
+            outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
+            allowance: Allowance::new(subject, toss)?,
+            landing,
+        })
+    }
+
+    fn answer(&self) -> Answer {
+        let within =
+            |allowance: Allowance| self.err_cos_tilt <= allowance.cos_tilt && self.err_attitude <= allowance.attitude;
+        match self.allowance.map(within) {
+            _ if self.outcome_ok == Some(false) => Answer::SilentlyWrong,
+            Some(true) => Answer::Right,
+            Some(false) => Answer::SilentlyWrong,
+            None => Answer::Unclaimed,
+        }
+    }
+
+    fn run(&self, subject: &Subject, case: &Case) -> Run {
+        Run {
+            subject: subject.name.clone(),
+            inputs: case.hex(),
+            answer: self.answer(),
+            failure: None,
+            err_cos_tilt: Some(self.err_cos_tilt),
+            err_attitude: Some(self.err_attitude),
+            err_by_allowance: self.allowance.map(|allowance| self.err_attitude / allowance.attitude),
+            err_invariants: Some(drift::momentum_vector(&case.toss, &self.landing.state))
+                .filter(|drift| drift.is_finite()),
+            outcome_ok: self.outcome_ok,
+            norm_error: Some(self.landing.norm_error),
+            rhs_calls: Some(self.landing.work.rhs_calls),
+            accepted_steps: Some(self.landing.work.accepted_steps),
+            rejected_steps: Some(self.landing.work.rejected_steps),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! A search for answers that are wrong without an error: adversarial launches flown by every default solver.
+
+use rayon::prelude::*;
+use toss::{Formulation, InputError, Scheme, SolverEntry, Stepping};
+
+use super::adversary;
+use super::case::Case;
+use super::measurement::Worst;
+use super::reference::Reference;
+use super::run::{Answer, Run};
+use super::subject::Subject;
+
+const SEED: u64 = 20_261_121;
+
+/// Tolerances, of which each launch is flown at one.
+const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+
+/// Steps of schemes without a tolerance in units of 1/|ω|, of which each launch is flown at one.
+const STEPS: [f64; 2] = [0.1, 0.03];
+
+/// What the search found of one solver and scheme.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Findings {
+    /// The subject's name.
+    pub subject: String,
+    /// Launches flown.
+    pub launches: u64,
+    /// Launches that were refused with an error.
+    pub refused: u64,
+    /// Launches that were answered wrongly without an error.
+    pub silently_wrong: u64,
+    /// Launches that were answered without an error estimate.
+    pub unclaimed: u64,
+    /// The first refused launch.
+    pub first_refused: Option<Worst>,
+    /// The first launch that was answered wrongly.
+    pub first_wrong: Option<Worst>,
+}
+
+/// Searches `launches` launches for every solver of `registry`, each integrator by every scheme.
+///
+/// # Errors
+/// Never: every launch is valid.
+pub fn search(registry: &[SolverEntry], launches: u64) -> Result<Vec<Findings>, InputError> {
+    let contestants = contestants(registry);
+    let fly = |index: u64| -> Result<Vec<Run>, InputError> {
+        let case = adversary::launch(SEED, index)?;
+        let reference = Reference::new(&case.toss);
+        contestants.iter().map(|by| Ok(Run::new(&subject(*by, &case, index)?, &case, &reference))).collect()
+    };
+    let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<Result<_, _>>()?;
+    let findings = |(column, by): (usize, &Contestant<'_>)| {
+        let of = |answer: Answer| (0..).zip(&runs).filter(move |(_, runs)| runs[column].answer == answer);
+        let first = |answer: Answer| -> Result<Option<Worst>, InputError> {
+            let Some((index, runs)) = of(answer).next() else { return Ok(None) };
+            let case = adversary::launch(SEED, index)?;
+            let replay = case.replay(&subject(*by, &case, index)?);
+            Ok(Some(Worst { input: case.hex(), failure: runs[column].failure.clone(), replay }))
+        };
+        Ok(Findings {
+            subject: runs.first().map(|runs| runs[column].subject.clone()).unwrap_or_default(),
+            launches,
+            refused: of(Answer::TypedError).count() as u64,
+            silently_wrong: of(Answer::SilentlyWrong).count() as u64,
+            unclaimed: of(Answer::Unclaimed).count() as u64,
+            first_refused: first(Answer::TypedError)?,
+            first_wrong: first(Answer::SilentlyWrong)?,
+        })
+    };
+    contestants.iter().enumerate().map(findings).collect()
+}
+
+/// A solver and its scheme, if it integrates.
+type Contestant<'a> = (&'a SolverEntry, Option<Scheme>);
+
+fn contestants(registry: &[SolverEntry]) -> Vec<Contestant<'_>> {
+    let schemes = |entry: &SolverEntry| {
+        if entry.integrates() { entry.schemes().iter().copied().map(Some).collect() } else { vec![None] }
+    };
+    registry.iter().flat_map(|entry| schemes(entry).into_iter().map(move |scheme| (entry, scheme))).collect()
+}
+
+/// The contestant with the settings at which it flies launch `index`, `case`.
+fn subject((entry, scheme): Contestant<'_>, case: &Case, index: u64) -> Result<Subject, InputError> {
+    let turn = usize::try_from(index).unwrap_or(0);
+    let stepping = |scheme: Scheme| {
+        if scheme.is_adaptive() {
+            return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]);
+        }
+        // A coin at rest takes any step.
+        let rate = case.toss.launch.turn_rate().max(f64::MIN_POSITIVE);
+        Stepping::fixed(scheme, (STEPS[turn % STEPS.len()] / rate).min(f64::MAX))
+    };
+    Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
+}

@@ -1,0 +1,135 @@
+//! What is verified: each solver of the registry with each scheme that it offers.
+
+use toss::{
+    ExactSolver, Formulation, InputError, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, StepControl,
+    Stepping, Toss,
+};
+
+/// Tolerance of the adaptive schemes under verification.
+const TIGHT_TOLERANCE: f64 = 1e-12;
+
+/// Step of the others under verification (s).
+const TIGHT_STEP: f64 = 1e-4;
+
+/// A solver with its settings.
+pub struct Subject {
+    /// `solver`, `solver/scheme` or, if not by default, `solver/scheme/formulation`; the key of its bounds.
+    pub name: String,
+    /// Its entry in the registry.
+    pub entry: SolverEntry,
+    /// How it steps, if it integrates.
+    pub stepping: Option<Stepping>,
+    /// How its kinematics are set up.
+    pub formulation: Formulation,
+    /// The solver.
+    pub solver: Box<dyn Solver>,
+}
+
+impl Subject {
+    /// `entry` with `stepping`, which a closed form has none of, in `formulation`. A solver that cannot be made is one
+    /// that fails on every toss.
+    pub fn new(entry: &SolverEntry, stepping: Option<Stepping>, formulation: Formulation) -> Self {
+        let scheme = stepping.map(|stepping| format!("/{}", stepping.scheme().name())).unwrap_or_default();
+        let suffix =
+            if formulation == Formulation::default() { String::new() } else { format!("/{}", formulation.name()) };
+        let settings = Settings { stepping: stepping.unwrap_or(Stepping::DEFAULT), formulation };
+        let not_made = |reason| Box::new(NotMade { name: entry.name().to_owned(), reason }) as Box<dyn Solver>;
+        Self {
+            name: format!("{}{scheme}{suffix}", entry.name()),
+            solver: entry.solver(&settings).unwrap_or_else(not_made),
+            entry: entry.clone(),
+            stepping,
+            formulation,
+        }
+    }
+
+    /// The exact motion.
+    pub fn exact() -> Self {
+        Self::new(&ExactSolver::entry(), None, Formulation::default())
+    }
+
+    /// Its scheme, if it integrates.
+    pub fn scheme(&self) -> Option<Scheme> {
+        self.stepping.map(|stepping| stepping.scheme())
+    }
+
+    /// The options of the command line that make the same solver.
+    pub fn options(&self) -> String {
+        let Some(stepping) = self.stepping else { return format!("--solver {}", self.entry.name()) };
+        let control = match stepping.control() {
+            StepControl::Tolerance(tolerance) => format!("--tolerance {tolerance:?}"),
+            StepControl::Step(step) => format!("--step {step:?}"),
+        };
+        let formulation = match self.formulation {
+            Formulation::MOMENTUM => String::new(),
+            other => format!(" --formulation {}", other.name()),
+        };
+        format!("--solver {} --scheme {} {control}{formulation}", self.entry.name(), stepping.scheme().name())
+    }
+}
+
+/// Stands for a solver that cannot be made.
+struct NotMade {
+    name: String,
+    reason: InputError,
+}
+
+impl Solver for NotMade {
+    fn name(&self) -> &str {
+        &self.name
+    }
+    fn propagate(&self, _: &Toss) -> Result<Propagation, SolveError> {
+        Err(SolveError::failed(&self.name, self.reason.clone()))
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Err(SolveError::failed(&self.name, self.reason.clone()))
+    }
+}
+
+/// `scheme` with the tight settings.
+///
+/// # Errors
+/// Never for a scheme that takes a tolerance or steps.
+pub fn tight(scheme: Scheme) -> Result<Stepping, InputError> {
+    if scheme.is_adaptive() { Stepping::adaptive(scheme, TIGHT_TOLERANCE) } else { Stepping::fixed(scheme, TIGHT_STEP) }
+}
+
+/// `scheme` with the settings that a user gets without asking.
+///
+/// # Errors
+/// As [`tight`].
+pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
+    if scheme.is_adaptive() {
+        Stepping::adaptive(scheme, Stepping::DEFAULT_TOLERANCE)
+    } else {
+        Stepping::fixed(scheme, Stepping::DEFAULT_STEP)
+    }
+}
+
+/// Every solver of `registry`, each integrator by every scheme with its `stepping`.
+///
+/// # Errors
+/// As `stepping`'s.
+pub fn subjects(
+    registry: &[SolverEntry],
+    stepping: fn(Scheme) -> Result<Stepping, InputError>,
+) -> Result<Vec<Subject>, InputError> {
+    let of_entry = |entry: &SolverEntry| by_every_scheme(entry, Formulation::default(), stepping);
+    registry.iter().map(of_entry).collect::<Result<Vec<_>, _>>().map(|all| all.into_iter().flatten().collect())
+}
+
+/// `entry` by every scheme in `formulation`, or once if it is a closed form.
+///
+/// # Errors
+/// As `stepping`'s.
+pub fn by_every_scheme(
+    entry: &SolverEntry,
+    formulation: Formulation,
+    stepping: fn(Scheme) -> Result<Stepping, InputError>,
+) -> Result<Vec<Subject>, InputError> {
+    if !entry.integrates() {
+        return Ok(vec![Subject::new(entry, None, formulation)]);
+    }
+    let subject = |scheme: &Scheme| Ok(Subject::new(entry, Some(stepping(*scheme)?), formulation));
+    entry.schemes().iter().map(subject).collect()
+}

@@ -1,0 +1,111 @@
+//! Tables of probability: every named space by every way of sampling, and the running shares of Fig. 4.
+
+use sampling::{Estimate, Found, Plan, Rest, RunningStep, Sampler, Scrambled, named_space, named_spaces};
+use serde::Serialize;
+
+/// Launches of method B.
+const RANDOM_LAUNCHES: u64 = 250_000;
+/// Seed of method B.
+const SEED: u64 = 1;
+
+/// One line of the probability tables.
+#[derive(Debug, Clone, Serialize)]
+pub struct TableLine {
+    /// Name of the space.
+    pub space: &'static str,
+    /// How it was sampled.
+    pub method: &'static str,
+    /// What was found.
+    #[serde(flatten)]
+    pub found: TableEntry,
+}
+
+/// What a method found in a space.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum TableEntry {
+    /// Outcomes.
+    Counts {
+        /// Launches that land heads.
+        heads: u64,
+        /// Launches that land tails.
+        tails: u64,
+        /// Launches too near to the edge.
+        undecided: u64,
+    },
+    /// A probability in 12 digits, which are above what rounding can do on any platform.
+    Share {
+        /// P(heads).
+        probability: String,
+    },
+}
+
+const METHODS: [(&str, Plan); 4] = [
+    ("grid", Plan::Grid),
+    ("random", Plan::Random { points: RANDOM_LAUNCHES, seed: SEED }),
+    ("sobol", Plan::Sobol(Scrambled { points: 1 << 18, scrambles: 8, seed: SEED })),
+    ("exact-speed", Plan::ExactSpeed(Rest::Grid)),
+];
+
+/// Every named space by every method, with the exact motion: the estimates, and what a table says of them.
+///
+/// # Errors
+/// Never for the named spaces.
+pub fn tables() -> anyhow::Result<Vec<(TableLine, Estimate)>> {
+    let mut lines = Vec::new();
+    for (space, named) in named_spaces() {
+        for (method, plan) in METHODS {
+            let estimate = Sampler::exact().estimate(&named.space, plan)?;
+            let found = match estimate.found {
+                Found::Counts(counts) => {
+                    TableEntry::Counts { heads: counts.heads(), tails: counts.tails(), undecided: counts.undecided() }
+                }
+                Found::Shares { .. } => TableEntry::Share { probability: format!("{:.12}", estimate.probability) },
+            };
+            lines.push((TableLine { space, method, found }, estimate));
+        }
+    }
+    Ok(lines)
+}
+
+/// P(heads) of a space by a method, with its interval.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Probability {
+    /// Name of the space.
+    pub space: &'static str,
+    /// How it was sampled.
+    pub method: &'static str,
+    /// Launches.
+    pub points: u64,
+    /// P(heads).
+    pub probability: f64,
+    /// Ends of the interval, if the method has one.
+    pub interval: Option<[f64; 2]>,
+    /// What the interval is.
+    pub interval_kind: String,
+}
+
+/// The tables, for the reports.
+///
+/// # Errors
+/// As [`tables`].
+pub fn probabilities() -> anyhow::Result<Vec<Probability>> {
+    let line = |(line, found): (TableLine, Estimate)| Probability {
+        space: line.space,
+        method: line.method,
+        points: found.points,
+        probability: found.probability,
+        interval: found.interval.map(|interval| [interval.lo, interval.hi]),
+        interval_kind: found.interval_kind.to_string(),
+    };
+    Ok(tables()?.into_iter().map(line).collect())
+}
+
+/// The running shares of Fig. 4's space, for its check and its chart.
+///
+/// # Errors
+/// Never for the named space.
+pub fn fig4() -> anyhow::Result<Vec<RunningStep>> {
+    const STEPS: u64 = 250;
+    Ok(Sampler::exact().running_shares(&named_space("paper-fig4")?, STEPS, SEED)?)
+}

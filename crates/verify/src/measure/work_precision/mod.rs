@@ -1,0 +1,243 @@
+//! Speed against accuracy: every solver and scheme over a range of tolerances or steps, on every problem.
+//!
+//! Errors are against the exact motion in 256 bits. Work is counted in calls of the right-hand side, which repeat exactly;
+//! times stand beside it and are never judged.
+
+pub mod problems;
+
+use std::time::{Duration, Instant};
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use rand::seq::SliceRandom;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
+
+use crate::measure::effort::Effort;
+use crate::measure::reference::Reference;
+use crate::measure::run::{Answer, Run};
+use crate::measure::subject::Subject;
+use problems::Problem;
+
+/// One subject at one setting on one problem. Errors are the largest over its launches, counts and times their sums.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// The problem's name.
+    pub problem: String,
+    /// The solver's name.
+    pub solver: String,
+    /// The scheme's name; null for a closed form. Records call it the method.
+    #[serde(rename = "method")]
+    pub scheme: Option<String>,
+    /// The scheme's order; null if it is variable.
+    pub order: Option<u32>,
+    /// The tolerance, if it has one.
+    pub tol: Option<f64>,
+    /// The step (s), if it is fixed.
+    pub step: Option<f64>,
+    /// The toss as hex floats, or the number of launches.
+    pub inputs: String,
+    /// The worst answer.
+    pub status: Answer,
+    /// The first error that was returned.
+    pub failure: Option<String>,
+    /// |Δ cos θ| at landing; null if a launch failed, as are the next four.
+    pub err_cos_theta: Option<f64>,
+    /// Angle to the exact attitude (rad).
+    pub err_attitude_rad: Option<f64>,
+    /// Drift of S in TF, relative.
+    pub err_invariants: Option<f64>,
+    /// The attitude's error, divided by what the solver's error estimate allows.
+    pub err_by_allowance: Option<f64>,
+    /// Whether no stated outcome is wrong.
+    pub outcome_ok: Option<bool>,
+    /// What the reference is.
+    pub ref_kind: String,
+    /// A bound of the reference's own error.
+    pub ref_err_bound: f64,
+    /// Calls of the right-hand side.
+    pub n_rhs: u64,
+    /// Steps that were kept.
+    pub n_accepted: u64,
+    /// Steps that were thrown away.
+    pub n_rejected: u64,
+    /// The shortest time (ns).
+    pub t_min_ns: u64,
+    /// The median time (ns).
+    pub t_median_ns: u64,
+    /// How often it was timed.
+    pub n_runs: u32,
+}
+
+/// The whole sweep, in the order of problems, subjects and settings.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Sweep {
+    /// Name, what it stresses and the number of launches of each problem.
+    pub problems: Vec<(String, String, usize)>,
+    /// The samples.
+    pub samples: Vec<Sample>,
+}
+
+impl Sweep {
+    /// Every solver of `registry` on every problem.
+    ///
+    /// # Errors
+    /// Never for the library's own solvers.
+    pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, InputError> {
+        let jobs = jobs(registry, problems, effort)?;
+        let references: Vec<Vec<Reference>> = problems
+            .iter()
+            .map(|problem| problem.cases.par_iter().map(|case| Reference::new(&case.toss)).collect())
+            .collect();
+        let mut samples: Vec<Sample> =
+            jobs.par_iter().map(|job| job.sample(&problems[job.problem], &references[job.problem])).collect();
+        for (index, times) in times(&jobs, problems, effort) {
+            let sample = &mut samples[index];
+            (sample.t_min_ns, sample.t_median_ns, sample.n_runs) = times;
+        }
+        Ok(Self::of(problems, samples))
+    }
+
+    /// What was sampled of `problems`.
+    pub fn of(problems: &[Problem], samples: Vec<Sample>) -> Self {
+        let problem = |problem: &Problem| (problem.name.clone(), problem.stresses.clone(), problem.cases.len());
+        Self { problems: problems.iter().map(problem).collect(), samples }
+    }
+
+    /// The samples of one subject on one problem, from rough to fine; the subject is named `solver` or `solver/scheme`.
+    pub fn series<'a>(&'a self, problem: &'a str, subject: &'a str) -> impl Iterator<Item = &'a Sample> {
+        self.samples.iter().filter(move |sample| sample.problem == problem && sample.subject() == subject)
+    }
+
+    /// The subjects, in their order.
+    pub fn subjects(&self) -> Vec<String> {
+        let mut subjects: Vec<String> = Vec::new();
+        for sample in &self.samples {
+            let subject = sample.subject();
+            if !subjects.contains(&subject) {
+                subjects.push(subject);
+            }
+        }
+        subjects
+    }
+}
+
+impl Sample {
+    /// `solver` or `solver/scheme`.
+    pub fn subject(&self) -> String {
+        self.scheme.as_ref().map_or_else(|| self.solver.clone(), |scheme| format!("{}/{scheme}", self.solver))
+    }
+}
+
+/// One sample to be taken.
+struct Job {
+    problem: usize,
+    subject: Subject,
+}
+
+/// Tolerances go down by decades, steps (from 1/|ω|) by octaves; a quick sweep takes every third, down to 1e-12 and 1/64.
+fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Vec<Job>, InputError> {
+    let (stride, decades, octaves) = if effort == Effort::Quick { (3, 12, 7) } else { (1, 12, 10) };
+    let mut jobs = Vec::new();
+    for (index, problem) in problems.iter().enumerate() {
+        for entry in registry {
+            let mut push = |stepping| {
+                jobs.push(Job { problem: index, subject: Subject::new(entry, stepping, Formulation::default()) });
+            };
+            if !entry.integrates() {
+                push(None);
+                continue;
+            }
+            for &scheme in entry.schemes() {
+                let settings = if scheme.is_adaptive() { decades } else { octaves };
+                for setting in (0..settings).step_by(stride) {
+                    push(Some(if scheme.is_adaptive() {
+                        Stepping::adaptive(scheme, 10f64.powi(-3 - setting))?
+                    } else {
+                        Stepping::fixed(scheme, 0.5f64.powi(setting) / problem.fastest())?
+                    }));
+                }
+            }
+        }
+    }
+    Ok(jobs)
+}
+
+impl Job {
+    fn sample(&self, problem: &Problem, references: &[Reference]) -> Sample {
+        let subject = &self.subject;
+        let runs: Vec<Run> =
+            problem.cases.iter().zip(references).map(|(case, reference)| Run::new(subject, case, reference)).collect();
+        let largest = |of: fn(&Run) -> Option<f64>| {
+            runs.iter().map(of).try_fold(0.0, |largest: f64, value| Some(largest.max(value?)))
+        };
+        let sum = |of: fn(&Run) -> Option<u64>| runs.iter().filter_map(of).sum();
+        let control = subject.stepping.map(|stepping| stepping.control());
+        Sample {
+            problem: problem.name.clone(),
+            solver: subject.entry.name().to_owned(),
+            scheme: subject.scheme().map(|scheme| scheme.name().to_owned()),
+            order: subject.scheme().and_then(Scheme::order),
+            tol: control.and_then(|control| if let StepControl::Tolerance(tol) = control { Some(tol) } else { None }),
+            step: control.and_then(|control| if let StepControl::Step(step) = control { Some(step) } else { None }),
+            inputs: problem.inputs(),
+            status: runs.iter().map(|run| run.answer).max().unwrap_or(Answer::TypedError),
+            failure: runs.iter().find_map(|run| run.failure.clone()),
+            err_cos_theta: largest(|run| run.err_cos_tilt),
+            err_attitude_rad: largest(|run| run.err_attitude),
+            err_invariants: largest(|run| run.err_invariants),
+            err_by_allowance: largest(|run| run.err_by_allowance),
+            outcome_ok: runs
+                .iter()
+                .all(|run| run.failure.is_none())
+                .then(|| runs.iter().all(|run| run.outcome_ok != Some(false))),
+            ref_kind: "exact motion in 256 bits".to_owned(),
+            ref_err_bound: 2f64.powi(-200),
+            n_rhs: sum(|run| run.rhs_calls),
+            n_accepted: sum(|run| run.accepted_steps),
+            n_rejected: sum(|run| run.rejected_steps),
+            t_min_ns: 0,
+            t_median_ns: 0,
+            n_runs: 0,
+        }
+    }
+}
+
+/// Shortest and median time (ns) and the number of runs, by job. One thread, in an order that is shuffled but always the
+/// same, so that a machine that slows down does not affect some jobs alone.
+fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64, u64, u32))> {
+    let budget = Duration::from_millis(if effort == Effort::Quick { 1 } else { 4 });
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
+    let time = |index: usize| {
+        let job = &jobs[index];
+        let fly = || {
+            for case in &problems[job.problem].cases {
+                // A failed flight takes its time too.
+                let _ = std::hint::black_box(job.subject.solver.propagate(std::hint::black_box(&case.toss)));
+            }
+        };
+        (index, repeat(fly, budget))
+    };
+    order.into_iter().map(time).collect()
+}
+
+/// Runs `work` up to 25 times while `budget` lasts, and at least three times unless that takes long.
+fn repeat(work: impl Fn(), budget: Duration) -> (u64, u64, u32) {
+    const LONG: Duration = Duration::from_millis(300);
+    let mut times: Vec<u64> = Vec::new();
+    let start = Instant::now();
+    let goes_on = |runs: usize, spent: Duration| match runs {
+        0 => true,
+        1..3 => spent < LONG,
+        _ => runs < 25 && spent < budget,
+    };
+    while goes_on(times.len(), start.elapsed()) {
+        let begin = Instant::now();
+        work();
+        times.push(u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX));
+    }
+    times.sort_unstable();
+    (times[0], times[times.len() / 2], u32::try_from(times.len()).unwrap_or(u32::MAX))
+}

@@ -1,0 +1,117 @@
+//! Charts of the records, as SVG.
+
+mod atlas_lines;
+mod atlas_matrix;
+mod history;
+mod long_flights;
+mod models;
+mod order;
+mod palette;
+mod work_precision;
+
+use chart::{ChartError, Drawn, Panel, Series};
+use sampling::RunningStep;
+use toss::SolverEntry;
+
+use crate::judge::record::Record;
+use crate::measure::atlas::expected::Expected;
+use crate::measure::context::Records;
+use crate::measure::work_precision::Sweep;
+use atlas_matrix::Cell;
+use palette::Palette;
+
+/// A chart and the name of its file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chart {
+    /// Name of the file, without a folder.
+    pub file: String,
+    /// The SVG.
+    pub svg: String,
+    /// What it shows, where that does not follow from its chapter.
+    pub caption: Option<String>,
+}
+
+/// The errors of committed records over time, as SVG; `records` are not empty. Solvers have the colours of `registry`.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn history(records: &[Record], registry: &[SolverEntry]) -> Result<String, ChartError> {
+    history::history(records, &Palette::new(registry))
+}
+
+/// What the contestants called `names` are known to do where methods fail, as SVG; one that nothing is known of is left out.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn known_failures(names: &[String], expected: &Expected) -> Result<String, ChartError> {
+    let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| expected.knows(name)).collect();
+    atlas_matrix::matrix(&names, |subject, hazard| expected.get(subject, hazard).map(Cell::from))
+}
+
+/// Speed against accuracy on the problem `problem` of a record, made on the day `date`, as SVG. Solvers have the colours of
+/// `registry`.
+///
+/// # Errors
+/// [`ChartError`] if the sweep has no such problem, or if it can't be drawn.
+pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntry]) -> Result<String, ChartError> {
+    let launches = sweep.problems.iter().find(|(name, ..)| name == problem).map(|(.., launches)| *launches);
+    let launches = launches.ok_or_else(|| ChartError(format!("no problem '{problem}' in the record of {date}")))?;
+    let title = format!("{problem}, record of {date}");
+    work_precision::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
+}
+
+/// The charts of the records that there are. Solvers have the colours of `registry`.
+///
+/// # Errors
+/// [`ChartError`] if one can't be drawn.
+pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart>, ChartError> {
+    let palette = Palette::new(registry);
+    let mut charts = Vec::new();
+    if let Some(atlas) = records.atlas {
+        let worst = |subject: &str, hazard: &str| atlas.worst(hazard, subject).map(Cell::Answer);
+        charts.push(chart("atlas-matrix.svg", atlas_matrix::matrix(&atlas.subjects(), worst)?));
+        charts.push(chart("atlas-error.svg", atlas_lines::errors(atlas, &palette)?));
+        charts.push(chart("atlas-work.svg", atlas_lines::work(atlas, &palette)?));
+    }
+    if let Some(flights) = records.long_flights {
+        charts.push(chart("long-flights.svg", long_flights::long_flights(flights, &palette)?));
+    }
+    if let Some(steps) = records.fig4 {
+        let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
+        charts.push(chart("fig4.svg", chart::running(&columns)?));
+    }
+    if let Some(all) = records.convergence {
+        charts.push(chart("order.svg", order::order(all, &palette)?));
+    }
+    if let Some(planner) = &records.planner {
+        charts.push(chart("models.svg", models::models(&planner.t_costs_ns)?));
+    }
+    if let Some(sweep) = records.sweep {
+        for (problem, stresses, launches) in &sweep.problems {
+            charts.push(Chart {
+                file: format!("work-precision-{problem}.svg"),
+                svg: work_precision::work_precision(sweep, (problem, *launches), problem, &palette)?,
+                caption: Some(format!("{problem}: {stresses}")),
+            });
+        }
+    }
+    Ok(charts)
+}
+
+fn chart(file: &str, svg: String) -> Chart {
+    Chart { file: file.to_owned(), svg, caption: None }
+}
+
+/// Columns of a legend below panels.
+const COLUMNS: i32 = 4;
+
+/// Height of the legend of so many lines and the remark on failures (pixels).
+fn legend_height(lines: usize) -> u32 {
+    let entries = i32::try_from(lines).unwrap_or(i32::MAX - 4) + 1;
+    38 + 44 * (entries + COLUMNS - 1).div_euclid(COLUMNS).unsigned_abs()
+}
+
+/// The names of lines.
+fn legend(panel: &Panel<'_>, lines: &[Series]) -> Drawn {
+    chart::legend(panel, lines, COLUMNS, 480)
+}

@@ -1,0 +1,26 @@
+//! Runs of one toss as a table, one line per contestant.
+
+use crate::measure::atlas::conditioning::Conditioning;
+use crate::measure::run::Run;
+
+/// Answer, errors and work of each run, and what one rounding of the launch does by itself.
+pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
+    let width = runs.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));
+    let line = |run: &Run| {
+        let calls = run.rhs_calls.map_or_else(|| "-".to_owned(), |calls| calls.to_string());
+        format!(
+            "{:<width$}  {:<14}  cos θ off by {:>7}, attitude by {:>7} rad  {calls:>8} calls  {}",
+            run.subject,
+            run.answer.name(),
+            number(run.err_cos_tilt),
+            number(run.err_attitude),
+            run.failure.as_deref().unwrap_or_default()
+        )
+    };
+    let rounding = conditioning.map_or_else(String::new, |conditioning| {
+        let (attitude, cos_tilt) = (conditioning.rounding(), f64::EPSILON * conditioning.cos_tilt);
+        format!("one rounding of the launch moves cos θ by {cos_tilt:.1e}, the attitude by {attitude:.1e} rad\n")
+    });
+    runs.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
+}

@@ -1,0 +1,158 @@
+//! The baseline catches slips of accuracy or work, each injected as a solver that is slightly worse than the library's.
+
+use std::path::Path;
+
+use dynamics::Flight;
+use dynamics::integrate::OdeSystem;
+use kinematics_quat::QuaternionSystem;
+use nalgebra::SVector;
+use toss::{
+    ExactSolver, Formulation, Launch, Propagation, QuaternionSolver, Settings, SolveError, Solver, SolverEntry, State,
+    StepControl, Stepping, TimeOfFlight, Toss,
+};
+use verify::judge::baseline::{Baseline, Direction, Move};
+use verify::judge::bounds::Bounds;
+use verify::{CHECKS, Context, Effort, judge};
+
+const CHECKED: [&str; 5] =
+    ["reference-cos-tilt", "random-cos-tilt", "random-attitude", "invariant-projection", "work-precision"];
+
+/// What the checks say of the exact motion and a quaternion that `build` makes: the baseline, and the rows that fail.
+fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
+    let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+    let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
+    let quaternion = QuaternionSolver::entry();
+    let copy = SolverEntry::new(QuaternionSolver::NAME, "", build)
+        .with_schemes(quaternion.schemes())
+        .with_formulations(quaternion.formulations());
+    let registry = [ExactSolver::entry(), copy];
+    let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
+    let mut rows = Vec::new();
+    for check in CHECKS.iter().filter(|check| CHECKED.contains(&check.id)) {
+        rows.extend(judge(check, (check.measure)(&context).expect("a measurement"), &bounds));
+    }
+    let failing = rows.iter().filter(|row| !row.status.passes()).map(|row| format!("{} / {}", row.check, row.subject));
+    (Baseline::of(&rows, context.records().sweep), failing.collect())
+}
+
+/// What is worse than the library's own, and the rows that fail.
+fn slips(build: fn(&Settings) -> Box<dyn Solver>) -> (Vec<Move>, Vec<String>) {
+    let (baseline, failing) =
+        measure(|settings| Box::new(QuaternionSolver::new(settings.stepping, settings.formulation)));
+    assert_eq!(failing, [""; 0]);
+    let (found, failing) = measure(build);
+    let worse = |moved: &Move| moved.direction == Direction::Worse;
+    (baseline.moves(&found, false).into_iter().filter(worse).collect(), failing)
+}
+
+#[track_caller]
+fn assert_worse(moves: &[Move], check: &str, what: &str) {
+    let found =
+        moves.iter().any(|moved| moved.check == check && moved.what == what && moved.subject == "quaternion/dop853");
+    assert!(found, "{check} did not see it; worse: {moves:?}");
+    assert!(moves.iter().all(|moved| moved.subject.starts_with("quaternion")), "the exact motion is not to blame");
+}
+
+/// The same solver with another tolerance.
+fn with_tolerance_times(factor: f64, settings: &Settings) -> Box<dyn Solver> {
+    let stepping = match settings.stepping.control() {
+        StepControl::Tolerance(tolerance) => {
+            Stepping::adaptive(settings.stepping.scheme(), tolerance * factor).unwrap_or(settings.stepping)
+        }
+        StepControl::Step(_) => settings.stepping,
+    };
+    Box::new(QuaternionSolver::new(stepping, settings.formulation))
+}
+
+#[test]
+fn a_tolerance_passed_wrongly_is_seen() {
+    let (loose, failing) = slips(|settings| with_tolerance_times(10.0, settings));
+    for check in ["work-precision/cheated", "work-precision/ensemble", "work-precision/long"] {
+        assert_worse(&loose, check, "error");
+    }
+    assert!(failing.contains(&"random-attitude / quaternion/dop853".to_owned()), "{failing:?}");
+    let (tight, failing) = slips(|settings| with_tolerance_times(0.1, settings));
+    assert_worse(&tight, "work-precision/ensemble", "calls");
+    assert_eq!(failing, [""; 0], "more work is within every bound");
+}
+
+/// The quaternion's system, whose state grows by a part in 1e12 in each radian, about a step.
+struct Perturbed(QuaternionSystem);
+
+impl OdeSystem<6> for Perturbed {
+    fn derivative(&self, y: &SVector<f64, 6>) -> SVector<f64, 6> {
+        self.0.derivative(y) + y * 1e-12
+    }
+}
+
+struct PerturbedSolver(Stepping);
+
+impl Solver for PerturbedSolver {
+    fn name(&self) -> &str {
+        "quaternion"
+    }
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.0)
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.0.error_estimate(toss).map(Some)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let flight = Flight::new(toss)?;
+        let system = Perturbed(QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z));
+        let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
+        let (end, work) = flight.integrate(&system, start, &self.0)?;
+        let turn = toss::Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
+        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
+        Ok(Propagation::new(state, work))
+    }
+}
+
+#[test]
+fn a_state_perturbed_by_a_part_in_1e12_is_seen_and_located() {
+    let (worse, _) = slips(|settings| Box::new(PerturbedSolver(settings.stepping)));
+    assert_worse(&worse, "work-precision/ensemble", "error");
+    assert_worse(&worse, "work-precision/long", "error");
+    assert!(worse.iter().all(|moved| moved.what == "error"), "{worse:?}");
+}
+
+#[test]
+fn a_dropped_projection_is_seen() {
+    let (_, failing) = slips(|settings| Box::new(QuaternionSolver::new(settings.stepping, Formulation::RAW)));
+    for method in ["dop853", "dopri5", "rk4"] {
+        assert!(failing.contains(&format!("invariant-projection / quaternion/{method}")), "{failing:?}");
+    }
+}
+
+/// Gravity is standard gravity, not the paper's.
+struct OtherGravity(QuaternionSolver);
+
+impl Solver for OtherGravity {
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+    fn stepping(&self) -> Option<Stepping> {
+        self.0.stepping()
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.0.error_estimate(toss)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let time = match toss.launch.time_of_flight() {
+            TimeOfFlight::Ballistic { speed, .. } => TimeOfFlight::Ballistic { speed, gravity: 9.80665 },
+            other => other,
+        };
+        let launch = Launch::new(toss.launch.rate(), time).expect("valid").with_attitude(toss.launch.attitude());
+        self.0.propagate(&Toss { launch, ..*toss })
+    }
+}
+
+#[test]
+fn another_gravity_fails() {
+    let (worse, failing) =
+        slips(|settings| Box::new(OtherGravity(QuaternionSolver::new(settings.stepping, settings.formulation))));
+    assert_worse(&worse, "work-precision/cheated", "error");
+    for check in ["reference-cos-tilt", "random-attitude"] {
+        assert!(failing.contains(&format!("{check} / quaternion/dop853")), "{failing:?}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Solvers that the suite has never heard of: each is judged by the error that it claims for itself, and none can crash it.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use toss::{
+    Attitude, ExactSolver, Formulation, Propagation, QuaternionSolver, Registry, Scheme, SolveError, Solver,
+    SolverEntry, State, StepControl, Stepping, Toss,
+};
+use verify::judge::bounds::Bounds;
+use verify::{CHECKS, Context, Effort, Row, Status, judge};
+
+/// The exact motion with another name and claim, as `change` leaves it.
+struct Foreign {
+    name: &'static str,
+    claim: Option<f64>,
+    change: fn(Propagation) -> Propagation,
+}
+
+impl Solver for Foreign {
+    fn name(&self) -> &str {
+        self.name
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        ExactSolver.propagate(toss).map(self.change)
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(self.claim)
+    }
+}
+
+fn closed_form(name: &'static str, claim: Option<f64>, change: fn(Propagation) -> Propagation) -> SolverEntry {
+    SolverEntry::new(name, "", move |_| Box::new(Foreign { name, claim, change }))
+}
+
+/// The quaternion by a scheme that nobody else has.
+struct Stepper(Stepping);
+
+/// Its scheme.
+const OWN: Scheme = Scheme::new("own", None).adaptive();
+
+impl Solver for Stepper {
+    fn name(&self) -> &str {
+        "stepper"
+    }
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.0)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let StepControl::Tolerance(tolerance) = self.0.control() else { panic!("it takes no steps of a given length") };
+        let stepping = Stepping::adaptive(Scheme::DOP853, tolerance).expect("a valid tolerance");
+        QuaternionSolver::new(stepping, Formulation::default()).propagate(toss)
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.0.error_estimate(toss).map(Some)
+    }
+}
+
+/// The attitude off by 1 mrad, and cos θ with it.
+fn turned(landing: Propagation) -> Propagation {
+    let State { attitude, rate } = landing.state;
+    Propagation::new(State { attitude: Attitude::about_x(1e-3) * attitude, rate }, landing.work)
+}
+
+const PANIC: &str = "out of order";
+
+fn foreigners() -> Vec<SolverEntry> {
+    vec![
+        closed_form("good", Some(1e-15), |landing| landing),
+        SolverEntry::new("stepper", "", |settings| Box::new(Stepper(settings.stepping))).with_schemes(&[OWN]),
+        closed_form("rough", Some(2e-3), turned),
+        closed_form("overconfident", Some(1e-9), turned),
+        closed_form("negated", Some(1e-9), |landing| landing.with_cos_tilt(-landing.cos_tilt)),
+        closed_form("silent", None, |landing| landing),
+        closed_form("nan", Some(1e-9), |landing| landing.with_cos_tilt(f64::NAN)),
+        closed_form("claims-nan", Some(f64::NAN), |landing| landing),
+        closed_form("panics", Some(1e-9), |_| panic!("{PANIC}")),
+        SolverEntry::new("unmade", "", |_| panic!("{PANIC}")),
+    ]
+}
+
+/// The rows of our own solvers and of all these, from every check but those that measure no solver and take long.
+static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
+    const LEFT_OUT: [&str; 7] = [
+        "plan-delivers",
+        "plan-expects",
+        "plan-tight",
+        "plan-regret",
+        "sampling-errors",
+        "interval-coverage",
+        "clopper-pearson-coverage",
+    ];
+    let loud = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if info.payload().downcast_ref::<String>().is_none_or(|message| message != PANIC) {
+            loud(info);
+        }
+    }));
+    let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+    let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
+    let registry = [Registry::standard().entries(), &foreigners()].concat();
+    let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
+    let checks = CHECKS.iter().filter(|check| !LEFT_OUT.contains(&check.id));
+    checks.flat_map(|check| judge(check, (check.measure)(&context).expect("rows, whatever happens"), &bounds)).collect()
+});
+
+/// The rows of the solver called `name`; a comparison belongs to the solver that it ends with, and to the first one only if
+/// the other is ours.
+fn rows_of(name: &str) -> Vec<&'static Row> {
+    let is_of = |subject: &str| subject.split('/').next() == Some(name);
+    ROWS.iter().filter(|row| row.subject.split(" ~ ").last().is_some_and(is_of)).collect()
+}
+
+/// The checks of `name` whose status is one of `statuses`.
+fn checks_with(name: &str, statuses: &[Status]) -> Vec<&'static str> {
+    rows_of(name).into_iter().filter(|row| statuses.contains(&row.status)).map(|row| row.check.as_str()).collect()
+}
+
+fn failing(name: &str) -> Vec<&'static str> {
+    rows_of(name).into_iter().filter(|row| !row.status.passes()).map(|row| row.check.as_str()).collect()
+}
+
+#[test]
+fn a_registry_with_two_solvers_of_one_name_is_refused() {
+    let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+    let impostor = closed_form("gamma", Some(1e-9), |landing| landing);
+    let registry = [Registry::standard().entries(), &[impostor]].concat();
+    let error = Context::new(&registry, Effort::Quick, &validation).err().expect("an error").to_string();
+    assert!(error.contains("two solvers called 'gamma'"), "{error}");
+}
+
+#[test]
+fn what_stands_beside_them_changes_nothing_for_ours() {
+    for ours in ["exact", "gamma", "euler", "quaternion"] {
+        assert_eq!(failing(ours), [""; 0], "{ours}");
+        assert_eq!(checks_with(ours, &[Status::PassByClaim, Status::NotJudged]), [""; 0], "{ours}");
+    }
+}
+
+#[test]
+fn a_solver_that_keeps_its_claim_passes_without_a_bound_and_says_so() {
+    for name in ["good", "stepper", "rough"] {
+        let rows = rows_of(name);
+        assert!(rows.len() > 18, "{name}: {} rows", rows.len());
+        let beside_others = |row: &&&Row| row.subject.contains(" ~ ");
+        for row in rows.iter().filter(|row| !beside_others(row)) {
+            assert!(matches!(row.status, Status::PassByClaim | Status::NotJudged), "{name}: {row:?}");
+        }
+        for check in ["random-cos-tilt", "random-attitude", "atlas-answers", "adversarial-silence", "first-flip"] {
+            assert!(checks_with(name, &[Status::PassByClaim]).contains(&check), "{name}: {check}");
+        }
+    }
+    assert!(checks_with("stepper", &[Status::NotJudged]).contains(&"tolerance-proportion"));
+}
+
+#[test]
+fn a_solver_that_is_wrong_fails_whatever_it_claims() {
+    for (name, checks) in [
+        (
+            "negated",
+            ["random-cos-tilt", "atlas-answers", "adversarial-silence", "cheated-heads-in-flight", "fig4-same-counts"]
+                .as_slice(),
+        ),
+        ("overconfident", &["random-attitude", "atlas-answers", "adversarial-silence", "invariant-momentum-vector"]),
+    ] {
+        let failing = checks_with(name, &[Status::FailByClaim]);
+        for check in checks {
+            assert!(failing.contains(check), "{name}: {check} missed it; caught by {failing:?}");
+        }
+    }
+}
+
+#[test]
+fn a_solver_that_claims_no_error_fails_where_an_error_is_judged() {
+    let rows = rows_of("silent");
+    assert!(rows.iter().all(|row| matches!(row.status, Status::NoClaim | Status::NotJudged)), "{rows:#?}");
+    assert!(checks_with("silent", &[Status::NoClaim]).contains(&"random-cos-tilt"));
+    assert!(checks_with("silent", &[Status::NoClaim]).contains(&"fig4-same-counts"));
+}
+
+#[test]
+fn panics_and_nan_make_failing_rows() {
+    for (name, why) in [
+        ("nan", "answered cos θ = NaN"),
+        ("claims-nan", "claims an error of NaN"),
+        ("panics", "panicked: out of order"),
+        ("unmade", "making it panicked"),
+    ] {
+        let rows = rows_of(name);
+        let row = rows.iter().find(|row| row.check == "random-cos-tilt").expect("a row");
+        assert_eq!(row.status, Status::FailByClaim, "{name}");
+        assert!(row.failure.as_ref().is_some_and(|failure| failure.contains(why)), "{name}: {row:?}");
+        let passing: Vec<&str> = rows.iter().filter(|row| row.status.passes()).map(|row| row.check.as_str()).collect();
+        // An error is no wrong answer.
+        let without_an_answer = ["atlas-answers", "adversarial-silence", "adversarial-refusals"];
+        assert!(passing.iter().all(|check| without_an_answer.contains(check)), "{name}: {passing:?}");
+    }
+}

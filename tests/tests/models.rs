@@ -1,0 +1,142 @@
+//! Models agree where they overlap, and a plan keeps their order.
+
+use blackbox::{config, tosses};
+use proptest::prelude::*;
+use toss::{Answer, Choice, How, MODELS, Model, Outcome, Scene, Stage, Toss, Want};
+
+/// The answers of all models that serve a scene, with their bounds: the expected error, but of an integrator its error
+/// estimate, because its errors have a long tail.
+fn answers(want: Want) -> Vec<(&'static Model, Answer, f64)> {
+    let toss = *want.toss().expect("a want of a toss");
+    let scene = Scene::new(want, 1e-6);
+    let bound = |choice: &Choice| match &choice.how {
+        How::Integrator(_, stepping) => 10.0 * stepping.error_estimate(&toss).expect("a small phase"),
+        _ => choice.expected_error,
+    };
+    let choices = scene.candidates().expect("a valid scene").into_iter().filter_map(|(_, verdict)| verdict.ok());
+    // An integrator may refuse; what it says otherwise has to agree.
+    choices.filter_map(|choice| Some((choice.model, choice.run(&scene).ok()?, bound(&choice)))).collect()
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn outcomes_are_identical(toss in tosses()) {
+        let said: Vec<(&str, Outcome)> = answers(Want::Outcome(toss))
+            .into_iter()
+            .filter_map(|(model, answer, _)| match answer {
+                Answer::Outcome(verdict) if verdict.is_proven() || verdict.outcome() != Outcome::Undecided => {
+                    Some((model.name, verdict.outcome()))
+                }
+                _ => None,
+            })
+            .collect();
+        prop_assert!(!said.is_empty());
+        prop_assert!(said.iter().all(|(_, outcome)| *outcome == said[0].1), "{toss:?}: {said:?}");
+    }
+
+    #[test]
+    fn cos_tilt_is_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+        let said = answers(Want::Tilt(toss));
+        for (model, a, error_a) in &said {
+            for (other, b, error_b) in &said {
+                let (Answer::Tilt(x), Answer::Tilt(y)) = (a, b) else { continue };
+                prop_assert!((x - y).abs() <= error_a + error_b, "{toss:?}: {} {x}, {} {y}", model.name, other.name);
+            }
+        }
+    }
+
+    #[test]
+    fn attitudes_are_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+        let said = answers(Want::Attitude(toss));
+        for (model, a, error_a) in &said {
+            for (other, b, error_b) in &said {
+                let (Answer::Attitude(x), Answer::Attitude(y)) = (a, b) else { continue };
+                let angle = x.attitude.angle_to(&y.attitude);
+                prop_assert!(angle <= error_a + error_b, "{toss:?}: {}, {}: {angle:e}", model.name, other.name);
+            }
+        }
+    }
+
+    /// What is passed over stands before the choice, and `solve` does as planned.
+    #[test]
+    fn a_plan_takes_the_first_model_that_serves(toss in tosses(), decade in 1..15_i32) {
+        for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 3 }] {
+            let scene = Scene::new(want, 10f64.powi(-decade));
+            let decision = scene.plan().unwrap();
+            prop_assert!(matches!(decision.choice.how, How::ClosedForm));
+            prop_assert!(decision.choice.expected_error <= scene.accuracy);
+            let before: Vec<&Model> = MODELS.iter().take_while(|model| *model != decision.choice.model).collect();
+            let passed_over: Vec<&Model> = decision.passed_over.iter().map(|(candidate, _)| candidate.model).collect();
+            prop_assert_eq!(before, passed_over);
+            prop_assert_eq!(scene.solve().unwrap().model, decision.choice.model);
+        }
+    }
+}
+
+#[test]
+fn each_question_has_the_cheapest_model_that_is_accurate_enough() {
+    let paper: Toss = toml::from_str("[launch]\nrate = [1.0, 1.0, 2.5]\nspeed = 3").unwrap();
+    for (scene, model) in [
+        (Scene::new(Want::Outcome(paper), 1e-9), "outcome"),
+        (Scene::new(Want::Tilt(paper), 1e-9), "tilt"),
+        (Scene::new(Want::Tilt(paper), 3e-16), "tilt-exact"),
+        (Scene::new(Want::Attitude(paper), 1e-9), "attitude"),
+        (Scene::new(Want::Trace { toss: paper, points: 50 }, 1e-9), "trace"),
+        (Scene::new(Want::Attitude(paper), 1e-9).by("quaternion", None), "integrator"),
+    ] {
+        assert_eq!(scene.plan().unwrap().choice.model.name, model, "{scene:?}");
+    }
+}
+
+#[test]
+fn a_proven_outcome_names_the_stage_that_decided() {
+    let toss = |rate: &str| -> Toss { toml::from_str(&format!("[launch]\nrate = {rate}\nspeed = 3")).unwrap() };
+    for (rate, stage) in
+        [("[1.0, 1.0, 2.5]", Stage::TrigFree), ("[20.0, 3.0, 0.0]", Stage::Keller), ("[20.0, 3.0, 1.0]", Stage::F64)]
+    {
+        let Answer::Outcome(verdict) = Scene::new(Want::Outcome(toss(rate)), 1e-9).solve().unwrap().answer else {
+            panic!("an outcome was asked for")
+        };
+        assert_eq!(verdict.stage(), Some(stage), "{rate}");
+    }
+}
+
+#[test]
+fn an_integrator_decides_outcomes_down_to_the_accuracy() {
+    for rate in ["[1.0, 1.0, 2.5]", "[20.0, 3.0, 1.0]", "[50.0, 40.0, 30.0]"] {
+        let toss: Toss = toml::from_str(&format!("[launch]\nrate = {rate}\nspeed = 3")).unwrap();
+        for accuracy in [1e-3, 1e-6, 1e-9] {
+            let scene = Scene::new(Want::Outcome(toss), accuracy).by("quaternion", None);
+            let How::Integrator(_, stepping) = scene.plan().unwrap().choice.how else {
+                panic!("an integrator was asked for")
+            };
+            let estimate = stepping.error_estimate(&toss).unwrap();
+            assert!((0.5..1.0 + 1e-9).contains(&(estimate / accuracy)), "{rate} {accuracy:e}: {estimate:e}");
+        }
+    }
+}
+
+#[test]
+fn a_probability_is_planned_and_sampled_to_its_accuracy() {
+    let space = sampling::named_space("paper-fig4").unwrap();
+    for accuracy in [1e-1, 1e-2, 1e-3, 1e-6] {
+        let scene = Scene::new(Want::Probability(space), accuracy);
+        for (candidate, offer) in scene.candidates().unwrap() {
+            let Ok(choice) = offer else { continue };
+            assert!(choice.expected_error <= accuracy, "{candidate} to {accuracy:e}: {:e}", choice.expected_error);
+        }
+    }
+    // A plan that turns out too rough is doubled until its interval is narrow enough.
+    let fine = Scene::new(Want::Probability(space), 1e-4);
+    for (candidate, offer) in Scene::new(Want::Probability(space), 0.1).candidates().unwrap() {
+        let Ok(choice) = offer else { continue };
+        if choice.model.name != "share-sobol" {
+            continue;
+        }
+        let Answer::Probability(found) = choice.run(&fine).unwrap() else { panic!("a probability was asked for") };
+        assert!(found.half_width().is_some_and(|reached| reached <= 1e-4), "{candidate}: {found:?}");
+        assert!((found.probability - 0.661_452).abs() < 3e-4);
+    }
+}

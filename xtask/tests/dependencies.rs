@@ -1,0 +1,61 @@
+//! Who may depend on whom in this workspace: what keeps the integrators ignorant of the closed form, and the libraries of the
+//! suite. Dependencies of tests are free.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+/// Each crate, and the crates of ours that it may depend on.
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("numerics", &[]),
+    ("dynamics", &["numerics"]),
+    ("kinematics-euler", &["dynamics", "numerics"]),
+    ("kinematics-quat", &["dynamics", "numerics"]),
+    ("exact", &["dynamics", "numerics"]),
+    ("sampling", &["dynamics", "exact", "numerics"]),
+    ("toss", &["numerics", "dynamics", "exact", "kinematics-euler", "kinematics-quat", "sampling"]),
+    ("chart", &[]),
+    ("whole-file", &[]),
+    ("verify", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
+    ("unfair-toss", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
+    ("xtask", &[]),
+    ("blackbox", &["toss"]),
+];
+
+fn packages() -> Vec<Value> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace");
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--offline", "--no-deps", "--format-version", "1"])
+        .current_dir(root)
+        .output()
+        .expect("cargo starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    metadata["packages"].as_array().expect("packages").clone()
+}
+
+fn name(of: &Value) -> &str {
+    of["name"].as_str().expect("a name")
+}
+
+#[test]
+fn every_crate_depends_on_those_that_it_may_alone() {
+    let packages = packages();
+    let ours: BTreeSet<&str> = packages.iter().map(name).collect();
+    let listed: BTreeSet<&str> = ALLOWED.iter().map(|(package, _)| *package).collect();
+    assert_eq!(ours, listed, "the table has a line for each crate of the workspace");
+    for package in &packages {
+        let (_, allowed) = ALLOWED.iter().find(|(listed, _)| *listed == name(package)).expect("it is listed");
+        let dependencies = package["dependencies"].as_array().expect("dependencies");
+        let found: Vec<&str> = dependencies
+            .iter()
+            .filter(|dependency| dependency["kind"] != "dev")
+            .map(name)
+            .filter(|dependency| ours.contains(dependency))
+            .collect();
+        let forbidden: Vec<&&str> = found.iter().filter(|dependency| !allowed.contains(dependency)).collect();
+        assert!(forbidden.is_empty(), "{} must not depend on {forbidden:?}", name(package));
+    }
+}
