@@ -6,15 +6,18 @@ mod figures;
 mod mutants;
 
 use std::env;
+use std::io::IsTerminal;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::{Duration, Instant};
 
 const USAGE: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  verify [--quick | --deep] [--only ID] [--list] [--replay INPUT] [--bless] [--fit] [--format text|json|junit]
-      run the verification suite; writes report.html, report.json, junit.xml and charts to target/verify
+  verify [--quick | --deep] [--only ID] [--verbose] [--list] [--replay INPUT] [--bless] [--fit] [--format text|json|junit]
+      run the verification suite, with one line per check and what fails in full; writes report.html, report.json, junit.xml and
+      charts to target/verify
   bench [--instructions [--bless]]
       print what a toss costs, in ns and beside a reference in C; or count its instructions by valgrind and compare them with
       the baseline
@@ -61,9 +64,33 @@ fn root() -> &'static Path {
 
 /// Builds `program` with optimisation and runs it in the root of the workspace; its arguments follow.
 fn cargo(program: &str) -> Command {
+    build(program);
     let mut command = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
     command.args(["run", "--quiet", "--release", "--bin", program, "--"]).current_dir(root());
     command
+}
+
+/// Builds `program` so that whoever waits sees it: on a terminal cargo shows its progress, elsewhere there is a line a minute.
+/// A build that fails is left to the `cargo run` that follows, which says why.
+fn build(program: &str) {
+    let on_terminal = std::io::stderr().is_terminal();
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
+    command
+        .args(["build", "--release", "--bin", program])
+        .args((!on_terminal).then_some("--quiet"))
+        .current_dir(root());
+    let started = Instant::now();
+    let Ok(mut child) = command.stderr(if on_terminal { Stdio::inherit() } else { Stdio::null() }).spawn() else {
+        return;
+    };
+    let mut minutes = 0;
+    while matches!(child.try_wait(), Ok(None)) {
+        std::thread::sleep(Duration::from_millis(50));
+        if !on_terminal && started.elapsed().as_secs() / 60 > minutes {
+            minutes += 1;
+            eprintln!("building {program}, for {minutes} min so far");
+        }
+    }
 }
 
 /// Runs a command of the program `verify`.

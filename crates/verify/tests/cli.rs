@@ -86,8 +86,21 @@ fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
         "{table}"
     );
     assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
+    assert!(table.contains("One row fails: exact under the check reference-cos-tilt."), "{table}");
     let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
     assert!(junit.contains("failures=\"1\""));
+}
+
+#[test]
+fn a_run_prints_one_line_per_check_and_with_verbose_one_per_row() {
+    let lines_about = |arguments: &[&str], words: &str| {
+        let out = tempfile::tempdir().unwrap();
+        let output = run(arguments, &validation(), out.path());
+        let table = String::from_utf8(output.stdout).unwrap();
+        table.lines().filter(|line| line.contains(words)).count()
+    };
+    assert_eq!(lines_about(&["run", "--only", CHECK], CHECK), 1);
+    assert_eq!(lines_about(&["run", "--only", CHECK, "--verbose"], " cases "), subjects());
 }
 
 #[test]

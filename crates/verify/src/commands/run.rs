@@ -32,6 +32,9 @@ pub(super) struct Run {
     /// What goes to standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// One line per row, not per check
+    #[arg(long)]
+    verbose: bool,
     /// List the checks instead
     #[arg(long)]
     list: bool,
@@ -130,7 +133,12 @@ impl Run {
         }
         match self.format {
             Format::Text => {
-                println!("{}{}\nreport: {}", table::text(report.rows), moves::text(report.moves), page.display());
+                println!(
+                    "{}{}\nreport: {}",
+                    table::text(report.rows, self.verbose),
+                    moves::text(report.moves),
+                    page.display()
+                );
             }
             Format::Json => println!("{json}"),
             Format::Junit => println!("{junit}"),

@@ -1,11 +1,46 @@
 //! The table for the terminal.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::judge::{Row, Status};
 
-/// One block per check: its claim and basis, then one line per subject; failures and the verdict last.
-pub fn text(rows: &[Row]) -> String {
+/// One line per check, or with `verbose` one line per row; then what fails, in full, and the verdict.
+pub fn text(rows: &[Row], verbose: bool) -> String {
+    let mut out = if verbose { every_row(rows) } else { every_check(rows) };
+    let failures: Vec<&Row> = rows.iter().filter(|row| !row.status.passes()).collect();
+    if !failures.is_empty() {
+        let _ = writeln!(out, "\n{}", pattern(&failures));
+    }
+    for row in &failures {
+        out += &in_full(row);
+    }
+    let verdict = if failures.is_empty() { "PASS" } else { "FAIL" };
+    let _ = writeln!(out, "\n{verdict}: {} of {} rows pass{}", rows.len() - failures.len(), rows.len(), remarks(rows));
+    out
+}
+
+/// One line per check: how many rows it has, and the one that is closest to its bound.
+fn every_check(rows: &[Row]) -> String {
+    let width = rows.iter().map(|row| row.check.chars().count()).max().unwrap_or(0);
+    let mut out = format!("\n{:<width$}  rows  closest margin\n", "check");
+    for block in rows.chunk_by(|a, b| a.check == b.check) {
+        let failing = block.iter().filter(|row| !row.status.passes()).count();
+        let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", block.len()) };
+        let margin = |row: &Row| row.margin.unwrap_or(if row.status.passes() { f64::INFINITY } else { 0.0 });
+        let closest = block.iter().min_by(|a, b| margin(a).total_cmp(&margin(b)));
+        let closest = closest.map_or_else(String::new, |row| match row.margin {
+            // Nothing deviates, so that no subject is closer to its bound than another.
+            None if row.status.passes() => shown_margin(row),
+            _ => format!("{}  {}", shown_margin(row), row.subject),
+        });
+        let _ = writeln!(out, "{:<width$}  {:>4}  {closest}{status}", block[0].check, block.len());
+    }
+    out
+}
+
+/// One block per check: its claim and basis, then one line per subject.
+fn every_row(rows: &[Row]) -> String {
     let mut out = String::new();
     let width = rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
     for block in rows.chunk_by(|a, b| a.check == b.check) {
@@ -16,17 +51,41 @@ pub fn text(rows: &[Row]) -> String {
             let _ = writeln!(out, "    {}", line(row, width));
         }
     }
-    let failures: Vec<&Row> = rows.iter().filter(|row| !row.status.passes()).collect();
-    for row in &failures {
-        let _ = writeln!(out, "\n{}: {} / {}", row.status.name(), row.check, row.subject);
-        for (what, text) in [("why", &row.failure), ("worst input", &row.worst_input), ("repeat with", &row.replay)] {
-            if let Some(text) = text {
-                let _ = writeln!(out, "  {what}: {text}");
-            }
+    out
+}
+
+/// What the failing rows have in common, in a sentence or two.
+fn pattern(failures: &[&Row]) -> String {
+    let distinct = |of: fn(&Row) -> &str| failures.iter().map(|row| of(row)).collect::<BTreeSet<&str>>();
+    let (checks, solvers) = (distinct(|row| &row.check), distinct(solver));
+    let rows = if failures.len() == 1 { "One row fails".to_owned() } else { format!("{} rows fail", failures.len()) };
+    let listed = |names: &BTreeSet<&str>| names.iter().copied().collect::<Vec<_>>().join(", ");
+    match (checks.len(), solvers.len()) {
+        (1, 1) => format!("{rows}: {} under the check {}.", listed(&solvers), listed(&checks)),
+        (1, _) => format!(
+            "{rows}, all under the check {}. The fault may be in what its subjects share, or in the check.",
+            listed(&checks)
+        ),
+        (number, 1) => format!("{rows}, all of {}, under {number} checks. The others pass.", listed(&solvers)),
+        (number, _) => format!("{rows}, of {}, under {number} checks.", listed(&solvers)),
+    }
+}
+
+/// The solver of a row's subject, `gamma` of `gamma/dop853`.
+fn solver(row: &Row) -> &str {
+    row.subject.split('/').next().unwrap_or(&row.subject)
+}
+
+/// A failing row with its claim, its worst input and the command that repeats it.
+fn in_full(row: &Row) -> String {
+    let mut out = format!("\n{}: {} / {}\n", row.status.name(), row.check, row.subject);
+    let _ = writeln!(out, "  claim: {}", row.claim);
+    let _ = writeln!(out, "  {}", line(row, row.subject.chars().count()));
+    for (what, text) in [("why", &row.failure), ("worst input", &row.worst_input), ("repeat with", &row.replay)] {
+        if let Some(text) = text {
+            let _ = writeln!(out, "  {what}: {text}");
         }
     }
-    let verdict = if failures.is_empty() { "PASS" } else { "FAIL" };
-    let _ = writeln!(out, "\n{verdict}: {} of {} rows pass{}", rows.len() - failures.len(), rows.len(), remarks(rows));
     out
 }
 
@@ -52,13 +111,18 @@ fn line(row: &Row, width: usize) -> String {
         None => "-".to_owned(),
     };
     let measured = if row.failure.is_some() { "failed".to_owned() } else { number(row.measured) };
-    let margin = row.margin.map_or_else(|| "-".to_owned(), |margin| format!("{margin:.1}×"));
+    let margin = shown_margin(row);
     let unit = if row.unit == "1" { "" } else { row.unit.as_str() };
     format!(
-        "{:<width$}  {measured:>8} ≤ {:>8} {unit:<8}  margin {margin:>6}  {:>7} cases  {}",
+        "{:<width$}  {measured:>8} ≤ {:>8} {unit:<8}  margin {margin}  {:>7} cases  {}",
         row.subject,
         number(row.bound),
         row.cases,
         row.status.name()
     )
+}
+
+/// How many times the bound is above what was measured.
+fn shown_margin(row: &Row) -> String {
+    format!("{:>7}", row.margin.map_or_else(|| "-".to_owned(), |margin| format!("{margin:.1}×")))
 }
