@@ -1,5 +1,7 @@
 //! How a coin lands: heads for cos θ > 0, tails for cos θ < 0.
 
+use std::fmt;
+
 /// How the coin lands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
@@ -35,6 +37,13 @@ impl Outcome {
     }
 }
 
+/// Its [name](Outcome::name).
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,5 +62,6 @@ mod tests {
     fn outcomes_are_named() {
         let names = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(Outcome::name);
         assert_eq!(names, ["heads", "tails", "undecided"]);
+        assert_eq!(format!("{:>6}", Outcome::Tails), " tails");
     }
 }

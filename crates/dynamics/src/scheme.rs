@@ -1,6 +1,6 @@
 //! Schemes of integration: a name, an order, and how its steps can be controlled.
 
-/// A scheme by which an integrator steps. Whoever writes an integrator may make one of their own.
+/// A scheme by which an integrator steps. An integrator from elsewhere can bring a scheme of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scheme {
     name: &'static str,

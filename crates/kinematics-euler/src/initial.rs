@@ -17,7 +17,7 @@ use dynamics::{
     Attitude, EulerAngles, Flight, Formulation, Frame, Propagation, SolveError, State, Toss, Vector3, Work,
 };
 
-/// A launch whose sin β is below this is taken as vertical: the attitude differs by less than rounding.
+/// A launch whose sin ½β or cos ½β is below this is taken as vertical: the attitude differs by less than rounding.
 const VERTICAL: f64 = f64::EPSILON;
 
 /// The angles at launch and the frame they are taken in.

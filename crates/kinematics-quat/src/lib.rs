@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn the_defect_is_the_loss_of_norm_of_the_steps() {
+    fn the_norm_error_is_the_loss_of_norm_of_the_steps() {
         // A turn by RK4 loses (ωh/2)⁶/144 of its norm in each step.
         let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
         let solver = QuaternionSolver::new(Stepping::fixed(Scheme::RK4, 0.05).unwrap(), Formulation::default());

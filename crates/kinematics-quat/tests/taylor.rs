@@ -45,7 +45,7 @@ fn error(toss: &Toss, attitude: &Attitude) -> f64 {
 }
 
 #[test]
-fn landings_have_the_same_bits_in_any_company_and_on_any_path() {
+fn landings_have_the_same_bits_in_any_company_and_at_any_simd_level() {
     let tosses = tosses();
     for tolerance in [1e-3, 1e-9, 1e-12, f64::EPSILON] {
         let solver = taylor(tolerance);
@@ -65,7 +65,7 @@ fn landings_have_the_same_bits_in_any_company_and_on_any_path() {
 }
 
 #[test]
-fn every_flight_is_within_what_the_solver_answers_for() {
+fn every_flight_is_within_the_error_estimate() {
     for tolerance in [1e-2, 1e-4, 1e-7, 1e-10, 1e-12, 1e-14] {
         let solver = taylor(tolerance);
         for toss in tosses() {

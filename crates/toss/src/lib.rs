@@ -7,7 +7,7 @@
 //! cos θ(t) = cos²ψ + sin²ψ cos(ωL t),        heads if it lands with cos θ > 0, at t = 2 v0/g
 //! ```
 //!
-//! so ψ ≤ 45° is heads for ever. All quantities are f64 in SI units. The paper meant below is "Modeling the unfair toss
+//! so ψ < 45° or ψ > 135° is heads for ever. All quantities are f64 in SI units. The paper meant below is "Modeling the unfair toss
 //! of an unbiased coin".
 //!
 //! # A toss

@@ -81,7 +81,7 @@ fn a_system_that_explodes_is_an_error_for_every_method() {
 }
 
 #[test]
-fn a_method_that_is_not_runge_and_kuttas_is_refused() {
+fn refuses_a_scheme_that_is_not_runge_and_kuttas() {
     let method = Stepping::adaptive(Scheme::new("taylor", None).adaptive(), 1e-9).unwrap();
     let refused = Err(SolveError::NotOffered { scheme: "taylor" });
     assert_eq!(integrate(&Circle, Vector2::x(), 1.0, 1.0, &method), refused);

@@ -5,7 +5,7 @@ use toss::{Answer, How, MODELS, Model, Registry, Scene, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::{Truth, true_probability};
-use super::figures::{SAFETY, SEED, rounded};
+use super::figures::{SAFETY, SEED, SHARE, rounded};
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
 use super::fit_sampling::sampling;
 use super::scenes::{self, served};
@@ -56,9 +56,6 @@ fn briefly(piece: &str) -> String {
         _ => piece.to_owned(),
     }
 }
-
-/// The model of shares over the speed, whose error is that of rounding.
-pub(super) const SHARE: &str = "share";
 
 /// A run of a model in closed form.
 struct Flown {

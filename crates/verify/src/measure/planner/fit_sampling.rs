@@ -8,8 +8,7 @@ use toss::{Model, Scene, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::true_probability;
-use super::figures::{SAFETY, SEED, rounded};
-use super::fit::SHARE;
+use super::figures::{SAFETY, SEED, SHARE, rounded};
 use super::scenes::{self, served};
 use crate::measure::slope::slope;
 
