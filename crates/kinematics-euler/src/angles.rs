@@ -164,8 +164,8 @@ mod tests {
         let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         let first_return = 2.0 * PI / ExactMotion::new(&toss).precession_rate();
-        let method = Stepping::fixed(dynamics::Scheme::RK4, 1e-3).unwrap();
-        let error = EulerAnglesSolver::new(method, Formulation::VERTICAL).propagate(&toss).unwrap_err();
+        let stepping = Stepping::fixed(dynamics::Scheme::RK4, 1e-3).unwrap();
+        let error = EulerAnglesSolver::new(stepping, Formulation::VERTICAL).propagate(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
     }

@@ -8,7 +8,7 @@
 //! cos θ     0.700987799768
 //! attitude  w +0.718362807  x +0.338857683  y -0.186229887  z +0.578315465
 //! margin    +16.7013 mm/s in v0
-//! ψ         67.4155°, heads for ever up to 45°
+//! ψ         67.4155°, heads for ever below 45°
 //! ```
 //!
 //! `cargo run --release -p toss --example toss`
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cos θ     {:.12}", landing.cos_tilt);
     println!("attitude  w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}");
     println!("margin    {:+.4} mm/s in v0", 1e3 * change);
-    println!("ψ         {:.4}°, heads for ever up to 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
+    println!("ψ         {:.4}°, heads for ever below 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
 
     // A little less than the margin keeps the outcome, a little more flips it.
     assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome(), proven.outcome());

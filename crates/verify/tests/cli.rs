@@ -164,6 +164,7 @@ fn bad_usage_ends_with_2_and_missing_data_with_4() {
         ["run", "--quick", "--deep"],
         ["run", "--format", "yaml"],
         ["run", "--fit", "--bless"],
+        ["run", "--fit", "--verbose"],
         ["bench", "--bless", "--bless"],
         ["replay", "i1=nonsense", "--quick"],
         ["figure", "ladder", "--svg=x"],

@@ -68,12 +68,12 @@ fn a_precession_that_turns_back_is_an_error_with_its_time() {
     let launch = Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
     let tilted = Toss { coin: Coin::PAPER, launch };
     for scheme in [dynamics::Scheme::DOP853, dynamics::Scheme::DOPRI5] {
-        let method = Stepping::adaptive(scheme, 1e-10).unwrap();
-        let error = GammaSolver::new(method, Formulation::VERTICAL).propagate(&tilted).unwrap_err();
+        let stepping = Stepping::adaptive(scheme, 1e-10).unwrap();
+        let error = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&tilted).unwrap_err();
         let SolveError::Singular { point: Singularity::PrecessionTooSlow, time } = error else { panic!("{error}") };
         assert!(time > 0.0 && time < 5.0, "{time}");
         // The same flight along the momentum.
-        let landing = GammaSolver::new(method, Formulation::MOMENTUM).propagate(&tilted).unwrap();
+        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).propagate(&tilted).unwrap();
         let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
         assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
     }
@@ -84,8 +84,8 @@ fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
     let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
     let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
     for step in [1e-3, 3e-4, 1e-4] {
-        let method = Stepping::fixed(dynamics::Scheme::RK4, step).unwrap();
-        let error = GammaSolver::new(method, Formulation::VERTICAL).propagate(&toss).unwrap_err();
+        let stepping = Stepping::fixed(dynamics::Scheme::RK4, step).unwrap();
+        let error = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
     }
@@ -125,7 +125,7 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
 }
 
 #[test]
-fn the_precession_too_slow_below_one_in_a_hundred_of_the_rate() {
+fn precession_is_too_slow_below_one_in_a_hundred_of_the_rate() {
     let system = GammaSystem::new(0.5, 0.0, 1.0);
     assert!(!system.precession_too_slow(&state(&system, 0.0, 1e-2, 1.0)), "at 1 % it goes on");
     assert!(system.precession_too_slow(&state(&system, 0.0, 0.99e-2, 1.0)));
@@ -171,9 +171,9 @@ fn a_step_meets_the_point_that_it_crosses() {
 
 #[test]
 fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
-    let method = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
+    let stepping = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
     for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
-        let solver = GammaSolver::new(method, formulation);
+        let solver = GammaSolver::new(stepping, formulation);
         for rate_z in [5.0, -5.0] {
             let spun = solver.propagate(&toss(0.0, [0.0, 0.0, rate_z], 0.0)).unwrap().state.attitude;
             assert!(spun.angle_to(&dynamics::Attitude::about_z(rate_z)) < 1e-9);
@@ -183,7 +183,7 @@ fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
             }
         }
     }
-    let tilted = GammaSolver::new(method, Formulation::VERTICAL).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
+    let tilted = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
     assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 }));
 }
 
@@ -201,10 +201,10 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
         assert_eq!(beta(0.0, -sense).abs(), PI);
         assert_eq!([beta(0.0, 0.0), beta(-0.0, 0.0), beta(0.0, -0.0), beta(-0.0, -0.0)], [0.0; 4]);
     }
-    let method = Stepping::adaptive(Scheme::DOP853, 1e-9).unwrap();
+    let stepping = Stepping::adaptive(Scheme::DOP853, 1e-9).unwrap();
     for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
         let toss = toss(1.0, rest, PI);
-        let landing = GammaSolver::new(method, Formulation::MOMENTUM).propagate(&toss).unwrap();
+        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).propagate(&toss).unwrap();
         assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
     }
 }

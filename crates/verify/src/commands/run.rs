@@ -33,7 +33,7 @@ pub(super) struct Run {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// One line per row, not per check
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["list", "fit", "replay"])]
     verbose: bool,
     /// List the checks instead
     #[arg(long)]
