@@ -1,9 +1,19 @@
 //! `cargo xtask figures`: draws the figures of `docs/figures`, or tells which of them are not current.
 
 use std::path::Path;
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{ExitCode, Stdio};
 
-use crate::{cargo, root};
+use clap::Args;
+
+use crate::{program, root};
+
+/// Draw the figures of docs/figures
+#[derive(Debug, Args)]
+pub(crate) struct Figures {
+    /// Draw them elsewhere instead, and end with 1 if a committed one is not current
+    #[arg(long)]
+    check: bool,
+}
 
 /// A file and what draws it: a program and its arguments, to which `--svg FILE` is added.
 struct Figure {
@@ -33,20 +43,19 @@ const FIGURES: &[Figure] = &[
 /// Where the figures are, from the root of the workspace.
 const FOLDER: &str = "docs/figures";
 
-/// Draws the figures; with `--check` beside those that are there, which are then compared: 1 if one is not current.
-pub(crate) fn figures(args: impl Iterator<Item = String>) -> Result<ExitCode, String> {
-    match args.collect::<Vec<_>>().as_slice() {
-        [] => draw(&root().join(FOLDER)).map(|()| ExitCode::SUCCESS),
-        [only] if only == "--check" => {
-            let fresh = root().join("target/figures");
-            draw(&fresh)?;
-            let stale: Vec<&str> = stale(&root().join(FOLDER), &fresh).collect();
-            for file in &stale {
-                eprintln!("not current: {FOLDER}/{file}; `cargo xtask figures` draws it");
-            }
-            Ok(ExitCode::from(u8::from(!stale.is_empty())))
+impl Figures {
+    pub(crate) fn run(&self) -> Result<ExitCode, String> {
+        let committed = root().join(FOLDER);
+        if !self.check {
+            return draw(&committed).map(|()| ExitCode::SUCCESS);
         }
-        _ => Ok(crate::usage_error("figures takes --check or nothing")),
+        let fresh = root().join("target/figures");
+        draw(&fresh)?;
+        let stale: Vec<&str> = stale(&committed, &fresh).collect();
+        for file in &stale {
+            eprintln!("not current: {FOLDER}/{file}; `cargo xtask figures` draws it");
+        }
+        Ok(ExitCode::from(u8::from(!stale.is_empty())))
     }
 }
 
@@ -54,7 +63,7 @@ pub(crate) fn figures(args: impl Iterator<Item = String>) -> Result<ExitCode, St
 fn draw(folder: &Path) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     for figure in FIGURES {
-        let mut command: Command = cargo(figure.program);
+        let mut command = program::built(figure.program);
         command.args(figure.arguments.split(' ')).arg("--svg").arg(folder.join(figure.file));
         let status = command.stdout(Stdio::null()).status().map_err(|error| format!("cannot start cargo: {error}"))?;
         if !status.success() {

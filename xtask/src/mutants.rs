@@ -6,24 +6,36 @@
 use std::collections::BTreeMap;
 use std::process::{Command, ExitCode, ExitStatus};
 
+use clap::Args;
+
 use crate::root;
 
 const EXPLANATIONS: &str = "validation/mutants.md";
 const FOLDER: &str = "target";
 
-/// How often each mutant is meant; two in one function may have the same name.
-type Mutants = BTreeMap<String, usize>;
+/// How often each mutant occurs; two in one function may have the same name.
+type Counts = BTreeMap<String, usize>;
 
-/// Runs cargo-mutants with `args` and compares its survivors with the explained ones.
+/// Change the numerical crates in some 4000 ways; each change has to fail a test or be explained
 ///
-/// Ends with 0 if all that survived is explained; 1 if not, or if something explained was caught in a complete run.
-pub(crate) fn run(args: impl Iterator<Item = String>) -> Result<ExitCode, String> {
-    let args: Vec<String> = args.collect();
-    let ran = Command::new("cargo").args(["mutants", "--output", FOLDER]).args(&args).current_dir(root()).status();
-    // 2: some survived; 3: some ran out of time, which is how a loop without an end is caught.
-    match ran.as_ref().map(ExitStatus::code) {
-        Ok(Some(0 | 2 | 3)) => compare(args.is_empty()),
-        _ => Err("cargo mutants did not run to its end (cargo install cargo-mutants)".to_owned()),
+/// The explanations are in validation/mutants.md. Exit code 1 if a change survived that is not explained or, in a run
+/// without arguments, if one was caught that is explained.
+#[derive(Debug, Args)]
+pub(crate) struct Mutants {
+    /// Passed on to cargo mutants, such as --file or --shard
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENTS")]
+    arguments: Vec<String>,
+}
+
+impl Mutants {
+    pub(crate) fn run(&self) -> Result<ExitCode, String> {
+        let mut command = Command::new("cargo");
+        command.args(["mutants", "--output", FOLDER]).args(&self.arguments).current_dir(root());
+        // 2: some survived; 3: some ran out of time, which is how a loop without an end is caught.
+        match command.status().as_ref().map(ExitStatus::code) {
+            Ok(Some(0 | 2 | 3)) => compare(self.arguments.is_empty()),
+            _ => Err("cargo mutants did not run to its end (cargo install cargo-mutants)".to_owned()),
+        }
     }
 }
 
@@ -47,8 +59,8 @@ fn read(path: &str) -> Result<String, String> {
     std::fs::read_to_string(root().join(path)).map_err(|error| format!("cannot read {path}: {error}"))
 }
 
-fn count(mutants: impl Iterator<Item = String>) -> Mutants {
-    mutants.fold(Mutants::new(), |mut counts, mutant| {
+fn count(mutants: impl Iterator<Item = String>) -> Counts {
+    mutants.fold(Counts::new(), |mut counts, mutant| {
         *counts.entry(mutant).or_default() += 1;
         counts
     })
@@ -67,7 +79,7 @@ fn explained(markdown: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The mutants of `these` that `those` has not, or not as often.
-fn beyond<'a>(these: &'a Mutants, those: &Mutants) -> Vec<&'a str> {
+fn beyond<'a>(these: &'a Counts, those: &Counts) -> Vec<&'a str> {
     let rest = |(mutant, times): (&'a String, &usize)| {
         std::iter::repeat_n(mutant.as_str(), times.saturating_sub(those.get(mutant).copied().unwrap_or(0)))
     };
@@ -86,6 +98,6 @@ mod tests {
         assert_eq!(beyond(&survived, &once), ["a/b.rs: replace < with <= in f::g"]);
         assert!(beyond(&once, &survived).is_empty());
         assert!(beyond(&survived, &survived).is_empty());
-        assert_eq!(beyond(&once, &Mutants::new()), ["a/b.rs: replace < with <= in f::g"]);
+        assert_eq!(beyond(&once, &Counts::new()), ["a/b.rs: replace < with <= in f::g"]);
     }
 }

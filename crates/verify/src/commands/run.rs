@@ -6,16 +6,14 @@ use toss::Registry;
 use verify::judge::baseline::{Baseline, Direction};
 use verify::judge::bounds::Bounds;
 use verify::judge::{record, unused_bounds};
-use verify::measure::case::Case;
 use verify::render::charts::{self, Chart};
 use verify::render::{Report, html, junit, moves, table};
 use verify::{CHECKS, Check, Context, Effort, Row, files, host::Host, judge};
 
-use super::{Folders, fit, list, replay};
+use super::{Folders, fit};
 
 /// Run the checks; write report.html, report.json, junit.xml and charts
 #[derive(Debug, Args)]
-#[command(override_usage = "cargo xtask verify [OPTIONS]")]
 pub(super) struct Run {
     /// Fewer cases: within a minute on two cores
     #[arg(long, conflicts_with = "deep")]
@@ -27,23 +25,14 @@ pub(super) struct Run {
     #[arg(long, value_name = "ID", value_parser = known_check)]
     only: Option<&'static Check>,
     /// Take what is better or new into the baseline, and write a dated record; what is worse is not taken
-    #[arg(long, conflicts_with_all = ["only", "replay"])]
+    #[arg(long, conflicts_with = "only")]
     bless: bool,
-    /// What goes to standard output
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-    /// One line per row, not per check
-    #[arg(long, conflicts_with_all = ["list", "fit", "replay"])]
-    verbose: bool,
-    /// List the checks instead
+    /// What goes to standard output; text without it
+    #[arg(long, value_enum, conflicts_with = "verbose")]
+    format: Option<Format>,
+    /// Print one line a row instead of one a check
     #[arg(long)]
-    list: bool,
-    /// Instead, fly one toss, given as the hex floats of a worst input, by every solver, scheme and formulation
-    #[arg(long, value_name = "INPUT", value_parser = replay::input, conflicts_with_all = ["quick", "deep", "only", "format"])]
-    replay: Option<Case>,
-    /// Measure the planner's table alone, as --bless does with everything else
-    #[arg(long, conflicts_with_all = ["quick", "deep", "only", "replay", "bless", "format"])]
-    fit: bool,
+    verbose: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -59,17 +48,8 @@ fn known_check(id: &str) -> Result<&'static Check, String> {
 }
 
 impl Run {
-    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
-        match &self.replay {
-            _ if self.list => Ok(list::list()),
-            Some(case) => replay::replay(case),
-            None if self.fit => fit::fit(),
-            None => self.verify(folders),
-        }
-    }
-
     /// 1 if a check fails, 3 if something is worse than the baseline.
-    fn verify(&self, folders: &Folders) -> anyhow::Result<u8> {
+    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
         let effort = self.effort();
         let bounds = Bounds::read(&folders.validation.join("bounds.toml"))?;
         let context = Context::new(Registry::standard().entries(), effort, &folders.validation)?;
@@ -107,15 +87,21 @@ impl Run {
         let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
         let progress = ProgressBar::new(checks.len() as u64).with_style(style);
         progress.enable_steady_tick(std::time::Duration::from_millis(100));
+        let show = |text: String| progress.suspend(|| self.print(&text));
+        show(table::heading());
         let mut rows = Vec::new();
         for check in checks {
             progress.inc(1);
             progress.set_message(check.id);
-            rows.extend(judge(check, (check.measure)(context)?, bounds));
+            let judged = judge(check, (check.measure)(context)?, bounds);
+            show(table::check(&judged, self.verbose));
+            rows.extend(judged);
         }
         progress.finish_and_clear();
         if self.only.is_none() {
-            rows.extend(unused_bounds(&rows, bounds));
+            let unused = unused_bounds(&rows, bounds);
+            show(table::check(&unused, self.verbose));
+            rows.extend(unused);
         }
         Ok(rows)
     }
@@ -131,18 +117,25 @@ impl Run {
         for Chart { file, svg, .. } in &charts {
             files::write(&folders.out.join(file), svg)?;
         }
-        match self.format {
+        match self.format() {
             Format::Text => {
-                println!(
-                    "{}{}\nreport: {}",
-                    table::text(report.rows, self.verbose),
-                    moves::text(report.moves),
-                    page.display()
-                );
+                let moved = moves::text(report.moves, report.rows);
+                println!("{}{moved}\nreport: {}", table::verdict(report.rows), page.display());
             }
             Format::Json => println!("{json}"),
             Format::Junit => println!("{junit}"),
         }
         Ok(())
+    }
+
+    fn format(&self) -> Format {
+        self.format.unwrap_or(Format::Text)
+    }
+
+    /// Prints `text` if the table for people is what was asked for.
+    fn print(&self, text: &str) {
+        if self.format() == Format::Text {
+            print!("{text}");
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! What moved against the baseline, as a table.
 
+use crate::judge::Row;
 use crate::judge::baseline::{Direction, Move};
 
-/// One line per entry that moved, the worse ones first; empty if nothing did.
-pub fn text(moves: &[Move]) -> String {
+/// One line per entry that moved, the worse ones first and with the command that repeats their row; empty if nothing did.
+pub fn text(moves: &[Move], rows: &[Row]) -> String {
     let mut out = String::new();
     for (direction, heading) in [
         (Direction::Worse, "WORSE than the baseline"),
@@ -18,12 +19,25 @@ pub fn text(moves: &[Move]) -> String {
         out += &format!("\n{heading}: {}\n", moved.len());
         // What is new comes by the hundred, when a baseline is begun.
         let shown = if direction == Direction::New { 10 } else { moved.len() };
-        out.extend(moved.iter().take(shown).map(|moved| line(moved)));
+        for moved in moved.iter().take(shown) {
+            out += &line(moved);
+            out += &repeat(moved, rows);
+        }
         if moved.len() > shown {
             out += &format!("  and {} more\n", moved.len() - shown);
         }
     }
     out
+}
+
+/// How to repeat a row that became worse.
+fn repeat(moved: &Move, rows: &[Row]) -> String {
+    if moved.direction != Direction::Worse {
+        return String::new();
+    }
+    let row = rows.iter().find(|row| row.check == moved.check && row.subject == moved.subject);
+    let replay = row.and_then(|row| row.replay.as_deref());
+    replay.map_or_else(String::new, |replay| format!("    repeat with: {replay}\n"))
 }
 
 fn line(moved: &Move) -> String {

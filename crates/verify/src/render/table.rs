@@ -1,13 +1,35 @@
-//! The table for the terminal.
+//! The table for the terminal. It is printed check by check while the suite runs, so that someone who waits sees how far
+//! it is; what fails is then shown in full, with the verdict.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::CHECKS;
 use crate::judge::{Row, Status};
 
-/// One line per check, or with `verbose` one line per row; then what fails, in full, and the verdict.
-pub fn text(rows: &[Row], verbose: bool) -> String {
-    let mut out = if verbose { every_row(rows) } else { every_check(rows) };
+/// The names of the columns that [`check`] fills when it is not verbose.
+pub fn heading() -> String {
+    format!("{:<width$}  rows  closest margin\n", "check", width = check_width())
+}
+
+/// The result of one check in one line, or with `verbose` in one line a row below its claim; empty if there are no rows.
+pub fn check(rows: &[Row], verbose: bool) -> String {
+    let Some(first) = rows.first() else { return String::new() };
+    if !verbose {
+        return summary(first, rows);
+    }
+    let width = rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
+    let basis = first.basis.map_or("", crate::measure::check::Basis::name);
+    let mut out = format!("\n{}  [{basis}]\n  {}\n", first.check, first.claim);
+    for row in rows {
+        let _ = writeln!(out, "    {}", line(row, width));
+    }
+    out
+}
+
+/// What fails, in full and below a sentence on what the failures have in common, and the verdict.
+pub fn verdict(rows: &[Row]) -> String {
+    let mut out = String::new();
     let failures: Vec<&Row> = rows.iter().filter(|row| !row.status.passes()).collect();
     if !failures.is_empty() {
         let _ = writeln!(out, "\n{}", pattern(&failures));
@@ -20,38 +42,24 @@ pub fn text(rows: &[Row], verbose: bool) -> String {
     out
 }
 
-/// One line per check: how many rows it has, and the one that is closest to its bound.
-fn every_check(rows: &[Row]) -> String {
-    let width = rows.iter().map(|row| row.check.chars().count()).max().unwrap_or(0);
-    let mut out = format!("\n{:<width$}  rows  closest margin\n", "check");
-    for block in rows.chunk_by(|a, b| a.check == b.check) {
-        let failing = block.iter().filter(|row| !row.status.passes()).count();
-        let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", block.len()) };
-        let margin = |row: &Row| row.margin.unwrap_or(if row.status.passes() { f64::INFINITY } else { 0.0 });
-        let closest = block.iter().min_by(|a, b| margin(a).total_cmp(&margin(b)));
-        let closest = closest.map_or_else(String::new, |row| match row.margin {
-            // Nothing deviates, so that no subject is closer to its bound than another.
-            None if row.status.passes() => shown_margin(row),
-            _ => format!("{}  {}", shown_margin(row), row.subject),
-        });
-        let _ = writeln!(out, "{:<width$}  {:>4}  {closest}{status}", block[0].check, block.len());
-    }
-    out
+/// How many rows a check has, and the subject that is closest to its bound.
+fn summary(first: &Row, rows: &[Row]) -> String {
+    let failing = rows.iter().filter(|row| !row.status.passes()).count();
+    let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", rows.len()) };
+    let margin = |row: &Row| row.margin.unwrap_or(if row.status.passes() { f64::INFINITY } else { 0.0 });
+    let closest = rows.iter().min_by(|a, b| margin(a).total_cmp(&margin(b))).unwrap_or(first);
+    let subject = match closest.margin {
+        // Nothing deviates, so that no subject is closer to its bound than another.
+        None if closest.status.passes() => "",
+        _ => closest.subject.as_str(),
+    };
+    let closest = format!("{}  {subject}", shown_margin(closest));
+    format!("{:<width$}  {:>4}  {}{status}\n", first.check, rows.len(), closest.trim_end(), width = check_width())
 }
 
-/// One block per check: its claim and basis, then one line per subject.
-fn every_row(rows: &[Row]) -> String {
-    let mut out = String::new();
-    let width = rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
-    for block in rows.chunk_by(|a, b| a.check == b.check) {
-        let first = &block[0];
-        let basis = first.basis.map_or("", crate::measure::check::Basis::name);
-        let _ = writeln!(out, "\n{}  [{basis}]\n  {}", first.check, first.claim);
-        for row in block {
-            let _ = writeln!(out, "    {}", line(row, width));
-        }
-    }
-    out
+/// The width of the longest name of a check.
+fn check_width() -> usize {
+    CHECKS.iter().map(|check| check.id.len()).max().unwrap_or(0)
 }
 
 /// What the failing rows have in common, in a sentence or two.

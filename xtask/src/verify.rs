@@ -1,0 +1,154 @@
+//! The tasks that the program `verify` does: the suite, the benchmark, the accuracy over time.
+//!
+//! Their flags are defined here a second time, so that `--help` and a wrong flag are answered before the program is built.
+
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+
+use crate::program;
+
+const PROGRAM: &str = "verify";
+
+/// Run the verification suite: one line a check, and in full what fails
+///
+/// Writes report.html, report.json, junit.xml and charts to target/verify.
+///
+/// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
+/// within bounds; 4 could not run.
+#[derive(Debug, Args)]
+pub(crate) struct Verify {
+    /// Take fewer cases: within a minute on two cores, once built
+    #[arg(long, conflicts_with = "deep")]
+    quick: bool,
+    /// Take ten times as many cases
+    #[arg(long)]
+    deep: bool,
+    /// Run this check alone
+    #[arg(long, value_name = "ID")]
+    only: Option<String>,
+    /// Take what is better or new into the baseline and write a dated record; what is worse is not taken
+    #[arg(long, conflicts_with = "only")]
+    bless: bool,
+    /// What goes to standard output
+    #[arg(long, value_enum, conflicts_with = "verbose")]
+    format: Option<Format>,
+    /// Print one line a row instead of one a check
+    #[arg(long)]
+    verbose: bool,
+    #[command(flatten)]
+    instead: Instead,
+}
+
+/// What the task does instead of running the checks.
+#[derive(Debug, Args)]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose"])]
+struct Instead {
+    /// List the checks and what they claim
+    #[arg(long)]
+    list: bool,
+    /// Fly one toss, given as the hex floats of a worst input, by every solver, scheme and formulation
+    #[arg(long, value_name = "INPUT")]
+    replay: Option<String>,
+    /// Measure the planner's table, which --bless does too
+    #[arg(long)]
+    fit: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Junit,
+}
+
+impl Verify {
+    pub(crate) fn run(&self) -> Result<ExitCode, String> {
+        program::run(PROGRAM, &self.arguments())
+    }
+
+    /// The command of the program and its arguments.
+    fn arguments(&self) -> Vec<String> {
+        let Instead { list, replay, fit } = &self.instead;
+        match replay {
+            Some(input) => vec!["replay".into(), input.clone()],
+            None if *list => vec!["list".into()],
+            None if *fit => vec!["fit".into()],
+            None => self.run_arguments(),
+        }
+    }
+
+    fn run_arguments(&self) -> Vec<String> {
+        let mut arguments = vec!["run".to_owned()];
+        let flags =
+            [("--quick", self.quick), ("--deep", self.deep), ("--bless", self.bless), ("--verbose", self.verbose)];
+        arguments.extend(flags.iter().filter(|(_, given)| *given).map(|(flag, _)| (*flag).to_owned()));
+        let format = self.format.and_then(|format| format.to_possible_value());
+        let format = format.map(|value| value.get_name().to_owned());
+        for (flag, value) in [("--only", &self.only), ("--format", &format)] {
+            arguments.extend(value.iter().flat_map(|value| [flag.to_owned(), value.clone()]));
+        }
+        arguments
+    }
+}
+
+/// Print what a toss costs, in ns and relative to a reference in C
+///
+/// Exit code 3 if a kernel takes more instructions than the baseline allows.
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    /// Count instructions by valgrind instead, and compare them with the baseline
+    #[arg(long)]
+    instructions: bool,
+    /// Take fewer instructions into the baseline
+    #[arg(long, requires = "instructions")]
+    bless: bool,
+}
+
+impl Bench {
+    pub(crate) fn run(&self) -> Result<ExitCode, String> {
+        let flags = [("--instructions", self.instructions), ("--bless", self.bless)];
+        let given = flags.iter().filter(|(_, given)| *given).map(|(flag, _)| (*flag).to_owned());
+        program::run(PROGRAM, &std::iter::once("bench".to_owned()).chain(given).collect::<Vec<_>>())
+    }
+}
+
+/// Draw the accuracy of the committed records over time
+#[derive(Debug, Args)]
+pub(crate) struct History {}
+
+impl History {
+    #[expect(clippy::unused_self, reason = "every task is run in the same way")]
+    pub(crate) fn run(&self) -> Result<ExitCode, String> {
+        program::run(PROGRAM, &["history".to_owned()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        verify: Verify,
+    }
+
+    #[test]
+    fn passes_each_flag_on_to_the_program() {
+        for (given, passed) in [
+            ("", "run"),
+            ("--quick --bless", "run --quick --bless"),
+            ("--deep --verbose", "run --deep --verbose"),
+            ("--only rounding --format junit", "run --only rounding --format junit"),
+            ("--list", "list"),
+            ("--replay i1=0x1p0", "replay i1=0x1p0"),
+            ("--fit", "fit"),
+        ] {
+            let line = Line::try_parse_from(std::iter::once("verify").chain(given.split_whitespace())).unwrap();
+            assert_eq!(line.verify.arguments().join(" "), passed);
+        }
+    }
+}
