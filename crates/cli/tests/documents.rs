@@ -3,7 +3,7 @@
 use std::process::Command;
 
 const DOCUMENTS: [&str; 2] = [include_str!("../../../README.md"), include_str!("../../../docs/paper-audit.md")];
-const PREFIX: &str = "$ cargo run -q --release --bin unfair-toss -- ";
+const PREFIX: &str = "$ unfair-toss ";
 
 #[test]
 fn console_blocks_are_current() {
