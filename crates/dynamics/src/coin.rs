@@ -1,6 +1,5 @@
 //! The coin: a rigid body of revolution, described by its principal moments of inertia I1 = I2 (about a diameter) and
-//! I3 (about the normal). Its free flight depends on nothing else about it, and on these only by the inertia ratio k =
-//! I3/I1.
+//! I3 (about the normal). Nothing else about it matters in free flight, and of the moments only their ratio k = I3/I1.
 //!
 //! A cylinder of mass m, radius r and thickness h has the moments I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
 

@@ -1,5 +1,5 @@
 //! [`Flight`], a toss in dimensionless form for the integrators. Absolute tolerances then mean the same for slow and
-//! fast coins, and intermediate numbers neither overflow nor underflow.
+//! fast coins, and no intermediate number overflows.
 //!
 //! Let σ be the power of two at or below the largest component of the body rate ω. Rates are divided by σ and times are
 //! multiplied by σ, so that integrators solve dy/d(σ t) = f(y). A flight whose phase max(ωL, |q|) T exceeds 2^53 rad is
@@ -38,10 +38,10 @@ pub struct Flight {
 }
 
 impl Flight {
-    /// The flight of `toss`.
+    /// The dimensionless flight of `toss`.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if the phase exceeds 2^53 rad.
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let duration = toss.launch.flight_time();
         let launched = toss.launch.rate();

@@ -30,7 +30,7 @@
 //! | ω = (ωx, ωy, ωz) | body rate (BF, rad/s); ωz is the spin |
 //! | Ω | √(ωx² + ωy²) (rad/s) |
 //! | S | angular momentum (kg m²/s) |
-//! | ωL | |S|/I1, rate of the precession about S (rad/s) |
+//! | ωL | \|S\|/I1, rate of the precession about S (rad/s) |
 //! | q | (k - 1) ωz, rate at which (ωx, ωy) turns in BF (rad/s) |
 //! | ψ | cone angle, between n and S (rad) |
 //! | θ | tilt, between n and the vertical; heads for cos θ > 0 |
@@ -39,8 +39,8 @@
 //! | T, v0, g, h | time of flight (s), speed (m/s), gravity (m/s²), drop (m) |
 //!
 //! All quantities are f64 in SI units. This crate uses no random numbers, no clock, no input and no output. It does not
-//! contain the closed form of the motion either, which is in the crate `exact`: integrators depend on this crate only,
-//! and so cannot use the solution that they are compared with.
+//! contain the closed form of the motion either, which is in the crate `exact`: integrators do not
+//! depend on that crate, and so cannot use the solution that they are compared with.
 
 pub mod attitude;
 pub mod body_rate;

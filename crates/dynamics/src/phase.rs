@@ -1,7 +1,7 @@
 //! How far a coin turns in its flight: by the phase ωL T in its precession about the angular momentum S, and by |q| T
 //! in its spin within the body frame. Error estimates grow with the phase, and above 2^53 rad no answer means anything.
 //!
-//! The symbols are those of the [crate](crate): ωL = |S|/I1, q = (k - 1) ωz, and T is the time of flight. Above 2^53
+//! The symbols are those of the [crate]: ωL = |S|/I1, q = (k - 1) ωz, and T is the time of flight. Above 2^53
 //! rad the phases of neighbouring f64 inputs are a radian or more apart. Every solver refuses such a toss by
 //! [`require_phase`].
 

@@ -11,8 +11,8 @@ pub struct Scheme {
 }
 
 impl Scheme {
-    /// Dormand and Prince's method of order 8(5,3) (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations
-    /// I).
+    /// Dormand and Prince's method of order 8(5,3)
+    /// (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
     pub const DOP853: Self = Self::new("dop853", Some(8)).adaptive().with_fixed_steps();
     /// Dormand and Prince's method of order 5(4) (J. Comput. Appl. Math. 6, 1980).
     pub const DOPRI5: Self = Self::new("dopri5", Some(5)).adaptive().with_fixed_steps();
@@ -23,8 +23,8 @@ impl Scheme {
     /// but its right-hand side.
     pub const RUNGE_KUTTA: [Self; 3] = [Self::DOP853, Self::DOPRI5, Self::RK4];
 
-    /// A scheme called `name` whose global error has this `order`, or `None` if the order depends on the tolerance.
-    /// Allow ways to control its steps by [`adaptive`](Self::adaptive) and
+    /// A scheme called `name` whose global error has this `order`, or `None` if the order depends on the tolerance. How
+    /// its steps can be controlled is added by [`adaptive`](Self::adaptive) and
     /// [`with_fixed_steps`](Self::with_fixed_steps).
     pub const fn new(name: &'static str, order: Option<u32>) -> Self {
         Self { name, order, adaptive: false, takes_steps: false }

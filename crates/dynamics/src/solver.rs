@@ -32,7 +32,7 @@ pub struct Work {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Propagation {
-    /// State at landing.
+    /// The state at landing.
     pub state: State,
     /// cos θ at landing. It is that of the state's attitude, unless the solver can compute it more accurately.
     pub cos_tilt: f64,
@@ -61,7 +61,7 @@ impl Propagation {
     }
 }
 
-/// Solves the flight of a toss.
+/// Computes the flight of a toss from launch to landing.
 pub trait Solver: Send + Sync {
     /// The solver's name in the registry.
     fn name(&self) -> &str;
@@ -81,7 +81,7 @@ pub trait Solver: Send + Sync {
     /// every outcome is undecided. Integrators return [`Stepping::error_estimate`].
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
     fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError>;
 
     /// cos θ at landing. Override it if cos θ can be computed more cheaply than the attitude.

@@ -96,11 +96,11 @@ impl Stepping {
     ///
     /// - 100 × tolerance × (1 + φ) with a tolerance;
     /// - (|ω| h)^order × (1 + φ) + 4 ε (1 + φ + n) with n fixed steps of h (s). The first term is the truncation error
-    ///   of a regular motion, the second one bounds rounding. Nothing is measured, so that the error near a singular
-    ///   point may be larger.
+    ///   of a regular motion, the second one allows for rounding. Nothing is measured, so that the error near a
+    ///   singular point may be larger.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
     pub fn error_estimate(&self, toss: &Toss) -> Result<f64, SolveError> {
         let turned = 1.0 + RoughPhases::new(toss).largest()?;
         Ok(match self.control {

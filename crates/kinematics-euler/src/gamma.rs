@@ -10,9 +10,9 @@
 //! Here ω = (ωx, ωy, ωz) is the body rate, α the precession, β the nutation, k = I3/I1 and q = (k - 1) ωz. In (11),
 //! ωx' = -q ωy and ωy' = q ωx are inserted already.
 //!
-//! The other two angles follow without a division by cos β, which may be 0: β = atan2(s D, s u) from (9), and α' = s
-//! √(D² + u²), where s is the sign of α'. The sign is constant, because α' could only change it by vanishing. Then D =
-//! u = 0 and (10) reads 0/0, which is a typed error.
+//! The other two angles follow without a division by cos β, which may be 0: β = atan2(s D, s u) from (9), and
+//! α' = s √(D² + u²), where s is the sign of α'. The sign is constant, because α' could only change it by vanishing. At
+//! that point D and u are 0 and (10) reads 0/0, which is a typed error.
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;

@@ -19,8 +19,8 @@ use dynamics::{
     Attitude, EulerAngles, Flight, Formulation, Frame, Propagation, SolveError, State, Toss, Vector3, Work,
 };
 
-/// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π). The attitude changes by no more
-/// than rounding does.
+/// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π), which changes its attitude by
+/// at most 2 ε = 4.4e-16 rad.
 const VERTICAL: f64 = f64::EPSILON;
 
 /// The frame of the angles, and their values and rates at launch.

@@ -1,5 +1,5 @@
 //! The integrator of the flight as a quaternion, Q' = ½ Q ⊗ (0, ω), where Q is the attitude and ω the body rate. Unlike
-//! the Euler angles, the quaternion has no singular attitude, so that it can integrate every toss at the same cost.
+//! the Euler angles, the quaternion has no singular attitude, so that no launch needs a special case.
 //!
 //! What is integrated is the quaternion P that leads from the attitude Q0 at launch to the attitude Q = Q0 ⊗ P. It
 //! starts at 1 for every toss, so that neither the error nor the work depends on how the coin is held at launch.

@@ -1,5 +1,5 @@
-//! Integrates flights by Taylor series, as many at once as a SIMD vector has lanes. In every lane one instruction then
-//! computes the step of another flight, which is what makes large batches fast.
+//! Integrates flights by Taylor series, as many at once as a SIMD vector has lanes. Each instruction then
+//! works on a different flight in each lane, which makes large batches fast.
 //!
 //! A lane whose flight has landed takes the next flight, so that no lane waits for the others. The result of a lane
 //! depends on its flight alone, neither on the other lanes nor on the width of the vector. A landing therefore has the
@@ -75,7 +75,7 @@ fn order(tolerance: f64) -> usize {
     (2 * half as usize).min(LARGEST_ORDER)
 }
 
-/// The plans for flights that were asked for with one tolerance.
+/// The plans of a solver with a given tolerance, for short and for long flights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plans {
     short: Plan,

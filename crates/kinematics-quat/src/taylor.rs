@@ -8,10 +8,16 @@
 //! u' = -v η̄ + i c u,   v' = u η - i c v,   η' = i q η.
 //! ```
 //!
-//! A step computes the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1, v =
-//! 0. It is computed in body axes that are turned about z so that η is real at the start. The equations are the same in
-//! these axes, because the coin is symmetric, and the coefficients are real up to powers of i (from here on k counts
-//! them): u = Σ iᵏ Uₖ tᵏ, v = -i Σ (-i)ᵏ Wₖ tᵏ, η = |η| Σ iᵏ rₖ tᵏ with
+//! A step computes the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1 and v
+//! = 0, in body axes that are turned about z so that η is real at the start. In these axes the equations are the same,
+//! because the coin is symmetric, and the coefficients are real up to powers of i. From here on, k counts them, and |η|
+//! is that of the start:
+//!
+//! ```text
+//! u = Σ iᵏ Uₖ tᵏ,   v = -i Σ (-i)ᵏ Wₖ tᵏ,   η = |η| Σ iᵏ rₖ tᵏ.
+//! ```
+//!
+//! Inserted into the equations above, they give the recurrences
 //!
 //! ```text
 //! (k + 1) Uₖ₊₁ = (-1)ᵏ |η| Σ Wₘ rₖ₋ₘ + c Uₖ,   (k + 1) Wₖ₊₁ = -(-1)ᵏ |η| Σ Uₘ rₖ₋ₘ + c Wₖ,   (k + 1) rₖ₊₁ = q rₖ.
