@@ -65,7 +65,7 @@ fn what_is_out_of_range_is_refused_with_the_range() {
         (Stepping::adaptive(TAYLOR, 2e-16).err(), "tolerance = 2e-16 is outside"),
         (
             Stepping::fixed(TAYLOR, 1e-3).err(),
-            "scheme with a step = 'taylor' can't be used: expected a scheme with equal steps, as dop853",
+            "scheme with a step = 'taylor' can't be used: expected a scheme with equal steps, such as dop853",
         ),
     ] {
         let found = result.unwrap_or_else(|| panic!("accepted what should give: {message}")).to_string();
@@ -191,8 +191,8 @@ fn huge_and_subnormal_rates_are_solved_or_refused() {
 
 #[test]
 fn an_outcome_at_the_edge_is_never_misjudged() {
-    // ψ = 45° within two ulp. At half a turn, ωL = √2 k ωz, cos θ is 0 to rounding: up to 45° it stays above it (equal to it
-    // only at a phase of π, which no f64 has), and beyond it is below for some 1e-8 rad.
+    // ψ = 45° within two ulp. At half a turn, ωL = √2 k ωz, cos θ is 0 to rounding: up to 45° it stays above it (equal
+    // to it only at a phase of π, which no f64 has), and beyond it is below for some 1e-8 rad.
     for ulps in -2..=2_i64 {
         let transverse = f64::from_bits(1.0_f64.to_bits().wrapping_add_signed(ulps));
         let half_turn = std::f64::consts::PI / 2f64.sqrt();
