@@ -24,8 +24,8 @@
 //! than 2^-1000, and `size` is above 10^-200.
 //!
 //! **2. Double-double.** [`ExactMotion::cos_tilt_parts`] gives cos θ = a + b cos φ + c sin φ. No result goes through
-//! more than some fifteen operations with an error of at most 10 u² each. So the phase is right within 70 u² φ
-//! (k 10 u², |L| 20 u², time 25 u², their product 5 u²), and a, b, c and their sum within 10³ u². Sine and cosine of the
+//! more than some fifteen operations with an error of at most 10 u² each. So a, b, c and their sum are right within
+//! 10³ u², and the phase within 70 u² φ (k 10 u², |L| 20 u², time 25 u², their product 5 u²). Sine and cosine of the
 //! leading part of the phase are those of std (2u each, √2 for both); turning them by the trailing part `lo`, |lo| ≤ ½,
 //! adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which [`double_double_bound`] rounds up.
 //!

@@ -1,5 +1,6 @@
-//! This file writes cos θ as three terms in f64, all multiplied by the same positive scale. They decide most outcomes and
-//! give the shares of heads over a range of speeds; the scale saves the divisions, which the sign of cos θ does not need.
+//! This file writes cos θ as three terms in f64, all multiplied by the same positive scale. They decide most outcomes
+//! and give the shares of heads over a range of speeds; the scale saves the divisions, which the sign of cos θ does not
+//! need.
 //!
 //! Let Q be the attitude quaternion at launch (of any norm), m the vertical in the body frame (BF) at launch times
 //! |Q|², and L = (ωx, ωy, k ωz) the angular momentum divided by I1. Then
