@@ -1,5 +1,5 @@
 //! This file reads spaces from TOML files, and holds the spaces that come with the crate under a name. Its errors give
-//! line and column, because such files are written by hand:
+//! line and column, because such files are written by hand, like this one:
 //!
 //! ```toml
 //! description = "a hand that spins the coin at 20 ± 2 rad/s"

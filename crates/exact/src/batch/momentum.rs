@@ -3,7 +3,7 @@
 //!
 //! Unlike there, phases are in turns, and rates are not scaled: a toss whose squares could leave the range of f64 is
 //! not ordinary, and no kernel solves it. L = (ωx, ωy, k ωz) is the angular momentum divided by I1, Ω² = Lx² + Ly², and
-//! q = (k - 1) ωz. A pair `[f64; 2]` or `[Real; 2]` is a rounded value and its rest.
+//! q = (k - 1) ωz. A pair is a rounded value and its rest, the part that rounding has lost.
 
 use dynamics::Tosses;
 use dynamics::attitude::vertical_in_body;
