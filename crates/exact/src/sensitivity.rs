@@ -2,9 +2,9 @@
 //! precisely a hand must throw: how far the landing moves if a rate or the time of flight changes a little.
 //!
 //! The landed coin is the launched one, Q0, turned by the rotation vector Φ = T L with L = (ωx, ωy, k ωz), and then by
-//! -q T about n, where q = (k - 1) ωz. Let φ = |Φ|, ŝ = L/|L|, z(α) the rotation by α about the body's z axis, [ŝ]× the
-//! matrix of the cross product, and v the vertical in the body frame (BF) at landing. A change δω of the rate and δT of
-//! the time then turns the landed coin, in BF, by
+//! -q T about n, where q = (k - 1) ωz. Let φ = |Φ|, ŝ = L/|L|, z(α) the rotation by α about the body's z axis, `[ŝ]×`
+//! the matrix of the cross product, and v the vertical in the body frame (BF) at landing. A change δω of the rate and
+//! δT of the time then turns the landed coin, in BF, by
 //!
 //! ```text
 //! δϑ = T z(qT) Jr diag(1, 1, k) δω - (k - 1) T ẑ δωz + ω(T) δT
