@@ -112,7 +112,7 @@ fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
         ("map --space paper-fig4 --up rate_x", ["rate x [rad/s] = 'rate_x'", "two different"]),
         ("convergence --rate-x 0:9 --rate-y x --rate-z 1 --speed 4", ["rate x [rad/s] = '0:9'", "a grid"]),
         ("convergence --space tails --steps 0", ["steps = 0.0", "at least 1"]),
-        ("convergence --space tails --steps 501", ["steps = 501.0", "at most one a launch"]),
+        ("convergence --space tails --steps 501", ["steps = 501.0", "at most the number of launches"]),
         ("convergence --space tails --svg /no/such/folder/x.svg", ["/no/such/folder/x.svg", "cannot write"]),
     ]);
 }
