@@ -1,11 +1,12 @@
-//! The tosses that benchmarks solve.
+//! This file makes the tosses that all benchmarks solve, so that their times and errors can be compared. They are the
+//! same in every run.
 
 use toss::{Attitude, Batch, Coin, SimdLevel, Toss, Tosses};
 
-/// Number of tosses: their columns stay in the second-level cache.
+/// Number of tosses, so few that their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
 
-/// Rates of 1 to 60 rad/s on each axis and speeds of 3 to 5 m/s, by Weyl's sequence.
+/// Columns of rates from 1 to 60 rad/s on each axis and of speeds from 3 to 5 m/s, spread evenly by Weyl's sequence.
 pub(super) struct Columns {
     pub(super) rates: [Vec<f64>; 3],
     pub(super) speeds: Vec<f64>,

@@ -67,7 +67,7 @@ impl Case {
                 }
             }
         };
-        ensure!(fields.is_empty(), "unknown: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
+        ensure!(fields.is_empty(), "unknown fields: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt)?;
         Ok(Self { toss: Toss { coin, launch }, tilt })
     }
@@ -153,7 +153,7 @@ mod tests {
             (line.replace("tilt", "tlit"), "tilt is missing"),
             (line.replace("i1=0x1", "i1=0x3"), "i1: '0x3"),
             (format!("{line} {first}"), "i1 is given twice"),
-            (format!("{line} spin=0x0p+0"), "unknown: spin"),
+            (format!("{line} spin=0x0p+0"), "unknown fields: spin"),
             (format!("{line} spin"), "'spin' is no NAME=VALUE"),
             (line.replace("i1=0x1", "i1=-0x1"), "I1"),
         ] {

@@ -1,5 +1,5 @@
 //! The conditioning of a toss says how far its landing moves when its launch changes a little. An error that one
-//! rounding of the inputs would cause is not a fault of the method, so that the report shows the two side by side.
+//! rounding of the inputs would cause is not a fault of the method, so that both are reported together.
 
 use anyhow::ensure;
 use faer::Mat;
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn a_pure_spin_is_as_sensitive_as_its_angle_is_large() {
         // ω = (0, 0, 2) rad/s for 3 s turns by 6 rad. Relative changes of ωz and of the time have the same effect;
-        // changes of ωx and ωy tip the coin over by |sin 3 / 3| of 6 rad.
+        // changes of ωx and ωy tip the coin over, by 6 |sin 3 / 3| rad per unit.
         let launch = Launch::new(Vector3::new(0.0, 0.0, 2.0), TimeOfFlight::Given(3.0)).unwrap();
         let sphere = Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
         let found = Conditioning::new(&sphere).unwrap().unwrap();

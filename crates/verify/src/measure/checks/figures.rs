@@ -54,7 +54,9 @@ fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> 
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
         let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
-        let Found::Shares { rounding_error } = found.found else { anyhow::bail!("exact-speed has no counts") };
+        let Found::Shares { rounding_error } = found.found else {
+            anyhow::bail!("exact-speed gave counts instead of a share")
+        };
         let measured = measure((found.probability - reference.probability).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());

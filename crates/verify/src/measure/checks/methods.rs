@@ -105,7 +105,7 @@ fn exact_coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let space = four_coordinates()?;
     let share = covered(context, |seed, probability| {
         let Estimate { found, .. } = Sampler::exact().estimate(&space, Plan::Random { points: 1000, seed })?;
-        let Found::Counts(counts) = found else { anyhow::bail!("random launches are counted") };
+        let Found::Counts(counts) = found else { anyhow::bail!("random launches gave a share instead of counts") };
         Ok(clopper_pearson(counts.heads(), counts.points(), 0.95).contains(probability))
     })?;
     let input = format!("{share} of the intervals from 1000 launches");

@@ -76,7 +76,7 @@ fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("a series has its end")?;
+    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("the series is empty")?;
     let heads = (random * launches as f64).round() as u64;
     let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
@@ -87,7 +87,7 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn counts(space: &Space, sampler: &Sampler<'_>) -> anyhow::Result<Counts> {
     match sampler.estimate(space, Plan::Grid)?.found {
         Found::Counts(counts) => Ok(counts),
-        Found::Shares { .. } => anyhow::bail!("a grid is counted"),
+        Found::Shares { .. } => anyhow::bail!("a grid gave a share instead of counts"),
     }
 }
 
