@@ -1,5 +1,5 @@
 //! This file describes the machine and the version of the code of a measurement. Times depend on the machine, and
-//! errors on the code, so that a record without them could not be interpreted.
+//! errors on the code, so a record without them could not be interpreted.
 
 use std::process::Command;
 

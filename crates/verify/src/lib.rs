@@ -1,5 +1,5 @@
 //! The verification suite measures every solver of a tossed coin against independent references, compares the errors
-//! with bounds, and reports the result. It is a crate of its own so that the solvers never see what judges them.
+//! with bounds, and reports the result. It is a crate of its own, so no solver can use the code that judges it.
 //!
 //! A check is a claim and how it is measured; a subject is a solver with its settings; a row is one subject under one
 //! check, with its verdict.

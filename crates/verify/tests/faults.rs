@@ -2,7 +2,7 @@
 //! passes everything would otherwise not be noticed.
 //!
 //! The γ-ODE and the quaternion are written again here, each with a parameter for the fault. Without their faults these
-//! copies pass, so that a failure is due to the fault alone.
+//! copies pass, so a failure is due to the fault alone.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! This test holds the probability tables fixed in a snapshot. They are counts of launches, so that any change of the
-//! sampling or of an outcome changes them.
+//! This test holds the probability tables fixed in a snapshot. They are counts of launches and shares of 12 digits, so
+//! any change of the sampling or of an outcome changes them.
 
 #[test]
 fn probability_tables() {

@@ -33,7 +33,7 @@ pub(super) fn race(contests: &mut [Contest<'_>], mut reference: Option<&mut Refe
     for _ in 0..ROUNDS {
         for (contest, shortest) in contests.iter_mut().zip(&mut times.contests) {
             *shortest = shortest.min(contest.nanoseconds());
-            // The processor's clock rate may change, so that the reference is timed again beside each contestant.
+            // The processor's clock rate may change during a race, so the reference is timed beside each contestant.
             if let Some(reference) = &mut reference {
                 times.reference = times.reference.min(reference.nanoseconds()?);
             }

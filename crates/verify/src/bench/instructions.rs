@@ -1,5 +1,5 @@
-//! This file counts the instructions that a toss takes. Unlike times, counts are the same in every run, so that they
-//! can be compared with a baseline and judged.
+//! This file counts the instructions that a toss takes. Unlike times, counts are the same in every run, so they can be
+//! compared with a baseline and judged.
 //!
 //! Valgrind's callgrind runs each work once and three times; the difference is divided by the tosses that the two more
 //! rounds solve, so that the start of the program does not count. Valgrind supports AVX2 but not AVX-512.

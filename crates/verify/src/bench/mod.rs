@@ -2,8 +2,8 @@
 //! toss is on your machine, and how large its error is.
 //!
 //! Times are in nanoseconds and in xR, multiples of the time of a reference (`reference.rs`) that is measured in turn
-//! with them, so that they can be compared across machines. Each time is the shortest of many runs. All are run in
-//! turn, so that a machine that slows down affects all alike. Times are not judged, because they vary from run to run;
+//! with them, so they can be compared across machines. Each time is the shortest of many runs. All are run in turn, so
+//! that a machine that slows down affects all alike. Times are not judged, because they vary from run to run;
 //! [`instructions`] are.
 
 mod contest;
@@ -27,7 +27,7 @@ pub struct Table {
     rows: Vec<Row>,
 }
 
-/// One contestant.
+/// The result of one contestant.
 struct Row {
     group: &'static str,
     name: String,

@@ -20,7 +20,7 @@ impl Columns {
         Self { rates: [2.0, 3.0, 5.0].map(|square| column(1.0, 59.0, square)), speeds: column(3.0, 2.0, 7.0) }
     }
 
-    /// The tosses of the paper's coin from horizontal.
+    /// The columns as tosses of the paper's coin that start horizontal.
     fn tosses(&self) -> Tosses<'_> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);

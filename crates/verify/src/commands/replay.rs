@@ -1,5 +1,5 @@
 //! `verify replay` solves one toss with every solver, scheme and formulation and prints their answers side by side. The
-//! toss is given as the hex floats of a row's worst input, so that a failure can be studied exactly.
+//! toss is given as the hex floats of a row's worst input, so a failure can be studied exactly.
 
 use clap::Args;
 use toss::Registry;

@@ -31,7 +31,7 @@ const FLOOR: f64 = 1e-11;
 /// The error (rad) that counts for a run that failed.
 const FAILED: f64 = std::f64::consts::PI;
 
-/// Check and subject.
+/// The id of a check and the name of a subject.
 type Key = (String, String);
 
 /// What was measured for one pair of check and subject.
@@ -79,7 +79,7 @@ pub struct Move {
     pub what: &'static str,
     /// The accepted value.
     pub before: Option<f64>,
-    /// The value found.
+    /// The value of this run.
     pub now: Option<f64>,
     /// How it changed.
     pub direction: Direction,
@@ -165,7 +165,8 @@ impl Baseline {
     }
 
     /// The baseline after a complete run: better and new entries are taken over, entries that are gone are removed, and
-    /// everything else stays. Because worse entries stay too, many small steps for the worse add up until they show.
+    /// everything else stays. Where the run was worse, the accepted value stays, so many small steps for the worse add
+    /// up until they show.
     #[must_use]
     pub fn ratcheted(&self, found: &Self) -> Self {
         let accept = |(key, now): (&Key, &Entry)| {

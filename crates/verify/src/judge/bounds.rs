@@ -41,7 +41,7 @@ impl Bounds {
             for (subject, bound) in &entry.allowed {
                 ensure!(
                     bound.is_finite() && *bound >= 0.0,
-                    "[{check}] {subject} = {bound}: a bound is a finite number from 0 on"
+                    "[{check}] {subject} = {bound}: a bound must be finite and at least 0"
                 );
             }
         }

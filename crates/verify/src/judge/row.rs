@@ -1,6 +1,6 @@
 //! This file turns measurements into rows, each with a verdict: it is the only place that decides whether something
 //! passes. A measurement is compared with its bound or, if it has none, with what the solver's own error estimate
-//! allows (its claim), so that solvers from outside can be judged too.
+//! allows (its claim), so solvers from outside can be judged too.
 
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ pub enum Status {
     PassLoose,
     /// It has no bound, and is within the error that the solver claims.
     PassByClaim,
-    /// It has no bound, and it is not an error, so that no error estimate applies.
+    /// It has no bound, and it is not an error, so no error estimate applies.
     NotJudged,
     /// Above its bound.
     Fail,
@@ -153,7 +153,7 @@ pub fn unused_bounds(rows: &[Row], bounds: &Bounds) -> Vec<Row> {
         .filter(|(check, subject)| !rows.iter().any(|row| row.check == *check && row.subject == *subject))
         .map(|(check, subject)| Row {
             check: check.to_owned(),
-            claim: "Every bound belongs to something that was measured; a bound of nothing fails.".to_owned(),
+            claim: "Every bound belongs to something that was measured; a bound for anything else fails.".to_owned(),
             basis: None,
             subject: subject.to_owned(),
             unit: String::new(),

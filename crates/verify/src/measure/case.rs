@@ -1,5 +1,5 @@
 //! A case is a toss that the report can write down in full and the command line can repeat. Hex floats hold every bit
-//! of the inputs, so that a failure can be reproduced exactly.
+//! of the inputs, so a failure can be reproduced exactly.
 
 use std::collections::BTreeMap;
 

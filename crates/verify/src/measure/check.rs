@@ -43,6 +43,6 @@ pub struct Check {
     pub basis: Basis,
     /// Unit of the measured value; "1" for a pure number.
     pub unit: &'static str,
-    /// Measures the claim for every subject.
+    /// Measures every subject; one measurement for each row of the report.
     pub measure: fn(&Context) -> anyhow::Result<Vec<Measurement>>,
 }

@@ -1,5 +1,5 @@
 //! A [`Context`] holds what all checks of a run share: the subjects, the reference data, and results that several
-//! checks read. Each result is computed when the first check asks for it, so that a run of one check computes only what
+//! checks read. Each result is computed when the first check asks for it, so a run of one check computes only what
 //! that check needs.
 
 use std::collections::BTreeSet;

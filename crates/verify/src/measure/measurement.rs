@@ -30,10 +30,10 @@ pub struct Measurement {
 /// What a solver's own error estimate allows for a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Claim {
-    /// The measurement is not of a solver, so that there is no estimate.
+    /// The measurement is not of a solver, so there is no estimate.
     NoSolver,
-    /// The measured quantity is not an error (but an order, a slope or an amount of work), so that no estimate applies
-    /// to it.
+    /// The measured quantity is not an error (but an order, a slope or an amount of work), so no estimate applies to
+    /// it.
     Silent,
     /// The solver has no error estimate.
     NoEstimate,

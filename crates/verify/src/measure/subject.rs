@@ -1,5 +1,5 @@
 //! A subject is what the suite verifies: a solver of the registry with one of its schemes, its tolerance or step, and a
-//! formulation. Its name is the key of its bounds and of its baseline, so that every combination is judged on its own.
+//! formulation. Its name is the key of its bounds and of its baseline, so every combination is judged on its own.
 
 use toss::{
     ExactSolver, Formulation, InputError, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, StepControl,
@@ -29,7 +29,7 @@ pub struct Subject {
 
 impl Subject {
     /// The solver of `entry` with `stepping` (`None` for a closed form) in `formulation`. If the solver cannot be made,
-    /// the subject fails on every toss, so that it appears in the report instead of ending the run.
+    /// the subject fails on every toss, so it appears in the report instead of ending the run.
     pub fn new(entry: &SolverEntry, stepping: Option<Stepping>, formulation: Formulation) -> Self {
         let scheme = stepping.map(|stepping| format!("/{}", stepping.scheme().name())).unwrap_or_default();
         let suffix =
@@ -111,7 +111,7 @@ pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
 /// Every solver of `registry`, each integrator with every one of its schemes, set up by `stepping`.
 ///
 /// # Errors
-/// As `stepping`'s.
+/// If `stepping` returns one.
 pub fn subjects(
     registry: &[SolverEntry],
     stepping: fn(Scheme) -> Result<Stepping, InputError>,
@@ -123,7 +123,7 @@ pub fn subjects(
 /// The solver of `entry` in `formulation` with every one of its schemes, or once if it is a closed form.
 ///
 /// # Errors
-/// As `stepping`'s.
+/// If `stepping` returns one.
 pub fn by_every_scheme(
     entry: &SolverEntry,
     formulation: Formulation,

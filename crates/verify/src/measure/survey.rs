@@ -13,7 +13,7 @@ use crate::measure::case::Case;
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
 
-/// Seed of the launches; any other would do.
+/// Seed of the launches; its value has no meaning.
 const SEED: u64 = 20_260_101;
 
 /// The random launches with their landings.

@@ -1,12 +1,12 @@
 //! This file estimates P(heads) of every named space by every sampling method, and the running shares of heads in Fig.
-//! 4's space. The counts are whole numbers that the same input always gives, so that a test can hold them fixed.
+//! 4's space. Counts, and shares rounded to 12 digits, are the same on every platform, so a test can hold them fixed.
 
 use sampling::{Estimate, Found, Plan, Rest, RunningStep, Sampler, Scrambled, named_space, named_spaces};
 use serde::Serialize;
 
-/// Launches of method B.
+/// Number of independent random launches, the paper's method B.
 const RANDOM_LAUNCHES: u64 = 250_000;
-/// Seed of method B.
+/// Seed of the random launches and of the scrambles.
 const SEED: u64 = 1;
 
 /// One line of the probability tables.
@@ -87,7 +87,7 @@ pub struct Probability {
     pub interval_kind: String,
 }
 
-/// The tables, for the reports.
+/// The estimates of [`tables`] in the form that the reports use.
 ///
 /// # Errors
 /// As [`tables`].

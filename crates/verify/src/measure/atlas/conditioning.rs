@@ -1,5 +1,5 @@
 //! The conditioning of a toss says how far its landing moves when its launch changes a little. An error that one
-//! rounding of the inputs would cause is not a fault of the method, so that both are reported together.
+//! rounding of the inputs would cause is not a fault of the method, so both are reported together.
 
 use anyhow::ensure;
 use faer::Mat;

@@ -1,6 +1,5 @@
 //! This file reads `validation/atlas.toml`, the table of what every contestant is known to do at every hazard. The
-//! check `atlas-answers` compares it with what contestants really do, so that a change for the worse or the better
-//! shows.
+//! check `atlas-answers` compares it with what contestants really do, so a change for the worse or the better shows.
 
 use std::collections::BTreeMap;
 use std::path::Path;

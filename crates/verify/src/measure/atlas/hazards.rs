@@ -1,6 +1,6 @@
 //! A hazard is a place in the space of tosses where some method fails, given as a series of tosses that come nearer and
-//! nearer to it. Apart from its hazard each toss is regular, so that a failure has one cause: a flight that tests α' =
-//! 0, for example, keeps away from sin β = 0 and cos β = 0.
+//! nearer to it. Apart from its hazard each toss is regular, so a failure has one cause: a flight that tests α' = 0,
+//! for example, keeps away from sin β = 0 and cos β = 0.
 //!
 //! α, β and γ are the Euler angles (precession, nutation, spin), α' the rate of α, n the coin's normal, θ its angle to
 //! the vertical, ω the body rate and Ω = √(ωx² + ωy²).
@@ -13,9 +13,9 @@ use crate::measure::case::Case;
 
 /// A place where some method fails.
 pub struct Hazard {
-    /// `F1` to `F8`.
+    /// Its id, `F1` to `F8`.
     pub id: &'static str,
-    /// What happens there.
+    /// What happens there, in words.
     pub name: &'static str,
     /// What the distance is and its unit.
     pub distance: &'static str,
@@ -103,7 +103,7 @@ fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
     Ok(Case { toss: Toss { coin: Coin::PAPER, launch }, tilt })
 }
 
-/// A flight on which β stays between 29° and 74°.
+/// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.
 fn regular(time: f64) -> Result<Case, InputError> {
     case([0.0, 4.0, 6.5], 0.5, time)
 }

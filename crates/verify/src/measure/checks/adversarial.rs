@@ -37,7 +37,7 @@ pub(super) const REFUSED: Check = Check {
             subject: findings.subject.clone(),
             measured: findings.refused as f64 / findings.launches as f64,
             cases: findings.launches,
-            // A refusal is what this row counts, so that it is not reported as a failure of the measurement.
+            // A refusal is what this row counts, so it is not reported as a failure of the measurement.
             worst: findings.first_refused.clone().map(|worst| Worst { failure: None, ..worst }),
             claim: Claim::Silent,
         })

@@ -1,6 +1,6 @@
 //! These checks compare what every contestant does near the places where methods fail with what is known of it, and
 //! count what such a place costs. A contestant is a solver with a scheme and a formulation; a hazard is a place where
-//! some method fails. The raw equations of the paper are meant to fail there, so that doing better than known fails the
+//! some method fails. The raw equations of the paper are meant to fail there, so doing better than known fails the
 //! check too.
 
 use std::f64::consts::FRAC_PI_2;

@@ -1,5 +1,5 @@
 //! These checks compare the batch kernels with the 256-bit reference, and their SIMD levels with each other. The
-//! kernels are written separately from the solver of one toss, so that checks of that solver say nothing about them.
+//! kernels are written separately from the solver of one toss, so checks of that solver say nothing about them.
 
 use rayon::prelude::*;
 use toss::{Attitude, Batch, Error, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};

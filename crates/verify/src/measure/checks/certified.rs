@@ -1,7 +1,7 @@
 //! These checks compare the exact motion (the closed form in double-double arithmetic) and the outcomes that it proves
-//! with the 256-bit reference. Its last bits and its proofs depend on rounding, so that the launches include those
-//! where rounding is hardest: large phases, corners of the model, and tosses that land within a few ulp of a change of
-//! the outcome.
+//! with the 256-bit reference. Its last bits and its proofs depend on rounding, so the launches include those where
+//! rounding is hardest: large phases, corners of the model, and tosses that land within a few ulp of a change of the
+//! outcome.
 //!
 //! An ulp is the distance from an f64 to the next; the phase (rad) is the angle by which a motion turns, and ψ the cone
 //! angle between the coin's normal n and its angular momentum S.
@@ -185,8 +185,8 @@ fn ulps(value: f64, turn: usize) -> f64 {
 /// A tilt within 3 ulp of the one for which φ + ψ = 90°, where φ is the angle of S to the vertical: there cos θ only
 /// touches 0.
 fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
-    // A turn by β about the lab's x axis takes S from the polar angle ψ in the plane of x to where its height is
-    // sin β Sy + cos β Sz = sin ψ.
+    // A turn by β about the laboratory's x axis gives S the height sin β Sy + cos β Sz. For φ + ψ = 90° this must be
+    // |S| cos φ = |S| sin ψ = I1 Ω, with Ω = √(ωx² + ωy²). No tilt reaches it if Sy and Sz are too small.
     let rate = toss.launch.rate();
     let spin = toss.coin.inertia_ratio() * rate.z;
     let reach = rate.y.hypot(spin);

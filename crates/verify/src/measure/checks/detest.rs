@@ -1,5 +1,5 @@
 //! This check integrates DETEST B5, the published test problem of an asymmetric rigid body, by each Runge-Kutta scheme.
-//! No solver of a coin contains these equations, so that it tests the stepping alone, without any kinematics.
+//! No solver of a coin contains these equations, so this check tests the stepping alone, without any kinematics.
 
 use dynamics::integrate::{OdeSystem, integrate};
 use nalgebra::SVector;

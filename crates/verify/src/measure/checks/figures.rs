@@ -67,7 +67,7 @@ fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> 
 }
 
 /// Compares means of p(ψ) over isotropic directions with the reference, by the midpoint rule. Directions that are
-/// uniform on the sphere have a uniform cosine of the polar angle, and both hemispheres have the same mean, so that one
+/// uniform on the sphere have a uniform cosine of the polar angle, and both hemispheres have the same mean, so one
 /// is enough. The polar angle of S is ψ; that of ω gives tan ψ = tan(polar)/k.
 fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PARTS: u32 = 1_000_000;
@@ -102,13 +102,13 @@ struct Figure {
     axes: [(Coordinate, String); 4],
 }
 
-/// Range of speeds (m/s) whose flights last some 10^8 turns, so that the long-flight limit holds.
+/// Range of speeds (m/s) whose flights last some 10^8 turns, so the long-flight limit holds.
 const LONG: &str = "0:1e9";
 
 fn known() -> anyhow::Result<Vec<Figure>> {
     let coin = |k: f64| Coin::from_moments(1.0, k);
     // Three independent normal components of equal deviation have an isotropic direction. S = (I1 ωx, I1 ωy, I3 ωz), so
-    // that with k = 0.5 an isotropic S needs twice the deviation in ωz.
+    // with k = 0.5 an isotropic S needs twice the deviation in ωz.
     let isotropic = |deviation_z: f64| {
         let [x, z] = [1.0, deviation_z].map(|deviation| format!("normal:0:{deviation}"));
         [(RateX, x.clone()), (RateY, x), (RateZ, z), (Speed, LONG.to_owned())]

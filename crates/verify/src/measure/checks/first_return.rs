@@ -28,8 +28,7 @@ pub(super) const ATTITUDE: Check = Check {
 const DISTANCE: f64 = 0.1;
 
 /// Distance (rad) that the cone angle ψ keeps from 0 and π, where n stays near the vertical, and from π/2, where the
-/// coin turns end over end. The vertical frame's solvers divide by sin β, and such flights come too near to
-/// sin β = 0.
+/// coin turns end over end. The vertical frame's solvers divide by sin β, and such flights come too near to sin β = 0.
 const CLEARANCE: f64 = 0.1;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -1,5 +1,5 @@
 //! These checks follow flights of up to 10⁴ s, far longer than any toss. Errors of an integrator grow with the time of
-//! flight, so that an error estimate that holds for short flights may fail for long ones.
+//! flight, so an error estimate that holds for short flights may fail for long ones.
 
 use crate::measure::check::{Basis, Check};
 use crate::measure::context::Context;

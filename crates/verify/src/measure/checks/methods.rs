@@ -1,5 +1,5 @@
 //! These checks measure how accurate the methods of sampling launches are, and how often their confidence intervals
-//! contain the true probability. The space has four free coordinates and a reference probability, so that errors are
+//! contain the true probability. The space has four free coordinates and a reference probability, so errors are
 //! known, not estimated.
 
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};

@@ -1,5 +1,5 @@
 //! These checks compare every solver with the landings in `validation/reference`: the paper's tosses, Kane's body, and
-//! flights at the corners of the model. These numbers come from outside the workspace, so that an error which all our
+//! flights at the corners of the model. These numbers come from outside the workspace, so an error which all our
 //! code shares shows.
 
 use toss::{SolveError, Solver};

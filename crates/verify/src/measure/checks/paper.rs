@@ -1,6 +1,5 @@
 //! These checks solve the paper's two tosses: the cheated one, which must land heads, and the one of its Fig. 3, which
-//! must land tails. They are the paper's own examples, and every solver must reproduce
-//! them.
+//! must land tails. They are the paper's own examples, and every solver must reproduce them.
 //!
 //! "Heads with certainty" has two meanings, and both are checked. With the paper's moments the cone angle ψ between
 //! normal and angular momentum is 48.5°, and the cheated toss shows heads up to its first flip at 1.3073 s, longer than

@@ -1,6 +1,6 @@
 //! These checks measure how accurate and how costly the planner's choices are on random scenes (questions with an
-//! accuracy). The planner chooses by a table of measured errors and costs, so that only solving scenes shows whether
-//! its choices are right.
+//! accuracy). The planner chooses by a table of measured errors and costs, so only solving scenes shows whether its
+//! choices are right.
 
 use std::cmp::Ordering;
 
@@ -71,7 +71,7 @@ fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow:
     Ok(trial.kinds().into_iter().map(row).collect())
 }
 
-/// 1 less each of the `shares` of all scenes, so that a smaller number is better.
+/// 1 less each of the `shares` of all scenes, so a smaller number is better.
 fn share(context: &Context, check: &str, shares: &[(&str, Share)]) -> anyhow::Result<Vec<Measurement>> {
     let lines = context.trial()?.lines();
     let all = lines.last().expect("there is a line for all scenes");

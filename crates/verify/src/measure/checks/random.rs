@@ -76,7 +76,7 @@ fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): 
         (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
     });
-    // The two errors may add up, so that the difference may be as large as the sum of both allowances.
+    // The two errors may add up, so the difference may be as large as the sum of both allowances.
     let allowed = |case: usize| -> Result<Option<f64>, SolveError> {
         let allowance = |subject| Allowance::new(subject, &survey.cases[case].toss);
         Ok(allowance(one)?.zip(allowance(other)?).map(|(one, other)| one.attitude + other.attitude))

@@ -43,8 +43,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
                 let tolerance = 10f64.powf(-3.0 - f64::from(part) / f64::from(PER_DECADE));
                 let stepping = Stepping::adaptive(*scheme, tolerance)?;
                 let solver = Subject::new(entry, Some(stepping), Formulation::default()).solver;
-                // A tolerance at which a flight fails gives no point; without any point
-                // the slope is not a number.
+                // A tolerance at which a flight fails gives no point; without any point the slope is not a number.
                 let found = error(solver.as_ref(), &flights).ok().filter(|error| *error > ROUNDING);
                 Ok(found.map(|error| [tolerance.ln(), error.ln()]))
             };

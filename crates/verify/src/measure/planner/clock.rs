@@ -1,4 +1,4 @@
-//! This file measures the time of a call in nanoseconds. A single call is shorter than the clock can resolve, so that
+//! This file measures the time of a call in nanoseconds. A single call is shorter than the clock can resolve, so
 //! calls are timed in batches.
 
 use std::time::{Duration, Instant};

@@ -15,7 +15,7 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Solves `toss` in 256 bits.
+    /// Solves `toss` with the 256-bit reference.
     pub fn new(toss: &Toss) -> Self {
         Self { landing: Reference::new(toss), toss: *toss }
     }

@@ -1,5 +1,5 @@
 //! This file measures the planner's table: what each model costs and how large its errors are, on random tosses and
-//! spaces. The library is built with the result, so that planning itself measures nothing.
+//! spaces. The library is built with the result, so planning itself measures nothing.
 
 use toss::fitted::{ClosedFit, Fitted};
 use toss::{Answer, How, MODELS, Model, Registry, Scene, Want};

@@ -1,5 +1,5 @@
 //! This file measures the errors and costs of integrators by bins of spin, phase and tolerance. The error of an
-//! integrator depends on how far the coin turns and spins, so that one number for each tolerance would be far too large
+//! integrator depends on how far the coin turns and spins, so one number for each tolerance would be far too large
 //! for most tosses.
 //!
 //! The phase (rad) is the angle by which a motion turns, the larger of precession (about the angular momentum) and spin

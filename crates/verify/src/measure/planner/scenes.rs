@@ -1,5 +1,5 @@
 //! This file makes random scenes for the planner: questions about tosses as hands and machines make them, and about
-//! spaces of such tosses. Each follows from a seed and an index alone, so that a failing scene can be made again.
+//! spaces of such tosses. Each follows from a seed and an index alone, so a failing scene can be made again.
 
 use std::f64::consts::PI;
 
@@ -102,7 +102,7 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
         _ => Want::Trace { toss: case.toss, points: rng.random_range(2..8) },
     };
     let scene = if kind == "integrator" {
-        // The planner does not choose integrators that are not in its table, so that no scene asks for one.
+        // The planner does not choose integrators that are not in its table, so no scene asks for one.
         let measured = |entry: &&SolverEntry| FITTED.integrators.iter().any(|fit| fit.solver == entry.name());
         let entries: Vec<_> = Registry::standard().entries().iter().filter(measured).collect();
         let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];

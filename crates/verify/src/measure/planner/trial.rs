@@ -54,7 +54,7 @@ impl Trial {
     /// Solves a number of scenes that depends on `effort`.
     ///
     /// # Errors
-    /// If a scene is not served.
+    /// If a scene cannot be solved, except because its accuracy is out of reach.
     pub fn new(effort: Effort) -> anyhow::Result<Self> {
         let (solved, tried, spaces) = match effort {
             Effort::Quick => (1000, 100, 6),
@@ -66,7 +66,7 @@ impl Trial {
             .map(|index| solve(&scenes::toss_scene(SEED, index)?))
             .collect::<anyhow::Result<_>>()?;
         let mut trial = Self { outcomes: tosses, costs: Vec::new() };
-        // These are timed, so that they run on one thread, where no other thread disturbs the clock.
+        // These are timed, so they run on one thread, where no other thread disturbs the clock.
         for index in 0..tried {
             trial.try_all(usize::try_from(index)?, &scenes::toss_scene(SEED, index)?)?;
         }

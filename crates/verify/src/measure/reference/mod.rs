@@ -1,11 +1,10 @@
 //! This module solves a toss in 256-bit arithmetic; every error in the suite is measured against it. It shares no code
-//! with the solvers, so that a mistake in their formulas cannot hide in the reference.
+//! with the solvers, so a mistake in their formulas cannot hide in the reference.
 //!
 //! It takes the f64 inputs of a toss as exact numbers and evaluates `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with
-//! correctly rounded arithmetic, so that its own error is about 2^-250 for the phases of a toss. Q is the attitude, ŝ
-//! the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal, ωL = |S|/I1, k = I3/I1 and q =
-//! (k - 1) ωz. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`]
-//! read.
+//! correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Q is the attitude, ŝ the
+//! direction of the angular momentum S in the body frame (BF), ẑ the coin's normal, ωL = |S|/I1, k = I3/I1 and q = (k -
+//! 1) ωz. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`] read.
 
 pub mod motions;
 pub mod probabilities;
