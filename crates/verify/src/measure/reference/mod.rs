@@ -2,9 +2,10 @@
 //! with the solvers, so a mistake in their formulas cannot hide in the reference.
 //!
 //! It takes the f64 inputs of a toss as exact numbers and evaluates `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with
-//! correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Q is the attitude, ŝ the
-//! direction of the angular momentum S in the body frame (BF), ẑ the coin's normal, ωL = |S|/I1, k = I3/I1 and q = (k -
-//! 1) ωz. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`] read.
+//! correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
+//! k = I3/I1, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
+//! the attitude. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`]
+//! read.
 
 pub mod motions;
 pub mod probabilities;
