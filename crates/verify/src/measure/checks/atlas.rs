@@ -29,8 +29,8 @@ pub(super) const ANSWERS: Check = Check {
 
 pub(super) const TILT_WORK: Check = Check {
     id: "work-by-tilt",
-    claim: "The calls of the right-hand side do not depend on how near to the vertical the normal n starts, for tilts \
-            from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
+    claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
+            tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
     basis: Basis::Invariant,
     unit: "1",
     measure: tilt_work,
@@ -38,9 +38,9 @@ pub(super) const TILT_WORK: Check = Check {
 
 pub(super) const RETURN_WORK: Check = Check {
     id: "work-through-returns",
-    claim: "A horizontal launch, on which n returns to the vertical again and again, takes no more calls of the \
-            right-hand side by default than the same flight in the vertical formulation, tilted so that n stays away \
-            from the vertical. Measured: the largest ratio of calls; it fails above the bound.",
+    claim: "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default \
+            no more calls of the right-hand side than the same flight in the vertical formulation, tilted so that the \
+            normal stays away from the vertical. Measured: the largest ratio of calls; it fails above the bound.",
     basis: Basis::CrossMethod,
     unit: "1",
     measure: return_work,

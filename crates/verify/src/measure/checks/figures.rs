@@ -35,8 +35,8 @@ pub(super) const SHARE_BOUNDS: Check = Check {
 
 pub(super) const ISOTROPIC: Check = Check {
     id: "isotropic-long-flights",
-    claim: "The mean of the long-flight probability p(ψ) over all directions of S differs from 1/√2, and over all \
-            directions of ω from the reference number, by at most the bound.",
+    claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
+            1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: isotropic,

@@ -31,8 +31,8 @@ pub(super) const ENERGY: Check = Check {
 
 pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
     id: "invariant-normal-momentum-body",
-    claim: "(c) n·S, computed in the body frame from the attitude at landing, differs from its value at launch by at \
-            most the bound, relative to |S|.",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
+            at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum_body),
@@ -40,8 +40,8 @@ pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
 
 pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
     id: "invariant-normal-momentum-transport",
-    claim: "(c) n·S, computed in the transport frame from the attitude at landing, differs from its value at launch \
-            by at most the bound, relative to |S|.",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
+            attitude at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum),
@@ -49,8 +49,8 @@ pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
 
 pub(super) const MOMENTUM_VECTOR: Check = Check {
     id: "invariant-momentum-vector",
-    claim: "S as a vector in the transport frame, computed from rate and attitude at landing, differs from its value \
-            at launch by at most the bound, relative to |S|.",
+    claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
+            differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::momentum_vector),

@@ -8,8 +8,8 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const ORDER: Check = Check {
     id: "convergence-order",
-    claim: "With fixed steps the error falls with that power of the step which is the scheme's order by theory. \
-            Measured: the distance of the fitted order from it; it fails above the bound.",
+    claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
+            distance of the fitted power from that order; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,
