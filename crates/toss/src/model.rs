@@ -117,7 +117,7 @@ pub static MODELS: [Model; 11] = [
     sample(
         "grid",
         "points on every free axis",
-        "probability, without an error",
+        "probability, without an error estimate",
         |_| Some(Reason::TellsNoError),
         |_, _| Plan::Grid,
     ),

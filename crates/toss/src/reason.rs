@@ -34,13 +34,13 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GivesOnly(what) => write!(f, "gives only {what}"),
-            Self::NotMeasured => f.write_str("its error and cost are not in the table of what was measured"),
+            Self::NotMeasured => f.write_str("its error and cost have not been measured"),
             Self::TooRough { expected_error } => write!(f, "its expected error is {expected_error:.1e}"),
             Self::NotAskedFor => f.write_str("an integrator was asked for"),
             Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
-            Self::TellsNoError => f.write_str("tells no error"),
+            Self::TellsNoError => f.write_str("has no error estimate"),
         }
     }
 }
