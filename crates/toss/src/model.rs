@@ -84,13 +84,13 @@ pub static MODELS: [Model; 11] = [
     closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, |toss, _| {
         Ok(Answer::Tilt(ExactSolver.cos_tilt(toss)?))
     }),
-    closed_form("trace", "the flight at equal steps of time", WantKind::Trace, |toss, points| {
+    closed_form("trace", "the flight at equally spaced times", WantKind::Trace, |toss, points| {
         Ok(Answer::Trace(trace(&ExactSolver, toss, points)?))
     }),
     Model {
         name: "integrator",
         assumes: "a tolerance",
-        gives: "all of these, as a cross-check",
+        gives: "any of the above, as a cross-check",
         kind: Kind::Integrator,
     },
     sample(
