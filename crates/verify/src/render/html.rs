@@ -210,8 +210,9 @@ const CHAPTERS: [(&str, &str, &str); 6] = [
         "work-precision",
         "Speed against accuracy",
         "Each point is a run at one tolerance or step: the further right, the more \
-      accurate; the lower, the cheaper. Left in calls, which repeat exactly, right in time on this machine. The grey band is \
-      what no integrator beats; the exact motion calls nothing and is accurate to the last bit.",
+      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
+      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
+      and work. The exact motion calls nothing and is accurate to the last bit.",
     ),
     (
         "models",

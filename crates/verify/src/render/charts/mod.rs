@@ -1,4 +1,4 @@
-//! Charts of the records, as SVG.
+//! Draws the records of a run as charts in SVG, for the report and for `docs/figures`.
 
 mod atlas_lines;
 mod atlas_matrix;
@@ -87,6 +87,7 @@ pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Cha
         charts.push(chart("models.svg", models::models(&planner.t_costs_ns)?));
     }
     if let Some(sweep) = records.sweep {
+        charts.push(chart("work-precision-all.svg", work_precision::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
