@@ -1,5 +1,6 @@
 //! The charts of the commands as SVG, one file for each chart or for each part of it. They draw and compute nothing else.
 
+mod certain_line;
 mod coin;
 mod errors;
 mod flight;
