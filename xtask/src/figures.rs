@@ -1,4 +1,4 @@
-//! `cargo xtask figures`: draws the figures of `docs/figures`, or tells which of them are not current.
+//! `cargo xtask figures` draws the figures of `docs/figures`, or with `--check` tells which of them are not current.
 
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
@@ -33,7 +33,8 @@ const FIGURES: &[Figure] = &[
 /// Where the figures are, from the root of the workspace.
 const FOLDER: &str = "docs/figures";
 
-/// Draws the figures; with `--check` beside those that are there, which are then compared: 1 if one is not current.
+/// Draws the figures. With `--check` they are drawn into another folder and compared with the committed ones; the exit code
+/// is 1 if one is not current.
 pub(crate) fn figures(args: impl Iterator<Item = String>) -> Result<ExitCode, String> {
     match args.collect::<Vec<_>>().as_slice() {
         [] => draw(&root().join(FOLDER)).map(|()| ExitCode::SUCCESS),

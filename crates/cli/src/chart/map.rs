@@ -83,8 +83,8 @@ fn draw_head(panel: &Panel<'_>, line: &Result<CertainLine, &'static str>) -> Dra
     };
     centred(panel, words, (middle, 86))?;
     if line.is_ok() {
-        // Left of the words, of which a letter takes some 16 pixels.
-        let end = middle - 8 * i32::try_from(words.chars().count()).unwrap_or(0) - 20;
+        // Left of the words, of which a letter takes some 15 pixels.
+        let end = middle - 15 * i32::try_from(words.chars().count()).unwrap_or(0) / 2 - 20;
         panel.draw(&PathElement::new([(end - 80, 88), (end, 88)], VERMILION.stroke_width(5)))?;
     }
     Ok(())

@@ -1,8 +1,8 @@
-//! What moved against the baseline, as a table.
+//! Renders what moved against the baseline as a table.
 
 use crate::judge::baseline::{Direction, Move};
 
-/// One line per entry that moved, the worse ones first; empty if nothing did.
+/// One line for each entry that moved, the worse ones first. The text is empty if nothing moved.
 pub fn text(moves: &[Move]) -> String {
     let mut out = String::new();
     for (direction, heading) in [
@@ -16,7 +16,7 @@ pub fn text(moves: &[Move]) -> String {
             continue;
         }
         out += &format!("\n{heading}: {}\n", moved.len());
-        // What is new comes by the hundred, when a baseline is begun.
+        // A new baseline has hundreds of new entries.
         let shown = if direction == Direction::New { 10 } else { moved.len() };
         out.extend(moved.iter().take(shown).map(|moved| line(moved)));
         if moved.len() > shown {

@@ -1,11 +1,11 @@
-//! The table for the terminal.
+//! Renders the rows as the table that a run prints on the terminal.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::judge::{Row, Status};
 
-/// One line per check, or with `verbose` one line per row; then what fails, in full, and the verdict.
+/// One line for each check, or with `verbose` one for each row. Failing rows follow in full, and then the verdict.
 pub fn text(rows: &[Row], verbose: bool) -> String {
     let mut out = if verbose { every_row(rows) } else { every_check(rows) };
     let failures: Vec<&Row> = rows.iter().filter(|row| !row.status.passes()).collect();
@@ -20,7 +20,7 @@ pub fn text(rows: &[Row], verbose: bool) -> String {
     out
 }
 
-/// One line per check: how many rows it has, and the one that is closest to its bound.
+/// One line for each check: how many rows it has, and which of them is closest to its bound.
 fn every_check(rows: &[Row]) -> String {
     let width = rows.iter().map(|row| row.check.chars().count()).max().unwrap_or(0);
     let mut out = format!("\n{:<width$}  rows  closest margin\n", "check");
@@ -30,7 +30,7 @@ fn every_check(rows: &[Row]) -> String {
         let margin = |row: &Row| row.margin.unwrap_or(if row.status.passes() { f64::INFINITY } else { 0.0 });
         let closest = block.iter().min_by(|a, b| margin(a).total_cmp(&margin(b)));
         let closest = closest.map_or_else(String::new, |row| match row.margin {
-            // Nothing deviates, so that no subject is closer to its bound than another.
+            // No row deviates, so no subject is closer to its bound than another.
             None if row.status.passes() => shown_margin(row),
             _ => format!("{}  {}", shown_margin(row), row.subject),
         });
@@ -39,7 +39,7 @@ fn every_check(rows: &[Row]) -> String {
     out
 }
 
-/// One block per check: its claim and basis, then one line per subject.
+/// One block for each check: its claim and basis, then one line for each subject.
 fn every_row(rows: &[Row]) -> String {
     let mut out = String::new();
     let width = rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
@@ -71,7 +71,7 @@ fn pattern(failures: &[&Row]) -> String {
     }
 }
 
-/// The solver of a row's subject, `gamma` of `gamma/dop853`.
+/// The solver of a row's subject, which is `gamma` for `gamma/dop853`.
 fn solver(row: &Row) -> &str {
     row.subject.split('/').next().unwrap_or(&row.subject)
 }
@@ -89,7 +89,7 @@ fn in_full(row: &Row) -> String {
     out
 }
 
-/// How many of the rows that pass do so for another reason than a bound that is near to what was measured.
+/// How many rows pass although no bound is near to the measured value.
 fn remarks(rows: &[Row]) -> String {
     let remark = |(status, words): (Status, &str)| {
         let number = rows.iter().filter(|row| row.status == status).count();
@@ -122,7 +122,7 @@ fn line(row: &Row, width: usize) -> String {
     )
 }
 
-/// How many times the bound is above what was measured.
+/// How many times the measured value the bound is, as text.
 fn shown_margin(row: &Row) -> String {
     format!("{:>7}", row.margin.map_or_else(|| "-".to_owned(), |margin| format!("{margin:.1}×")))
 }
