@@ -32,7 +32,7 @@ pub(super) fn times(label: &str, flight: &[TracePoint]) -> Axis {
 /// How many points the curves of `toss` are drawn by. The coins are at points of the curve, at equal times.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30 000")]
 pub(crate) fn points_to_draw(toss: &Toss) -> usize {
-    let between_coins = POINTS_PER_TURN * turns(toss).min(MOST_TURNS).max(FEWEST_TURNS) / (COINS - 1) as f64;
+    let between_coins = POINTS_PER_TURN * turns(toss).clamp(FEWEST_TURNS, MOST_TURNS) / (COINS - 1) as f64;
     between_coins.ceil() as usize * (COINS - 1) + 1
 }
 
@@ -45,7 +45,9 @@ pub(super) fn is_too_fast(toss: &Toss) -> bool {
 fn turns(toss: &Toss) -> f64 {
     let spin = (1.0 - toss.coin.inertia_ratio()) * toss.launch.rate().z;
     let rate = ExactMotion::new(toss).precession_rate() + spin.abs();
-    rate * toss.launch.flight_time() / std::f64::consts::TAU
+    let turns = rate * toss.launch.flight_time() / std::f64::consts::TAU;
+    // An infinite rate for no time at all.
+    if turns.is_nan() { 0.0 } else { turns }
 }
 
 #[cfg(test)]
@@ -69,7 +71,8 @@ mod tests {
 
     #[test]
     fn flights_of_no_time_or_of_countless_turns_have_a_bounded_number_of_points() {
-        for (rate, time, is_fast) in [([0.0; 3], 0.0, false), ([1e300, 0.0, 1e300], 1e300, true)] {
+        let fastest = [1.7e308; 3];
+        for (rate, time, is_fast) in [([0.0; 3], 0.0, false), (fastest, 0.0, false), (fastest, 1e300, true)] {
             let flight = toss(rate, time);
             assert!((121..=30_001).contains(&points_to_draw(&flight)), "{rate:?}");
             assert_eq!(is_too_fast(&flight), is_fast);
