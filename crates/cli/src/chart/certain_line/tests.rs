@@ -58,9 +58,12 @@ fn both_lines_are_drawn_where_the_spin_has_both_senses() {
     assert_eq!(drawn(Coin::PAPER, &texts, [RateX, RateZ]).unwrap().angles, "ψ = 45° and 135°");
 }
 
+/// The axes of a space, the two that are mapped, and the tilt.
+type Case = ([(Coordinate, &'static str); 4], [Coordinate; 2], f64);
+
 #[test]
 fn every_point_is_on_the_edge_of_the_exact_motion() {
-    let cases: [([(Coordinate, &str); 4], [Coordinate; 2], f64); 6] = [
+    let cases: [Case; 6] = [
         ([(RateX, "-30:30:3"), (RateY, "x"), (RateZ, "-60:60:3"), (Tilt, "0")], [RateX, RateZ], 0.0),
         ([(RateX, "-30:30:3"), (RateY, "-40:40:3"), (RateZ, "20"), (Tilt, "0")], [RateX, RateY], 0.0),
         ([(RateX, "-30:30:3"), (RateY, "7"), (RateZ, "-60:60:3"), (Tilt, "0.6")], [RateX, RateZ], 0.6),
