@@ -1,11 +1,13 @@
 //! Runs the commands about many launches as a user does, and checks their numbers, their refusals and their charts. The
 //! libraries have tests of their own; these show that options reach them and answers come back unchanged.
 
+mod charts;
 mod common;
 
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use charts::{lines_of_colour, svg, texts};
 use common::{assert_near, assert_refused, json, run, stderr, stdout};
 use serde_json::Value;
 
@@ -195,6 +197,44 @@ fn charts_are_written_whole() {
         let svg = std::fs::read_to_string(&path).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains(word), "{command}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}
+
+#[test]
+fn the_line_of_certain_heads_leaves_from_the_origin_on_any_grid() {
+    const LINE: &str = "#D55E00";
+    for points in [2, 4, 31] {
+        let svg = svg(&format!("map --rate-x 0:30:{points} --rate-y 0 --rate-z 0:60:{points} --speed 3:5"));
+        // The other line of this colour is in the legend.
+        let lines = lines_of_colour(&svg, LINE);
+        let ends = [lines[1][0], *lines[1].last().unwrap()];
+        let axes = lines_of_colour(&svg, "#000000");
+        let (left, right) = (axes.iter().flatten().map(|at| at.0).min(), ends[1].0);
+        assert_eq!(lines[1].len(), 2, "it is straight on {points} points");
+        assert!((ends[0].0 - left.unwrap()).abs() < 12 && right > 1200, "{ends:?}, {left:?}");
+        assert!(svg.contains("the line where heads becomes certain, ψ = 45°"));
+    }
+    let tilted = svg("map --rate-x 0:30:3 --rate-y 0 --rate-z 40 --tilt 0:1:3 --speed 3:5 --up tilt");
+    assert!(tilted.contains("no line: ") && lines_of_colour(&tilted, LINE).is_empty());
+}
+
+#[test]
+fn no_number_stands_twice_on_an_axis_and_zero_has_no_sign() {
+    for command in [
+        "errors --space paper-fig4 --up-to 14 --replicates 2",
+        "convergence --space paper-fig4 --steps 20",
+        "convergence --space cheated --steps 20",
+        "limit --points 50",
+        "map --rate-x -0.3:0.3:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5",
+    ] {
+        let numbers = texts(&svg(command)).into_iter().filter(|(.., text)| text.parse::<f64>().is_ok());
+        let numbers: Vec<(i32, i32, String)> = numbers.collect();
+        assert!(numbers.len() >= 6, "{command}: {numbers:?}");
+        for (index, (x, y, text)) in numbers.iter().enumerate() {
+            assert!(!(text.starts_with('-') && text.parse() == Ok(0.0)), "{command}: {text}");
+            let is_twin = |other: &(i32, i32, String)| other.2 == *text && (other.0 == *x || other.1 == *y);
+            assert!(!numbers[index + 1..].iter().any(is_twin), "{command}: {text} stands twice");
+        }
     }
 }
 

@@ -45,7 +45,7 @@ impl Args {
         let nodes = (axes.iter().filter_map(|of| space.axis(*of).points()).product(), "nodes");
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
         let mapped = self.threads.ask(backend.sampler(), nodes, ask)?;
-        self.series.draw(|| Ok(chart::map(&mapped)?))?;
+        self.series.draw(|| Ok(chart::map(&mapped, &space)?))?;
         Ok(match self.series.format {
             DataFormat::Csv => csv(&mapped),
             DataFormat::Json => output::json(&Answer::from(&mapped)),

@@ -63,7 +63,11 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
         let flight = trace(backend.solver(), &toss, self.points)?;
-        self.series.draw(|| Ok(chart::flight(&flight, &toss, backend.outcome(&toss)?)?))?;
+        self.series.draw(|| {
+            // As many points as the motion needs, whatever number is printed.
+            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
+            Ok(chart::flight(&drawn, &toss, backend.outcome(&toss)?)?)
+        })?;
         Ok(match self.series.format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
