@@ -1,4 +1,4 @@
-//! Files: errors of reading and writing name the file, and what is written is written whole or not at all.
+//! Files and standard output: errors name the file, files are written whole or not at all, and no output ends in a panic.
 
 use std::path::Path;
 
@@ -19,6 +19,22 @@ pub fn read(path: &Path) -> anyhow::Result<String> {
 /// If it can't be read or describes something else.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> anyhow::Result<T> {
     toml::from_str(&read(path)?).with_context(|| format!("in {}", path.display()))
+}
+
+/// Prints `text` on standard output; a reader that has gone away is no error.
+///
+/// # Errors
+/// If it can't be written.
+pub fn print(text: &str) -> anyhow::Result<()> {
+    printed(whole_file::print(text))
+}
+
+/// The same result with an error that says what could not be written.
+///
+/// # Errors
+/// As `result`.
+pub fn printed(result: std::io::Result<()>) -> anyhow::Result<()> {
+    result.context("cannot write standard output")
 }
 
 /// Writes a file, and the folder that it is in.
