@@ -93,12 +93,12 @@ impl TossArgs {
             return Err(NO_BOUNCE.into());
         }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = self.rate.as_deref().ok_or_else(|| Failure::Usage("--rate WX,WY,WZ is needed".to_owned()))?;
+        let rate = self.rate.as_deref().ok_or_else(|| Failure::usage("rate", "--rate WX,WY,WZ is needed"))?;
         let rate = Vector3::from(numbers("rate", rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
-            (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
+            (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
         Ok(Toss { coin, launch })

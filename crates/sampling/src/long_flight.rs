@@ -38,10 +38,19 @@ pub fn long_flight_cone(probability: f64) -> Result<f64, InputError> {
 /// inertia ratio `k`: Ω/ωz = k tan ψ, with ψ of [`long_flight_cone`]. For p = 1 it is the largest such ratio, k.
 ///
 /// # Errors
-/// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: ½ needs ωz = 0, and none has less.
+/// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: ½ needs ωz = 0, and none has less;
+/// and for a rod (k = 0), which has no other than ½.
 pub fn rate_ratio(probability: f64, k: f64) -> Result<f64, InputError> {
     require("probability", probability, "above 1/2, at most 1", probability > 0.5 && probability <= 1.0)?;
+    require_turning_momentum(k)?;
     Ok(k / cotangent(probability))
+}
+
+/// # Errors
+/// [`InputError::OutOfRange`] for a rod, k = 0: ψ is 90° at any rate, so that its long flights land heads half the time.
+pub(crate) fn require_turning_momentum(k: f64) -> Result<(), InputError> {
+    let valid = "> 0: the angular momentum of a rod is at 90° to its axis at any rate, so that P(heads) is 1/2";
+    require("inertia ratio I3/I1", k, valid, k > 0.0).map(|_| ())
 }
 
 /// cot ψ = √sin(π (p - ½)), for p from ½ to 1; p - ½ is exact.

@@ -28,6 +28,9 @@ pub struct RunningStep {
     pub random_hi: f64,
 }
 
+/// More steps than this are refused; a chart shows hundreds.
+const MOST_STEPS: u64 = 1_000_000;
+
 impl RunningStep {
     /// Its values in their order.
     pub fn columns(&self) -> [f64; 5] {
@@ -73,7 +76,12 @@ impl Sampler<'_> {
 
     fn running(&self, space: &Space, launches: &Launches, points: u64, steps: u64) -> Result<Vec<Counts>, Error> {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-        require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
+        require(
+            "steps",
+            steps as f64,
+            "at least 1, and at most one a launch and 1000000",
+            (1..=points.min(MOST_STEPS)).contains(&steps),
+        )?;
         // The step's end in whole launches, without overflow.
         let end =
             |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);

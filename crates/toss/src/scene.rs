@@ -28,7 +28,7 @@ pub struct Scene {
 
 /// What is wanted, and of what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Want {
     /// Heads or tails.
     Outcome(Toss),

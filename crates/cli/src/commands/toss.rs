@@ -4,7 +4,7 @@ use serde::Serialize;
 use toss::{Backend, Propagation, Toss, Work, margin};
 
 use crate::failure::Failure;
-use crate::output::{self, Format};
+use crate::output::{self, Format, Input};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -13,7 +13,7 @@ pub(crate) struct Args {
     flight: FlightArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -59,11 +59,11 @@ struct MarginAnswer {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
         let answer = Answer::new(&toss, &backend)?;
         Ok(match self.format {
-            Format::Json => output::json(&answer),
+            Format::Json => output::json(input, &answer),
             Format::Text => answer.text(toss.coin.inertia_ratio()),
         })
     }

@@ -5,7 +5,7 @@ use toss::{TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, SeriesArgs};
+use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -58,17 +58,18 @@ struct Answer<'a> {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let (toss, backend) = self.flight.parts()?;
         let flight = trace(backend.solver(), &toss, self.points)?;
-        self.series.draw(|| Ok(chart::flight(&flight, &toss, backend.outcome(&toss)?)?))?;
-        Ok(match self.series.format {
+        let data = |format| match format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
                 let points = flight.iter().map(Point::from).collect();
-                output::json(&Answer { solver: backend.solver().name(), points })
+                output::json(input, &Answer { solver: backend.solver().name(), points })
             }
-        })
+        };
+        self.series.answer(data, || Ok(chart::flight(&flight, &toss, backend.outcome(&toss)?)?))
     }
 }
 
