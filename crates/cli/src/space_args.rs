@@ -148,12 +148,11 @@ impl PlanArgs {
             }
             Plan::Grid | Plan::ExactSpeed(Rest::Grid) => "a grid takes its points from the axes, LO:HI:POINTS",
         };
-        for (option, given) in [("points", self.points), ("seed", self.seed)] {
-            if given.is_some() {
-                return Err(Failure::usage(option, format!("--{option}: {why}")));
-            }
+        match (self.points, self.seed) {
+            (Some(_), _) => Err(Failure::usage("points", format!("--points: {why}"))),
+            (None, Some(_)) => Err(Failure::usage("seed", format!("--seed: no launch is drawn at random, {why}"))),
+            (None, None) => Ok(()),
         }
-        Ok(())
     }
 }
 

@@ -73,9 +73,9 @@ pub(crate) struct TossArgs {
     /// How far below the launch the coin lands; negative: above it (m) [default: 0]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     drop: Option<f64>,
-    /// Attitude at launch: a turn about the lab's x axis (rad)
-    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
-    tilt: f64,
+    /// Attitude at launch: a turn about the lab's x axis (rad) [default: 0]
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    tilt: Option<f64>,
     /// Outside the model, and refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     drag: Option<String>,
@@ -100,7 +100,7 @@ impl TossArgs {
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
             (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
-        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
+        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt.unwrap_or(0.0))?;
         Ok(Toss { coin, launch })
     }
 }

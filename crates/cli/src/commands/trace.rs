@@ -5,7 +5,7 @@ use toss::{TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, Input, SeriesArgs};
+use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -75,24 +75,13 @@ impl Args {
 
 impl From<&TracePoint> for Line {
     fn from(point: &TracePoint) -> Self {
-        let [w, x, y, z] = point.attitude.components();
-        Self {
-            time: point.time,
-            w,
-            x,
-            y,
-            z,
-            alpha: point.angles.alpha,
-            beta: point.angles.beta,
-            gamma: point.angles.gamma,
-            normal_x: point.normal.x,
-            normal_y: point.normal.y,
-            normal_z: point.normal.z,
-            face_x: point.face.x,
-            face_y: point.face.y,
-            face_z: point.face.z,
-            cos_tilt: point.cos_tilt,
-        }
+        let [w, x, y, z] = point.attitude.components().map(without_sign_of_zero);
+        let [normal_x, normal_y, normal_z] = <[f64; 3]>::from(point.normal).map(without_sign_of_zero);
+        let [face_x, face_y, face_z] = <[f64; 3]>::from(point.face).map(without_sign_of_zero);
+        let angles = [point.angles.alpha, point.angles.beta, point.angles.gamma];
+        let [alpha, beta, gamma] = angles.map(without_sign_of_zero);
+        let [time, cos_tilt] = [point.time, point.cos_tilt].map(without_sign_of_zero);
+        Self { time, w, x, y, z, alpha, beta, gamma, normal_x, normal_y, normal_z, face_x, face_y, face_z, cos_tilt }
     }
 }
 
