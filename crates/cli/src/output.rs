@@ -1,4 +1,5 @@
-//! How answers leave the program.
+//! Prints answers as text, JSON or CSV, and writes charts. All commands use these functions, so that their output has
+//! the same form.
 
 use std::path::PathBuf;
 
@@ -8,7 +9,7 @@ use serde_json::ser::{CompactFormatter, Formatter};
 
 use crate::failure::Failure;
 
-/// For people or for programs.
+/// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
     /// Aligned text with units
@@ -17,22 +18,22 @@ pub(crate) enum Format {
     Json,
 }
 
-/// Series of data for programs.
+/// The format of a series of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum DataFormat {
-    /// A line a point, with a heading
+    /// One line per point, with a heading
     Csv,
-    /// JSON
+    /// One JSON value on standard output
     Json,
 }
 
-/// How a series of data is wanted.
+/// Options of a command that prints a series of data.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SeriesArgs {
     /// Output format of the data [default: csv]
     #[arg(long, value_enum)]
     format: Option<DataFormat>,
-    /// Also draw it into this file; - draws it on standard output, in place of the data
+    /// Also draw a chart into this file; - draws it on standard output, in place of the data
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
@@ -79,7 +80,7 @@ pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize
     }
 }
 
-/// Prints an answer as one piece; a reader that has gone away (a closed pipe) is no failure.
+/// Prints an answer as a whole. A pipe that the reader has closed is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     whole_file::print(&format!("{}\n", text.trim_end())).map_err(Failure::Print)
 }
@@ -126,7 +127,7 @@ pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
     value + 0.0
 }
 
-/// Lines of plain data as CSV, with a heading.
+/// Formats lines of plain data as CSV with a heading.
 pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for line in lines {
@@ -135,10 +136,11 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
 }
 
-/// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.
+/// A progress bar for `number` `things` on standard error, with the rate and the time left. It is hidden if standard
+/// error is not a terminal.
 pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
     let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        // An error would be one of the terminal, which shows the bar or does not.
+        // An error of the terminal is ignored: the bar is not part of the answer.
         let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
     };
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {rate}, {eta} left")
@@ -147,7 +149,7 @@ pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
     ProgressBar::new(number).with_style(style).with_message(things)
 }
 
-/// A table with aligned columns; the first row is the heading.
+/// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);

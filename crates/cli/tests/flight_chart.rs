@@ -1,4 +1,5 @@
-//! The chart of a flight.
+//! Draws charts of flights by `trace --svg` and looks for what they have to show. A chart must also be written whole,
+//! and flights that no scale can show must be refused.
 
 mod common;
 
@@ -13,10 +14,10 @@ fn a_chart_is_written_whole() {
     let svg = std::fs::read_to_string(&path).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     assert!(svg.contains("cos θ") && svg.contains("time [s]"));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no half-written neighbour stays behind");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file stays behind");
 }
 
-/// The paper's Figs. 2 and 3.
+/// The two flights are those of the paper's Figs. 2 and 3.
 #[test]
 fn the_chart_of_a_flight_shows_how_it_lands() {
     const SIDES: [&str; 2] = ["fill=\"#FFFFFF\"", "fill=\"#464646\""];
@@ -34,7 +35,7 @@ fn the_chart_of_a_flight_shows_how_it_lands() {
             .lines()
             .filter_map(|line| SIDES.into_iter().find(|side| line.starts_with("<polygon") && line.contains(side)))
             .collect();
-        // The last two are the legend's.
+        // The last two polygons belong to the legend.
         assert_eq!((sides.len(), sides[0], sides[10]), (13, SIDES[0], SIDES[side]), "{rate}");
     }
 }

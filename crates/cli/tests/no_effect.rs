@@ -127,7 +127,7 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
             "accuracy = 1\n[want.probability]\nrate_x = 1\nrate_y = 1\nrate_z = 1\nspin = 1\nspeed = 3".to_owned(),
             "line 6, column 1: unknown field `spin`",
         ),
-        ("a.json", json_of(r#"{"launch": {"rate": [1, 1, 2, 3], "speed": 3}}"#), "line 3, column 33: rate"),
+        ("a.json", json_of(r#"{"launch": {"rate": [1, 1, 2, 3], "speed": 3}}"#), "line 3, column 32: rate"),
         ("a.json", json_of(r#"{"launch": {"rate": [1, 1, 2], "speed": 3, "spin": 1}}"#), "unknown field `spin`"),
         ("a.json", json_of(r#"{"spin": 1, "launch": {"rate": [1, 1, 2], "speed": 3}}"#), "unknown field `spin`"),
         (

@@ -1,35 +1,37 @@
-//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed
-//! and gravity.
+//! This file proves the outcome of a toss: whether the ideal flight with exactly the given f64 moments, rates,
+//! attitude, speed and gravity ends in heads or tails. It tries stages from the cheapest to the most accurate and stops
+//! at the first whose error bound is smaller than |cos θ|, so that for nearly all tosses a proof costs little more than
+//! plain f64.
 //!
-//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
-//! `keller.rs` (Keller's coin) and `trig_free.rs` (no sine or cosine). Three have more digits, one than the
-//! other, after the adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
+//! The first two stages need little of the motion: `keller.rs` (Keller's coin: flat, without spin) and `trig_free.rs`
+//! (no sine or cosine). The other three use more and more digits, after the adaptive predicates of J. R. Shewchuk,
+//! Discrete Comput. Geom. 18 (1997), 305. φ is the phase ωL T at landing, and u = 2^-53:
 //!
-//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units
-//! of `size` ≥ |A|, √(B² + C²), |G|:
+//! **1. f64.** [`TiltTerms`] gives G = A + B cos φ + C sin φ, which has the sign of cos θ. The errors derived there
+//! lead to these, in units of `size` ≥ |A|, √(B² + C²), |G|:
 //!
 //! ```text
 //! A                                    12u
 //! B, C                                 14.8u       √(10.9² + 9.9²), as cos² + sin² = 1
-//! cos, sin                             2.9u        √2 · 2u: std is taken to be right to 2 ulp, of numbers below 1
+//! cos, sin                             2.9u        √2 · 2u: std is assumed right to 2 ulp, of numbers below 1
 //! φ                                    6u φ        |dG/dφ| ≤ size
 //! B cos, C sin                         1.42u       rounded products, |B| + |C| ≤ √2 size
 //! the two sums                         2u
 //! sum                                  33.2u + 6u φ
 //! ```
 //!
-//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
-//! 2^-1000, and `size` is above 10^-200.
+//! [`f64_bound`] rounds this up, to cover the squares of u and the rounding of the bound itself. Underflow loses less
+//! than 2^-1000, and `size` is above 10^-200.
 //!
-//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations
-//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time
-//! 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both),
-//! turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
-//! [`double_double_bound`].
+//! **2. Double-double.** [`ExactMotion::cos_tilt_parts`] gives cos θ = a + b cos φ + c sin φ. No result goes through
+//! more than some fifteen operations with an error of at most 10 u² each. So a, b, c and their sum are right within
+//! 10³ u², and the phase within 70 u² φ (k 10 u², |L| 20 u², time 25 u², their product 5 u²). Sine and cosine of the
+//! leading part of the phase are those of std (2u each, √2 for both); turning them by the trailing part `lo`, |lo| ≤ ½,
+//! adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which [`double_double_bound`] rounds up.
 //!
-//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann),
-//! so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
-//! arithmetic first.
+//! **3. As many digits as it takes.** The number of digits doubles until the sign is certain. This ends: e^(iφ) is
+//! transcendental for an algebraic φ ≠ 0 (Lindemann), so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0
+//! or A = B = C = 0, and exact arithmetic finds these ties first.
 
 use dynamics::attitude::vertical_in_body;
 use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
@@ -42,7 +44,7 @@ use crate::motion::ExactMotion;
 use crate::tilt_terms::{TiltTerms, terms};
 use crate::trig_free::{phase_in_range, trig_free_by};
 
-/// The proven outcome of a toss.
+/// Proves the outcome of a toss.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
@@ -55,7 +57,7 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 }
 
 impl ProvenCounts {
-    /// The proven outcomes of `tosses`, counted.
+    /// Proves and counts the outcomes of `tosses`.
     ///
     /// # Errors
     /// [`Error::Launch`] for the first toss that has no outcome.
@@ -69,7 +71,7 @@ impl ProvenCounts {
     }
 }
 
-/// The stages in f64.
+/// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
     let by = |stage| move |outcome| Certificate::new(outcome, stage);
@@ -81,8 +83,8 @@ fn cheaply(toss: &Toss) -> Option<Certificate> {
     trig_free_by(&terms, phase).map(by(Stage::TrigFree)).or_else(|| by_terms(&terms, phase).map(by(Stage::F64)))
 }
 
-/// The stage in f64, from the terms of a toss and the phase of its landing (rad), which is in range; `None` where it cannot
-/// decide.
+/// The stage that evaluates all three terms in f64, at the phase of the landing (rad), which is in range. `None` if
+/// |cos θ| is within the error bound.
 #[inline]
 fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
@@ -91,7 +93,7 @@ fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     }
 }
 
-/// The stages with more digits than f64.
+/// Decides by the stages with more digits than f64.
 ///
 /// # Errors
 /// As [`certify`].
@@ -106,7 +108,7 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     })
 }
 
-/// The stage in double-double; `None` where it cannot decide.
+/// The stage in double-double. `None` if |cos θ| is within its error bound.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -118,7 +120,7 @@ fn by_double_double(motion: &ExactMotion, time: TimeOfFlight) -> Result<Option<O
     })
 }
 
-/// Bound of the error of cos θ in the double-double stage at a `phase` (rad).
+/// Error bound of cos θ in the double-double stage at a `phase` (rad).
 pub fn double_double_bound(phase: DoubleDouble) -> f64 {
     const CONSTANT: f64 = 4.0 * UNIT_ROUNDOFF;
     const OF_REST: f64 = 8.0 * UNIT_ROUNDOFF;
@@ -126,13 +128,13 @@ pub fn double_double_bound(phase: DoubleDouble) -> f64 {
     CONSTANT + OF_REST * phase.lo().abs() + OF_PHASE * phase.hi()
 }
 
-/// Bound of the error of the f64 stage's height at a `phase` (rad), in parts of the terms' size.
+/// Error bound of [`TiltTerms::height`] at a `phase` (rad), in units of [`TiltTerms::size`].
 #[inline]
 pub fn f64_bound(phase: f64) -> f64 {
     (34.0 + 7.0 * phase) * UNIT_ROUNDOFF
 }
 
-/// The stage in as many digits as it takes. It always decides, but for exact ties.
+/// The stage with as many digits as it takes. It decides every toss; an exact tie is undecided.
 pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
     if is_tie(toss) {
         return Outcome::Undecided;
@@ -150,12 +152,13 @@ pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
     }
 }
 
-/// Bound of the error of cos θ in `digits` binary digits: some twenty operations, the phase's error multiplied by up to 2^53.
+/// Error bound of cos θ computed in `digits` binary digits: some twenty operations lose a few bits, and the phase,
+/// which may be 2^53 rad, loses 53 more. 2^80 units leave a margin.
 fn multiprecision_bound(digits: isize) -> Big {
     Big::ONE >> (digits - 80)
 }
 
-/// The vertical in BF times |q|², exactly.
+/// The vertical in the body frame (BF) at launch, times |Q|² of the attitude quaternion Q, exactly.
 fn vertical(toss: &Toss) -> [Big; 3] {
     vertical_in_body(toss.launch.attitude().components().map(exactly)).0
 }
@@ -165,8 +168,8 @@ fn is_tie(toss: &Toss) -> bool {
     let [m_x, m_y, m_z] = vertical(toss);
     let zero = exactly(0.0);
     if m_z != zero {
-        // At a phase of 0, cos θ = mz. Without B and C, either Ω = 0 and cos θ = mz too, or m is along L, where A = 0
-        // needs Lz = 0 and with it mz = 0.
+        // No tie if mz ≠ 0: at phase 0, cos θ = mz. If B = C = 0, either Ω = 0 and again cos θ = mz, or m is parallel
+        // to L, where A = 0 needs Lz = 0 and thus mz = 0.
         return false;
     }
     let rate = toss.launch.rate();
@@ -176,7 +179,7 @@ fn is_tie(toss: &Toss) -> bool {
     landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
 }
 
-/// cos θ at landing in `digits` binary digits.
+/// cos θ at landing, computed in `digits` binary digits.
 fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let digits = digits.unsigned_abs();
     let big = |value: f64| exactly(value).with_precision(digits).value();
@@ -203,7 +206,8 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let (sin, cos) = (&momentum * time).sin_cos();
     let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
     let height = mean + cosine * cos + sine * &momentum * sin;
-    // |q|² is 1 to rounding wherever the attitude comes from; only the sign counts, and the scale to a factor of two.
+    // Division by |Q|² is left out: it is 1 to rounding, and only the sign of the result and its scale within a factor
+    // of two matter here.
     height / squared
 }
 

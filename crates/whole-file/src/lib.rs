@@ -1,4 +1,5 @@
-//! Writes what a program puts out: files whole or not at all, and standard output without a panic.
+//! Writes the outputs of a program: files whole or not at all, and standard output without a panic. A program that is
+//! interrupted while it writes a report or a baseline must not leave half a file, which the next run would read.
 //!
 //! An output is named by a path. What happens depends on what is there:
 //!

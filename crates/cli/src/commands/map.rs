@@ -1,4 +1,5 @@
-//! `unfair-toss map`: the probability of heads over two coordinates of a space.
+//! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
+//! other coordinates are sampled at each node.
 
 use sampling::{Coordinate, Map, Sampler, Space, map_nodes};
 use serde::Serialize;
@@ -10,14 +11,14 @@ use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
-/// For a node.
+/// The numbers of launches at each node.
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 1024, sobol: 1024 };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Coordinate along a row, whose axis has points: rate_x, rate_y, rate_z, speed, gravity or tilt
+    /// Coordinate along a row: rate_x, rate_y, rate_z, speed, gravity or tilt; its axis needs points
     #[arg(long, value_name = "COORDINATE", default_value = "rate_x")]
     across: String,
     /// Coordinate from row to row, likewise
@@ -62,7 +63,7 @@ fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError>
     axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
 }
 
-/// A line a node.
+/// Formats the map as CSV with one line per node.
 fn csv(map: &Map) -> String {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
     let heading = format!("{},{},probability\n", across.name(), up.name());
