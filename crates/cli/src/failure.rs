@@ -1,6 +1,8 @@
 //! The reasons for which a command gives no answer, with their exit codes and their JSON. All of them go through one
 //! type, so that every command reports a failure in the same way.
 
+use std::io::Write;
+
 use chart::ChartError;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
@@ -75,13 +77,13 @@ impl Failure {
         Self::Usage { field, message: message.into() }
     }
 
-    /// Says on standard error what is wrong.
-    pub(crate) fn report(&self) {
-        match self {
-            // With colours and the usage. If that can't be written there is nowhere left to say so.
-            Self::Arguments(error) => _ = error.print(),
-            _ => whole_file::report(self),
-        }
+    /// Says on `err` what is wrong. If that can't be written there is nowhere left to say so.
+    pub(crate) fn report(&self, err: &mut dyn Write) {
+        let _ = match self {
+            // With colours and the usage.
+            Self::Arguments(error) => write!(err, "{}", error.render().ansi()),
+            _ => writeln!(err, "error: {self}"),
+        };
     }
 
     /// The exit code: 1 if the solver failed or the answer can't be printed, 2 for bad usage or input.

@@ -1,6 +1,7 @@
 //! Prints answers as text, JSON or CSV, and writes charts. All commands use these functions, so that their output has
 //! the same form.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
@@ -81,8 +82,9 @@ pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    whole_file::print(&format!("{}\n", text.trim_end())).map_err(Failure::Print)
+pub(crate) fn print(text: &str, out: &mut dyn Write) -> Result<(), Failure> {
+    let written = out.write_all(format!("{}\n", text.trim_end()).as_bytes()).and_then(|()| out.flush());
+    whole_file::unless_closed(written).map_err(Failure::Print)
 }
 
 /// The number of the format that `docs/json.md` describes. It grows when a field changes its meaning or goes away.

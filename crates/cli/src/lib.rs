@@ -1,0 +1,122 @@
+//! The command `unfair-toss` tosses coins, traces their flights and estimates probabilities of heads. It parses
+//! options, calls the libraries and prints their answers, so that each computation can also be made from Rust.
+//!
+//! The exit code is 0 for an answer, 1 if the solver failed or standard output can't be written, and 2 for bad usage or
+//! input.
+
+mod chart;
+mod commands;
+mod failure;
+mod input;
+mod output;
+mod solver_args;
+mod space_args;
+mod toss_args;
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::commands::{convergence, errors, intervals, inverse, limit, list, map, plan, probability, toss, trace};
+use crate::failure::Failure;
+use crate::output::Input;
+
+#[derive(Debug, Parser)]
+#[command(name = "unfair-toss", version, about = "Computes how a tossed coin lands, and how probable heads is")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Toss a coin and print how it lands
+    Toss(toss::Args),
+    /// Follow the flight of a coin at equally spaced times
+    Trace(trace::Args),
+    /// Estimate the probability of heads over a space of launches
+    Probability(probability::Args),
+    /// Show how the probability of heads converges as launches are added, by a grid and at random
+    Convergence(convergence::Args),
+    /// Measure how the error of each sampling method falls with the number of launches
+    Errors(errors::Args),
+    /// Map the probability of heads over two coordinates of a space
+    Map(map::Args),
+    /// Find the ranges of speed that land heads
+    Intervals(intervals::Args),
+    /// Find the launch that lands heads with a wanted probability
+    Inverse(inverse::Args),
+    /// Compare the limit of the probability of heads for long flights with the share of long flights that land heads
+    Limit(limit::Args),
+    /// Choose the cheapest model that answers a question accurately enough
+    Plan(plan::Args),
+    /// List the coins of the catalogue
+    Coins(list::Args),
+    /// List the solvers with their schemes and formulations
+    Solvers(list::Args),
+    /// List the models from which `plan` chooses
+    Models(list::Args),
+    /// List the named spaces of launches
+    Spaces(list::Args),
+}
+
+impl Command {
+    fn run(&self, input: &Input) -> Result<String, Failure> {
+        match self {
+            Self::Toss(args) => args.run(input),
+            Self::Trace(args) => args.run(input),
+            Self::Probability(args) => args.run(input),
+            Self::Convergence(args) => args.run(input),
+            Self::Errors(args) => args.run(input),
+            Self::Map(args) => args.run(input),
+            Self::Intervals(args) => args.run(input),
+            Self::Inverse(args) => args.run(input),
+            Self::Limit(args) => args.run(input),
+            Self::Plan(args) => args.run(input),
+            Self::Coins(args) => list::coins(args, input),
+            Self::Solvers(args) => list::solvers(args, input),
+            Self::Models(args) => list::models(args, input),
+            Self::Spaces(args) => list::spaces(args, input),
+        }
+    }
+}
+
+/// The description of the program's options, from which tests make command lines.
+#[doc(hidden)]
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// Runs the program with `arguments`, the first of which is its own name, and returns its exit code. Everything that it
+/// prints goes to `out` and `err`, in colours, which a caller may strip.
+#[doc(hidden)]
+pub fn run(arguments: &[OsString], out: &mut dyn Write, err: &mut dyn Write) -> u8 {
+    let printed = match Cli::command().try_get_matches_from(arguments) {
+        Ok(given) => answer(&given).and_then(|text| output::print(&text, out)),
+        Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), out),
+        Err(error) => Err(Failure::Arguments(error)),
+    };
+    let Err(failure) = printed else { return 0 };
+    failure.report(err);
+    if wants_json(arguments) {
+        // If this can't be printed, the message above and the exit code still tell.
+        let _ = output::print(&failure.to_json(), out);
+    }
+    failure.exit_code()
+}
+
+/// The answer of the command that the arguments ask for.
+fn answer(given: &ArgMatches) -> Result<String, Failure> {
+    let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
+    let program = Cli::command();
+    let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
+    let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
+    command.run(&input)
+}
+
+/// Whether `arguments`, which may be none that the program understands, ask for JSON.
+fn wants_json(arguments: &[OsString]) -> bool {
+    arguments.iter().any(|argument| argument == "--format=json")
+        || arguments.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
+}
