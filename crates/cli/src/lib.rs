@@ -91,7 +91,7 @@ pub fn command() -> clap::Command {
 /// Runs the program with `arguments`, the first of which is its own name, and returns its exit code. Everything that it
 /// prints goes to `out` and `err`, in colours, which a caller may strip.
 #[doc(hidden)]
-pub fn run(arguments: &[OsString], out: &mut dyn Write, err: &mut dyn Write) -> u8 {
+pub fn run(arguments: &[OsString], out: &mut (dyn Write + Send), err: &mut dyn Write) -> u8 {
     let printed = match Cli::command().try_get_matches_from(arguments) {
         Ok(given) => answer(&given).and_then(|text| output::print(&text, out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), out),

@@ -1,0 +1,135 @@
+//! Runs one case, in this process or by the program, in a folder of its own; and the smallest case that shows the same.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::{Mutex, mpsc};
+use std::time::{Duration, Instant};
+
+use crate::check::{Ran, violations};
+use crate::command_line::Case;
+
+/// How a case is run in a folder, which is empty.
+pub(crate) type Runner = fn(&Case, &Path) -> Ran;
+
+/// The address space of the program, in KiB. A thread alone reserves some MiB.
+const ADDRESS_SPACE: u64 = 4 << 20;
+
+/// A run that takes longer than this is not waited for.
+const GIVEN_UP: Duration = Duration::from_secs(20);
+
+/// One case at a time has the working folder and the hook for panics of this process.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// The messages of panics since the last case.
+static PANICS: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Runs the case by the library of the program.
+pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
+    let _alone = ALONE.lock().unwrap();
+    write_files(case, folder);
+    std::env::set_current_dir(folder).unwrap();
+    panic::set_hook(Box::new(|what| PANICS.lock().unwrap().push(what.to_string())));
+    let arguments: Vec<OsString> = std::iter::once("unfair-toss".into()).chain(case.flat().cloned()).collect();
+    let began = Instant::now();
+    let (send, receive) = mpsc::channel();
+    // A thread of its own, which can be given up.
+    let runs = std::thread::spawn(move || {
+        let (mut out, mut err) = (Vec::new(), Vec::new());
+        let code = panic::catch_unwind(AssertUnwindSafe(|| unfair_toss::run(&arguments, &mut out, &mut err)));
+        _ = send.send(());
+        (code.ok().map(i32::from), out, err)
+    });
+    if receive.recv_timeout(GIVEN_UP).is_err() {
+        eprintln!("after {GIVEN_UP:?} no end: {}", pasted(case));
+        std::process::exit(101);
+    }
+    let wall = began.elapsed();
+    let (code, out, err) = runs.join().unwrap();
+    _ = panic::take_hook();
+    let panics = std::mem::take(&mut *PANICS.lock().unwrap());
+    Ran { code, out, err, panics, wall, files: taken_files(folder) }
+}
+
+/// Runs the case by the program itself, with bounded memory.
+pub(crate) fn the_program(case: &Case, folder: &Path) -> Ran {
+    write_files(case, folder);
+    let began = Instant::now();
+    let limited = format!("ulimit -v {ADDRESS_SPACE} && exec \"$@\"");
+    let mut program = Command::new("sh");
+    program.args(["-c", &limited, "sh", env!("CARGO_BIN_EXE_unfair-toss")]).args(case.flat()).current_dir(folder);
+    let output = program.stdin(Stdio::null()).output().unwrap();
+    let (code, wall) = (output.status.code(), began.elapsed());
+    Ran { code, out: output.stdout, err: output.stderr, panics: Vec::new(), wall, files: taken_files(folder) }
+}
+
+fn write_files(case: &Case, folder: &Path) {
+    for (name, content) in &case.files {
+        fs::write(folder.join(name), content).unwrap();
+    }
+}
+
+/// The files in the folder, which is empty afterwards.
+fn taken_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    entries
+        .map(|entry| {
+            let content = fs::read(entry.path()).unwrap();
+            fs::remove_file(entry.path()).unwrap();
+            (entry.file_name().to_string_lossy().into_owned(), content)
+        })
+        .collect()
+}
+
+/// The case without the arguments that are not needed for a violation.
+pub(crate) fn shortened(runner: Runner, case: Case, folder: &Path) -> Case {
+    // Without the number of points for example, any case may take long.
+    if runner(&case, folder).is_slow() {
+        return case;
+    }
+    let mut best = case;
+    let mut at = best.arguments.len();
+    while at > 1 {
+        at -= 1;
+        let mut fewer = best.clone();
+        fewer.arguments.remove(at);
+        if !violations(&fewer, &runner(&fewer, folder)).is_empty() {
+            best = fewer;
+        }
+    }
+    best
+}
+
+/// The case as it can be pasted into a shell.
+pub(crate) fn pasted(case: &Case) -> String {
+    let file = |(name, content): &(String, Vec<u8>)| {
+        format!("printf %b '{}' > {name}; ", quoted(content, |byte| format!("\\0{byte:03o}")))
+    };
+    let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"-_.,:=+/".contains(byte);
+    let arguments = case.flat().map(|argument| {
+        let text = quoted(argument.as_bytes(), |byte| format!("\\x{byte:02x}"));
+        if !text.is_empty() && text.bytes().all(|byte| plain(&byte)) { text } else { format!("$'{text}'") }
+    });
+    let files: String = case.files.iter().map(file).collect();
+    format!("{files}unfair-toss {}", arguments.collect::<Vec<_>>().join(" "))
+}
+
+/// Bytes as a word of bash, with the escapes of `$'..'` and of `printf %b`. Long ones are cut in the middle.
+fn quoted(bytes: &[u8], escape: fn(u8) -> String) -> String {
+    const LONG: usize = 600;
+    let readable = |byte: &u8| match byte {
+        b'\'' | b'\\' => escape(*byte),
+        b' '..=b'~' => char::from(*byte).to_string(),
+        _ => escape(*byte),
+    };
+    let text = |bytes: &[u8]| bytes.iter().map(readable).collect::<String>();
+    if bytes.len() <= 2 * LONG {
+        return text(bytes);
+    }
+    let cut = bytes.len() - 2 * LONG;
+    format!("{}<{cut} bytes>{}", text(&bytes[..LONG]), text(&bytes[bytes.len() - LONG..]))
+}

@@ -1,0 +1,143 @@
+//! What holds for every run of the program, whatever its input is.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::command_line::Case;
+
+/// A run may take this long. Most take some milliseconds; the commands of the cases ask for little.
+const LONGEST: Duration = Duration::from_secs(5);
+
+/// What a run has left.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    /// The exit code; `None` if the program was ended by a signal.
+    pub(crate) code: Option<i32>,
+    pub(crate) out: Vec<u8>,
+    pub(crate) err: Vec<u8>,
+    /// The messages of panics, caught ones too.
+    pub(crate) panics: Vec<String>,
+    pub(crate) wall: Duration,
+    /// The files in the working folder.
+    pub(crate) files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Ran {
+    /// Whether it took longer than any run may.
+    pub(crate) fn is_slow(&self) -> bool {
+        self.wall > LONGEST
+    }
+}
+
+/// The claims that a run of `case` breaks.
+pub(crate) fn violations(case: &Case, ran: &Ran) -> Vec<String> {
+    let mut found: Vec<String> = ran.panics.iter().map(|message| format!("a panic: {message}")).collect();
+    found.extend(exit(ran));
+    found.extend(standard_streams(case, ran));
+    found.extend(files(case, ran));
+    if ran.is_slow() {
+        found.push(format!("took {:?}", ran.wall));
+    }
+    found
+}
+
+fn exit(ran: &Ran) -> Option<String> {
+    (!matches!(ran.code, Some(0..=2))).then(|| format!("ended with {:?}", ran.code))
+}
+
+fn standard_streams(case: &Case, ran: &Ran) -> Option<String> {
+    let (Ok(out), Ok(err)) = (std::str::from_utf8(&ran.out), std::str::from_utf8(&ran.err)) else {
+        return Some("printed what is not UTF-8".to_owned());
+    };
+    let answered = ran.code == Some(0);
+    // Rows are printed as they come, so that some may stand before an error.
+    let in_rows = case.command() == "sample";
+    match (answered, case.wants_json()) {
+        (true, _) if out.trim().is_empty() && !in_rows => Some("answered nothing".to_owned()),
+        (true, _) if !err.is_empty() => Some(format!("answered with a complaint: {err}")),
+        (false, _) if err.trim().len() < "error: ".len() => Some("failed without a message".to_owned()),
+        (false, _) if err.contains("panicked") => Some("failed by a panic".to_owned()),
+        (true, true) if asks_for_help(case) || draws_on_standard_output(case) => None,
+        (_, true) if in_rows => out.lines().find_map(|line| json_value(line, !answered)),
+        (_, true) => json_value(out, !answered),
+        (false, false) if !out.is_empty() && !in_rows => Some("failed and printed an answer".to_owned()),
+        (true, false) => {
+            out.split(|letter: char| letter.is_whitespace() || ",;()".contains(letter)).find_map(no_number)
+        }
+        (false, false) => None,
+    }
+}
+
+/// A word of an answer that is a number which no answer may have.
+fn no_number(word: &str) -> Option<String> {
+    let word = word.trim_start_matches(['+', '±']);
+    let bad = matches!(word, "NaN" | "-NaN" | "inf" | "-inf" | "-0" | "-0.0");
+    bad.then(|| format!("answered {word}"))
+}
+
+fn asks_for_help(case: &Case) -> bool {
+    ["--help", "-h", "--version", "-V", "help"].iter().any(|asked| case.names(asked))
+}
+
+fn draws_on_standard_output(case: &Case) -> bool {
+    case.outputs().contains(&"-".as_ref())
+}
+
+/// What is wrong with the JSON of an answer, or of an error if there is one.
+fn json_value(text: &str, failed: bool) -> Option<String> {
+    let value: Value = match serde_json::from_str(text) {
+        Ok(value) => value,
+        Err(error) => {
+            return Some(format!("not one JSON value, {error}: {}", text.chars().take(300).collect::<String>()));
+        }
+    };
+    let error = &value["error"];
+    if error.is_object() != failed || !value.is_object() {
+        return Some(format!("wrong kind of JSON: {text}"));
+    }
+    if failed && (error["message"].as_str().is_none_or(str::is_empty) || !error["kind"].is_string()) {
+        return Some(format!("an error without words: {text}"));
+    }
+    has_negative_zero(&value).then(|| "JSON with -0".to_owned())
+}
+
+fn has_negative_zero(value: &Value) -> bool {
+    match value {
+        Value::Number(number) => number.as_f64().is_some_and(|number| number == 0.0 && number.is_sign_negative()),
+        Value::Array(items) => items.iter().any(has_negative_zero),
+        Value::Object(fields) => fields.values().any(has_negative_zero),
+        _ => false,
+    }
+}
+
+/// The working folder holds what it held, and the chart if and only if the case was answered.
+fn files(case: &Case, ran: &Ran) -> Option<String> {
+    let drawn = |name: &String| {
+        ran.code == Some(0)
+            && case
+                .outputs()
+                .iter()
+                .any(|output| Path::new(output) == Path::new("./").join(name) || *output == name.as_str())
+    };
+    for (name, content) in &ran.files {
+        let before = case.files.iter().find(|(known, _)| known == name);
+        match before {
+            Some((_, before)) if before == content => {}
+            _ if drawn(name) => {
+                let text = String::from_utf8_lossy(content);
+                let whole = text.starts_with("<svg ") && text.trim_end().ends_with("</svg>");
+                if !whole || ["NaN", "\"inf", "\"-inf"].iter().any(|bad| text.contains(bad)) {
+                    return Some(format!("{name} is no whole chart"));
+                }
+            }
+            _ => return Some(format!("{name} was left in the folder")),
+        }
+    }
+    let wanted = case.outputs().into_iter().filter(|output| *output != "-");
+    let mut names = wanted.map(|output| output.to_string_lossy().trim_start_matches("./").to_owned());
+    let missing = names.find(|name| ran.code == Some(0) && !asks_for_help(case) && !ran.files.contains_key(name));
+    missing.map(|name| format!("{name} was not drawn"))
+}

@@ -1,0 +1,202 @@
+//! Command lines from the definition of the program's options, so that a new command or option is covered as soon as it
+//! exists.
+
+use std::ffi::{OsStr, OsString};
+use std::os::unix::ffi::OsStrExt;
+
+use clap::{Arg, ArgAction, Command};
+
+use crate::files;
+use crate::source::Source;
+use crate::values::{Kind, kind, value, value_of};
+
+/// The options without which a command has hardly any answer.
+const CORE: &[&str] = &[
+    "rate",
+    "speed",
+    "time",
+    "rate_x",
+    "rate_y",
+    "rate_z",
+    "space",
+    "scene",
+    "want",
+    "accuracy",
+    "probability",
+    "method",
+];
+
+/// What is given to the program.
+#[derive(Debug, Clone)]
+pub(crate) struct Case {
+    /// The arguments after the name of the program, an option together with its value.
+    pub(crate) arguments: Vec<Vec<OsString>>,
+    /// Names and contents of the files in the working folder.
+    pub(crate) files: Vec<(String, Vec<u8>)>,
+    /// What stands on standard input.
+    pub(crate) input: Vec<u8>,
+}
+
+impl Case {
+    /// The case with this number.
+    pub(crate) fn new(program: &Command, number: u64) -> Self {
+        let source = &mut Source::new(number);
+        let commands: Vec<&Command> =
+            program.get_subcommands().filter(|command| command.get_name() != "help").collect();
+        let command = *source.pick(&commands);
+        let mut arguments = options(source, command);
+        spoil(source, &mut arguments);
+        let at = if source.careful || source.chance(98) { 0 } else { source.below(arguments.len() + 1) };
+        arguments.insert(at, vec![command.get_name().into()]);
+        let mut case = Self { arguments, files: Vec::new(), input: Vec::new() };
+        let scene_wanted = case.flat().any(|argument| argument.as_bytes().starts_with(b"--scene"));
+        let named = ["file.toml", "file.json"].into_iter().filter(|name| case.names(name));
+        case.files = named.map(|name| files::file(source, name, scene_wanted)).collect();
+        if case.flat().any(|argument| argument == "-") {
+            case.input = files::rows(source);
+        }
+        case
+    }
+
+    /// All arguments in their order.
+    pub(crate) fn flat(&self) -> impl Iterator<Item = &OsString> {
+        self.arguments.iter().flatten()
+    }
+
+    /// Whether the arguments ask for JSON.
+    pub(crate) fn wants_json(&self) -> bool {
+        let all: Vec<&OsString> = self.flat().collect();
+        all.contains(&&"--format=json".into()) || all.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
+    }
+
+    /// The name of the command.
+    pub(crate) fn command(&self) -> String {
+        self.flat().next().map_or_else(String::new, |first| first.to_string_lossy().into_owned())
+    }
+
+    /// Whether an argument is `text`, as the value of an option too.
+    pub(crate) fn names(&self, text: &str) -> bool {
+        self.flat().any(|argument| argument == text || argument.as_bytes().ends_with(format!("={text}").as_bytes()))
+    }
+
+    /// The outputs that the arguments name by `--svg`.
+    pub(crate) fn outputs(&self) -> Vec<&OsStr> {
+        let all: Vec<&OsString> = self.flat().collect();
+        let apart = all.windows(2).filter(|pair| pair[0] == "--svg").map(|pair| pair[1].as_os_str());
+        let joined = all.iter().filter_map(|argument| argument.as_bytes().strip_prefix(b"--svg="));
+        apart.chain(joined.map(OsStr::from_bytes)).collect()
+    }
+}
+
+/// Some options of `command`, each with a value. Most cases leave out what the definition says is in conflict.
+fn options(source: &mut Source, command: &Command) -> Vec<Vec<OsString>> {
+    let heedless = !source.careful && source.chance(10);
+    let further = source.below(4);
+    let mut given: Vec<&Arg> = Vec::new();
+    let mut left = further;
+    for argument in source.shuffled(command.get_arguments().collect()) {
+        let in_conflict = |other: &&Arg| {
+            command.get_arg_conflicts_with(argument).contains(other)
+                || command.get_arg_conflicts_with(other).contains(&argument)
+        };
+        if matches!(argument.get_id().as_str(), "help" | "version") || (!heedless && given.iter().any(in_conflict)) {
+            continue;
+        }
+        let percent = match argument.get_id().as_str() {
+            "drag" | "bounce" if source.careful => 0,
+            _ if argument.is_required_set() => 97,
+            id if CORE.contains(&id) => {
+                if source.careful {
+                    98
+                } else {
+                    90
+                }
+            }
+            // Without it, a command may take a number that is good for people and too slow for a hundred thousand cases.
+            _ if kind(argument) == Kind::Count => 100,
+            "format" => 60,
+            _ if left > 0 => {
+                left -= 1;
+                60
+            }
+            _ => 2,
+        };
+        if source.chance(percent) {
+            given.push(argument);
+        }
+    }
+    let mut arguments: Vec<_> = given.into_iter().map(|argument| option(source, argument)).collect();
+    if source.careful {
+        leave_out_idle(&mut arguments);
+    }
+    let gives = |option: &[OsString], name: &str| option[0].to_string_lossy().split('=').next() == Some(name);
+    // An integrator takes some 20 ms for each of these flights, which are long, and there are 25 for a point.
+    if command.get_name() == "limit" && arguments.iter().any(|option| gives(option, "--solver")) {
+        arguments.retain(|option| !gives(option, "--points"));
+        arguments.push(vec!["--points".into(), "1".into()]);
+    }
+    arguments
+}
+
+/// Leaves out options that have no effect with others, and are refused for that.
+fn leave_out_idle(arguments: &mut Vec<Vec<OsString>>) {
+    let has = |option: &str, values: &[&str]| {
+        arguments.iter().any(|given| {
+            values
+                .iter()
+                .any(|value| *given == [option, value] || *given == [OsString::from(format!("{option}={value}"))])
+        })
+    };
+    let integrates = has("--solver", &["gamma", "euler", "quaternion"]);
+    let idle = [
+        ("--points", has("--method", &["grid"]) || has("--want", &["outcome", "tilt", "attitude", "probability"])),
+        ("--seed", has("--method", &["grid"])),
+        ("--space", has("--want", &["outcome", "tilt", "attitude", "trace"])),
+        ("--step", !has("--scheme", &["rk4"])),
+        ("--tolerance", !integrates || has("--scheme", &["rk4"])),
+        ("--scheme", !integrates),
+        ("--formulation", !has("--solver", &["gamma", "euler"])),
+    ];
+    arguments.retain(|given| {
+        let name = given[0].to_string_lossy();
+        !idle.iter().any(|(option, idle)| *idle && name.split('=').next() == Some(option))
+    });
+}
+
+/// An option, or a positional argument, with its value.
+fn option(source: &mut Source, argument: &Arg) -> Vec<OsString> {
+    let value = match argument.get_action() {
+        ArgAction::Set | ArgAction::Append => Some(value_of(source, argument)),
+        _ => None,
+    };
+    let names: Vec<&str> =
+        argument.get_long().into_iter().chain(argument.get_all_aliases().unwrap_or_default()).collect();
+    if names.is_empty() {
+        return value.into_iter().collect();
+    }
+    let mut name = OsString::from(format!("--{}", source.pick(&names)));
+    match value {
+        Some(value) if source.chance(20) => {
+            name.push("=");
+            name.push(value);
+            vec![name]
+        }
+        value => std::iter::once(name).chain(value).collect(),
+    }
+}
+
+/// Repeats, drops or adds arguments in a few cases.
+fn spoil(source: &mut Source, arguments: &mut Vec<Vec<OsString>>) {
+    if arguments.is_empty() || source.careful || !source.chance(10) {
+        return;
+    }
+    let at = source.below(arguments.len());
+    match source.below(6) {
+        0 => arguments.push(arguments[at].clone()),
+        1 => arguments[at].truncate(1),
+        2 => arguments.push(vec![source.pick(&["--help", "-h", "--version", "-V", "help"]).into()]),
+        3 => arguments.insert(at, vec!["--".into()]),
+        4 => arguments.push(vec![value(source, Kind::Number, &[])]),
+        _ => arguments.push(vec!["--no-such-option".into(), "1".into()]),
+    }
+}

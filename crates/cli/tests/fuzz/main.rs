@@ -1,0 +1,89 @@
+//! Runs the program on thousands of generated command lines and files, most of them nearly right and many of them absurd,
+//! and checks what has to hold for every input: the exit code is 0, 1 or 2, nothing panics, an answer in JSON is one object,
+//! a chart is written whole or not at all, and time and memory are bounded.
+//!
+//! The cases are the same in every run. Those that are run by default are the first of the full number:
+//!
+//! ```sh
+//! cargo test --release -p unfair-toss --test fuzz -- --include-ignored --nocapture
+//! ```
+#![cfg(unix)]
+
+mod case_run;
+mod check;
+mod command_line;
+mod files;
+mod source;
+mod values;
+
+use std::collections::BTreeMap;
+
+use case_run::{Runner, in_process, pasted, shortened, the_program};
+use check::violations;
+use command_line::Case;
+
+/// Runs `number` cases from the one with the number `first`, and panics with those in which something does not hold.
+fn fuzz(runner: Runner, first: u64, number: u64) {
+    let program = unfair_toss::command();
+    let folder = tempfile::tempdir().unwrap();
+    let (mut failures, mut codes) = (Vec::new(), BTreeMap::<(String, Option<i32>), u64>::new());
+    for index in first..first + number {
+        let case = Case::new(&program, index);
+        let ran = runner(&case, folder.path());
+        if std::env::var_os("DBG").is_some() {
+            println!(
+                "DBG\t{:?}\t{:?}\t{}\t{}",
+                ran.wall,
+                ran.code,
+                pasted(&case),
+                String::from_utf8_lossy(&ran.err).lines().next().unwrap_or("")
+            );
+        }
+        *codes.entry((case.command(), ran.code)).or_default() += 1;
+        if !violations(&case, &ran).is_empty() {
+            let case = shortened(runner, case, folder.path());
+            let found = violations(&case, &runner(&case, folder.path())).join("\n  ");
+            failures.push(format!("case {index}: {}\n  {found}\n", pasted(&case)));
+            eprintln!("{}", failures[failures.len() - 1]);
+        }
+        if failures.len() == 20 {
+            break;
+        }
+    }
+    for ((command, code), number) in &codes {
+        println!("{command:12} ended {number:6} times with {code:?}");
+    }
+    assert!(failures.is_empty(), "{} cases, of which the first is {}", failures.len(), failures[0]);
+    // Cases that are all refused would show nothing.
+    for command in program.get_subcommands().map(|command| command.get_name().to_owned()) {
+        let ended = |code| codes.get(&(command.clone(), Some(code))).copied().unwrap_or_default();
+        assert!(
+            number < 1000 || ended(0) > 0 && ended(2) > 0,
+            "{command}: {} answers, {} refusals",
+            ended(0),
+            ended(2)
+        );
+    }
+}
+
+#[test]
+fn generated_input_in_process() {
+    fuzz(in_process, 0, 3_000);
+}
+
+#[test]
+fn generated_input_by_the_program() {
+    fuzz(the_program, 0, 100);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn more_generated_input_in_process() {
+    fuzz(in_process, 3_000, 97_000);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn more_generated_input_by_the_program() {
+    fuzz(the_program, 100, 1_900);
+}
