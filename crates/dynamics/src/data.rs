@@ -14,6 +14,7 @@
 //! What lies outside the model has its fields too, so that it is refused with a reason and not with "unknown field".
 
 use nalgebra::Vector3;
+use numerics::{Angle, Quantity};
 use serde::de::{Error, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -59,7 +60,10 @@ impl TryFrom<CoinData> for Coin {
 
 impl From<Coin> for CoinData {
     fn from(coin: Coin) -> Self {
-        Self::Moments { moments: vec![coin.i1(), coin.i3()] }
+        match coin.cylinder() {
+            Some(cylinder) => Self::Cylinder { cylinder: cylinder.map(Quantity::to_f64) },
+            None => Self::Moments { moments: vec![coin.i1(), coin.i3()] },
+        }
     }
 }
 
@@ -155,8 +159,9 @@ impl From<Launch> for LaunchData {
             }
             TimeOfFlight::Given(t) => time = Some(t),
         }
-        let attitude = Some(launch.attitude().components());
-        Self { rate: launch.rate().into(), speed, gravity, drop, time, tilt: None, attitude, drag: None, bounce: None }
+        let tilt = launch.attitude().tilt().map(Angle::radians);
+        let attitude = if tilt.is_some() { None } else { Some(launch.attitude().given_components()) };
+        Self { rate: launch.rate().into(), speed, gravity, drop, time, tilt, attitude, drag: None, bounce: None }
     }
 }
 
@@ -189,11 +194,12 @@ mod tests {
         ];
         for time in thrown {
             let launch = Launch::new(Vector3::new(0.1, -7.0, 1e-300), time).unwrap().with_tilt(1.1).unwrap();
-            let toss = Toss { coin: Coin::from_moments(0.3, 0.1).unwrap(), launch };
-            let back = read(&toml::to_string(&toss).unwrap()).unwrap();
-            assert_eq!((back.coin, back.launch.rate()), (toss.coin, toss.launch.rate()));
-            assert_eq!(back.launch.time_of_flight(), time);
-            assert!(back.launch.attitude().angle_to(&toss.launch.attitude()) < 1e-15);
+            let attitude = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
+            let coins = [Coin::from_moments(0.3, 0.1), Coin::from_cylinder(0.003, 0.01874, 0.00114)];
+            for (coin, launch) in coins.into_iter().zip([launch, launch.with_attitude(attitude)]) {
+                let toss = Toss { coin: coin.unwrap(), launch };
+                assert_eq!(read(&toml::to_string(&toss).unwrap()), Ok(toss));
+            }
         }
     }
 

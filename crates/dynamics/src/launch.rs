@@ -1,6 +1,7 @@
 //! The launch: body rate ω, attitude Q0 and time of flight T when the coin leaves the hand.
 
 use nalgebra::Vector3;
+use numerics::Angle;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
@@ -48,12 +49,13 @@ impl Launch {
         Self { attitude, ..self }
     }
 
-    /// The same launch from a coin turned by `tilt` (rad) about the lab's x axis (α = γ = 0, β = `tilt`).
+    /// The same launch from a coin turned by `tilt` about the lab's x axis (α = γ = 0, β = `tilt`); an f64 is in radians.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if `tilt` is not finite.
-    pub fn with_tilt(self, tilt: f64) -> Result<Self, InputError> {
-        require("tilt [rad]", tilt, "finite", true)?;
+    pub fn with_tilt(self, tilt: impl Into<Angle>) -> Result<Self, InputError> {
+        let tilt = tilt.into();
+        require("tilt [rad]", tilt.radians(), "finite", true)?;
         Ok(self.with_attitude(Attitude::about_x(tilt)))
     }
 
