@@ -283,4 +283,36 @@ mod tests {
             approx::assert_abs_diff_eq!(vertical, attitude.lab_to_body(&Vector3::z()), epsilon = 1e-15);
         }
     }
+    #[test]
+    fn the_vertical_in_the_body_is_normalised_in_double_double() {
+        let given = [[0.3, -0.7, 0.5, 0.4], [3e200, 7e200, -5e200, 4e200], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]];
+        let attitudes = given.map(|components| Attitude::from_components(components).unwrap());
+        for attitude in attitudes.into_iter().chain([Attitude::about_x(2.5), Attitude::about_z(1.0)]) {
+            let vertical = attitude.exact_vertical();
+            let rounded = Vector3::from(vertical.map(DoubleDouble::hi));
+            approx::assert_abs_diff_eq!(rounded, attitude.lab_to_body(&Vector3::z()), epsilon = 1e-15);
+            let square = vertical.into_iter().fold(DoubleDouble::ZERO, |sum, part| sum + part * part);
+            assert!((square - 1.0.into()).hi().abs() < 1e-20, "{square:?}");
+            let (rough, norm) = attitude.vertical();
+            approx::assert_abs_diff_eq!(Vector3::from(rough) / norm, rounded, epsilon = 1e-15);
+            let (exact, norm) = attitude.vertical_in_digits(100);
+            for (exact, found) in exact.iter().zip(vertical) {
+                let error =
+                    exact / norm.clone().with_precision(100).value() - exactly(found.hi()) - exactly(found.lo());
+                assert!(error.to_f64().value().abs() < 1e-20, "{attitude:?}");
+            }
+        }
+    }
+
+    /// What a product rounds is not what was given.
+    #[test]
+    fn an_attitude_keeps_what_it_was_made_from() {
+        let tilted = Attitude::about_x(0.7);
+        assert_eq!((tilted.tilt(), Attitude::about_x(0.0)), (Some(0.7.into()), Attitude::IDENTITY));
+        let given = [0.3, -0.7, 0.5, 0.4];
+        assert_eq!(Attitude::from_components(given).unwrap().given_components(), given);
+        assert_eq!((tilted * tilted).tilt(), None);
+        assert_ne!(Attitude::from_components(tilted.components()).unwrap(), tilted);
+        assert_eq!(Attitude::from_components([4.0, 0.0, 0.0, 0.0]), Ok(Attitude::IDENTITY));
+    }
 }

@@ -205,7 +205,8 @@ mod tests {
             (Quantity::new(0.955, inch), Quantity::new(1.75, mm)),
             (Quantity::new(0.955, inch), 0.00175.into()),
         ] {
-            let coin = Coin::from_cylinder(if radius.to_f64() < 1.0 { 1e30 } else { 1e-30 }, radius, thickness).unwrap();
+            let coin =
+                Coin::from_cylinder(if radius.to_f64() < 1.0 { 1e30 } else { 1e-30 }, radius, thickness).unwrap();
             let [r, h] = [radius, thickness].map(|length: Quantity| length.in_digits(400));
             let big = |value: f64| exactly(value).with_precision(400).value();
             let exact = big(6.0) * &r * &r / (big(3.0) * &r * &r + &h * &h);

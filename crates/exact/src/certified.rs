@@ -1,5 +1,9 @@
-//! Outcomes that are proven: heads or tails of the ideal flight for exactly these f64 moments, rates, attitude, speed
-//! and gravity.
+//! Outcomes that are proven: heads or tails of the ideal flight for exactly the numbers that coin and launch were made
+//! from.
+//!
+//! These are the moments or the cylinder, the rates, the tilt or the quaternion, and the time or the speed, gravity and
+//! drop. What is derived from them, as k = 6 r²/(3 r² + h²) or the vertical seen from a tilted coin, is not rounded
+//! before the proof, or its rounding is in the bound.
 //!
 //! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
 //! `keller.rs` (Keller's coin) and `trig_free.rs` (no sine or cosine). Three have more digits, one than the
@@ -19,27 +23,25 @@
 //! ```
 //!
 //! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
-//! 2^-1000, and `size` is above 10^-200.
+//! 2^-1000, and `size` is above 10^-200. k is rounded once. The vertical of [`Attitude::vertical`](dynamics::Attitude::vertical)
+//! is right to the errors from which those of A, B and C are derived, whatever the attitude was made from.
 //!
 //! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations
-//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u², and the phase (k 10 u², |L| 20 u², time
-//! 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part are std's (2u each, √2 for both),
-//! turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in
-//! [`double_double_bound`].
+//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u² and the 2^-67 of the vertical, and the phase
+//! (|L| 37 u², of which k has 25 u²; time 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part
+//! are std's (2u each, √2 for both), turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So
+//! |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in [`double_double_bound`].
 //!
-//! **3. As many digits as it takes**, doubling. It ends: e^(iφ) is transcendental for an algebraic φ ≠ 0 (Lindemann),
-//! so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0 or A = B = C = 0, and these ties are found by exact
-//! arithmetic first.
+//! **3. As many digits as it takes**, from the numbers that were given: `multiprecision.rs`.
 
-use dynamics::attitude::vertical_in_body;
 use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
-use numerics::big::{Big, exactly};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::keller::{keller_outcome, keller_phase};
 use crate::motion::ExactMotion;
-use crate::tilt_terms::{TiltTerms, terms};
+use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
+use crate::tilt_terms::TiltTerms;
 use crate::trig_free::{phase_in_range, trig_free_by};
 
 /// The proven outcome of a toss.
@@ -52,6 +54,17 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
         Some(certificate) => Ok(certificate),
         None => with_more_digits(toss),
     }
+}
+
+/// cos θ at landing to the error [`COS_TILT_ERROR`](crate::motion::COS_TILT_ERROR), and of the sign of the proven outcome:
+/// it is 0 for an exact tie alone.
+///
+/// # Errors
+/// As [`certify`].
+pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+    let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
+    let has_its_sign = cos_tilt.hi().abs() > double_double_bound(phase);
+    Ok(if has_its_sign { cos_tilt.hi().clamp(-1.0, 1.0) } else { rounded_cos_tilt(toss) })
 }
 
 impl ProvenCounts {
@@ -130,81 +143,6 @@ pub fn double_double_bound(phase: DoubleDouble) -> f64 {
 #[inline]
 pub fn f64_bound(phase: f64) -> f64 {
     (34.0 + 7.0 * phase) * UNIT_ROUNDOFF
-}
-
-/// The stage in as many digits as it takes. It always decides, but for exact ties.
-pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
-    if is_tie(toss) {
-        return Outcome::Undecided;
-    }
-    let mut digits: isize = 192;
-    loop {
-        let (cos_tilt, bound) = (cos_tilt(toss, digits), multiprecision_bound(digits));
-        if cos_tilt > bound {
-            return Outcome::Heads;
-        }
-        if cos_tilt < -bound {
-            return Outcome::Tails;
-        }
-        digits *= 2;
-    }
-}
-
-/// Bound of the error of cos θ in `digits` binary digits: some twenty operations, the phase's error multiplied by up to 2^53.
-fn multiprecision_bound(digits: isize) -> Big {
-    Big::ONE >> (digits - 80)
-}
-
-/// The vertical in BF times |q|², exactly.
-fn vertical(toss: &Toss) -> [Big; 3] {
-    vertical_in_body(toss.launch.attitude().components().map(exactly)).0
-}
-
-/// Whether cos θ = 0 exactly at landing.
-fn is_tie(toss: &Toss) -> bool {
-    let [m_x, m_y, m_z] = vertical(toss);
-    let zero = exactly(0.0);
-    if m_z != zero {
-        // At a phase of 0, cos θ = mz. Without B and C, either Ω = 0 and cos θ = mz too, or m is along L, where A = 0
-        // needs Lz = 0 and with it mz = 0.
-        return false;
-    }
-    let rate = toss.launch.rate();
-    let landed_at_once = !toss.launch.time_of_flight().is_positive();
-    let precesses = rate.x != 0.0 || rate.y != 0.0;
-    let level_momentum = rate.z == 0.0 || toss.coin.i3() == 0.0;
-    landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
-}
-
-/// cos θ at landing in `digits` binary digits.
-fn cos_tilt(toss: &Toss, digits: isize) -> Big {
-    let digits = digits.unsigned_abs();
-    let big = |value: f64| exactly(value).with_precision(digits).value();
-    let round = |value: Big| value.with_precision(digits).value();
-    let rate = toss.launch.rate();
-    let (x, y, z) = (big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z));
-    let across = &x * &x + &y * &y;
-    let squared = &across + &z * &z;
-    let vertical = vertical(toss).map(round);
-    if squared == big(0.0) {
-        let [.., m_z] = vertical;
-        return m_z;
-    }
-    let momentum = squared.sqrt();
-    let time = match toss.launch.time_of_flight() {
-        TimeOfFlight::Given(time) => big(time),
-        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            let (speed, gravity) = (exactly(speed), exactly(gravity));
-            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
-            (round(speed) + round(discriminant).sqrt()) / round(gravity)
-        }
-    };
-    let (sin, cos) = (&momentum * time).sin_cos();
-    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
-    let height = mean + cosine * cos + sine * &momentum * sin;
-    // |q|² is 1 to rounding wherever the attitude comes from; only the sign counts, and the scale to a factor of two.
-    height / squared
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! | cos θ as three terms in f64; the phases that show heads; how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
 //! | derivatives of the landing by the launch | [`sensitivity`] |
 //! | cheaper forms: without trigonometry, of Keller's coin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
-//! | proven outcomes | [`certified`], [`certificate`] |
+//! | proven outcomes, in as many digits as it takes; what is proven | [`certified`], `multiprecision`, [`certificate`] |
 //! | many tosses at once, in registers | [`batch`] |
 //! | the motion as a solver | [`solver`] |
 //!
@@ -21,6 +21,7 @@ pub mod heads;
 mod keller;
 pub mod margin;
 pub mod motion;
+mod multiprecision;
 mod polar;
 pub mod sensitivity;
 pub mod solver;

@@ -8,7 +8,6 @@
 //! ```
 
 use dynamics::Toss;
-use dynamics::attitude::vertical_in_body;
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 use numerics::{Number, UNIT_ROUNDOFF};
@@ -81,7 +80,7 @@ impl TiltTerms {
     pub(crate) fn of_momentum(toss: &Toss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
         let (x, y, z) = (momentum.x, momentum.y, momentum.z);
         let across = x * x + y * y;
-        let (vertical, norm) = vertical_in_body(toss.launch.attitude().components());
+        let (vertical, norm) = toss.launch.attitude().vertical();
         let spin = ((toss.coin.inertia_ratio() - 1.0) * (toss.launch.rate().z / unit)).abs();
         if squared < SLOWEST_SQUARED {
             // At rest. Or precessing so slowly next to the spin, whose rate is above ½ then, that the spin's phase is too

@@ -146,7 +146,8 @@ fn sin_cos(angle: DoubleDouble) -> [DoubleDouble; 2] {
     let sin_a = if sixteenths < 0.0 { -sin_a } else { sin_a };
     let square = d * d;
     let s = square.hi();
-    let sin_d = d + (d.hi() * s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362_880.0))))).into();
+    let sin_d =
+        d + (d.hi() * s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362_880.0))))).into();
     let cos_d_less_1 =
         -square.half() + (s * s * (1.0 / 24.0 + s * (-1.0 / 720.0 + s * (1.0 / 40_320.0 - s / 3_628_800.0)))).into();
     let sin = sin_a + (sin_a * cos_d_less_1 + cos_a * sin_d);

@@ -4,7 +4,6 @@
 //! range of f64 is no ordinary toss.
 
 use dynamics::Tosses;
-use dynamics::attitude::vertical_in_body;
 use numerics::DoubleDouble;
 use numerics::lanes::{MOST_TURNS, Real, Simd};
 
@@ -178,7 +177,7 @@ pub(super) struct TiltTerms {
 
 impl TiltTerms {
     pub(super) fn new(tosses: &Tosses<'_>) -> Self {
-        let (vertical, norm) = vertical_in_body(tosses.attitude().components());
+        let (vertical, norm) = tosses.attitude().vertical();
         Self { vertical, norm }
     }
 

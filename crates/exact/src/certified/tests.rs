@@ -117,20 +117,3 @@ fn the_stage_in_f64_decides_beyond_its_bound_in_parts_of_the_size() {
         assert_eq!(by_terms(&terms, 0.0), outcome, "{units}");
     }
 }
-
-#[test]
-fn more_digits_change_cos_theta_by_less_than_its_bound() {
-    let attitude = Attitude::from_components([0.3, -0.7, 0.5, 0.4]).unwrap();
-    for time in [1.0, 1e15] {
-        let toss = toss(0.7, [1.0, -2.0, 3.0], attitude, time);
-        for digits in [192, 384] {
-            let (rough, fine) = (cos_tilt(&toss, digits), cos_tilt(&toss, 2 * digits));
-            let difference = if rough > fine { &rough - &fine } else { &fine - &rough };
-            assert!(difference < multiprecision_bound(digits), "{digits}, {time}");
-            let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
-            assert!((fine.to_f64().value() - exact).abs() < 1e-15, "{digits}, {time}");
-            // And the bound is what the phase's loss of digits makes of the last one.
-            assert!(multiprecision_bound(digits) < (Big::ONE >> (digits - 81)));
-        }
-    }
-}
