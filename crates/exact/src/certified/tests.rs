@@ -10,6 +10,30 @@ fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
     Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
 }
 
+/// Digits by mpmath, from the tilt and the cylinder as exact numbers. The quaternion of the tilt and the moments of the
+/// cylinder, rounded to f64, land tails.
+#[test]
+fn what_is_proven_is_the_toss_as_it_was_given() {
+    let toss = |coin, rate: [f64; 3], speed| {
+        let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
+        Toss { coin, launch: Launch::new(Vector3::from(rate), thrown).unwrap() }
+    };
+    let rate = [-24.064_598_567_199_237, -26.566_903_895_330_363, 49.564_483_551_046_28];
+    let flat = toss(Coin::PAPER, rate, 2.410_790_522_567_343_6);
+    let tilted = Toss { launch: flat.launch.with_tilt(2.515_084_104_129_282_4).unwrap(), ..flat };
+    let cylinder = Coin::from_cylinder(0.003, 0.018_74, 0.001_14).unwrap();
+    let rate = [-3.217_900_789_583_893_6, 169.214_640_584_066_1, -44.331_380_741_625_6];
+    let thick = toss(cylinder, rate, 2.050_038_069_869_439);
+    for (given, cos) in [(tilted, 1.083_048_700_603_535_2e-17), (thick, 5.367_562_989_044_33e-16)] {
+        assert_eq!(certify(&given).unwrap().outcome(), Outcome::Heads);
+        assert!((cos_tilt(&given).unwrap() - cos).abs() < 1e-31);
+        let attitude = Attitude::from_components(given.launch.attitude().components()).unwrap();
+        let coin = Coin::from_moments(given.coin.i1(), given.coin.i3()).unwrap();
+        let rounded = Toss { coin, launch: given.launch.with_attitude(attitude) };
+        assert_eq!(certify(&rounded).unwrap().outcome(), Outcome::Tails);
+    }
+}
+
 /// On edge, exactly: w = x, so that mz = w² - x² = 0 and m is along y.
 fn on_edge() -> Attitude {
     let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();

@@ -1,6 +1,6 @@
 //! The exact motion in 256 bits: what every error is measured against.
 //!
-//! It takes the f64 inputs of a toss as exact numbers and evaluates
+//! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
 //! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is some 2^-250 for the
 //! phases of a toss. It shares no code with the solvers, and its tests hold it against numbers from outside, which
 //! [`motions`] and [`probabilities`] read.
@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use toss::{Attitude, Outcome, TimeOfFlight, Toss, Vector3};
+use toss::{Angle, Attitude, Coin, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
 
 /// Binary digits.
 const PRECISION: usize = 256;
@@ -34,7 +34,7 @@ impl Reference {
     pub fn new(toss: &Toss) -> Self {
         let rate = toss.launch.rate();
         let (x, y, z) = (big(rate.x), big(rate.y), big(rate.z));
-        let k = big(toss.coin.i3()) / big(toss.coin.i1());
+        let k = inertia_ratio(&toss.coin);
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
         let time = match toss.launch.time_of_flight() {
@@ -55,7 +55,7 @@ impl Reference {
         let half_spin = (k - big(1.0)) * &z * half_time;
         let (sin_half, cos_half) = half_spin.sin_cos();
         let spin = [cos_half, big(0.0), big(0.0), -sin_half];
-        let launch = normalised(toss.launch.attitude().components().map(big));
+        let launch = quaternion(&toss.launch.attitude());
         let (sin_spin, cos_spin) = (half_spin * big(2.0)).sin_cos();
         let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
         Self { attitude: product(&product(&launch, &turn), &spin), rate }
@@ -102,6 +102,28 @@ impl Reference {
         let [w, x, y, z] = &self.attitude;
         w * w + z * z - x * x - y * y
     }
+}
+
+/// k of the moments, or 6 r²/(3 r² + h²) of the cylinder.
+fn inertia_ratio(coin: &Coin) -> Big {
+    let Some([_, radius, thickness]) = coin.cylinder() else { return big(coin.i3()) / big(coin.i1()) };
+    let squared = |length| quantity(length) * quantity(length);
+    big(6.0) * squared(radius) / (big(3.0) * squared(radius) + squared(thickness))
+}
+
+/// Q0 of the given components, or the half-angle's cosine and sine of the tilt.
+fn quaternion(attitude: &Attitude) -> [Big; 4] {
+    let half = match attitude.tilt() {
+        None => return normalised(attitude.given_components().map(big)),
+        Some(Angle::Radians(radians)) => quantity(radians) / big(2.0),
+        Some(Angle::Turns(turns)) => quantity(turns) * Big::pi(PRECISION),
+    };
+    let (sin, cos) = half.sin_cos();
+    [cos, sin, big(0.0), big(0.0)]
+}
+
+fn quantity(given: Quantity) -> Big {
+    big(given.value()) * big(given.unit().numerator().into()) / big(given.unit().denominator().into())
 }
 
 fn to_f64(value: &Big) -> f64 {
