@@ -1,7 +1,7 @@
 //! The launch: body rate ω, attitude Q0 and time of flight T when the coin leaves the hand.
 
 use nalgebra::Vector3;
-use numerics::Angle;
+use numerics::{Angle, AngleUnit};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
@@ -14,6 +14,8 @@ use crate::time_of_flight::TimeOfFlight;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
     rate: Vector3<f64>,
+    /// The rate as it was given, where that was not in rad/s.
+    given_rate: Option<(Vector3<f64>, AngleUnit)>,
     attitude: Attitude,
     time_of_flight: TimeOfFlight,
     /// T (s), which every flight needs.
@@ -32,7 +34,16 @@ impl Launch {
             require(field, value, "finite", true)?;
         }
         let flight_time = time_of_flight.validated_seconds()?;
-        Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
+        Ok(Self { rate, given_rate: None, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
+    }
+
+    /// As [`Launch::new`], with the body rate in a `unit` of angle per second.
+    ///
+    /// # Errors
+    /// As [`Launch::new`].
+    pub fn in_unit(rate: Vector3<f64>, unit: AngleUnit, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        let launch = Self::new(rate.map(|part| unit.times(part).radians()), time_of_flight)?;
+        Ok(Self { given_rate: (unit != AngleUnit::RADIAN).then_some((rate, unit)), ..launch })
     }
 
     /// The launch that goes on from `state`.
@@ -59,7 +70,13 @@ impl Launch {
         Ok(self.with_attitude(Attitude::about_x(tilt)))
     }
 
-    /// ω at launch (BF, rad/s).
+    /// ω at launch as it was given, and in which unit of angle per second.
+    #[inline]
+    pub fn given_rate(&self) -> (Vector3<f64>, AngleUnit) {
+        self.given_rate.unwrap_or((self.rate, AngleUnit::RADIAN))
+    }
+
+    /// ω at launch (BF, rad/s), to rounding where it was given in another unit.
     pub fn rate(&self) -> Vector3<f64> {
         self.rate
     }

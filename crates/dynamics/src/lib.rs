@@ -74,7 +74,7 @@ pub use flight::Flight;
 pub use formulation::{Formulation, Frame};
 pub use launch::{Launch, Toss};
 pub use nalgebra::Vector3;
-pub use numerics::{Angle, Quantity, Unit};
+pub use numerics::{Angle, AngleUnit, Quantity, Unit};
 pub use outcome::Outcome;
 pub use phase::RoughPhases;
 pub use scheme::Scheme;

@@ -30,7 +30,8 @@ impl Stage {
     }
 }
 
-/// A proven outcome and the stage that proved it. It is undecided only for an exact tie: cos θ = 0 at landing.
+/// A proven outcome and the stage that proved it. It is undecided only for an exact tie: cos θ = 0 at landing. With rates in
+/// turns, |cos θ| < 2^-12000 counts as a tie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Certificate {
     outcome: Outcome,

@@ -32,9 +32,12 @@
 //! are std's (2u each, √2 for both), turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So
 //! |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in [`double_double_bound`].
 //!
+//! Rates that were not given in rad/s are rounded to it, each by u. That turns the landed coin by u φ at most, which the
+//! bounds of the stages in f64 have room for, and which is added in the next: [`rate_error`].
+//!
 //! **3. As many digits as it takes**, from the numbers that were given: `multiprecision.rs`.
 
-use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
+use dynamics::{AngleUnit, Error, Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
@@ -57,14 +60,16 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 }
 
 /// cos θ at landing to the error [`COS_TILT_ERROR`](crate::motion::COS_TILT_ERROR), and of the sign of the proven outcome:
-/// it is 0 for an exact tie alone.
+/// it is 0 for a tie alone. Near 0, where that error would take the leading digits, it is rounded from more digits.
 ///
 /// # Errors
 /// As [`certify`].
 pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
-    let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
-    let has_its_sign = cos_tilt.hi().abs() > double_double_bound(phase);
-    Ok(if has_its_sign { cos_tilt.hi().clamp(-1.0, 1.0) } else { rounded_cos_tilt(toss) })
+    // Above the error of double-double at any phase.
+    const NEAR_0: f64 = 1e-9;
+    let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
+    let is_right = cos_tilt.abs() > NEAR_0 && rate_error(toss) == 0.0;
+    Ok(if is_right { cos_tilt } else { rounded_cos_tilt(toss) })
 }
 
 impl ProvenCounts {
@@ -85,6 +90,9 @@ impl ProvenCounts {
 /// The stages in f64.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
+    if rate_error(toss).is_infinite() {
+        return None;
+    }
     let by = |stage| move |outcome| Certificate::new(outcome, stage);
     if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
         return Some(by(Stage::Keller)(outcome));
@@ -113,19 +121,34 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     let motion = ExactMotion::new(toss);
     let time = toss.launch.time_of_flight();
     motion.phase(time)?;
-    Ok(match by_double_double(&motion, time)? {
+    Ok(match by_double_double(&motion, time, rate_error(toss))? {
         Some(outcome) => Certificate::new(outcome, Stage::DoubleDouble),
         None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
     })
 }
 
-/// The stage in double-double; `None` where it cannot decide.
+/// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.
+#[inline]
+fn rate_error(toss: &Toss) -> f64 {
+    const SLOWEST: f64 = 1e-200;
+    if toss.launch.given_rate().1 == AngleUnit::RADIAN {
+        0.0
+    } else if toss.launch.rate().amax() >= SLOWEST {
+        1.01 * UNIT_ROUNDOFF
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// The stage in double-double for rates with this relative error; `None` where it cannot decide.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-fn by_double_double(motion: &ExactMotion, time: TimeOfFlight) -> Result<Option<Outcome>, SolveError> {
+fn by_double_double(motion: &ExactMotion, time: TimeOfFlight, rate_error: f64) -> Result<Option<Outcome>, SolveError> {
     let (cos_tilt, phase) = motion.cos_tilt_parts(time)?;
-    Ok(match Outcome::of(cos_tilt.hi(), double_double_bound(phase)) {
+    // Of a phase of 0 and lost digits the product is NaN, within which nothing is decided.
+    let bound = double_double_bound(phase) + rate_error * phase.hi();
+    Ok(match Outcome::of(cos_tilt.hi(), bound) {
         Outcome::Undecided => None,
         decided => Some(decided),
     })

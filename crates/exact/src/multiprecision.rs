@@ -18,11 +18,16 @@
 //!   Q = ±ŝx and ŝy ŝz = 0; the cosine of β then has the coefficient ŝz² + Q = 1. If φ = |β|, one of them is 0 and
 //!   another 2|β|; Q + ŝx = Q - ŝx = 0 leaves ŝz² = 1 for the cosine of β. If φ = 0, cos θ = cos β, and if β = 0,
 //!   cos θ = ŝz² + Q cos φ: neither is 0.
+//! - With rates in turns, φ is π times an algebraic number, and there are more ties: a coin that is flipped at one turn
+//!   in a second is on edge after a quarter of a second. Such a toss counts as a tie if |cos θ| is below 2^-12000.
 
-use dynamics::{Outcome, TimeOfFlight, Toss};
+use dynamics::{AngleUnit, Outcome, TimeOfFlight, Toss};
 use numerics::big::{Big, exactly};
 
 use crate::tilt_terms::terms;
+
+/// Digits after which a toss with rates in turns counts as a tie.
+const MOST_DIGITS_OF_TURNS: isize = 12_288;
 
 /// The stage of a proof in as many digits as it takes. It always decides, but for exact ties.
 pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
@@ -50,8 +55,12 @@ fn decided_cos_tilt(toss: &Toss, digits: isize) -> Option<Big> {
     if is_tie(toss) {
         return None;
     }
+    let may_be_0 = matches!(toss.launch.given_rate().1, AngleUnit::Turns(_));
     let mut precision: isize = 192;
     loop {
+        if may_be_0 && precision > MOST_DIGITS_OF_TURNS {
+            return None;
+        }
         let (cos_tilt, bound) = (cos_tilt(toss, precision), multiprecision_bound(precision - digits));
         if cos_tilt > bound || cos_tilt < -bound {
             return Some(cos_tilt);
@@ -75,7 +84,7 @@ fn is_tie(toss: &Toss) -> bool {
         // needs Lz = 0 and with it mz = 0.
         return false;
     }
-    let rate = toss.launch.rate();
+    let (rate, _) = toss.launch.given_rate();
     let landed_at_once = !toss.launch.time_of_flight().is_positive();
     let precesses = rate.x != 0.0 || rate.y != 0.0;
     let level_momentum = rate.z == 0.0 || toss.coin.inertia_ratio_in_digits(DIGITS) == Big::ZERO;
@@ -87,7 +96,7 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let digits = digits.unsigned_abs();
     let round = |value: Big| value.with_precision(digits).value();
     let big = |value: f64| round(exactly(value));
-    let rate = toss.launch.rate();
+    let (rate, unit) = toss.launch.given_rate();
     let (x, y, z) = (big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z));
     let across = &x * &x + &y * &y;
     let squared = &across + &z * &z;
@@ -98,7 +107,9 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
         return m_z / norm;
     }
     let momentum = squared.sqrt();
-    let (sin, cos) = (&momentum * time_of_flight(toss.launch.time_of_flight(), digits)).sin_cos();
+    // L is in the unit of the rates, whose size only the phase depends on.
+    let time = time_of_flight(toss.launch.time_of_flight(), digits);
+    let (sin, cos) = (&momentum * unit.in_digits(digits) * time).sin_cos();
     let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
     (mean + cosine * cos + sine * &momentum * sin) / (squared * norm)
 }
@@ -182,6 +193,24 @@ mod tests {
             let toss = toss(Coin::DISC, [rate, 7.0, 0.0], edge, 1e-300);
             assert_eq!(certify(&toss).unwrap().outcome(), outcome);
             assert_eq!(landed_cos_tilt(&toss), Ok(-rate.signum() * 5e-324));
+        }
+    }
+
+    #[test]
+    fn rates_in_turns_tie_at_quarters_of_a_turn_and_nowhere_near_them() {
+        let turns = AngleUnit::Turns(Unit::ONE);
+        for (rate, time, outcome) in [
+            (1.0, 0.25, Outcome::Undecided),
+            (1.0, 0.25f64.next_up(), Outcome::Tails),
+            (1f64.next_down(), 0.25, Outcome::Heads),
+            (38.0, 38.75 / 38.0, Outcome::Tails),
+            (40.0, 0.993_75, Outcome::Heads),
+            (1024.0, 1024.75 / 1024.0, Outcome::Undecided),
+        ] {
+            let launch = Launch::in_unit(Vector3::new(rate, 0.0, 0.0), turns, TimeOfFlight::Given(time)).unwrap();
+            let toss = Toss { coin: Coin::DISC, launch };
+            assert_eq!(certify(&toss).unwrap().outcome(), outcome, "{rate} {time}");
+            assert_eq!(Outcome::of(landed_cos_tilt(&toss).unwrap(), 0.0), outcome, "{rate} {time}");
         }
     }
 

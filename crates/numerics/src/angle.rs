@@ -19,6 +19,38 @@ pub enum Angle {
     Turns(Quantity),
 }
 
+/// What an angle is counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AngleUnit {
+    /// A rational number of radians.
+    Radians(Unit),
+    /// A rational part of a turn.
+    Turns(Unit),
+}
+
+impl AngleUnit {
+    /// The radian.
+    pub const RADIAN: Self = Self::Radians(Unit::ONE);
+
+    /// So many of this unit.
+    #[inline]
+    pub fn times(self, value: f64) -> Angle {
+        match self {
+            Self::Radians(unit) => Angle::Radians(Quantity::new(value, unit)),
+            Self::Turns(unit) => Angle::Turns(Quantity::new(value, unit)),
+        }
+    }
+
+    /// The unit (rad), rounded to so many binary digits.
+    pub fn in_digits(self, digits: usize) -> Big {
+        let ratio = |unit: Unit| Quantity::new(1.0, unit).in_digits(digits);
+        match self {
+            Self::Radians(unit) => ratio(unit),
+            Self::Turns(unit) => ratio(unit) * Big::pi(digits) * exactly(2.0),
+        }
+    }
+}
+
 /// In radians.
 impl From<f64> for Angle {
     #[inline]
@@ -218,6 +250,14 @@ mod tests {
             assert!(angle.sin_cos_in_digits(80).iter().all(|part| *part != zero), "{angle:?}");
         }
         assert!(degrees(0.0).is_zero() && !Angle::from(5e-324).is_zero());
+    }
+
+    #[test]
+    fn units_are_those_of_their_angles() {
+        for unit in [AngleUnit::Turns(Unit::ratio(1, 60).unwrap()), AngleUnit::Radians(Unit::ratio(3, 1000).unwrap())] {
+            assert_eq!(unit.in_digits(200).to_f64().value(), unit.times(1.0).radians(), "{unit:?}");
+        }
+        assert_eq!(AngleUnit::RADIAN.times(0.3), 0.3.into());
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub mod number;
 pub mod quantity;
 pub mod scale;
 
-pub use angle::Angle;
+pub use angle::{Angle, AngleUnit};
 pub use big::Big;
 pub use double_double::DoubleDouble;
 pub use number::Number;

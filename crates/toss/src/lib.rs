@@ -103,7 +103,8 @@ mod trace;
 // The body, the launch and the flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Angle, Attitude, Coin, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss, Tosses, Unit, Vector3,
+    Angle, AngleUnit, Attitude, Coin, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss, Tosses, Unit,
+    Vector3,
 };
 
 // What a solver is, for those who choose one and for those who write one.

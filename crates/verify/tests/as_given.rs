@@ -6,7 +6,8 @@ use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use toss::{
-    Angle, Attitude, Batch, Coin, Launch, Outcome, Quantity, Solver, TimeOfFlight, Toss, Tosses, Unit, Vector3, certify,
+    Angle, AngleUnit, Attitude, Batch, Coin, Launch, Outcome, Quantity, Solver, TimeOfFlight, Toss, Tosses, Unit,
+    Vector3, certify,
 };
 use verify::measure::reference::Reference;
 
@@ -17,6 +18,8 @@ struct Inputs {
     coin: CoinKind,
     start: Start,
     flight: Flight,
+    /// Of the rates.
+    unit: AngleUnit,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,7 +117,9 @@ impl Inputs {
             SPEED | GRAVITY => [Flight::Thrown, Flight::Dropped][of(&[0, 1]) as usize],
             _ => [Flight::Thrown, Flight::Time, Flight::Dropped][of(&[0, 1, 2, 0, 1]) as usize],
         };
-        Self { values, coin, start, flight }
+        let degree = Unit::ratio(1, 360).expect("a unit");
+        let unit = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::RADIAN, AngleUnit::Turns(Unit::ONE)];
+        Self { values, coin, start, flight, unit: unit[(index / 5 % 4) as usize] }
     }
 
     /// The toss, if there is one.
@@ -132,7 +137,8 @@ impl Inputs {
             Flight::Thrown => TimeOfFlight::Ballistic { speed, gravity },
             Flight::Dropped => TimeOfFlight::BallisticTo { speed, gravity, drop: v[DROP] },
         };
-        let launch = Launch::new(Vector3::new(v[RATE], v[RATE + 1], v[RATE + 2]), time).ok()?;
+        let rate = Vector3::new(v[RATE], v[RATE + 1], v[RATE + 2]) / self.unit.times(1.0).radians();
+        let launch = Launch::in_unit(rate, self.unit, time).ok()?;
         let degrees = |radians: f64| Quantity::new(57.0 * radians, Unit::ratio(1, 360).expect("a unit"));
         let attitude = match self.start {
             Start::Flat => Attitude::IDENTITY,
@@ -162,7 +168,8 @@ impl Inputs {
         let start = self.values[moved];
         let outcome = self.outcome(moved, start)?;
         let changed = |part: &f64| self.outcome(moved, start * (1.0 + part)).is_some_and(|other| other != outcome);
-        let part = [1e-3, -1e-3, 1e-2, -1e-2, 0.05, -0.05, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6].into_iter().find(changed)?;
+        let part =
+            [1e-3, -1e-3, 1e-2, -1e-2, 0.05, -0.05, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6].into_iter().find(changed)?;
         let mut ends = [start, start * (1.0 + part)].map(f64::to_bits);
         while ends[0].abs_diff(ends[1]) > 1 {
             let middle = ends[0].midpoint(ends[1]);
@@ -186,7 +193,7 @@ fn is_right(toss: &Toss, outcome: Outcome) -> bool {
 /// The outcome of a batch of one toss, by its outcomes and by its counts, if there is a batch of its kind.
 fn batched(toss: &Toss) -> Option<Outcome> {
     let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return None };
-    let rate = toss.launch.rate();
+    let (rate, AngleUnit::RADIAN) = toss.launch.given_rate() else { return None };
     let (rates, speeds) = ([[rate.x], [rate.y], [rate.z]], [speed]);
     let rates = rates.each_ref().map(|column| &column[..]);
     let tosses = Tosses::new(toss.coin, toss.launch.attitude(), gravity, rates, &speeds).expect("a batch");

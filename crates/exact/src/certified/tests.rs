@@ -91,7 +91,7 @@ fn every_stage_gives_the_same_outcome_where_it_decides() {
         let launch = Launch::new(Vector3::from(rate), time).unwrap().with_attitude(attitude);
         let toss = Toss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
         let exact = by_multiprecision(&toss);
-        let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight()).unwrap();
+        let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight(), 0.0).unwrap();
         let terms = TiltTerms::new(&toss);
         let by_f64 = phase_in_range(&toss, &terms).and_then(|phase| by_terms(&terms, phase));
         for (stage, outcome) in [by_f64, double].into_iter().enumerate() {

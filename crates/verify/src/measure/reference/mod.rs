@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use toss::{Angle, Attitude, Coin, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
+use toss::{Angle, AngleUnit, Attitude, Coin, Launch, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
 
 /// Binary digits.
 const PRECISION: usize = 256;
@@ -32,8 +32,7 @@ pub struct Reference {
 impl Reference {
     /// Solves `toss`.
     pub fn new(toss: &Toss) -> Self {
-        let rate = toss.launch.rate();
-        let (x, y, z) = (big(rate.x), big(rate.y), big(rate.z));
+        let [x, y, z] = rates(&toss.launch);
         let k = inertia_ratio(&toss.coin);
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
@@ -102,6 +101,15 @@ impl Reference {
         let [w, x, y, z] = &self.attitude;
         w * w + z * z - x * x - y * y
     }
+}
+
+/// ω (rad/s).
+fn rates(launch: &Launch) -> [Big; 3] {
+    let (rate, unit) = launch.given_rate();
+    [rate.x, rate.y, rate.z].map(|part| match unit {
+        AngleUnit::Radians(unit) => quantity(Quantity::new(part, unit)),
+        AngleUnit::Turns(unit) => quantity(Quantity::new(part, unit)) * big(2.0) * Big::pi(PRECISION),
+    })
 }
 
 /// k of the moments, or 6 r²/(3 r² + h²) of the cylinder.
