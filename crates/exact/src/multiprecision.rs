@@ -214,16 +214,20 @@ mod tests {
         }
     }
 
-    /// (1, 1 + ε, 0, 0) is rounded when it is normalised.
+    /// Neighbouring f64 are often the same after they are normalised.
     #[test]
     fn a_quaternion_of_any_norm_is_taken_as_it_is() {
-        for (x, size, outcome) in [
-            (1f64.next_up(), 1.0, Outcome::Tails),
-            (1f64.next_down(), 3e300, Outcome::Heads),
-            (1.0, 0.7e-310, Outcome::Undecided),
-        ] {
-            let attitude = Attitude::from_components([size, x * size, 0.0, 0.0]).unwrap();
-            assert_eq!(certify(&toss(Coin::DISC, [0.0; 3], attitude, 1.0)).unwrap().outcome(), outcome, "{x} {size}");
+        let landed = |w: f64, x: f64| {
+            let attitude = Attitude::from_components([w, x, 0.0, 0.0]).unwrap();
+            certify(&toss(Coin::DISC, [0.0; 3], attitude, 1.0)).unwrap().outcome()
+        };
+        for index in 0..200 {
+            let w = 1.0 + (f64::from(index) * 2f64.sqrt()).fract();
+            for size in [1.0, 2f64.powi(1000), 2f64.powi(-1000)] {
+                assert_eq!(landed(size * w, size * w.next_up()), Outcome::Tails, "{w} {size:e}");
+                assert_eq!(landed(size * w, size * w.next_down()), Outcome::Heads, "{w} {size:e}");
+                assert_eq!(landed(size * w, size * w), Outcome::Undecided, "{w} {size:e}");
+            }
         }
     }
 }
