@@ -1,9 +1,10 @@
-//! Attitude of the coin: the unit quaternion Q = (w, x, y, z) with `v_lab = Q v_body Q*`, so that
-//! cos θ = w² + z² - x² - y².
+//! The attitude of the coin, as the unit quaternion Q = (w, x, y, z) that takes a vector from the body frame (BF) to
+//! the laboratory frame (LF): `v_lab = Q v_body Q*`. A quaternion has no singular attitude, and cos θ = w² + z² - x² -
+//! y².
 //!
 //! # Conventions
 //! - Algebra: Hamilton's (ij = k), scalar part first wherever components are listed: (w, x, y, z).
-//! - Active: an attitude Q turns the body from the LF axes to where it is; `v_lab = Q v_body Q*`.
+//! - Active: the attitude Q turns the body from the axes of LF to where it is.
 //! - Composition: `a * b` turns by b about the body's own axes after a; right factors act in BF, left factors in LF.
 //! - Double cover: Q and -Q are the same attitude; no function of this crate depends on the sign.
 //! - Singular set: none.
@@ -44,7 +45,7 @@ enum Origin {
 }
 
 impl Attitude {
-    /// Horizontal, heads up: BF = LF.
+    /// Horizontal with heads up: the axes of BF are those of LF.
     pub const IDENTITY: Self = Self::of(UnitQuaternion::new_unchecked(Quaternion::new(1.0, 0.0, 0.0, 0.0)));
 
     /// The attitude of a quaternion as it is.
@@ -52,13 +53,13 @@ impl Attitude {
         Self { quaternion, origin: Origin::Quaternion }
     }
 
-    /// The attitude along the quaternion (w, x, y, z), whose norm may be anything but zero.
+    /// The attitude of the quaternion (w, x, y, z), which is divided by its norm.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the norm is zero or not finite.
     pub fn from_components(wxyz: [f64; 4]) -> Result<Self, InputError> {
         let [w, x, y, z] = wxyz;
-        // Divided by the largest component first, so that no square over- or underflows.
+        // The components are divided by the largest one first, so that no square over- or underflows.
         let largest = wxyz.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         let finite = wxyz.iter().all(|part| part.is_finite());
         let size = if finite { largest } else { f64::NAN };
@@ -82,12 +83,12 @@ impl Attitude {
         Self { quaternion, origin: Origin::Tilt { angle, sin_cos: angle.sin_cos() } }
     }
 
-    /// A turn by `angle` (rad) about z, which LF and BF share before it.
+    /// A turn by `angle` (rad) about z, the same axis in LF and in BF before the turn.
     pub fn about_z(angle: f64) -> Self {
         Self::about_unit_axis(&Vector3::z(), (0.5 * angle).sin_cos())
     }
 
-    /// A turn about the unit vector `axis` by twice the angle with this sine and cosine.
+    /// A turn about the unit vector `axis`, given by the sine and the cosine of half its angle.
     pub fn about_unit_axis(axis: &Vector3<f64>, (sin, cos): (f64, f64)) -> Self {
         Self::of(UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, axis * sin)))
     }
@@ -147,7 +148,7 @@ impl Attitude {
         }
     }
 
-    /// The coin's normal n (LF): where BF's z axis points.
+    /// The coin's normal n (LF), the direction of BF's z axis.
     pub fn normal(&self) -> Vector3<f64> {
         self.body_to_lab(&Vector3::z())
     }
@@ -158,12 +159,12 @@ impl Attitude {
         (w * w + z * z) - (x * x + y * y)
     }
 
-    /// The vector `body` (BF), seen in LF.
+    /// The components in LF of the vector `body`, which is given in BF.
     pub fn body_to_lab(&self, body: &Vector3<f64>) -> Vector3<f64> {
         self.quaternion.transform_vector(body)
     }
 
-    /// The vector `lab` (LF), seen in BF.
+    /// The components in BF of the vector `lab`, which is given in LF.
     pub fn lab_to_body(&self, lab: &Vector3<f64>) -> Vector3<f64> {
         self.quaternion.inverse_transform_vector(lab)
     }
@@ -174,7 +175,7 @@ impl Attitude {
         Self::of(self.quaternion.inverse())
     }
 
-    /// Angle of the turn that leads from `self` to `other` (rad), from 0 to π.
+    /// Angle of the turn from `self` to `other` (rad), between 0 and π.
     pub fn angle_to(&self, other: &Self) -> f64 {
         let turn = (self.inverse() * *other).quaternion;
         2.0 * turn.imag().norm().atan2(turn.w.abs())
@@ -189,8 +190,9 @@ fn in_a_power_of_two(components: [f64; 4]) -> [f64; 4] {
     components.map(|part| part / unit)
 }
 
-/// The lab's vertical in BF (the third row of the direction cosine matrix) times |q|², and |q|², of a quaternion
-/// q = (w, x, y, z) in any kind of number.
+/// The vertical as seen in BF times |q|², and |q|², for a quaternion q = (w, x, y, z) that need not be of norm 1.
+///
+/// The vertical in BF is the third row of the direction cosine matrix. The components may be any kind of number.
 #[inline(always)]
 fn vertical_in_body<N: Number>([w, x, y, z]: [N; 4]) -> ([N; 3], N) {
     let product = |a: &N, b: &N| a.clone() * b.clone();
@@ -205,7 +207,7 @@ impl std::ops::Mul for Attitude {
     type Output = Self;
 
     fn mul(self, body_turn: Self) -> Self {
-        // Normalised again, so that a long chain of turns stays one.
+        // The product is normalised, so that rounding errors do not add up in a long chain of turns.
         Self::of(UnitQuaternion::new_normalize(self.quaternion.quaternion() * body_turn.quaternion.quaternion()))
     }
 }
@@ -241,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn the_angle_between_attitudes_keeps_small_and_large_turns() {
+    fn the_angle_between_attitudes_is_precise_for_small_and_large_turns() {
         for angle in [1e-300, 1e-12, 0.3, PI] {
             approx::assert_relative_eq!(
                 Attitude::IDENTITY.angle_to(&Attitude::about_z(angle)),
@@ -262,7 +264,7 @@ mod tests {
         }
     }
 
-    /// Any attitude, as components of no norm.
+    /// An arbitrary attitude, as components whose norm is not 1.
     const ANY: [f64; 4] = [0.3, -0.7, 0.5, 0.4];
 
     #[test]
@@ -275,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn the_vertical_in_the_body_is_that_of_the_turn_times_the_square_of_the_norm() {
+    fn the_vertical_in_the_body_comes_times_the_square_of_the_norm() {
         for components in [ANY, [0.3, 0.7, -0.5, 0.4], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]] {
             let attitude = Attitude::from_components(components).unwrap();
             let (vertical, norm) = vertical_in_body(components);

@@ -1,20 +1,22 @@
-//! Euler's equations of the free coin (1) and what they conserve.
+//! Euler's equations (1) of the free coin, and the momentum and energy that they conserve. The integrators carry ωx and
+//! ωy in their state by these equations, and checks compare the conserved quantities at launch and at landing.
 //!
-//! In the body frame, with I1 = I2, k = I3/I1 and q = (k - 1) ωz:
+//! For the body rate ω in the body frame (BF), with I1 = I2, k = I3/I1 and q = (k - 1) ωz:
 //!
 //! ```text
 //! ωx' = -q ωy,   ωy' = q ωx,   ωz' = 0.                                                                  (1)
 //! ```
 //!
-//! The rates never read the attitude. Their solution (2)-(4) is a turn of (ωx, ωy) by q t; it stands in
-//! the crate `exact`, on which no integrator can depend.
+//! The equations do not contain the attitude. Their solution (2)-(4) is a turn of (ωx, ωy) by the angle q t. It is kept
+//! out of this crate, in `exact`, so that no integrator can use it.
 
 use nalgebra::Vector3;
 
 use crate::coin::Coin;
 use crate::state::State;
 
-/// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame (rad/s), (2)-(4).
+/// q = (k - 1) ωz (rad/s): the rate at which (ωx, ωy) turns in BF by (2)-(4). `inertia_ratio` is k, `rate_z` is ωz
+/// (rad/s).
 pub fn body_precession_rate(inertia_ratio: f64, rate_z: f64) -> f64 {
     (inertia_ratio - 1.0) * rate_z
 }
@@ -29,12 +31,12 @@ pub fn angular_momentum(coin: &Coin, rate: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(coin.i1() * rate.x, coin.i1() * rate.y, coin.i3() * rate.z)
 }
 
-/// Angular momentum S of a moving coin (TF, kg m²/s). Conserved as a vector.
+/// Angular momentum S of a coin in this state (TF, kg m²/s). S is conserved as a vector.
 pub fn angular_momentum_tf(coin: &Coin, state: &State) -> Vector3<f64> {
     state.attitude.body_to_lab(&angular_momentum(coin, &state.rate))
 }
 
-/// Kinetic energy of the rotation (J). Conserved.
+/// Kinetic energy of the rotation (J) of a coin with body rate `rate` (BF, rad/s). It is conserved.
 pub fn kinetic_energy(coin: &Coin, rate: &Vector3<f64>) -> f64 {
     0.5 * rate.dot(&angular_momentum(coin, rate))
 }
@@ -43,14 +45,15 @@ pub fn kinetic_energy(coin: &Coin, rate: &Vector3<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// The rate and its transverse derivative, in an arbitrary unit, of a coin with I1 = 2 and I3 = 3.
+    /// A body rate (BF) in an arbitrary unit, for the coin below.
     const RATE: Vector3<f64> = Vector3::new(0.5, -1.5, 4.0);
 
+    /// A coin with I1 = 2 and I3 = 3.
     fn coin() -> Coin {
         Coin::from_moments(2.0, 3.0).unwrap()
     }
 
-    /// (1) as Euler has it: I ω' = I ω × ω, in each component.
+    /// Compares (1) with Euler's equations for any rigid body, I ω' = I ω × ω, in each component.
     #[test]
     fn the_accelerations_are_those_of_eulers_equations() {
         let torque = angular_momentum(&coin(), &RATE).cross(&RATE);

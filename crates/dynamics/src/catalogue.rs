@@ -1,8 +1,9 @@
-//! Coins that can be named: the two presets and real coins with their published figures.
+//! The coins that can be chosen by name: the paper's coin, a flat disc, and real coins with their published figures.
+//! The real ones show how much of the paper's result holds for a coin in your pocket.
 //!
-//! The real coins are taken as homogeneous cylinders. A relief, a rim or a second metal moves k by less than the
-//! difference between two denominations, but no published figure says by how much. Coins with notches (20 euro cent)
-//! or straight sides are left out.
+//! The real coins are taken as homogeneous cylinders. A relief, a rim or a second metal changes k = I3/I1 by less than
+//! the difference between two denominations, but no published figure says by how much. Coins with notches (20 euro
+//! cent) or straight sides are left out.
 
 use crate::coin::Coin;
 use crate::error::{InputError, find_named};
@@ -13,10 +14,10 @@ const EU_COUNCIL: &str = "Council Regulation (EU) No 729/2014, Annex I, Official
 const PAPER: &str = "\"Modeling the unfair toss of an unbiased coin\": I1 = 5e-7, I3 = I1/2";
 const FLAT: &str = "the limit h = 0 of a cylinder, I3 = 2 I1, with the paper's I1";
 
-/// How an entry's moments come about.
+/// How the moments of inertia of an entry are given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Body {
-    /// Moments given as they are.
+    /// A coin given by its moments.
     Moments(Coin),
     /// A real coin, taken as a homogeneous cylinder, in the units in which mints publish it.
     Cylinder {
@@ -32,21 +33,21 @@ pub enum Body {
 /// A coin with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CatalogueEntry {
-    /// The name by which it is asked for.
+    /// Its name, as `us-quarter`.
     pub name: &'static str,
-    /// What it is.
+    /// A short description.
     pub description: &'static str,
-    /// Its body.
+    /// Its moments of inertia.
     pub body: Body,
-    /// Where each of its figures is published.
+    /// Where its figures are published.
     pub source: &'static str,
 }
 
 impl CatalogueEntry {
-    /// The coin.
+    /// The coin of this entry.
     ///
     /// # Errors
-    /// Never for the entries of [`CATALOGUE`], which a test makes sure of.
+    /// As [`Coin::from_cylinder`]; none for the entries of [`CATALOGUE`], as a test confirms.
     pub fn coin(&self) -> Result<Coin, InputError> {
         match self.body {
             Body::Moments(coin) => Ok(coin),
@@ -61,7 +62,7 @@ const fn preset(name: &'static str, description: &'static str, coin: Coin, sourc
     CatalogueEntry { name, description, body: Body::Moments(coin), source }
 }
 
-/// `figures`: mass (g), diameter (mm), thickness (mm).
+/// An entry for a real coin; `figures` are its mass (g), diameter (mm) and thickness (mm).
 const fn real(
     name: &'static str,
     description: &'static str,
@@ -72,7 +73,7 @@ const fn real(
     CatalogueEntry { name, description, body: Body::Cylinder { mass_g, diameter_mm, thickness_mm }, source }
 }
 
-/// All coins that can be named.
+/// All coins that can be chosen by name.
 pub const CATALOGUE: &[CatalogueEntry] = &[
     preset("paper", "the paper's moments (a rod with h = 3 r)", Coin::PAPER, PAPER),
     preset("disc", "a flat disc with the paper's I1", Coin::DISC, FLAT),
@@ -112,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn at_least_twelve_real_coins_with_the_inertia_ratio_of_a_thin_disc() {
+    fn has_at_least_twelve_real_coins_with_inertia_ratios_of_thin_discs() {
         let real = CATALOGUE.iter().filter(|entry| matches!(entry.body, Body::Cylinder { .. }));
         let ratios: Vec<f64> = real.map(|entry| entry.coin().unwrap().inertia_ratio()).collect();
         assert!(ratios.len() >= 12);
@@ -120,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn units_of_the_mints_are_converted() {
+    fn grams_and_millimetres_are_converted_to_si_units() {
         // 5.670 g, 24.26 mm: m r²/2 = 0.00567 · 0.01213² / 2 kg m²
         let quarter = named_coin("us-quarter").unwrap();
         approx::assert_relative_eq!(quarter.i3(), 4.171_331_115e-7, max_relative = 1e-9);

@@ -1,4 +1,5 @@
-//! A solver under guard: what it answers is checked, whoever wrote it.
+//! [`Checked`], a wrapper that checks what a solver returns. Anyone can implement [`Solver`], so a panic, a NaN or an
+//! impossible number must become an error that names the solver, before it reaches counts or a report.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -10,24 +11,27 @@ use crate::outcome::Outcome;
 use crate::solver::{Propagation, Solver};
 use crate::stepping::Stepping;
 
-/// A solver whose panics, and whose answers that are NaN, infinite or impossible, are a [`SolveError::Misbehaved`] that
-/// names it. Everything that takes a solver from outside goes through it.
+/// A solver whose panics, and whose results that are NaN, infinite or impossible, are returned as
+/// [`SolveError::Misbehaved`] with the solver's name. All code that accepts a solver from outside wraps it in this
+/// type.
 #[derive(Debug, Clone)]
 pub struct Checked<S> {
     solver: S,
     name: String,
 }
 
-/// Above it no |cos θ| is taken, also of a quaternion that is not projected.
+/// Largest |cos θ| that is accepted. It is above 1 because the cos θ of an integrated quaternion that is not projected
+/// onto unit norm may exceed 1.
 const LARGEST_COSINE: f64 = 2.0;
 
 impl<S: Solver> Checked<S> {
-    /// Guards `solver`.
+    /// Wraps `solver`. Its name is read once, here.
     pub fn new(solver: S) -> Self {
         let name = catch_unwind(AssertUnwindSafe(|| solver.name().to_owned()));
         Self { name: name.unwrap_or_else(|_| "a solver whose name panics".to_owned()), solver }
     }
 
+    /// The result of `ask`, or the error of a solver that panicked in it.
     fn guarded<T, E: From<SolveError>>(&self, ask: impl FnOnce(&S) -> Result<T, E>) -> Result<T, E> {
         catch_unwind(AssertUnwindSafe(|| ask(&self.solver))).unwrap_or_else(|payload| {
             let text = payload.downcast_ref::<String>().cloned();
@@ -40,7 +44,7 @@ impl<S: Solver> Checked<S> {
         SolveError::Misbehaved { solver: self.name.clone(), fault }
     }
 
-    /// `value` if it `holds`.
+    /// Returns `value` if `holds` is true, else the error that names the solver and the field.
     fn require(&self, field: &'static str, value: f64, holds: bool) -> Result<f64, SolveError> {
         if holds { Ok(value) } else { Err(self.misbehaved(Fault::Answer { field, value })) }
     }
@@ -84,7 +88,7 @@ impl<S: Solver> Solver for Checked<S> {
     }
 
     fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
-        // A number that is left unwritten is none.
+        // A result that the solver does not write stays NaN, and is refused below.
         out.fill(f64::NAN);
         self.guarded(|solver| solver.cos_tilts(tosses, out))?;
         out.iter().enumerate().try_for_each(|(index, cos_tilt)| {
@@ -101,7 +105,7 @@ impl<S: Solver> Solver for Checked<S> {
         self.guarded(|solver| solver.outcome_at(toss, cos_tilt))
     }
 
-    /// By cos θ, so that this is checked too.
+    /// The outcome is decided from the checked cos θ, not by the solver's own `outcome`.
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
         self.outcome_at(toss, self.cos_tilt(toss)?)
     }
@@ -119,7 +123,7 @@ mod tests {
     use crate::state::State;
     use crate::time_of_flight::TimeOfFlight;
 
-    /// Answers this cos θ and claims this error; panics for a cos θ of 9.
+    /// A solver with this cos θ and this error estimate for every toss; it panics if cos θ is 9.
     struct Foreign {
         cos_tilt: f64,
         claim: Option<f64>,
@@ -146,7 +150,7 @@ mod tests {
         Toss { coin: Coin::DISC, launch }
     }
 
-    /// What every way of asking says, as text.
+    /// The results of `propagate`, `cos_tilt`, `cos_tilts` and `outcome`, as text.
     fn answers(cos_tilt: f64, claim: Option<f64>) -> [Result<String, String>; 4] {
         let solver = Checked::new(Foreign { cos_tilt, claim });
         let rates = [[0.1], [0.0], [0.0]];
@@ -164,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn good_answers_pass_as_they_are() {
+    fn valid_answers_are_returned_unchanged() {
         for answer in &answers(-0.5, Some(1e-9))[..3] {
             assert_eq!(answer.as_deref(), Ok("-0.5"));
         }
@@ -172,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_none_and_panics_name_the_solver() {
+    fn impossible_numbers_and_panics_are_errors_that_name_the_solver() {
         for (cos_tilt, says) in [(f64::NAN, "cos θ = NaN"), (f64::INFINITY, "cos θ = inf"), (7.0, "cos θ = 7")] {
             for answer in &answers(cos_tilt, Some(1e-9))[..3] {
                 let error = answer.as_ref().unwrap_err();

@@ -1,10 +1,9 @@
-//! The coin: a rigid body of revolution, described by two principal moments of inertia.
+//! The coin: a rigid body of revolution, described by its principal moments of inertia I1 = I2 (about a diameter) and
+//! I3 (about the normal). Nothing else about it matters in free flight, and of the moments only their ratio k = I3/I1.
 //!
-//! A cylinder of mass m, radius r and thickness h has, in the body frame,
-//! I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2.
-//! For a free flight only the inertia ratio k = I3/I1 = 6 r²/(3 r² + h²) matters.
-//!
-//! A coin keeps what it was made from: the moments of a cylinder are rounded to f64, and their quotient is not its k.
+//! A cylinder of mass m, radius r and thickness h has the moments I1 = I2 = m/4 (r² + h²/3) and I3 = m r²/2. For a free
+//! flight only the inertia ratio k = I3/I1 = 6 r²/(3 r² + h²) matters. A coin keeps what it was made from, because the
+//! moments of a cylinder are rounded to f64, and so would be a k that is taken from them.
 
 use numerics::big::exactly;
 use numerics::double_double::DoubleDouble;
@@ -13,12 +12,12 @@ use numerics::{Big, Quantity, Unit};
 
 use crate::error::{InputError, require};
 
-/// A coin. Its moments are finite, I1 > 0 and 0 ≤ I3 ≤ 2 I1; no other coin can be made.
+/// A coin with finite moments, I1 > 0 and 0 ≤ I3 ≤ 2 I1. No constructor makes any other coin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coin {
     i1: f64,
     i3: f64,
-    /// k, which every flight needs.
+    /// k = I3/I1, stored because every flight needs it.
     ratio: DoubleDouble,
     origin: Origin,
 }
@@ -33,9 +32,9 @@ enum Origin {
 }
 
 impl Coin {
-    /// The coin of the paper's figures, with the paper's own moments: I1 = 5e-7, I3 = I1/2.
+    /// The coin of the paper's figures, with the paper's own moments: I1 = 5e-7 kg m², I3 = I1/2.
     ///
-    /// By the paper's formulas for a cylinder these are the moments of a rod with h = 3 r, not of a disc.
+    /// By the paper's formulas for a cylinder these are the moments of a rod with h = 3 r, not of a thin disc.
     pub const PAPER: Self = Self { i1: 5e-7, i3: 2.5e-7, ratio: DoubleDouble::exactly(0.5), origin: Origin::Moments };
 
     /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
@@ -45,9 +44,8 @@ impl Coin {
         Self::PAPER
     }
 
-    /// A homogeneous cylinder.
-    ///
-    /// `mass` (kg) > 0, `radius` (m) > 0, `thickness` (m) ≥ 0: each an f64, or a number in a unit.
+    /// A homogeneous cylinder with a `mass` (kg) > 0, a `radius` (m) > 0 and a `thickness` (m) ≥ 0. Each of them is an f64,
+    /// or a number in a unit.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a value outside its range, and for moments that leave the range of f64.
@@ -69,11 +67,10 @@ impl Coin {
 
     /// A body of revolution with the principal moments `i1` = I1 = I2 and `i3` = I3 (kg m²).
     ///
-    /// I3 = 0 is a rod, I3 = 2 I1 a flat disc; beyond it no mass distribution exists (triangle inequality).
+    /// I3 = 0 is a thin rod, I3 = 2 I1 a flat disc. No body has a larger I3, because I3 ≤ I1 + I2.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`]. I1 has to be a normal number of f64 (at least 2.3e-308), so that I3/I1 is exact
-    /// to rounding.
+    /// [`InputError::OutOfRange`]. I1 has to be at least 2.3e-308, a normal f64, so that I3/I1 loses no digits.
     pub fn from_moments(i1: f64, i3: f64) -> Result<Self, InputError> {
         require("I1 [kg m²]", i1, "finite and > 0 (at least 2.3e-308)", i1 >= f64::MIN_POSITIVE)?;
         require("I3 [kg m²]", i3, "0 <= I3 <= 2 I1", (0.0..=2.0 * i1).contains(&i3))?;
@@ -92,7 +89,7 @@ impl Coin {
             [i1, i2, i3] if i1 == i2 => Self::from_moments(i1, i3),
             [_, _, _] => Err(InputError::OutsideModel {
                 field: "moments [kg m²]",
-                why: "with I1 ≠ I2 the coin is no body of revolution; its motion is another and is not approximated",
+                why: "with I1 ≠ I2 the coin is no body of revolution; its motion is different and is not approximated",
             }),
             _ => Err(InputError::Malformed {
                 field: "moments [kg m²]",
@@ -117,7 +114,8 @@ impl Coin {
         self.i3
     }
 
-    /// The inertia ratio k of what the coin was made from, to 25 u² with u = 2^-53; the same for all moments that differ by a power of two.
+    /// The inertia ratio k of what the coin was made from. Its error is at most 25 u² with u = 2^-53. Multiplying both
+    /// moments by a power of two does not change it.
     #[inline]
     pub fn exact_inertia_ratio(&self) -> DoubleDouble {
         self.ratio
@@ -222,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_a_cylinder_is_named() {
+    fn an_impossible_cylinder_is_refused_with_the_field_at_fault() {
         for ([mass, radius, thickness], field) in [
             ([0.0, 0.01, 0.001], "mass [kg]"),
             ([0.01, 0.0, 0.001], "radius [m]"),

@@ -1,4 +1,5 @@
-//! Many tosses as columns: what batches are made from.
+//! [`Tosses`], many tosses given as columns of rates and speeds. A batch solves columns with SIMD registers, for which
+//! each input has to be contiguous in memory.
 
 use std::ops::Range;
 
@@ -11,7 +12,8 @@ use crate::failure::Error;
 use crate::launch::{Launch, Toss};
 use crate::time_of_flight::TimeOfFlight;
 
-/// Tosses of one coin from one attitude under one gravity, which differ in rates and speed.
+/// Tosses that differ in their body rates and speeds only: the coin, the attitude at launch and the gravity are the
+/// same.
 #[derive(Debug, Clone, Copy)]
 pub struct Tosses<'a> {
     coin: Coin,
@@ -22,12 +24,13 @@ pub struct Tosses<'a> {
 }
 
 impl<'a> Tosses<'a> {
-    /// Tosses with the body rates `rates` (BF, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s) under `gravity`
-    /// (m/s²) and caught at the same height. With a gravity of 2 m/s² a speed is a time of flight.
+    /// Tosses with the body rates `rates` (body frame, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s)
+    /// under `gravity` (m/s²) and caught at the same height. With a gravity of 2 m/s² the speed is the time of flight
+    /// in seconds.
     ///
     /// # Errors
-    /// [`InputError`] if the columns differ in length, or for a gravity that is not positive and finite. The tosses
-    /// themselves are looked at when they are solved.
+    /// [`InputError`] if the columns differ in length, or for a gravity that is not positive and finite. Each toss is
+    /// checked only when it is solved.
     pub fn new(
         coin: Coin,
         attitude: Attitude,
@@ -49,7 +52,7 @@ impl<'a> Tosses<'a> {
         self.speeds.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no tosses.
     pub fn is_empty(&self) -> bool {
         self.speeds.is_empty()
     }
@@ -69,14 +72,14 @@ impl<'a> Tosses<'a> {
         self.gravity
     }
 
-    /// The columns of some of the tosses: ωx, ωy, ωz (BF, rad/s) and v0 (m/s).
+    /// The columns of the tosses in `range`: ωx, ωy, ωz (body frame, rad/s) and v0 (m/s).
     #[inline(always)]
     pub fn columns(&self, range: Range<usize>) -> [&'a [f64]; 4] {
         let [x, y, z] = self.rates;
         [&x[range.clone()], &y[range.clone()], &z[range.clone()], &self.speeds[range]]
     }
 
-    /// Some of the tosses.
+    /// The tosses in `range`.
     #[must_use]
     pub fn part(&self, range: Range<usize>) -> Self {
         let [x, y, z, speeds] = self.columns(range);
@@ -97,7 +100,7 @@ impl<'a> Tosses<'a> {
     /// The result of `solve` for toss `index`.
     ///
     /// # Errors
-    /// [`Error::BadLaunch`] or [`Error::Launch`] with that index.
+    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
     pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
         let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
         solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss), source })

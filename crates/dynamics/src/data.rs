@@ -1,17 +1,19 @@
-//! Coins and launches as plain data, for serde: what a file or a message says, read into values that are valid.
+//! Reading and writing of coins and launches with serde. Input is first read into plain structs and then converted by
+//! the constructors of [`Coin`] and [`Launch`], so that a file cannot make an invalid value.
 //!
 //! ```toml
-//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }; the paper's
-//!
+//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] };
+//!                                  # the paper's coin if not given
 //! [launch]
 //! rate = [1.0, 1.0, 2.5]           # rad/s, BF
 //! speed = 3.0                      # m/s; or time = 0.6, s
 //! gravity = 9.81                   # m/s²; this and the next two are the defaults
-//! drop = 0.0                       # m, how far below the launch it lands
+//! drop = 0.0                       # m, how far below its launch the coin lands
 //! tilt = 0.0                       # rad; or attitude = [w, x, y, z]
 //! ```
 //!
-//! What lies outside the model has its fields too, so that it is refused with a reason and not with "unknown field".
+//! Drag and bounce are outside the model. They are fields of a launch nevertheless, so that they are refused with the
+//! reason instead of as an "unknown field".
 
 use nalgebra::Vector3;
 use numerics::{Angle, Quantity};
@@ -28,7 +30,7 @@ use crate::time_of_flight::{DEFAULT_GRAVITY, TimeOfFlight};
 /// Why drag is refused.
 pub const NO_DRAG: InputError = InputError::OutsideModel {
     field: "drag",
-    why: "the flight is free of torque and drag, and a flight through air is not approximated by one without",
+    why: "the flight is free of torque and drag, and does not approximate a flight through air",
 };
 
 /// Why bouncing is refused.
@@ -37,7 +39,7 @@ pub const NO_BOUNCE: InputError = InputError::OutsideModel {
     why: "the flight ends at the first landing, and what the coin does on the floor is not solved",
 };
 
-/// A coin as it is written.
+/// A coin as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
 enum CoinData {
@@ -91,7 +93,7 @@ impl Serialize for Launch {
     }
 }
 
-/// A launch as it is written.
+/// A launch as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LaunchData {
@@ -145,6 +147,7 @@ impl LaunchData {
     }
 }
 
+/// The error of a quantity that is given by two fields.
 fn twice(field: &'static str, expected: &'static str) -> InputError {
     InputError::Malformed { field, value: "given twice".to_owned(), expected }
 }
@@ -186,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn a_toss_that_was_written_is_read_back() {
         let thrown = [
             TimeOfFlight::Given(0.3),
             TimeOfFlight::thrown(3.1, 9.78, None),
@@ -204,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_or_outside_the_model_is_named() {
+    fn invalid_input_is_refused_with_the_field_at_fault() {
         let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
         for (text, message) in [
             (format!("coin = {{ moments = [1, 1.1, 2] }}\n{launch}"), "moments [kg m²] is outside the model: "),

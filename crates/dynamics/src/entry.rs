@@ -1,4 +1,6 @@
-//! One entry of a registry: all that is said about a solver, and how it is made at run time.
+//! [`SolverEntry`], the entry of a registry: a solver's name, summary, colour, schemes and formulations, and the
+//! function that makes it. Programs find everything about a solver here, so that a new solver needs no change
+//! elsewhere.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -12,12 +14,12 @@ use crate::scheme::Scheme;
 use crate::solver::Solver;
 use crate::stepping::Stepping;
 
-/// Settings that a solver is made with at run time.
+/// The settings with which an entry makes its solver at run time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How it steps, if it integrates.
+    /// How the solver steps; a closed form ignores it.
     pub stepping: Stepping,
-    /// How its kinematics are set up.
+    /// How the solver's kinematics are set up; a solver without a choice ignores it.
     pub formulation: Formulation,
 }
 
@@ -27,10 +29,11 @@ impl Default for Settings {
     }
 }
 
-/// Makes a solver; may capture a configuration of its own.
+/// A function that makes a solver. It may capture a configuration of its own.
 type Build = dyn Fn(&Settings) -> Box<dyn Solver> + Send + Sync;
 
-/// A solver by name: what it solves, what it offers, how it is drawn, how it is made.
+/// A solver by name, with what programs have to know of it: a summary, its colour on charts, the schemes and
+/// formulations that it offers, and how it is made.
 #[derive(Clone)]
 pub struct SolverEntry {
     name: Cow<'static, str>,
@@ -42,7 +45,8 @@ pub struct SolverEntry {
 }
 
 impl SolverEntry {
-    /// The solver that `build` makes, which is called `name` and takes no steps; `summary` says in a line what it solves.
+    /// An entry called `name` for the solver that `build` makes. `summary` says in one line what the solver solves.
+    /// Without [schemes](Self::with_schemes) the solver counts as a closed form.
     pub fn new(
         name: impl Into<Cow<'static, str>>,
         summary: impl Into<Cow<'static, str>>,
@@ -52,67 +56,67 @@ impl SolverEntry {
         Self { name, summary, color: None, formulations: Vec::new(), schemes: Vec::new(), build }
     }
 
-    /// The same solver, which integrates by any of `schemes`.
+    /// The same entry, for a solver that can integrate by each of `schemes`.
     #[must_use]
     pub fn with_schemes(self, schemes: &[Scheme]) -> Self {
         Self { schemes: schemes.to_vec(), ..self }
     }
 
-    /// The same solver, for which these formulations differ.
+    /// The same entry, for a solver whose results differ among these formulations.
     #[must_use]
     pub fn with_formulations(self, formulations: &[Formulation]) -> Self {
         Self { formulations: formulations.to_vec(), ..self }
     }
 
-    /// The same solver, drawn in this colour (red, green, blue).
+    /// The same entry, for a solver drawn in this colour (red, green, blue) on charts.
     #[must_use]
     pub fn with_color(self, color: [u8; 3]) -> Self {
         Self { color: Some(color), ..self }
     }
 
-    /// Its name.
+    /// The solver's name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What it solves, in a line.
+    /// What the solver solves, in one line.
     pub fn summary(&self) -> &str {
         &self.summary
     }
 
-    /// Its colour on charts; grey where it has none of its own.
+    /// The solver's colour on charts; grey if none was set.
     pub fn color(&self) -> [u8; 3] {
         self.color.unwrap_or([110, 110, 110])
     }
 
-    /// The formulations that differ for it; none for a closed form.
+    /// The formulations among which the solver's results differ; none for a closed form.
     pub fn formulations(&self) -> &[Formulation] {
         &self.formulations
     }
 
-    /// The schemes that it can step by; none for a closed form.
+    /// The schemes by which the solver can integrate; none for a closed form.
     pub fn schemes(&self) -> &[Scheme] {
         &self.schemes
     }
 
-    /// Whether it steps through time.
+    /// Whether the solver is an integrator, that is, has schemes.
     pub fn integrates(&self) -> bool {
         !self.schemes.is_empty()
     }
 
-    /// The scheme called `name` among those that it offers.
+    /// The scheme called `name` among those of the solver.
     ///
     /// # Errors
-    /// [`InputError::UnknownName`] with the names of those that it offers.
+    /// [`InputError::UnknownName`] with the names of the solver's schemes.
     pub fn scheme(&self, name: &str) -> Result<Scheme, InputError> {
         find_named("scheme of this solver", name, &self.schemes, |offered| offered.name()).copied()
     }
 
-    /// The solver with `settings`, [checked](Checked). A closed form has no use for a stepping, and takes any.
+    /// Makes the solver with `settings` and wraps it in [`Checked`]. A closed form accepts any stepping and ignores it.
     ///
     /// # Errors
-    /// [`InputError`] for a scheme that it does not offer, and for a solver that cannot be made or has another name than
-    /// its entry.
+    /// [`InputError`] for a scheme that the solver does not offer, if making the solver panics, and if its name is not
+    /// that of its entry.
     pub fn solver(&self, settings: &Settings) -> Result<Box<dyn Solver>, InputError> {
         if self.integrates() {
             self.scheme(settings.stepping.scheme().name())?;
@@ -124,7 +128,7 @@ impl SolverEntry {
         if solver.name() == self.name {
             return Ok(Box::new(solver));
         }
-        Err(refused("a solver with the name of its entry, but it calls itself otherwise"))
+        Err(refused("a solver with the name of its entry, but its own name is different"))
     }
 }
 
@@ -142,7 +146,7 @@ mod tests {
     use crate::solver::{Propagation, Work};
     use crate::state::State;
 
-    /// Stands still, and is called whatever it is told.
+    /// A solver with this name and stepping, whose coins land as they were launched.
     struct Still(&'static str, Stepping);
 
     impl Solver for Still {
@@ -161,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_makes_the_solvers_that_it_offers() {
+    fn makes_a_solver_by_an_offered_scheme_and_refuses_other_schemes() {
         let entry = SolverEntry::new("still", "", |settings| Box::new(Still("still", settings.stepping)));
         assert!(!entry.integrates());
         let entry = entry.with_schemes(&Scheme::RUNGE_KUTTA).with_formulations(&Formulation::ALL);
@@ -173,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_captured_name_has_to_be_that_of_the_entry_and_a_panic_is_an_error() {
+    fn refuses_a_solver_with_another_name_or_one_whose_making_panics() {
         let called = |name| SolverEntry::new("still", "", move |settings| Box::new(Still(name, settings.stepping)));
         assert!(called("still").solver(&Settings::default()).is_ok());
         let error = called("exact").solver(&Settings::default()).err().unwrap();

@@ -1,12 +1,13 @@
-//! What can go wrong: input outside the model, and a solver that cannot go on. The one error of downstream code holds
-//! either; see [`failure`](crate::failure).
+//! The two kinds of errors: [`InputError`] for input that describes no toss, and [`SolveError`] for a flight that a
+//! solver cannot finish. They are separate so that constructors and solvers can each return exactly what may happen;
+//! [`Error`](crate::Error) holds either of them.
 
 use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
 
-/// A value that describes no toss. Nothing was computed.
+/// An input value that describes no toss. It is found before anything is computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InputError {
@@ -20,7 +21,7 @@ pub enum InputError {
         /// The valid range, in words or as an inequality.
         valid: &'static str,
     },
-    /// Text that can't be read as what it should be, or a combination of settings that makes no sense.
+    /// Text that can't be read as a value of the field, or a combination of settings that contradict each other.
     #[error("{field} = '{value}' can't be used: expected {expected}")]
     Malformed {
         /// The field, with its unit.
@@ -30,7 +31,7 @@ pub enum InputError {
         /// What was expected.
         expected: &'static str,
     },
-    /// Something that was not given and has no default.
+    /// A required value that was not given and has no default.
     #[error("{field} is missing: expected {expected}")]
     Missing {
         /// The field, with its unit.
@@ -38,22 +39,22 @@ pub enum InputError {
         /// What was expected.
         expected: &'static str,
     },
-    /// Something that the model does not hold and that is not approximated by what it does hold.
+    /// A physical effect that the model leaves out. It is refused, because ignoring it would give a wrong answer.
     #[error("{field} is outside the model: {why}")]
     OutsideModel {
         /// The field.
         field: &'static str,
-        /// Why, in a sentence.
+        /// The reason, in a sentence.
         why: &'static str,
     },
-    /// A name that stands for nothing here.
+    /// A name that is not in the list of known names.
     #[error("{field} = '{value}' is unknown; known: {known}")]
     UnknownName {
         /// The field.
         field: &'static str,
         /// What was given.
         value: String,
-        /// The names that would have been understood.
+        /// The known names, separated by commas.
         known: String,
     },
 }
@@ -71,7 +72,7 @@ impl InputError {
     }
 }
 
-/// Returns `value` if it is finite and `holds`, else the error that names the field and its range.
+/// Returns `value` if it is finite and `holds` is true, else the error that names the field and its `valid` range.
 ///
 /// # Errors
 /// [`InputError::OutOfRange`].
@@ -97,13 +98,15 @@ pub fn find_named<'a, T>(
     })
 }
 
-/// A point where a formulation of the kinematics has no derivative although the motion itself is regular.
+/// A point where the equations of a formulation have no derivative, although the motion itself is regular there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Singularity {
-    /// sin β = 0: the normal n is along the frame's z axis, where α and γ turn about the same axis.
+    /// sin β = 0: the normal n is along the frame's z axis. There α and γ turn about the same axis and can't be told
+    /// apart.
     NormalAlongAxis,
-    /// α' = 0 with sin β ≠ 0: the precession turns back, D = u = 0, and the γ-ODE (10) reads 0/0. Also where α' is so
-    /// small against the rates that D and u are lost in their rounding.
+    /// α' = 0 with sin β ≠ 0: the precession turns back. There D = ωx sin γ + ωy cos γ and u = ωz - γ' are both 0, and
+    /// the γ-ODE (10) reads 0/0. Also reported where α' is so small against the rates that D and u are lost in
+    /// rounding.
     PrecessionTooSlow,
 }
 
@@ -116,42 +119,43 @@ impl fmt::Display for Singularity {
     }
 }
 
-/// Why a solver gave no answer. Times are seconds after launch.
+/// The reason why a solver gave no answer. Times are in seconds after launch.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// The phase is so large that neighbouring f64 inputs differ by whole turns.
+    /// The coin turns so far that neighbouring f64 inputs land a radian or more apart.
     #[error("outcome not determined: the phase of the motion, {phase:e} rad, is above 2^53")]
     PhaseTooLarge {
-        /// ωL T or q T (rad), the larger one.
+        /// The larger one of ωL T and |q| T (rad).
         phase: f64,
     },
     /// The formulation reached a point where its equations have no derivative.
     #[error("the equations of motion are singular ({point}) at t = {time} s")]
     Singular {
-        /// Which point.
+        /// The kind of point.
         point: Singularity,
-        /// When: the end of the step that met it (s).
+        /// The end of the step that met it (s).
         time: f64,
     },
-    /// The solver has no such scheme; [`SolverEntry::solver`](crate::SolverEntry::solver) refuses it beforehand.
+    /// The solver was made with a scheme that it does not have. [`SolverEntry::solver`](crate::SolverEntry::solver)
+    /// refuses such a scheme already when it makes the solver.
     #[error("the solver does not offer the scheme {scheme}")]
     NotOffered {
         /// The scheme's name.
         scheme: &'static str,
     },
-    /// More steps would have been needed than a flight is allowed.
+    /// The flight needs more steps than the limit.
     #[error("more than {limit} steps needed, stopped at t = {time} s")]
     StepLimit {
-        /// Where it stopped (s).
+        /// The time at which the integration stopped (s).
         time: f64,
-        /// The allowed number of steps.
+        /// The largest number of steps.
         limit: u32,
     },
-    /// The step fell below the resolution of the time.
+    /// The step size fell so low that adding a step no longer changes the time.
     #[error("the step size fell below the resolution of the time at t = {time} s")]
     StepSizeUnderflow {
-        /// Where it stopped (s).
+        /// The time at which the integration stopped (s).
         time: f64,
     },
     /// The integrated state holds a NaN or an infinity.
@@ -160,15 +164,15 @@ pub enum SolveError {
         /// The end of the integration (s).
         time: f64,
     },
-    /// The solver answered what no solver may answer; see [`Checked`](crate::Checked).
+    /// The solver panicked, or returned an impossible number; see [`Checked`](crate::Checked).
     #[error("solver '{solver}' {fault}")]
     Misbehaved {
         /// The solver's name.
         solver: String,
-        /// What it did.
+        /// What the solver did.
         fault: Fault,
     },
-    /// The solver failed for a reason of its own.
+    /// The solver failed for a reason that is special to it.
     #[error("solver '{solver}' failed: {source}")]
     Failed {
         /// The solver's name.
@@ -178,11 +182,11 @@ pub enum SolveError {
     },
 }
 
-/// What a solver must not do.
+/// What a faulty solver did.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// It answered a number that is NaN, infinite or impossible.
+    /// It returned a number that is NaN, infinite or impossible.
     #[error("answered {field} = {value}")]
     Answer {
         /// What the number stands for.
@@ -190,7 +194,7 @@ pub enum Fault {
         /// The number.
         value: f64,
     },
-    /// It claimed an error that is NaN, infinite or negative.
+    /// It returned an error estimate that is NaN, infinite or negative.
     #[error("claims an error of {0}")]
     Claim(f64),
     /// It panicked.
@@ -198,12 +202,13 @@ pub enum Fault {
     Panic(String),
 }
 
-/// An error of code outside this workspace, kept as the source of a [`SolveError`]. Two are equal if they are the same one.
+/// An error of code outside this workspace, kept as the source of a [`SolveError`]. Two values are equal if they share
+/// the same error object, because a foreign error need not be comparable.
 #[derive(Debug, Clone)]
 pub struct Reason(Arc<dyn std::error::Error + Send + Sync>);
 
 impl Reason {
-    /// Keeps `error`.
+    /// Wraps `error`.
     pub fn new(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self(Arc::new(error))
     }
@@ -228,12 +233,12 @@ impl std::error::Error for Reason {
 }
 
 impl SolveError {
-    /// The failure of the solver called `solver` for a reason of its own.
+    /// The failure of the solver called `solver` because of `reason`.
     pub fn failed(solver: &str, reason: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Failed { solver: solver.to_owned(), source: Reason::new(reason) }
     }
 
-    /// The same error of a propagation that began `seconds` after launch.
+    /// The same error with its time counted from launch, for a propagation that began `seconds` after launch.
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
         match &mut self {
@@ -267,7 +272,7 @@ mod tests {
 
     const AT: f64 = 0.5;
 
-    /// Every error with its kind, what it says, and its time after a leg of 2 s.
+    /// Every error with its kind, a part of its message, and its time after a first leg of 2 s.
     fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 9] {
         let singular = |point| SolveError::Singular { point, time: AT };
         [
@@ -308,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn input_is_finite_and_in_range_or_named() {
+    fn input_outside_its_range_is_refused_with_its_field() {
         assert_eq!(require("speed [m/s]", 3.0, ">= 0", true), Ok(3.0));
         for (value, holds) in [(-1.0, false), (f64::NAN, true), (f64::INFINITY, true)] {
             let error = require("speed [m/s]", value, ">= 0", holds).unwrap_err();

@@ -1,11 +1,12 @@
-//! Euler angles of the attitude.
+//! The attitude as Euler angles α, β, γ, which the paper's equations (5)-(11) use. Two of the integrators work with
+//! them and convert them from and to quaternions here.
 //!
 //! # Conventions
 //! - Sequence z-x-z about the body's own axes: `Q = z(α) x(β) z(γ)`; α precession, β nutation, γ spin (rad).
 //! - With the quaternion's halves p = w + iz and r = x + iy: `p = cos(β/2) e^{i(α+γ)/2}`,
 //!   `r = sin(β/2) e^{i(α-γ)/2}`.
-//! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude, which is what lets the
-//!   angles be continuous along a motion.
+//! - Not unique: (α, β, γ), (α + π, -β, γ + π) and all shifts by 2π are the same attitude. This freedom allows the
+//!   angles to be continuous along a motion.
 //! - Singular set: sin β = 0, where only α + γ (β = 0) or α - γ (β = π) is defined.
 
 use std::f64::consts::TAU;
@@ -17,7 +18,7 @@ use crate::attitude::Attitude;
 /// Euler angles z-x-z (rad). See the conventions of [this module](self).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAngles {
-    /// α, precession about TF's z axis.
+    /// α, precession about the z axis of TF (transport frame).
     pub alpha: f64,
     /// β, nutation: the angle between n and TF's z axis, continued past 0 and π.
     pub beta: f64,
@@ -33,7 +34,8 @@ impl EulerAngles {
             * Attitude::about_z(self.gamma)
     }
 
-    /// The angles of `attitude` with 0 ≤ β ≤ π. Where sin β = 0 the undefined one of α ± γ is zero.
+    /// The angles of `attitude` with 0 ≤ β ≤ π. Where sin β = 0, that one of α + γ and α - γ that is undefined is set
+    /// to 0.
     pub fn principal(attitude: &Attitude) -> Self {
         let [w, x, y, z] = attitude.components();
         let (half_sum, half_difference) = (z.atan2(w), y.atan2(x));
@@ -46,7 +48,7 @@ impl EulerAngles {
 
     /// The angles of `attitude` on the branch nearest to `reference`.
     ///
-    /// At sin β = 0 exactly, where one of α ± γ is undefined, it is the reference's.
+    /// At sin β = 0 exactly, that one of α + γ and α - γ that is undefined is taken from the reference.
     pub fn nearest(attitude: &Attitude, reference: &Self) -> Self {
         let [w, x, y, z] = attitude.components();
         let (half_sum, cos_half_beta) = nearest_polar(w, z, 0.5 * (reference.alpha + reference.gamma));

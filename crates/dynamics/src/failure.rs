@@ -1,51 +1,52 @@
-//! Why a question has no answer: the one error of everything that takes input and solves flights.
+//! [`Error`], the one error type of functions that both take input and solve flights. Callers of this workspace handle
+//! it alone, by its kind, its field and its source.
 
 use crate::error::{InputError, SolveError};
 use crate::launch::Toss;
 
-/// Why a question has no answer: because of its input, or because of the solver.
+/// The reason why a question has no answer: either its input is at fault, or the solver failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The input describes nothing that could be solved. Nothing was computed.
+    /// The input describes no toss. It was refused before anything was computed.
     #[error(transparent)]
     Input(#[from] InputError),
     /// The solver failed.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// The solver failed on one of many launches: the first one on which it does.
+    /// The solver failed on one of many launches; this is the first one on which it failed.
     #[error("launch {index} (rate {:?}, {:?}, {:?} rad/s, {:?} s): {source}",
         toss.launch.rate().x, toss.launch.rate().y, toss.launch.rate().z, toss.launch.flight_time())]
     Launch {
-        /// Its index.
+        /// The index of the launch, from 0.
         index: u64,
         /// The toss.
         toss: Box<Toss>,
         /// Why the solver failed.
         source: SolveError,
     },
-    /// One of many launches is none: the first one that is not.
+    /// One of many launches is invalid; this is the first such one.
     #[error("launch {index}: {source}")]
     BadLaunch {
-        /// Its index.
+        /// The index of the launch, from 0.
         index: u64,
         /// What is wrong with it.
         source: InputError,
     },
-    /// A text that describes nothing.
+    /// A text, such as a file, that can't be read.
     #[error("line {line}, column {column}: {message}")]
     Text {
         /// Line, from 1.
         line: usize,
         /// Column in characters, from 1.
         column: usize,
-        /// What is wrong there; names the field, where it is one.
+        /// What is wrong there, with the name of the field if there is one.
         message: String,
     },
-    /// The launches that were allowed did not reach the accuracy.
+    /// The largest allowed number of launches did not reach the wanted accuracy.
     #[error("after {points} launches the probability is known to {reached:.1e}, not to {accuracy:e}")]
     NotReached {
-        /// Launches that were tried.
+        /// The number of launches solved.
         points: u64,
         /// Half the width of the interval.
         reached: f64,
@@ -78,7 +79,7 @@ impl Error {
         !matches!(self, Self::Solve(_) | Self::Launch { .. })
     }
 
-    /// The same error of a sequence that begins with launch number `first`.
+    /// The same error, with its index counted from the start of a longer sequence in which this one begins at `first`.
     #[must_use]
     pub fn after(mut self, first: u64) -> Self {
         if let Self::Launch { index, .. } | Self::BadLaunch { index, .. } = &mut self {

@@ -1,7 +1,9 @@
-//! A toss as an integrator wants it: dimensionless, and known to be short enough to mean something.
+//! [`Flight`], a toss in dimensionless form for the integrators. Absolute tolerances then mean the same for slow and
+//! fast coins, and no intermediate number overflows.
 //!
-//! With σ the power of two at or below the largest component of ω, the rates are ω/σ and the time is σ t, so that
-//! dy/d(σ t) = f(y) has neither large nor tiny numbers. The phase max(ωL, |q|) T is at most 2^53.
+//! Let σ be the power of two at or below the largest component of the body rate ω. Rates are divided by σ and times are
+//! multiplied by σ, so that integrators solve dy/d(σ t) = f(y). A flight whose phase max(ωL, |q|) T exceeds 2^53 rad is
+//! refused (ωL is the rate of the precession, q the rate at which ω turns in the body frame, T the time of flight).
 
 use nalgebra::{SVector, Vector3};
 use numerics::scale::power_of_two_scale;
@@ -13,30 +15,33 @@ use crate::phase::RoughPhases;
 use crate::solver::Work;
 use crate::stepping::{Stepping, tightened};
 
-/// Above this phase (rad) the tolerance of the steps is tightened in proportion. The errors of the steps add up in |ω|,
-/// and the phase adds up those of |ω|, so that the error at landing grows like tolerance × phase², with a factor of 0.14
-/// in the worst case that was met. Tightened, it stays below 100 × tolerance × phase, the [error
-/// estimate](Stepping::error_estimate).
+/// Phase (rad) above which the tolerance of the steps is divided by phase/`LONG_FLIGHT`.
+///
+/// The errors of the steps add up in |ω|, and the errors of |ω| add up in the phase. The error at landing therefore
+/// grows like tolerance × phase²; the largest factor that was measured is 0.14. With the tightened tolerance the error
+/// at landing stays below the [error estimate](Stepping::error_estimate), 100 × tolerance × (1 + phase).
 const LONG_FLIGHT: f64 = 100.0;
 
-/// The flight of a toss with its rates divided by a power of two.
+/// The flight of a toss, with its rates divided by σ, a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
-    /// ω at launch (BF), divided by the scale.
+    /// ω at launch (BF, the body frame), divided by σ.
     pub rate: Vector3<f64>,
-    /// ωz (rad/s), which never changes; kept apart because a tiny one would lose digits below the scale.
+    /// ωz (rad/s), which never changes. It is stored undivided, because a tiny ωz/σ may underflow and lose digits.
     rate_z: f64,
+    /// σ (rad/s).
     scale: f64,
+    /// T (s).
     duration: f64,
-    /// How far the motion turns (rad).
+    /// The larger one of ωL T and |q| T (rad).
     phase: f64,
 }
 
 impl Flight {
-    /// The flight of `toss`.
+    /// The dimensionless flight of `toss`.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if the phase exceeds 2^53 rad.
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
         let duration = toss.launch.flight_time();
         let launched = toss.launch.rate();
@@ -46,8 +51,8 @@ impl Flight {
         Ok(Self { rate, rate_z: launched.z, scale, duration, phase })
     }
 
-    /// Follows `system`, whose rates are in the flight's unit, from `start` to landing; see [`integrate`]. The tolerance of
-    /// `stepping` is divided by the phase in units of 100 rad, where that is above 1.
+    /// Integrates `system`, whose rates are in units of σ, from `start` to landing; see [`integrate`]. For a
+    /// [long](Self::is_long) flight the tolerance is [tightened](Self::tightened).
     ///
     /// # Errors
     /// As [`integrate`].
@@ -61,32 +66,32 @@ impl Flight {
         integrate(system, start, self.duration, self.scale, &stepping)
     }
 
-    /// Dimensionless time from launch to landing.
+    /// Dimensionless time σ T from launch to landing.
     pub fn span(&self) -> f64 {
         self.duration * self.scale
     }
 
-    /// A dimensionless time in seconds.
+    /// The dimensionless `time` σ t converted to t (s).
     pub fn in_seconds(&self, time: f64) -> f64 {
         time / self.scale
     }
 
-    /// Whether it turns so far that its tolerance is tightened.
+    /// Whether the phase exceeds 100 rad, so that the tolerance is tightened.
     pub fn is_long(&self) -> bool {
         self.phase > LONG_FLIGHT
     }
 
-    /// `tolerance` divided by the phase in units of 100 rad, where that is above 1; at least ε.
+    /// `tolerance` divided by phase/100, but at least ε = 2^-52. Flights of at most 100 rad keep their tolerance.
     pub fn tightened(&self, tolerance: f64) -> f64 {
         tightened(tolerance, self.phase / LONG_FLIGHT)
     }
 
-    /// The body rate (BF, rad/s) of transverse components in the flight's unit.
+    /// The body rate (BF, rad/s) whose transverse components are `x` and `y` in units of σ.
     pub fn rate_at(&self, x: f64, y: f64) -> Vector3<f64> {
         Vector3::new(x * self.scale, y * self.scale, self.rate_z)
     }
 
-    /// The error of a landing that is not finite.
+    /// The error for a landing state that is not finite.
     pub fn not_finite(&self) -> SolveError {
         SolveError::NotFinite { time: self.duration }
     }
@@ -106,14 +111,14 @@ mod tests {
     }
 
     #[test]
-    fn times_and_rates_are_in_the_unit_of_the_largest_rate() {
+    fn rates_are_divided_and_times_multiplied_by_the_power_of_two() {
         let flight = flight([60.0, -8.0, 0.1], 0.5);
         assert_eq!((flight.rate.x, flight.span(), flight.in_seconds(8.0)), (60.0 / 32.0, 16.0, 0.25));
         assert_eq!(flight.rate_at(1.5, -0.5), Vector3::new(48.0, -16.0, 0.1));
         assert_eq!(flight.not_finite(), SolveError::NotFinite { time: 0.5 });
     }
 
-    /// y' = i y, in dimensionless time.
+    /// y' = i y, a turn by the dimensionless time.
     struct Circle;
 
     impl OdeSystem<2> for Circle {

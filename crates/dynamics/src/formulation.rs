@@ -1,20 +1,21 @@
-//! How the kinematics are set up for integration. The motion is the same in each; what differs is where the equations
-//! are singular, and what happens there.
+//! [`Formulation`], the choice of how the kinematics are set up for integration. The motion is the same in each
+//! formulation, but the equations are singular at other points, and the guards at these points differ.
 
 use crate::error::{InputError, find_named};
 
-/// The frame in which Euler angles are taken.
+/// The frame in which Euler angles α, β, γ are taken. Both move with the centre of mass, without turning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
-    /// The transport frame with z along ±S, the angular momentum, on the side of n: S is fixed in TF, so β is constant and
-    /// at most π/2, and no flight is singular.
+    /// The frame with z along S or -S, the angular momentum, on the side of the coin's normal n. S is fixed, so that β
+    /// is constant and at most π/2, and no flight runs into sin β = 0.
     Momentum,
-    /// The transport frame with z up, as in the paper: singular whenever n is vertical, as at every horizontal launch,
-    /// which starts on the regular solution, and at each return, which is a typed error.
+    /// The frame with z up, as in the paper. It is singular whenever n is vertical. A horizontal launch is such a
+    /// point, and the integration starts there on the regular solution; a later such point is a typed error.
     Vertical,
 }
 
-/// A frame, and whether singular points are guarded. A solver reads the part that it has: the quaternion has no frame.
+/// The frame of the Euler angles, and whether singular points are guarded. The quaternion solver uses the guard only,
+/// since it needs no frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Formulation {
     name: &'static str,
@@ -23,12 +24,12 @@ pub struct Formulation {
 }
 
 impl Formulation {
-    /// Angles along S, guarded; quaternions are projected onto unit norm. The default.
+    /// The default: angles in [`Frame::Momentum`], with guards. Quaternions are projected onto unit norm.
     pub const MOMENTUM: Self = Self { name: "momentum", frame: Frame::Momentum, guarded: true };
-    /// Angles in the paper's frame, guarded; quaternions as above.
+    /// Angles in the paper's frame, [`Frame::Vertical`], with guards. Quaternions are projected onto unit norm.
     pub const VERTICAL: Self = Self { name: "vertical", frame: Frame::Vertical, guarded: true };
-    /// The equations exactly as the paper prints them, with z up and nothing to guard their singular points, and the
-    /// quaternion without projection. Kept to show where that fails: an answer may be wrong without an error.
+    /// The equations exactly as the paper prints them, with z up and without guards; quaternions are not projected. An
+    /// answer may be wrong without an error. The formulation is kept to show where and how the paper's equations fail.
     pub const RAW: Self = Self { name: "raw", frame: Frame::Vertical, guarded: false };
 
     /// All formulations.
@@ -52,7 +53,7 @@ impl Formulation {
         self.frame
     }
 
-    /// Whether singular points are recognised, and quaternions projected onto unit norm.
+    /// Whether singular points are detected and quaternions are projected onto unit norm.
     pub const fn is_guarded(self) -> bool {
         self.guarded
     }

@@ -1,9 +1,10 @@
-//! Runs a Runge-Kutta method of `ode_solvers` over an autonomous system y' = f(y): state in, state out.
+//! Integrates an autonomous system y' = f(y) by a Runge-Kutta method of the crate `ode_solvers`, from a start to an end
+//! state. All integrators run through this one function, which works around three faults of `ode_solvers` 0.6.2:
 //!
-//! Three properties of `ode_solvers` 0.6.2 shape this file. Its DOP853 has wrong nodes for systems that depend on time,
-//! so a system here cannot. Its dense output can end in a wrong point, so only the accepted steps are recorded. Its
-//! RK4 runs past the end of the interval by part of a step and returns `Ok` with NaN, so steps divide the interval
-//! evenly and every result is checked to be finite.
+//! - Its DOP853 has wrong nodes for systems that depend on time. The trait [`OdeSystem`] therefore has no time.
+//! - Its dense output can end in a wrong point. Only the accepted steps are recorded, therefore.
+//! - Its RK4 runs past the end of the interval by part of a step, and returns `Ok` with NaN. Steps therefore divide the
+//!   interval evenly, and every result is checked to be finite.
 
 use std::cell::Cell;
 
@@ -16,7 +17,7 @@ use crate::scheme::Scheme;
 use crate::solver::Work;
 use crate::stepping::{StepControl, Stepping};
 
-/// A flight may take this many steps; all of them are held in memory while it runs.
+/// The largest number of steps of a flight. It is limited because all steps are held in memory during the integration.
 pub const STEP_LIMIT: u32 = 1_000_000;
 
 /// An autonomous system of N first-order equations.
@@ -24,7 +25,7 @@ pub trait OdeSystem<const N: usize> {
     /// y' at y.
     fn derivative(&self, y: &SVector<f64, N>) -> SVector<f64, N>;
 
-    /// The singular point that a step from `before` to `after` met, if any. The integration then stops with an error.
+    /// The singular point that the step from `before` to `after` met, if any. The integration then stops with an error.
     fn singularity(&self, _before: &SVector<f64, N>, _after: &SVector<f64, N>) -> Option<Singularity> {
         None
     }
@@ -49,14 +50,14 @@ impl RungeKutta {
     }
 }
 
-/// Follows `system` from `start` over `duration` (s), which is ≥ 0.
+/// Integrates `system` from `start` over `duration` ≥ 0 (s), and returns the end state and the work.
 ///
-/// The system runs in the dimensionless time `scale` × t, where `scale` is a power of two (rad/s); see
-/// [`power_of_two_scale`](numerics::scale::power_of_two_scale).
+/// The derivatives of `system` are taken with respect to the dimensionless time `scale` × t, where `scale` is a power
+/// of two (rad/s); see [`power_of_two_scale`](numerics::scale::power_of_two_scale).
 ///
 /// # Errors
-/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a scheme that is not in
-/// [`Scheme::RUNGE_KUTTA`].
+/// [`SolveError`] with the time (s) at which the integration stopped; [`SolveError::NotOffered`] for a scheme that is
+/// not in [`Scheme::RUNGE_KUTTA`].
 pub fn integrate<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
@@ -86,10 +87,10 @@ pub fn integrate<const N: usize>(
     }
 }
 
-/// Step sizes as the steppers take them, in dimensionless time.
+/// The tolerance and the step sizes in dimensionless time, as the steppers of `ode_solvers` take them.
 struct Steps {
     tolerance: f64,
-    /// 0 lets the method choose.
+    /// The first step; 0 lets the stepper choose.
     first: f64,
     largest: f64,
 }
@@ -99,13 +100,13 @@ impl Steps {
         match control {
             StepControl::Tolerance(tolerance) => Ok(Self { tolerance, first: 0.0, largest: end }),
             StepControl::Step(step) => {
-                // A step that divides the duration up to rounding is taken as it is meant.
+                // A step that divides the duration up to rounding must not become one step more.
                 let count = (duration / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
                 if count > f64::from(STEP_LIMIT) {
                     return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
                 }
-                // A tolerance that no error exceeds makes an adaptive scheme keep its largest step. It leaves room for
-                // its inverse to be squared.
+                // With a tolerance that no error exceeds, an adaptive scheme keeps to its largest step. It is no larger
+                // than 1e60 so that the square of its inverse does not underflow.
                 Ok(Self { tolerance: 1e60, first: end / count, largest: end / count })
             }
         }
@@ -116,7 +117,8 @@ impl Steps {
 macro_rules! run_adaptive {
     ($stepper:ident, $system:expr, $start:expr, $end:expr, $steps:expr, beta: $beta:expr, factors: $smallest:expr, $largest:expr) => {{
         const SAFETY: f64 = 0.9;
-        // No toss is stiff, but where the state hardly changes the test sees rounding and says so: it is never made.
+        // The stiffness test is never made. No toss is stiff, but where the state hardly changes, rounding errors can
+        // make the test report stiffness.
         const STIFFNESS_TEST_EVERY: u32 = u32::MAX;
         let &Steps { tolerance, first, largest } = $steps;
         let mut stepper = $stepper::from_param(
@@ -153,7 +155,7 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
         RungeKutta::Dop853 => run_adaptive!(Dop853, system, start, end, steps, beta: 0.0, factors: 0.333, 6.0),
         RungeKutta::Dopri5 => run_adaptive!(Dopri5, system, start, end, steps, beta: 0.04, factors: 0.2, 10.0),
         RungeKutta::Rk4 => {
-            // It takes ⌈end/step⌉ steps: half a step less keeps rounding from adding one.
+            // The stepper takes ⌈end/step⌉ steps. An end that is half a step earlier keeps rounding from adding one.
             let mut stepper = Rk4::new(system, 0.0, start, end - 0.5 * steps.first, steps.first);
             stepper.integrate()?;
             Ok(stepper.into())
@@ -161,7 +163,8 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     }
 }
 
-/// The system as `ode_solvers` wants it, with its calls counted and its singular points watched after each step.
+/// Adapts a system to the interface of `ode_solvers`. It counts the calls, and looks for a singular point after each
+/// step.
 struct Counted<'a, const N: usize, S> {
     system: &'a S,
     calls: &'a Cell<u64>,
@@ -182,11 +185,12 @@ impl<const N: usize, S: OdeSystem<N>> System<f64, SVector<f64, N>> for Counted<'
     }
 }
 
-/// Tried steps follow from the calls: `ode_solvers` itself misses the rejections before its first accepted step. What a run
-/// begins with, at most three calls, is less than a step takes, and the quotient drops it.
+/// The work of a run, derived from its number of calls, because `ode_solvers` does not count the rejections before the
+/// first accepted step. A run begins with at most three extra calls. A step takes more, so that the integer division
+/// drops them.
 fn work(rhs_calls: u64, accepted_steps: u64, scheme: RungeKutta) -> Work {
     let tried_steps = match scheme {
-        // The last stage of a step that is kept is a call more.
+        // A tried step takes 11 calls, and one more if it is accepted.
         RungeKutta::Dop853 => (rhs_calls - accepted_steps) / 11,
         RungeKutta::Dopri5 => rhs_calls / 6,
         RungeKutta::Rk4 => rhs_calls / 4,

@@ -1,4 +1,5 @@
-//! The launch: body rate ω, attitude Q0 and time of flight T when the coin leaves the hand.
+//! The launch and the toss. A [`Launch`] is the body rate ω, the attitude Q0 and the time of flight T of a coin that
+//! leaves the hand; a [`Toss`] is a launch with its coin, and is all that a solver takes.
 
 use nalgebra::Vector3;
 use numerics::{Angle, AngleUnit};
@@ -10,7 +11,7 @@ use crate::error::{InputError, require};
 use crate::state::State;
 use crate::time_of_flight::TimeOfFlight;
 
-/// What the hand gives the coin. Every component is finite; no other launch can be made.
+/// How the coin leaves the hand. Every number in it is finite, since no constructor makes any other launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
     rate: Vector3<f64>,
@@ -18,16 +19,16 @@ pub struct Launch {
     given_rate: Option<(Vector3<f64>, AngleUnit)>,
     attitude: Attitude,
     time_of_flight: TimeOfFlight,
-    /// T (s), which every flight needs.
+    /// T (s), stored because every flight needs it.
     flight_time: f64,
 }
 
 impl Launch {
-    /// A launch from horizontal, heads up (attitude = identity), with the body rate `rate` (BF, rad/s).
+    /// A launch from horizontal with heads up, with the body rate `rate` (BF, the body frame; rad/s).
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a component of the rate that is not finite or a time of flight that makes no
-    /// sense.
+    /// [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an impossible
+    /// time of flight (see [`TimeOfFlight`] for the valid ranges).
     #[inline]
     pub fn new(rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
         for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
@@ -46,7 +47,7 @@ impl Launch {
         Ok(Self { given_rate: (unit != AngleUnit::RADIAN).then_some((rate, unit)), ..launch })
     }
 
-    /// The launch that goes on from `state`.
+    /// A launch with the attitude and the body rate of `state`, to continue a flight.
     ///
     /// # Errors
     /// As [`Launch::new`].
@@ -54,13 +55,14 @@ impl Launch {
         Ok(Self::new(state.rate, time_of_flight)?.with_attitude(state.attitude))
     }
 
-    /// The same launch from another attitude (body to LF).
+    /// The same launch with this attitude (from BF to LF, the laboratory frame).
     #[must_use]
     pub fn with_attitude(self, attitude: Attitude) -> Self {
         Self { attitude, ..self }
     }
 
-    /// The same launch from a coin turned by `tilt` about the lab's x axis (α = γ = 0, β = `tilt`); an f64 is in radians.
+    /// The same launch with the horizontal coin turned by `tilt` about the x axis of LF (α = γ = 0, β = `tilt`). An f64 is in
+    /// radians.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if `tilt` is not finite.
@@ -81,7 +83,7 @@ impl Launch {
         self.rate
     }
 
-    /// |ω| (rad/s), which does not overflow where a sum of squares would.
+    /// |ω| (rad/s), computed without the overflow of a sum of squares.
     pub fn turn_rate(&self) -> f64 {
         self.rate.x.hypot(self.rate.y).hypot(self.rate.z)
     }
@@ -96,7 +98,7 @@ impl Launch {
         self.time_of_flight
     }
 
-    /// T (s).
+    /// The time of flight T (s).
     #[inline]
     pub fn flight_time(&self) -> f64 {
         self.flight_time
@@ -107,9 +109,9 @@ impl Launch {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Toss {
-    /// The coin; [`Coin::PAPER`] where data does not say.
+    /// The coin. When a toss is read from data without a coin, it is [`Coin::PAPER`].
     #[serde(default = "Coin::paper")]
     pub coin: Coin,
-    /// Its launch.
+    /// The launch of the coin.
     pub launch: Launch,
 }

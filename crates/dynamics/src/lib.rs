@@ -1,24 +1,26 @@
-//! What a tossed coin is and how it moves.
+//! The coin, its launch and its motion in free flight, and the trait of the solvers that compute where it lands. All
+//! integrators and the exact motion build on these types, so that they solve the same problem.
 //!
 //! A coin of principal moments I1 = I2 and I3 leaves a hand with the body rate ω and flies for the time T, free of
-//! torque and drag. The source of the equations is the paper "Modeling the unfair toss of an unbiased coin"; numbers
-//! in parentheses are the paper's.
+//! torque and drag. The equations are those of the paper "Modeling the unfair toss of an unbiased coin". A number in
+//! parentheses, like (5), is an equation of the paper.
 //!
-//! | what | file |
+//! | what | module |
 //! |---|---|
-//! | geometry → moments of inertia | [`coin`], [`catalogue`] |
-//! | coin + body rate + attitude + time of flight; as plain data, as columns | [`launch`], [`mod@time_of_flight`], [`state`], [`data`], [`columns`] |
+//! | the coin's moments of inertia, from its geometry or by its name | [`coin`], [`catalogue`] |
+//! | the toss: coin, body rate, attitude and time of flight | [`launch`], [`mod@time_of_flight`], [`state`] |
+//! | a toss as plain data in a file, many tosses as columns of numbers | [`data`], [`columns`] |
 //! | Euler's equations and what they conserve; how far a motion turns | [`body_rate`], [`phase`] |
-//! | attitude: quaternion and Euler angles | [`attitude`], [`euler_angles`] |
+//! | the attitude as a quaternion and as Euler angles | [`attitude`], [`euler_angles`] |
 //! | heads or tails | [`outcome`] |
-//! | what a solver is, how it is checked, how it is named | [`solver`], [`checked`], [`entry`] |
+//! | the solver trait, the check of a solver's answers, solvers by name | [`solver`], [`checked`], [`entry`] |
 //! | how integrators step | [`scheme`], [`stepping`], [`formulation`], [`flight`], [`integrate`] |
-//! | what can go wrong | [`error`], [`failure`] |
+//! | errors | [`error`], [`failure`] |
 //!
 //! # Frames
-//! - LF, the laboratory frame: z up.
-//! - TF, the transport frame: LF carried along with the centre of mass. A free coin turns in it as if at rest.
-//! - BF, the body frame: z along the coin's normal n, the head's side.
+//! - LF, the laboratory frame: its z axis points up.
+//! - TF, the transport frame: LF carried along with the centre of mass. Seen from it, the coin turns but does not fall.
+//! - BF, the body frame: fixed in the coin, its z axis along the coin's normal n on the side of heads.
 //!
 //! # Symbols
 //! | symbol | meaning |
@@ -28,16 +30,17 @@
 //! | ω = (ωx, ωy, ωz) | body rate (BF, rad/s); ωz is the spin |
 //! | Ω | √(ωx² + ωy²) (rad/s) |
 //! | S | angular momentum (kg m²/s) |
-//! | ωL | |S|/I1, rate of the precession about S (rad/s) |
+//! | ωL | \|S\|/I1, rate of the precession about S (rad/s) |
 //! | q | (k - 1) ωz, rate at which (ωx, ωy) turns in BF (rad/s) |
 //! | ψ | cone angle, between n and S (rad) |
 //! | θ | tilt, between n and the vertical; heads for cos θ > 0 |
 //! | α, β, γ | Euler angles z-x-z: precession, nutation, spin (rad) |
-//! | Q = (w, x, y, z) | attitude, body to LF |
+//! | Q = (w, x, y, z) | attitude, the unit quaternion that leads from BF to LF |
 //! | T, v0, g, h | time of flight (s), speed (m/s), gravity (m/s²), drop (m) |
 //!
-//! All quantities are f64 in SI units. There is no random number, no clock and no input or output in this crate, and
-//! the closed form of the motion is not in it: that is the crate `exact`, on which no integrator depends.
+//! All quantities are f64 in SI units. This crate uses no random numbers, no clock, no input and no output. It does not
+//! contain the closed form of the motion either, which is in the crate `exact`: integrators do not
+//! depend on that crate, and so cannot use the solution that they are compared with.
 
 pub mod attitude;
 pub mod body_rate;

@@ -1,4 +1,5 @@
-//! How a coin lands: heads for cos θ > 0, tails for cos θ < 0.
+//! [`Outcome`], how a coin lands: heads for cos θ > 0 and tails for cos θ < 0, where θ is the angle between the coin's
+//! normal and the vertical. A third value, undecided, is needed because the computed cos θ has an error.
 
 use std::fmt;
 
@@ -9,13 +10,13 @@ pub enum Outcome {
     Heads,
     /// cos θ < 0.
     Tails,
-    /// cos θ is nearer to 0 than the solver's error estimate, or the solver has none; a proven outcome is undecided only
-    /// for an exact tie, cos θ = 0.
+    /// Undecided: |cos θ| is at most the solver's error estimate, or the solver has no estimate. A proven outcome is
+    /// undecided only for an exact tie, cos θ = 0.
     Undecided,
 }
 
 impl Outcome {
-    /// Heads or tails by the sign of `cos_tilt` where its size exceeds `error`, else undecided.
+    /// Heads or tails by the sign of `cos_tilt` if |`cos_tilt`| exceeds `error`, else undecided.
     #[inline]
     pub fn of(cos_tilt: f64, error: f64) -> Self {
         if cos_tilt > error {
@@ -37,7 +38,7 @@ impl Outcome {
     }
 }
 
-/// Its [name](Outcome::name).
+/// Writes the [name](Outcome::name).
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())

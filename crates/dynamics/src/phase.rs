@@ -1,6 +1,8 @@
-//! How far a motion turns: the phases ωL T of the precession about S and |q| T of the spin in the body.
+//! How far a coin turns in its flight: by the phase ωL T in its precession about the angular momentum S, and by |q| T
+//! in its spin within the body frame. Error estimates grow with the phase, and above 2^53 rad no answer means anything.
 //!
-//! Phases above 2^53 rad mean nothing: neighbouring f64 inputs then differ by whole turns. Every solver refuses them by
+//! The symbols are those of the [crate]: ωL = |S|/I1, q = (k - 1) ωz, and T is the time of flight. Above 2^53
+//! rad the phases of neighbouring f64 inputs are a radian or more apart. Every solver refuses such a toss by
 //! [`require_phase`].
 
 use nalgebra::Vector3;
@@ -10,19 +12,20 @@ use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
 use crate::launch::Toss;
 
-/// 2^53 (rad): above it, neighbouring f64 phases are more than a radian apart.
+/// The largest phase that solvers accept (rad), 2^53. Above it, neighbouring f64 numbers differ by 2 or more.
 pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 
 /// Returns `phase` (rad) if it is at most [`LARGEST_PHASE`].
 ///
 /// # Errors
-/// [`SolveError::PhaseTooLarge`], also for a phase that is not a number.
+/// [`SolveError::PhaseTooLarge`], also if `phase` is NaN.
 #[inline]
 pub fn require_phase(phase: f64) -> Result<f64, SolveError> {
     if phase <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase }) }
 }
 
-/// The phases of a landing, right to some roundings; integrators and error estimates need no more.
+/// The phases at landing, computed in f64 with an error of a few roundings. Integrators and error estimates need no
+/// more; the exact motion computes its phases in twice the precision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoughPhases {
     /// ωL T (rad).
@@ -44,12 +47,13 @@ impl RoughPhases {
     #[inline]
     pub(crate) fn dimensionless(k: f64, rate: &Vector3<f64>, time: f64) -> Self {
         let momentum = Vector3::new(rate.x, rate.y, k * rate.z).norm();
-        // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
+        // Without a rate the phase is 0, also where the product would be 0 · ∞ = NaN.
         let turned = |rate: f64| if rate == 0.0 { 0.0 } else { rate * time };
         Self { precession: turned(momentum), spin: turned(body_precession_rate(k, rate.z).abs()) }
     }
 
-    /// The larger of both (rad): how far the motion turns. A rod in pure spin has ωL = 0 and still accumulates error.
+    /// The larger one of the two phases (rad), by which errors grow. The spin counts too, because a rod (k = 0) in pure
+    /// spin has ωL = 0 and still accumulates errors.
     ///
     /// # Errors
     /// As [`require_phase`].
@@ -72,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn phases_are_those_of_precession_and_spin() {
+    fn the_phases_are_the_rates_of_precession_and_spin_times_the_time() {
         assert_eq!(phases(0.5, [30.0, 0.0, -80.0], 2.0), RoughPhases { precession: 100.0, spin: 80.0 });
         assert_eq!(phases(1.5, [0.0; 3], 1e300), RoughPhases { precession: 0.0, spin: 0.0 });
         assert_eq!(phases(0.0, [0.0, 0.0, 1e300], 1e300), RoughPhases { precession: 0.0, spin: f64::INFINITY });

@@ -1,6 +1,7 @@
-//! Schemes of integration: a name, an order, and how its steps can be controlled.
+//! [`Scheme`], a scheme of integration: its name, its order, and how its steps can be controlled. A scheme is a value
+//! and not an enum, so that an integrator from elsewhere can bring its own.
 
-/// A scheme by which an integrator steps. An integrator from elsewhere can bring a scheme of its own.
+/// A scheme by which an integrator steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scheme {
     name: &'static str,
@@ -10,18 +11,21 @@ pub struct Scheme {
 }
 
 impl Scheme {
-    /// Dormand and Prince's method of order 8(5,3) (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
+    /// Dormand and Prince's method of order 8(5,3)
+    /// (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I).
     pub const DOP853: Self = Self::new("dop853", Some(8)).adaptive().with_fixed_steps();
     /// Dormand and Prince's method of order 5(4) (J. Comput. Appl. Math. 6, 1980).
     pub const DOPRI5: Self = Self::new("dopri5", Some(5)).adaptive().with_fixed_steps();
     /// The classical method of order 4, without an error estimate.
     pub const RK4: Self = Self::new("rk4", Some(4)).with_fixed_steps();
 
-    /// The Runge-Kutta schemes, which [`integrate`](crate::integrate::integrate()) runs: they need no more of a system than
-    /// its right-hand side.
+    /// The schemes that [`integrate`](crate::integrate::integrate()) can run for any system, since they need nothing
+    /// but its right-hand side.
     pub const RUNGE_KUTTA: [Self; 3] = [Self::DOP853, Self::DOPRI5, Self::RK4];
 
-    /// A scheme called `name` whose global error has this `order`; `None` if the tolerance chooses the order.
+    /// A scheme called `name` whose global error has this `order`, or `None` if the order depends on the tolerance. How
+    /// its steps can be controlled is added by [`adaptive`](Self::adaptive) and
+    /// [`with_fixed_steps`](Self::with_fixed_steps).
     pub const fn new(name: &'static str, order: Option<u32>) -> Self {
         Self { name, order, adaptive: false, takes_steps: false }
     }
@@ -43,7 +47,7 @@ impl Scheme {
         self.name
     }
 
-    /// Order of the global error; `None` where the tolerance chooses it.
+    /// Order of the global error; `None` if it depends on the tolerance.
     pub const fn order(self) -> Option<u32> {
         self.order
     }
@@ -64,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_scheme_has_a_name_an_order_and_the_steps_that_it_can_take() {
+    fn schemes_state_their_name_order_and_step_control() {
         let table = [("dop853", Some(8), true, true), ("dopri5", Some(5), true, true), ("rk4", Some(4), false, true)];
         for (scheme, expected) in Scheme::RUNGE_KUTTA.into_iter().zip(table) {
             assert_eq!((scheme.name(), scheme.order(), scheme.is_adaptive(), scheme.takes_steps()), expected);

@@ -1,8 +1,10 @@
-//! What a solver is: a pure map from a toss to the state at its landing, with an estimate of its error.
+//! [`Solver`], the trait of everything that computes where a toss lands: a pure map from a toss to the state at
+//! landing, with an estimate of its error. All tests, checks and programs use solvers through it, so that any two can
+//! be compared.
 //!
-//! A solver is chosen at compile time by its type or at run time by its [`SolverEntry`](crate::SolverEntry). It states
-//! no proof: a solver says how far it may be off, and the outcome follows from that. Proofs are made by the crate
-//! `exact` alone.
+//! A solver is chosen at compile time by its type, or at run time by its [`SolverEntry`](crate::SolverEntry). A solver
+//! cannot prove an outcome. It states an error estimate, and the outcome is undecided where cos θ is not larger. Only
+//! the crate `exact` makes proofs.
 
 use std::sync::Arc;
 
@@ -14,38 +16,39 @@ use crate::outcome::Outcome;
 use crate::state::State;
 use crate::stepping::Stepping;
 
-/// What a propagation cost, as counts that repeat exactly.
+/// The cost of a propagation, as counts that are the same in every run and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Evaluations of the right-hand side; of Taylor series, a coefficient of the whole state for each order of each step.
+    /// Evaluations of the right-hand side. For Taylor series, the number of coefficients of the state: one for each
+    /// order of each step.
     pub rhs_calls: u64,
-    /// Steps that were kept.
+    /// Steps that were accepted.
     pub accepted_steps: u64,
-    /// Steps that were tried and thrown away.
+    /// Steps that were tried and rejected.
     pub rejected_steps: u64,
 }
 
-/// The state at landing and what it cost to get there.
+/// The result of a flight: the state at landing, cos θ, and the cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Propagation {
-    /// State at landing.
+    /// The state at landing.
     pub state: State,
-    /// cos θ at landing, as the solver finds it: that of the state's attitude, or better.
+    /// cos θ at landing. It is that of the state's attitude, unless the solver can compute it more accurately.
     pub cos_tilt: f64,
-    /// Norm error of an integrated quaternion, ||Q| - 1|; 0 where attitudes need no norm.
+    /// Norm error ||Q| - 1| of an integrated quaternion before it was normalised; 0 for other solvers.
     pub norm_error: f64,
-    /// Its cost.
+    /// The cost of the propagation.
     pub work: Work,
 }
 
 impl Propagation {
-    /// A landing whose cos θ is that of its attitude.
+    /// A landing whose cos θ is that of its attitude, without a norm error.
     pub fn new(state: State, work: Work) -> Self {
         Self { state, cos_tilt: state.attitude.cos_tilt(), norm_error: 0.0, work }
     }
 
-    /// The same landing with a better cos θ than that of its attitude.
+    /// The same landing with this cos θ instead of that of its attitude.
     #[must_use]
     pub fn with_cos_tilt(self, cos_tilt: f64) -> Self {
         Self { cos_tilt, ..self }
@@ -58,30 +61,30 @@ impl Propagation {
     }
 }
 
-/// Solves the flight of a toss.
+/// Computes the flight of a toss from launch to landing.
 pub trait Solver: Send + Sync {
-    /// Its name in the registry.
+    /// The solver's name in the registry.
     fn name(&self) -> &str;
 
-    /// How it steps through time; `None` for a closed form.
+    /// How the solver steps through time; `None` for a closed form.
     fn stepping(&self) -> Option<Stepping> {
         None
     }
 
-    /// State at landing, `toss.launch.flight_time()` seconds after launch.
+    /// The state at landing, `toss.launch.flight_time()` seconds after launch.
     ///
     /// # Errors
     /// [`SolveError`] where the solver cannot go on; never a partial result.
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError>;
 
-    /// Estimate of the error of its cos θ at the landing of `toss`, finite and ≥ 0; `None` if it has none, and then it
-    /// decides no outcome. Integrators answer with [`Stepping::error_estimate`].
+    /// An estimate of the error of the solver's cos θ at the landing of `toss`, finite and ≥ 0. Without one, `None`,
+    /// every outcome is undecided. Integrators return [`Stepping::error_estimate`].
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
     fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError>;
 
-    /// cos θ at landing; a solver may know a cheaper way than by the attitude.
+    /// cos θ at landing. Override it if cos θ can be computed more cheaply than the attitude.
     ///
     /// # Errors
     /// As [`Solver::propagate`].
@@ -89,10 +92,10 @@ pub trait Solver: Send + Sync {
         self.propagate(toss).map(|landing| landing.cos_tilt)
     }
 
-    /// cos θ at landing of each of many tosses; a solver may know a cheaper way than one by one.
+    /// cos θ at landing of each of many tosses. Override it if many tosses can be solved more cheaply than one by one.
     ///
     /// # Errors
-    /// [`Error`] for the first toss that has no answer; the numbers in `out` then mean nothing.
+    /// [`Error`] for the first toss without an answer; the numbers in `out` then mean nothing.
     ///
     /// # Panics
     /// If `out` has another length than `tosses`.
@@ -104,7 +107,8 @@ pub trait Solver: Send + Sync {
         })
     }
 
-    /// Heads or tails by `cos_tilt` (of this solver), or undecided where it is within the error estimate of 0.
+    /// Heads or tails by `cos_tilt`, which this solver has computed, or undecided if |`cos_tilt`| is at most the error
+    /// estimate.
     ///
     /// # Errors
     /// As [`Solver::error_estimate`].
@@ -121,7 +125,7 @@ pub trait Solver: Send + Sync {
     }
 }
 
-/// A pointer to a solver is a solver.
+/// Implements [`Solver`] for a pointer to a solver.
 macro_rules! by_pointer {
     ($pointer:ty) => {
         impl<S: Solver + ?Sized> Solver for $pointer {
@@ -167,7 +171,7 @@ mod tests {
     use crate::launch::Launch;
     use crate::time_of_flight::TimeOfFlight;
 
-    /// Lands where it was launched, with this estimate of its error.
+    /// A solver with this error estimate, whose coins land as they were launched.
     struct Still(Option<f64>);
 
     impl Solver for Still {
@@ -191,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn an_outcome_is_decided_as_far_as_the_error_estimate_goes() {
+    fn an_outcome_is_undecided_within_the_error_estimate() {
         let quarter = std::f64::consts::FRAC_PI_2;
         for error in [0.0, 1e-3] {
             let solver = Still(Some(error));
@@ -208,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn many_tosses_are_solved_one_by_one_also_through_pointers() {
+    fn by_default_many_tosses_are_solved_one_by_one_also_through_pointers() {
         let [x, y, z, speed] = [[0.0, 1.0], [0.0; 2], [2.0, 3.0], [1.0, 1.5]];
         let tosses = Tosses::new(Coin::DISC, Attitude::about_x(0.3), 9.81, [&x, &y, &z], &speed).unwrap();
         let expected = [Attitude::about_x(0.3).cos_tilt(); 2];
@@ -225,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_toss_that_is_none_is_named_by_its_index() {
+    fn an_invalid_toss_of_many_is_an_error_with_its_index() {
         let [x, y, z, speed] = [[0.0, 1.0], [0.0; 2], [2.0, f64::NAN], [1.0, 1.5]];
         let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
         let error = Still(None).cos_tilts(&tosses, &mut [0.0; 2]).unwrap_err();

@@ -1,4 +1,5 @@
-//! The state of a flying coin: attitude Q and body rate ω.
+//! [`State`], the attitude Q and the body rate ω of a coin at one time. It is what a solver returns at landing, and
+//! enough to continue the flight as a new launch.
 
 use nalgebra::Vector3;
 
@@ -7,7 +8,7 @@ use crate::attitude::Attitude;
 /// Attitude and body rate at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// Attitude (body to LF).
+    /// Attitude, from BF (body frame) to LF (laboratory frame).
     pub attitude: Attitude,
     /// Body rate ω (BF, rad/s).
     pub rate: Vector3<f64>,

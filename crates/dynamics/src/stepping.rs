@@ -1,7 +1,8 @@
-//! How an integrator steps: a scheme and its step control, as settings.
+//! [`Stepping`], the settings of an integrator: a scheme and what controls the size of its steps. The error estimate of
+//! integrators follows from these settings alone, and is computed here for all of them.
 //!
-//! An adaptive step keeps its local error below tolerance × (1 + |y|), a fixed one has its length. The
-//! [error estimate](Stepping::error_estimate) of cos θ at landing is 100 × tolerance × (1 + phase) for a tolerance.
+//! Steps either keep the local error below a tolerance, or have a given length. See
+//! [`error_estimate`](Stepping::error_estimate) for the error of cos θ at landing that follows from either.
 
 use crate::error::{InputError, SolveError, require};
 use crate::launch::Toss;
@@ -11,14 +12,14 @@ use crate::scheme::Scheme;
 /// What sets the size of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepControl {
-    /// Local error per step below `tolerance × (1 + |y|)`, in every component of the dimensionless state. Flights that turn
-    /// by more than 100 rad get a tighter one, see [`Flight`](crate::Flight).
+    /// Each step keeps its local error below `tolerance × (1 + |y|)` in every component y of the dimensionless state.
+    /// For flights that turn by more than 100 rad the tolerance is [tightened](crate::Flight::tightened).
     Tolerance(f64),
     /// Equal steps of at most this length (s).
     Step(f64),
 }
 
-/// A scheme and its step control. Only combinations that make sense can be made.
+/// A scheme and its step control. No constructor combines a scheme with a control that it does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
     scheme: Scheme,
@@ -26,25 +27,26 @@ pub struct Stepping {
 }
 
 impl Stepping {
-    /// The tolerance used where none is asked for.
+    /// The tolerance used if none is given.
     pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-    /// The stepping used where none is asked for.
+    /// The stepping used if none is given.
     pub const DEFAULT: Self = Self { scheme: Scheme::DOP853, control: StepControl::Tolerance(Self::DEFAULT_TOLERANCE) };
 
-    /// The step used for RK4 where none is asked for (s).
+    /// The step used for RK4 if none is given (s).
     pub const DEFAULT_STEP: f64 = 1e-3;
 
     /// `scheme` with steps that keep the local error below `tolerance`, absolute and relative.
     ///
     /// # Errors
-    /// [`InputError`] if the scheme has no error estimate, or the tolerance is below ε = 2^-52 or not below 1.
+    /// [`InputError`] if the scheme does not estimate its local error, or the tolerance is below ε = 2^-52 or not below
+    /// 1.
     pub fn adaptive(scheme: Scheme, tolerance: f64) -> Result<Self, InputError> {
         if !scheme.is_adaptive() {
             return Err(InputError::Malformed {
                 field: "scheme with a tolerance",
                 value: scheme.name().to_owned(),
-                expected: "a scheme with an error estimate, as dop853, dopri5 or taylor; rk4 takes a step",
+                expected: "a scheme with an error estimate, such as dop853, dopri5 or taylor; rk4 takes a step",
             });
         }
         let valid = (f64::EPSILON..1.0).contains(&tolerance);
@@ -52,7 +54,8 @@ impl Stepping {
         Ok(Self { scheme, control: StepControl::Tolerance(tolerance) })
     }
 
-    /// `scheme` with equal steps of at most `step` (s); every Runge-Kutta scheme can do this, and its error is not estimated.
+    /// `scheme` with equal steps of at most `step` (s), which every Runge-Kutta scheme can take. The local error is
+    /// then not measured.
     ///
     /// # Errors
     /// [`InputError`] if the scheme chooses its steps itself, or the step is not positive and finite.
@@ -61,7 +64,7 @@ impl Stepping {
             return Err(InputError::Malformed {
                 field: "scheme with a step",
                 value: scheme.name().to_owned(),
-                expected: "a scheme with equal steps, as dop853, dopri5 or rk4; taylor chooses its order and steps by a tolerance",
+                expected: "a scheme with equal steps, such as dop853, dopri5 or rk4; taylor takes a tolerance",
             });
         }
         require("step [s]", step, "finite and > 0", step > 0.0)?;
@@ -78,7 +81,7 @@ impl Stepping {
         self.control
     }
 
-    /// The stepping with its tolerance, if it has one, divided by `factor`, down to ε; unchanged for a factor below 1.
+    /// The same stepping with its tolerance [divided](tightened) by `factor`. Fixed steps are left unchanged.
     #[must_use]
     pub(crate) fn tightened(self, factor: f64) -> Self {
         let control = match self.control {
@@ -88,20 +91,22 @@ impl Stepping {
         Self { control, ..self }
     }
 
-    /// Estimate of the error of cos θ at the landing of `toss`, after a [phase](RoughPhases::largest) φ (rad):
+    /// Estimate of the error of cos θ at the landing of `toss`. For a flight with the [phase](RoughPhases::largest) φ
+    /// (rad) it is
     ///
-    /// - with a tolerance, 100 × tolerance × (1 + φ);
-    /// - with n fixed steps h, which come without an estimate, what their order promises of a regular motion and what
-    ///   rounding may do: (|ω| h)^order × (1 + φ) + 4 ε (1 + φ + n).
+    /// - 100 × tolerance × (1 + φ) with a tolerance;
+    /// - (|ω| h)^order × (1 + φ) + 4 ε (1 + φ + n) with n fixed steps of h (s). The first term is the truncation error
+    ///   of a regular motion, the second one allows for rounding. Nothing is measured, so that the error near a
+    ///   singular point may be larger.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
     pub fn error_estimate(&self, toss: &Toss) -> Result<f64, SolveError> {
         let turned = 1.0 + RoughPhases::new(toss).largest()?;
         Ok(match self.control {
             StepControl::Tolerance(tolerance) => 100.0 * tolerance * turned,
             StepControl::Step(step) => {
-                // A scheme without an order takes no steps.
+                // Schemes without an order take no fixed steps, so that the default is never used.
                 let order = self.scheme.order().unwrap_or(0);
                 let truncation = (toss.launch.turn_rate() * step).powf(f64::from(order));
                 truncation * turned + 4.0 * f64::EPSILON * (turned + toss.launch.flight_time() / step)
@@ -110,7 +115,7 @@ impl Stepping {
     }
 }
 
-/// `tolerance` divided by `factor`, down to ε; unchanged for a factor below 1.
+/// `tolerance` divided by `factor`, but at least ε. A `factor` below 1 leaves it unchanged.
 pub(crate) fn tightened(tolerance: f64, factor: f64) -> f64 {
     (tolerance / factor.max(1.0)).max(f64::EPSILON)
 }
@@ -125,7 +130,7 @@ mod tests {
     use crate::time_of_flight::TimeOfFlight;
 
     #[test]
-    fn the_error_estimate_is_a_hundred_tolerances_a_radian_or_follows_from_the_order_of_the_steps() {
+    fn the_error_estimate_follows_from_the_tolerance_or_from_the_order_and_the_step() {
         // A sphere at 2 rad/s for 3 s: a phase of 6 rad.
         let launch = Launch::new(Vector3::new(0.0, 2.0, 0.0), TimeOfFlight::Given(3.0)).unwrap();
         let toss = Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
@@ -138,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tighter_tolerance_stops_at_rounding_and_leaves_steps_alone() {
+    fn tightening_stops_at_epsilon_and_does_not_change_fixed_steps() {
         let adaptive = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
         assert_eq!(adaptive.tightened(0.5), adaptive);
         assert_eq!(adaptive.tightened(100.0), Stepping::adaptive(Scheme::DOP853, 1e-12).unwrap());
@@ -148,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn tolerances_are_from_rounding_to_below_1_and_steps_above_0() {
+    fn takes_tolerances_from_epsilon_to_below_1_and_steps_above_0() {
         for (tolerance, taken) in [(f64::EPSILON, true), (0.999, true), (1.0, false), (0.99 * f64::EPSILON, false)] {
             assert_eq!(Stepping::adaptive(Scheme::DOPRI5, tolerance).is_ok(), taken, "{tolerance}");
         }

@@ -1,8 +1,9 @@
-//! The time of flight: how long a toss lasts, to f64 and beyond.
+//! [`TimeOfFlight`], how long a toss lasts. It is available in f64 and in twice that precision, because the phase of
+//! the exact motion is a rate times this time, and an error of the time would become an error of the phase.
 //!
 //! ```text
 //! T = 2 v0/g                         caught at the height of the launch
-//! T = (v0 + √(v0² + 2 g h))/g        caught h below it
+//! T = (v0 + √(v0² + 2 g h))/g        caught at h below the launch
 //! ```
 
 use numerics::double_double::DoubleDouble;
@@ -33,12 +34,13 @@ pub enum TimeOfFlight {
         /// h (m); negative for a landing above the launch, down to -v0²/(2 g), the apex.
         drop: f64,
     },
-    /// Given directly (s), ≥ 0.
+    /// The time of flight itself (s), ≥ 0.
     Given(f64),
 }
 
 impl TimeOfFlight {
-    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught `drop` (m) below, or at the same height.
+    /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught `drop` (m) below the launch, or at the same height
+    /// if `drop` is `None`.
     pub fn thrown(speed: f64, gravity: f64, drop: Option<f64>) -> Self {
         match drop {
             None => Self::Ballistic { speed, gravity },
@@ -56,7 +58,7 @@ impl TimeOfFlight {
         }
     }
 
-    /// T as the quotient that it is, not rounded to f64.
+    /// T in twice the precision of f64, also where T itself leaves the range of f64.
     pub fn exact(&self) -> ExactTime {
         match *self {
             Self::Ballistic { speed, gravity } => {
@@ -76,7 +78,7 @@ impl TimeOfFlight {
         }
     }
 
-    /// T (s) as f64, and what that leaves of it, to first order.
+    /// T (s) rounded to f64, and the rest of T to first order.
     #[inline]
     pub fn compensated(&self) -> [f64; 2] {
         match *self {
@@ -84,7 +86,7 @@ impl TimeOfFlight {
                 let time = 2.0 * speed / gravity;
                 let product = DoubleDouble::product(time, gravity);
                 let rest = ((2.0 * speed - product.hi()) - product.lo()) / gravity;
-                // Where a product leaves the range of f64, its rest means nothing.
+                // If the product or its rounding error leaves the range of f64, the rest is wrong and is left out.
                 [time, if rest.abs() <= f64::EPSILON * time { rest } else { 0.0 }]
             }
             Self::BallisticTo { .. } => {
@@ -96,7 +98,7 @@ impl TimeOfFlight {
         }
     }
 
-    /// Whether the coin flies at all, also where T is below the range of f64.
+    /// Whether T > 0. The answer is right also where T underflows to 0.
     pub fn is_positive(&self) -> bool {
         match *self {
             Self::Ballistic { speed, .. } => speed > 0.0,
@@ -105,7 +107,7 @@ impl TimeOfFlight {
         }
     }
 
-    /// T (s) of what makes sense.
+    /// T (s), or an error if a number is outside its valid range or T is not finite.
     #[inline]
     pub(crate) fn validated_seconds(self) -> Result<f64, InputError> {
         match self {
@@ -133,8 +135,8 @@ fn require_throw(speed: f64, gravity: f64) -> Result<(), InputError> {
     Ok(())
 }
 
-/// v0² + 2 g h (m²/s²) to 3 u² as a number and the exponent e of its unit, 2^(2e). The unit is that of the larger term,
-/// so that only what does not count can underflow.
+/// v0² + 2 g h (m²/s²) as a number times 2^(2e), with the exponent e, with an error of 3 u². The power of two is that
+/// of the larger term, so that a term that underflows is too small to matter.
 fn discriminant(speed: f64, gravity: f64, drop: f64) -> (DoubleDouble, i32) {
     let [(speed, e_speed), (gravity, e_gravity), (drop, e_drop)] = [speed, gravity, drop].map(mantissa_and_exponent);
     let (e_square, e_fall) = (2 * e_speed, 1 + e_gravity + e_drop);
@@ -157,19 +159,19 @@ pub struct ExactTime {
 }
 
 impl ExactTime {
-    /// `value` times 2^`exponent`.
+    /// The time `value` × 2^`exponent` (s).
     fn new(value: DoubleDouble, exponent: i32) -> Self {
         let (_, own) = mantissa_and_exponent(value.hi());
         Self { mantissa: value.times_power_of_two(-own), exponent: exponent + own }
     }
 
-    /// A number between ½ and 2, or 0.
+    /// The mantissa: a number between ½ and 2, or 0.
     #[inline]
     pub fn mantissa(self) -> DoubleDouble {
         self.mantissa
     }
 
-    /// The exponent of the power of two that the mantissa is multiplied by (s).
+    /// The exponent e of the power of two 2^e (s) that multiplies the mantissa.
     #[inline]
     pub fn exponent(self) -> i32 {
         self.exponent

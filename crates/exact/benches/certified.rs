@@ -1,5 +1,6 @@
-//! What a proof costs: outcomes of random launches, certified and by the sign of the same f64 alone; and cos θ and the
-//! whole state to the last bit. Read the ratio of the first two.
+//! This benchmark measures what a proof costs. It compares proven outcomes of random launches with outcomes by the sign
+//! of the same f64 alone: the ratio of these two is the price of the proof. Two more lines give the time of cos θ and
+//! of the whole state to the last bits.
 
 use std::hint::black_box;
 
@@ -7,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{Coin, Launch, Outcome, Solver, TimeOfFlight, Toss, Vector3};
 use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify};
 
-/// Rates of 1 to 60 rad/s on each axis, speeds of 3 to 5 m/s, by Weyl's sequence.
+/// Launches with rates of 1 to 60 rad/s about each axis and speeds of 3 to 5 m/s, from Weyl's sequence.
 fn tosses() -> Vec<Toss> {
     let part = |index: u32, irrational: f64| (f64::from(index) * irrational).fract();
     let toss = |index| {
@@ -18,6 +19,7 @@ fn tosses() -> Vec<Toss> {
     (0..10_000).map(toss).collect()
 }
 
+/// The outcome by the sign of the f64 terms, without an error bound.
 fn plain(toss: &Toss) -> Outcome {
     let terms = TiltTerms::new(toss);
     let [phase, _] = terms.phases(toss.launch.flight_time());

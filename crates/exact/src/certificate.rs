@@ -1,37 +1,38 @@
-//! What is proven: one outcome, or how many of each.
-//!
-//! Only this crate can make them. A solver, a default or a sum cannot turn an outcome that is estimated into one that is
-//! proven.
+//! This file holds the types of proven results: [`Certificate`] for one outcome, [`ProvenCounts`] for many. Their
+//! fields are private and only this crate can construct them, so that no other code can pass off an estimated outcome
+//! as a proven one.
 
 use dynamics::Outcome;
 
-/// Which stage of a proof decided, from the cheapest on: see [`certified`](crate::certified).
+/// The stage of the proof that decided an outcome, from the cheapest to the most accurate; see
+/// [`certified`](crate::certified).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// The one cosine of Keller's coin.
+    /// A single cosine in f64, for Keller's coin (flat, without spin about its normal).
     Keller,
-    /// No sine or cosine was evaluated: the face never changes, or the flight is too short for it.
+    /// No sine or cosine: the coin never changes its face, or the flight is too short for a change.
     TrigFree,
-    /// f64.
+    /// The sign of cos θ in f64, with an error bound.
     F64,
-    /// Double-double.
+    /// The sign of cos θ in double-double arithmetic (about 106 bits).
     DoubleDouble,
     /// 192 binary digits or more, or exact arithmetic for a tie.
     Multiprecision,
 }
 
 impl Stage {
-    /// All stages, in their order.
+    /// All stages, from the cheapest to the most accurate.
     pub const ALL: [Self; 5] = [Self::Keller, Self::TrigFree, Self::F64, Self::DoubleDouble, Self::Multiprecision];
 
-    /// Its name, in words.
+    /// Name of the stage, in words.
     pub fn name(self) -> &'static str {
-        ["Keller's cosine", "no motion", "f64", "double-double", "more digits"][self as usize]
+        ["Keller's cosine", "no trigonometry", "f64", "double-double", "more digits"][self as usize]
     }
 }
 
-/// A proven outcome and the stage that proved it. It is undecided only for an exact tie: cos θ = 0 at landing. With rates in
-/// turns, |cos θ| < 2^-12000 counts as a tie.
+/// A proven outcome and the stage that proved it. The outcome is [`Outcome::Undecided`] only for an exact tie,
+/// which is cos θ = 0 at landing. With rates in
+/// turns per second, |cos θ| < 2^-12000 counts as a tie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Certificate {
     outcome: Outcome,
@@ -39,26 +40,26 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// By the proving code alone.
+    /// For the code that proves outcomes, and for no other.
     #[inline]
     pub(crate) fn new(outcome: Outcome, stage: Stage) -> Self {
         Self { outcome, stage }
     }
 
-    /// How the toss lands.
+    /// The face that the toss lands on.
     #[inline]
     pub fn outcome(self) -> Outcome {
         self.outcome
     }
 
-    /// The stage that decided.
+    /// The stage that decided the outcome.
     #[inline]
     pub fn stage(self) -> Stage {
         self.stage
     }
 }
 
-/// Proven outcomes, counted. They add up; nothing else can be done to them outside this crate.
+/// Numbers of proven outcomes. Outside this crate such counts can be read and added to each other, but not changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ProvenCounts {
     heads: u64,
@@ -68,7 +69,7 @@ pub struct ProvenCounts {
 }
 
 impl ProvenCounts {
-    /// Adds an outcome.
+    /// Counts one more outcome.
     #[inline]
     pub(crate) fn add(&mut self, certificate: Certificate) {
         match certificate.outcome {
@@ -79,7 +80,7 @@ impl ProvenCounts {
         self.by[certificate.stage as usize] += 1;
     }
 
-    /// Adds outcomes that a stage decided.
+    /// Counts more outcomes that `stage` decided.
     #[inline]
     pub(crate) fn add_many(&mut self, heads: u64, tails: u64, stage: Stage) {
         self.heads += heads;
@@ -87,27 +88,27 @@ impl ProvenCounts {
         self.by[stage as usize] += heads + tails;
     }
 
-    /// Tosses that land heads.
+    /// Number of tosses that land heads.
     pub fn heads(&self) -> u64 {
         self.heads
     }
 
-    /// Tosses that land tails.
+    /// Number of tosses that land tails.
     pub fn tails(&self) -> u64 {
         self.tails
     }
 
-    /// Exact ties.
+    /// Number of exact ties.
     pub fn ties(&self) -> u64 {
         self.ties
     }
 
-    /// Outcomes that `stage` decided.
+    /// Number of outcomes that `stage` decided.
     pub fn by(&self, stage: Stage) -> u64 {
         self.by[stage as usize]
     }
 
-    /// All tosses.
+    /// Number of all tosses.
     pub fn total(&self) -> u64 {
         self.heads + self.tails + self.ties
     }
@@ -131,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn counts_say_what_was_proven_and_by_which_stage() {
+    fn counts_outcomes_by_face_and_by_stage() {
         let mut counts = ProvenCounts::default();
         counts.add_many(3, 4, Stage::F64);
         for (outcome, stage) in [

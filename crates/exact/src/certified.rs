@@ -1,41 +1,44 @@
-//! Outcomes that are proven: heads or tails of the ideal flight for exactly the numbers that coin and launch were made
-//! from.
+//! This file proves the outcome of a toss: whether the ideal flight with exactly the numbers that coin and launch were
+//! made from ends in heads or tails. It tries stages from the cheapest to the most accurate and stops at the first whose
+//! error bound is smaller than |cos θ|, so that for nearly all tosses a proof costs little more than plain f64.
 //!
-//! These are the moments or the cylinder, the rates, the tilt or the quaternion, and the time or the speed, gravity and
-//! drop. What is derived from them, as k = 6 r²/(3 r² + h²) or the vertical seen from a tilted coin, is not rounded
-//! before the proof, or its rounding is in the bound.
+//! The numbers are the moments or the cylinder, the rates, the tilt or the quaternion, and the time or the speed, gravity
+//! and drop. Values derived from them, as k = 6 r²/(3 r² + h²) or the vertical seen from a tilted coin, are not rounded
+//! before the proof, or the bound covers their rounding.
 //!
-//! Stages, each asked only where those before cannot decide. Two do without the motion or most of it:
-//! `keller.rs` (Keller's coin) and `trig_free.rs` (no sine or cosine). Three have more digits, one than the
-//! other, after the adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997), 305. With u = 2^-53:
+//! The first two stages need little of the motion: `keller.rs` (Keller's coin: flat, without spin) and `trig_free.rs`
+//! (no sine or cosine). The other three use more and more digits, after the adaptive predicates of J. R. Shewchuk,
+//! Discrete Comput. Geom. 18 (1997), 305. φ is the phase ωL T at landing, and u = 2^-53:
 //!
-//! **1. f64.** By [`TiltTerms`], G = A + B cos φ + C sin φ, the sign of cos θ. With the errors derived there, in units
-//! of `size` ≥ |A|, √(B² + C²), |G|:
+//! **1. f64.** [`TiltTerms`] gives G = A + B cos φ + C sin φ, which has the sign of cos θ. The errors derived there
+//! lead to these, in units of `size` ≥ |A|, √(B² + C²), |G|:
 //!
 //! ```text
 //! A                                    12u
 //! B, C                                 14.8u       √(10.9² + 9.9²), as cos² + sin² = 1
-//! cos, sin                             2.9u        √2 · 2u: std is taken to be right to 2 ulp, of numbers below 1
+//! cos, sin                             2.9u        √2 · 2u: std is assumed right to 2 ulp, of numbers below 1
 //! φ                                    6u φ        |dG/dφ| ≤ size
 //! B cos, C sin                         1.42u       rounded products, |B| + |C| ≤ √2 size
 //! the two sums                         2u
 //! sum                                  33.2u + 6u φ
 //! ```
 //!
-//! [`f64_bound`] rounds this up for the squares of u and the rounding of the bound itself. What underflows is below
-//! 2^-1000, and `size` is above 10^-200. k is rounded once. The vertical of [`Attitude::vertical`](dynamics::Attitude::vertical)
-//! is right to the errors from which those of A, B and C are derived, whatever the attitude was made from.
+//! [`f64_bound`] rounds this up, to cover the squares of u and the rounding of the bound itself. Underflow loses less
+//! than 2^-1000, and `size` is above 10^-200. The ratio k is rounded once, and the vertical of
+//! [`Attitude::vertical`](dynamics::Attitude::vertical) is right to the errors that the errors of A, B and C are derived
+//! from, whatever the attitude was made from.
 //!
-//! **2. Double-double.** By [`ExactMotion::cos_tilt_parts`]. No result goes through more than some fifteen operations
-//! of at most 10 u² each, which leaves a, b, c and their sum within 10³ u² and the 2^-67 of the vertical, and the phase
-//! (|L| 37 u², of which k has 25 u²; time 25 u², their product 5 u²) within 70 u² φ. Sine and cosine of its leading part
-//! are std's (2u each, √2 for both), turned by its rest `lo` ≤ ½ with an error of 4u |lo|. So
-//! |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, rounded up in [`double_double_bound`].
+//! **2. Double-double.** [`ExactMotion::cos_tilt_parts`] gives cos θ = a + b cos φ + c sin φ. No result goes through
+//! more than some fifteen operations with an error of at most 10 u² each, and the vertical is right to 2^-67. So a, b, c
+//! and their sum are right within 2^-66, and the phase within 70 u² φ (|L| 37 u², of which k has 25 u²; time 25 u², their
+//! product 5 u²). Sine and cosine of the leading part of the phase are those of std (2u each, √2 for both); turning them
+//! by the trailing part `lo`, |lo| ≤ ½, adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which
+//! [`double_double_bound`] rounds up.
 //!
-//! Rates that were not given in rad/s are rounded to it, each by u. That turns the landed coin by u φ at most, which the
-//! bounds of the stages in f64 have room for, and which is added in the next: [`rate_error`].
+//! Rates that were not given in rad/s are rounded to it, with an error of u each. This turns the landed coin by at most
+//! u φ. The bounds of the stages in f64 have room for it, and the stage in double-double adds it to its bound.
 //!
-//! **3. As many digits as it takes**, from the numbers that were given: `multiprecision.rs`.
+//! **3. As many digits as it takes.** The number of digits doubles until the sign is certain: see `multiprecision.rs`.
 
 use dynamics::{AngleUnit, Error, Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
@@ -47,7 +50,7 @@ use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
 use crate::tilt_terms::TiltTerms;
 use crate::trig_free::{phase_in_range, trig_free_by};
 
-/// The proven outcome of a toss.
+/// Proves the outcome of a toss.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
@@ -73,7 +76,7 @@ pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
 }
 
 impl ProvenCounts {
-    /// The proven outcomes of `tosses`, counted.
+    /// Proves and counts the outcomes of `tosses`.
     ///
     /// # Errors
     /// [`Error::Launch`] for the first toss that has no outcome.
@@ -87,7 +90,7 @@ impl ProvenCounts {
     }
 }
 
-/// The stages in f64.
+/// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
     if rate_error(toss).is_infinite() {
@@ -102,8 +105,8 @@ fn cheaply(toss: &Toss) -> Option<Certificate> {
     trig_free_by(&terms, phase).map(by(Stage::TrigFree)).or_else(|| by_terms(&terms, phase).map(by(Stage::F64)))
 }
 
-/// The stage in f64, from the terms of a toss and the phase of its landing (rad), which is in range; `None` where it cannot
-/// decide.
+/// The stage that evaluates all three terms in f64, at the phase of the landing (rad), which is in range. `None` if
+/// |cos θ| is within the error bound.
 #[inline]
 fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
@@ -112,7 +115,7 @@ fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     }
 }
 
-/// The stages with more digits than f64.
+/// Decides by the stages with more digits than f64.
 ///
 /// # Errors
 /// As [`certify`].
@@ -140,7 +143,7 @@ fn rate_error(toss: &Toss) -> f64 {
     }
 }
 
-/// The stage in double-double for rates with this relative error; `None` where it cannot decide.
+/// The stage in double-double, for rates with this relative error. `None` if |cos θ| is within its error bound.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -154,7 +157,7 @@ fn by_double_double(motion: &ExactMotion, time: TimeOfFlight, rate_error: f64) -
     })
 }
 
-/// Bound of the error of cos θ in the double-double stage at a `phase` (rad).
+/// Error bound of cos θ in the double-double stage at a `phase` (rad).
 pub fn double_double_bound(phase: DoubleDouble) -> f64 {
     const CONSTANT: f64 = 4.0 * UNIT_ROUNDOFF;
     const OF_REST: f64 = 8.0 * UNIT_ROUNDOFF;
@@ -162,7 +165,7 @@ pub fn double_double_bound(phase: DoubleDouble) -> f64 {
     CONSTANT + OF_REST * phase.lo().abs() + OF_PHASE * phase.hi()
 }
 
-/// Bound of the error of the f64 stage's height at a `phase` (rad), in parts of the terms' size.
+/// Error bound of [`TiltTerms::height`] at a `phase` (rad), in units of [`TiltTerms::size`].
 #[inline]
 pub fn f64_bound(phase: f64) -> f64 {
     (34.0 + 7.0 * phase) * UNIT_ROUNDOFF

@@ -1,9 +1,10 @@
-//! Landings by the exact motion in f64 with compensated phases: three times as fast as
+//! This file computes cos θ and the state at landing in f64 with compensated phases. It is three times as fast as
 //! [`ExactMotion`](crate::ExactMotion), and nearly as accurate at any phase.
 //!
-//! In plain f64 the phases ωL T and q T carry a few roundings each, and cos θ an error that grows with them. Here each
-//! rounding is followed to first order: products and sums leave their errors behind exactly, quotient and root by what
-//! they miss when multiplied out. What is left is some u² φ of the phases, and the rounding of what is made of them.
+//! In plain f64 the phases ωL T and q T are off by a few roundings, and the error of cos θ grows with them. Here the
+//! rounding error of each operation is carried along to first order. For products and sums it is computed exactly; for
+//! the quotient and the root it follows from the residual of multiplying them out. The phases φ are then right to a few
+//! u² φ, with u = 2^-53, and the rounding of sine, cosine and the result is what remains.
 
 use dynamics::phase::require_phase;
 use dynamics::{Attitude, SolveError, State, Toss};
@@ -14,11 +15,15 @@ use numerics::scale::power_of_two_scale;
 
 use crate::tilt_terms::{SLOWEST_SQUARED, TiltTerms};
 
-/// The angular momentum over I1 in a unit that is a power of two (rad/s), and its size ωL with what rounding lost of it.
+/// The angular momentum divided by I1, L = (ωx, ωy, k ωz), in the body frame (BF).
 struct Momentum {
+    /// L, in `unit`.
     vector: Vector3<f64>,
+    /// |L|², in the square of `unit`.
     squared: f64,
+    /// |L| = ωL and its rounding error, in `unit`.
     rate: [f64; 2],
+    /// Unit of the rates (rad/s), a power of two.
     unit: f64,
 }
 
@@ -41,7 +46,8 @@ impl Momentum {
     }
 }
 
-/// √(`square` + `rest`) and its rest; 0 for a precession that is too slow to count, by the argument of [`TiltTerms`].
+/// √(`square` + `rest`) and its rounding error. 0 for a precession that is too slow to matter, as [`TiltTerms`]
+/// explains.
 #[inline]
 pub(crate) fn root(square: f64, rest: f64) -> [f64; 2] {
     if square < SLOWEST_SQUARED {
@@ -52,13 +58,14 @@ pub(crate) fn root(square: f64, rest: f64) -> [f64; 2] {
     [root, (((square - product.hi()) - product.lo()) + rest) / (2.0 * root)]
 }
 
-/// The phase (rad) of a rate and its rest after the time of flight of `toss`.
+/// The phase (rad) that a rate and its rounding error, both in the `unit` (rad/s), reach in the time of flight of
+/// `toss`.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub(crate) fn turned([rate, rest]: [f64; 2], toss: &Toss, unit: f64) -> Result<DoubleDouble, SolveError> {
-    // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
+    // A rate of 0 gives phase 0 at any time, also where the product would be 0 · ∞.
     if rate == 0.0 {
         return Ok(DoubleDouble::ZERO);
     }
@@ -85,7 +92,7 @@ pub fn compensated_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
     Ok(((mean + (cosine * cos + sine * sin)) / size).clamp(-1.0, 1.0))
 }
 
-/// State at landing by `Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ)`.
+/// State at landing. The attitude is `Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ)`.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -106,7 +113,7 @@ pub fn compensated_landing(toss: &Toss) -> Result<State, SolveError> {
     })
 }
 
-/// q in the `unit` (rad/s), and its rest.
+/// q = (k - 1) ωz and its rounding error, in the `unit` (rad/s).
 #[inline]
 fn spin_rate(toss: &Toss, unit: f64) -> [f64; 2] {
     let (k, z) = (toss.coin.exact_inertia_ratio(), toss.launch.rate().z / unit);
@@ -123,9 +130,9 @@ mod tests {
     use super::*;
     use crate::motion::ExactMotion;
 
-    /// Whatever the phase: 3 s or 10^7 s make no difference.
+    /// The bounds are the same after 3 s and after 10^7 s.
     #[test]
-    fn it_is_the_exact_motion_to_the_last_bits() {
+    fn landings_match_the_exact_motion_to_the_last_bits() {
         let rates =
             [[1.0, 1.0, 2.5], [40.0, -31.0, 7.0], [0.0, 9.0, 0.0], [0.0, 0.0, 7.0], [0.0; 3], [5e-324, 0.0, 0.0]];
         let times = [3.0, 1e7].map(TimeOfFlight::Given).into_iter().chain([
@@ -136,7 +143,7 @@ mod tests {
         for (time, rate) in times.flat_map(|time| rates.map(|rate| (time, rate))) {
             for (k, tilt) in [0.0, 0.3, 1.0, 1.9].into_iter().flat_map(|k| [0.0, 0.7, 3.0].map(|tilt| (k, tilt))) {
                 let launch = Launch::new(Vector3::from(rate), time).unwrap().with_tilt(tilt).unwrap();
-                // A ratio that f64 does not hold.
+                // The inertia ratio k/1.1 has no exact f64, except for k = 0.
                 let toss = Toss { coin: Coin::from_moments(1.1, k).unwrap(), launch };
                 let (landing, motion) = (compensated_landing(&toss).unwrap(), ExactMotion::new(&toss));
                 let exact = motion.state(time).unwrap();
@@ -160,9 +167,9 @@ mod tests {
         }
     }
 
-    /// ωL T and |q| T next to 2^53, each the larger one in turn.
+    /// Just below and just above 2^53, where ωL T is the larger phase and where |q| T is.
     #[test]
-    fn phases_are_taken_up_to_two_to_the_53() {
+    fn accepts_phases_up_to_two_to_the_53() {
         for (k, z, part, taken) in [
             (0.5, 2.0, 0.999, true),
             (0.5, 2.0, 1.001, false),
@@ -180,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_precession_too_slow_to_count_is_none() {
+    fn a_precession_below_1e_100_counts_as_none() {
         assert_eq!([0.0, 0.99e-200].map(|square| root(square, 0.0)), [[0.0; 2]; 2]);
         assert!(root(1e-200, 0.0)[0] > 0.0);
     }

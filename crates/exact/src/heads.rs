@@ -1,23 +1,25 @@
-//! When a motion shows heads.
+//! This file computes the phases at which a coin in flight shows heads. They are intervals about one crest per turn, so
+//! that flips, margins and shares of heads follow without sampling the motion.
 //!
 //! cos θ = a + b cos(ωL t) + c sin(ωL t) = a + r cos(ωL t - crest), r = √(b² + c²), is positive exactly while the phase
-//! ωL t is within `half_width` = acos(-a/r) of a crest. From horizontal the crest is at 0 and a/r = cot²ψ.
+//! ωL t is within `half_width` = acos(-a/r) of a crest. From a horizontal launch the crest is at 0 and a/r = cot²ψ,
+//! with ψ the angle between the coin's normal and its angular momentum.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The phases ωL t at which a motion shows heads: those nearer than `half_width` to `crest` + 2π n.
 ///
-/// The errors follow from those of the terms, and are no proof.
+/// The errors are estimated from those of the terms; they prove nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadsPhases {
     /// Phase at which cos θ is greatest (rad), from -π to π.
     pub crest: f64,
-    /// 0 if the motion never shows heads, π if it always does (rad).
+    /// Half the width of the interval of heads (rad): 0 if the motion never shows heads, π if it always does.
     pub half_width: f64,
     /// Error of `crest` (rad).
     pub crest_error: f64,
-    /// Error of `half_width` (rad); large where the motion grazes cos θ = 0, and 0 only if the motion always shows heads
-    /// or never, whatever its terms are off.
+    /// Error of `half_width` (rad). It is large where the motion grazes cos θ = 0. It is 0 only if the motion shows
+    /// heads always or never for all values of its terms within their errors.
     pub half_width_error: f64,
 }
 
@@ -26,11 +28,11 @@ impl HeadsPhases {
     pub(crate) fn new([mean, cosine, sine]: [f64; 3], error: f64) -> Self {
         let amplitude = cosine.hypot(sine);
         if amplitude <= error {
-            // As good as constant: the crest is anywhere, and only the sign of the mean matters.
+            // cos θ is constant within its error: the crest may be anywhere, and only the sign of the mean matters.
             let half_width_error = if mean.abs() > 2.0 * error { 0.0 } else { PI };
             return Self { crest: 0.0, half_width: always(mean), crest_error: PI, half_width_error };
         }
-        // √(r² - a²) keeps the digits where the motion grazes cos θ = 0.
+        // √(r² - a²) as a product keeps its digits where the motion grazes cos θ = 0.
         let grazing = ((amplitude - mean) * (amplitude + mean)).max(0.0).sqrt();
         let half_width = if amplitude <= mean.abs() { always(mean) } else { grazing.atan2(-mean) };
         Self {
@@ -41,12 +43,13 @@ impl HeadsPhases {
         }
     }
 
-    /// Those of a motion whose cos θ does not change.
+    /// The phases of a motion whose cos θ does not change.
     pub fn constant(cos_tilt: f64) -> Self {
         Self::new([cos_tilt, 0.0, 0.0], 0.0)
     }
 
-    /// The intervals of phases between `from` and `to` ≥ `from` that show heads (rad), in order and not touching.
+    /// The intervals of phases between `from` and `to` ≥ `from` that show heads (rad), in ascending order, without
+    /// overlap.
     pub fn intervals(self, from: f64, to: f64) -> impl Iterator<Item = [f64; 2]> {
         let Self { crest, half_width, .. } = self;
         let always = half_width >= PI;
@@ -63,8 +66,8 @@ impl HeadsPhases {
             .filter(move |[begin, end]| !never && begin < end)
     }
 
-    /// The first phase after launch at which the outcome changes (rad); `None` if it never does. A motion that only
-    /// touches cos θ = 0 does not change its outcome.
+    /// The first phase after launch at which the coin changes its face (rad); `None` if it never does. A motion that
+    /// only touches cos θ = 0 does not change the face.
     pub fn first_flip(&self) -> Option<f64> {
         if self.half_width <= 0.0 || self.half_width >= PI {
             return None;
@@ -74,13 +77,13 @@ impl HeadsPhases {
     }
 }
 
-/// The half-width of a motion that keeps the outcome of its mean.
+/// The half-width of a motion that always shows the face of its mean.
 fn always(mean: f64) -> f64 {
     if mean > 0.0 { PI } else { 0.0 }
 }
 
-/// Error of acos(-mean/amplitude) for an `error` of the ratio: |acos'| = 1/√(1 - x²) while the ratio stays away from
-/// ±1, and acos(1 - x) ≤ 1.6 √x where it does not.
+/// Error of acos(-mean/amplitude) for an `error` of the ratio. Away from a ratio of ±1 it follows from
+/// |acos'| = 1/√(1 - x²), near it from acos(1 - x) ≤ 1.6 √x.
 fn half_width_error(mean: f64, amplitude: f64, error: f64) -> f64 {
     let ratio = mean.abs() / amplitude;
     let from_edge = 1.0 - ratio;
@@ -136,7 +139,7 @@ mod tests {
 
     #[test]
     fn the_error_covers_the_grazing_motion() {
-        // Moving the mean by what rounding may do to it moves the edge by no more than the error says.
+        // If the mean moves by its rounding error, the edge moves by no more than `half_width_error`.
         for from_edge in [0.0, 1e-16, 1e-15, 3e-15, 1e-14, 1e-12, 1e-9, 1e-5, 0.1, 0.9] {
             let mean = 0.5 * (1.0 - from_edge);
             let heads = HeadsPhases::new([mean, 0.5, 0.0], ERROR);
@@ -160,14 +163,14 @@ mod tests {
         for (mean, expected) in [
             (0.5, error * (2.0 / (0.5 * 1.5_f64)).sqrt()),
             (-0.5, error * (2.0 / (0.5 * 1.5_f64)).sqrt()),
-            // Four errors from the edge, on it, one beyond it, and further.
+            // Four errors inside of the edge, on it, one error beyond it, and further out.
             (1.0 - 4.0 * error, 1.6 * (5.0 * error).sqrt()),
             (1.0, 1.6 * error.sqrt()),
             (1.0 + error, 1.6 * (2.0 * error).sqrt()),
             (1.0 + 2.0 * error, 0.0),
             (1.1, 0.0),
         ] {
-            // The amplitude is only a unit.
+            // The result does not depend on the common scale of mean and amplitude.
             let found = half_width_error(4.0 * mean, 4.0, error);
             assert!((found - expected).abs() <= 1e-14 * expected, "{mean}: {found}, not {expected}");
         }

@@ -1,17 +1,19 @@
-//! The exact motion of a free coin, and all that follows from it.
+//! This crate computes the exact motion of a free coin by its closed form, and what follows from it: outcomes with a
+//! proof, sensitivities, margins and fast batches. It is a crate of its own so that no integrator can use the closed
+//! form against which it is judged.
 //!
 //! | what | file |
 //! |---|---|
-//! | the motion: rates, attitude, cos θ, Euler angles, to the last bits | [`motion`] |
-//! | cos θ as three terms in f64; the phases that show heads; how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
-//! | derivatives of the landing by the launch | [`sensitivity`] |
-//! | cheaper forms: without trigonometry, of Keller's coin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
-//! | proven outcomes, in as many digits as it takes; what is proven | [`certified`], `multiprecision`, [`certificate`] |
-//! | many tosses at once, in registers | [`batch`] |
-//! | the motion as a solver | [`solver`] |
+//! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
+//! | cos θ as three terms in f64; the phases that show heads; the change that flips the outcome | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | derivatives of the landing with respect to the launch | [`sensitivity`] |
+//! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
+//! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
+//! | many tosses at once, in SIMD registers | [`batch`] |
+//! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
 //!
-//! Symbols and frames are those of the crate [`dynamics`]. No integrator can use what is here: Cargo knows no way from
-//! theirs to this crate.
+//! Symbols and frames are those of the crate [`dynamics`]: BF is the body frame, LF the laboratory frame. The crates of
+//! the integrators do not depend on this crate.
 
 pub mod batch;
 pub mod certificate;

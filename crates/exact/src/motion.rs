@@ -1,21 +1,25 @@
-//! The exact motion of a free coin.
+//! This file computes the exact motion of a free coin at any time after launch: attitude, body rate, cos θ and Euler
+//! angles. It evaluates the closed form in double-double arithmetic, so that the results are right to the last bits
+//! after any number of turns.
 //!
-//! With k = I3/I1, ωL = |S|/I1 = √(ωx² + ωy² + (k ωz)²), ŝ = (ωx, ωy, k ωz)/ωL and q = (k - 1) ωz, all at launch:
+//! Let k = I3/I1 and, at launch, S be the angular momentum, ωL = |S|/I1 = √(ωx² + ωy² + (k ωz)²), ŝ = (ωx, ωy, k ωz)/ωL
+//! and q = (k - 1) ωz. Then
 //!
 //! ```text
-//! Q(t)    = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)           precession about the fixed S, then spin in the body
+//! Q(t)    = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)           precession about the fixed S, then spin about n
 //! ω(t)    = (ωx, ωy) turned by q t, ωz                    (2)-(4)
 //! cos θ(t) = a + b cos(ωL t) + c sin(ωL t)
 //! ```
 //!
-//! where, with m the vertical seen from the body at launch, a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ). From
-//! horizontal this is cos θ = cos²ψ + sin²ψ cos(ωL t), ψ the angle between n and S.
+//! where a = (m·ŝ)(ŝ·ẑ), b = m·ẑ - a and c = m·(ŝ × ẑ), with m the vertical in the body frame (BF) at launch. Numbers
+//! in parentheses are the paper's equations. From horizontal cos θ = cos²ψ + sin²ψ cos(ωL t), with ψ the angle between
+//! the coin's normal n and S.
 //!
-//! All rates are divided by a power of two near the largest of them and times multiplied by it, which is exact: no
-//! square over- or underflows, and scaling ω by a power of two and t by its inverse changes no bit. ωL and q, the
-//! phases ωL t and q t, and a, b, c are carried in double-double ([`DoubleDouble`]). What is left is the rounding of
-//! sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for any phase that a toss can
-//! have.
+//! All rates are divided by a power of two near the largest of them, and times are multiplied by it. This is exact. It
+//! keeps squares from over- and underflow, and scaling ω by a power of two and t by its inverse changes no bit of the
+//! results. ωL and q, the phases ωL t and q t, and a, b, c are [`DoubleDouble`]. The remaining errors are the rounding
+//! of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for every phase up to the
+//! limit of 2^53 rad.
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
@@ -28,20 +32,20 @@ use crate::heads::HeadsPhases;
 use crate::polar::{continuous_polar, flat, half_turns};
 use crate::tilt_terms::terms;
 
-/// Error of [`ExactMotion::cos_tilt`], if std's sine and cosine are right to 0.6 ulp.
+/// Error of [`ExactMotion::cos_tilt`], provided that std's sine and cosine are right to 0.6 ulp.
 pub const COS_TILT_ERROR: f64 = 2.3e-16;
 
 /// The closed-form motion that follows a launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactMotion {
     launch: State,
-    /// Exponent of the power of two (rad/s) in which the rates below are measured.
+    /// Exponent of the power of two (rad/s) that is the unit of the rates below.
     exponent: i32,
     /// Direction of S at launch (BF).
     momentum_direction: Vector3<f64>,
-    /// ωL.
+    /// ωL, in that unit.
     precession_rate: DoubleDouble,
-    /// q.
+    /// q = (k - 1) ωz, in that unit.
     spin_rate: DoubleDouble,
     /// a, b, c of cos θ = a + b cos(ωL t) + c sin(ωL t).
     tilt: [DoubleDouble; 3],
@@ -55,7 +59,7 @@ impl ExactMotion {
         let scale = power_of_two_scale(rate.amax());
         let scaled = rate / scale;
         let spin = k * scaled.z;
-        // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
+        // S gets a unit of its own: that of a spinning rod may be so small beside its spin that the square underflows.
         let unit = power_of_two_scale(scaled.x.abs().max(scaled.y.abs()).max(spin.hi().abs()));
         let (_, unit_exponent) = mantissa_and_exponent(unit);
         let momentum = [(scaled.x / unit).into(), (scaled.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
@@ -79,7 +83,7 @@ impl ExactMotion {
         self.precession_rate.times_power_of_two(self.exponent).hi()
     }
 
-    /// ψ, the half-angle of the cone that n describes about S (rad), from 0 to π.
+    /// ψ, the angle between n and S (rad), from 0 to π: half the opening of the cone that n describes about S.
     pub fn cone_angle(&self) -> f64 {
         let s = &self.momentum_direction;
         s.x.hypot(s.y).atan2(s.z)
@@ -91,7 +95,7 @@ impl ExactMotion {
         s.x.hypot(s.y).atan2(s.z)
     }
 
-    /// The larger of the phases ωL t and |q| t (rad): how far the motion turns.
+    /// The larger of the phases ωL t and |q| t (rad), which is how far the motion turns in `time` (s).
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
@@ -99,7 +103,7 @@ impl ExactMotion {
         self.phases(time).map(|(precession, spin)| precession.hi().max(spin.hi().abs()))
     }
 
-    /// ωL t and q t (rad).
+    /// The phases of precession and spin, ωL t and q t (rad), `time` (s) after launch.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if either is above 2^53.
@@ -111,7 +115,7 @@ impl ExactMotion {
         require_phase(largest).map(|_| (precession, spin))
     }
 
-    /// cos θ, `time` (s) after launch: one sine and cosine.
+    /// cos θ, `time` (s) after launch. It costs one sine and one cosine.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
@@ -145,24 +149,24 @@ impl ExactMotion {
         })
     }
 
-    /// Euler angles, `time` (s) after launch, continuous from launch on through every sin β = 0.
+    /// Euler angles, `time` (s) after launch. They are continuous from launch on, also where sin β = 0.
     ///
-    /// A motion that passes sin β = 0 exactly, as from every horizontal launch, keeps α and γ continuous and carries
-    /// β on to negative values. At a horizontal launch α(0) = -γ(0) = atan2(ωy, ωx), the limit of the motion.
+    /// If a motion passes sin β = 0 exactly, as after every horizontal launch, α and γ stay continuous and β goes on to
+    /// negative values. At a horizontal launch α(0) = -γ(0) = atan2(ωy, ωx), the limit for t → 0.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn euler_angles(&self, time: impl Into<ExactTime>) -> Result<EulerAngles, SolveError> {
         let (phase, spin) = self.phases(time)?;
         let half_phase = phase * 0.5;
-        // Precession alone: cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin only lowers γ by q t.
+        // Precession alone gives cos(x) Q0 + sin(x) Q0 ⊗ (0, ŝ), x = ½ ωL t. Spin changes γ alone, by -q t.
         let start = self.launch.attitude;
         let [w0, x0, y0, z0] = start.components();
         let [w1, x1, y1, z1] = (start * Attitude::half_turn(&self.momentum_direction)).components();
         let half_sum = continuous_polar([w0, z0], [w1, z1], half_phase);
         let half_difference = continuous_polar([x0, y0], [x1, y1], half_phase);
         let half_beta = match (flat([w0, z0], [w1, z1]), flat([x0, y0], [x1, y1])) {
-            // n turns end over end through the vertical: both change sign, and β runs on past π.
+            // n turns end over end through the vertical: both radii change sign, and β goes on past π.
             (Some((_, [c0, c1])), Some((_, [s0, s1]))) => continuous_polar([c0, s0], [c1, s1], half_phase).argument(),
             _ => half_difference.radius.atan2(half_sum.radius),
         };
@@ -174,12 +178,12 @@ impl ExactMotion {
         Ok(EulerAngles { alpha: alpha.hi(), beta: 2.0 * half_beta, gamma: gamma.hi() })
     }
 
-    /// The phases at which the motion shows heads.
+    /// The phases ωL t at which the motion shows heads.
     pub fn heads(&self) -> HeadsPhases {
         HeadsPhases::new(self.tilt.map(DoubleDouble::hi), COS_TILT_ERROR)
     }
 
-    /// The first time after launch at which the outcome changes (s); `None` if it never does.
+    /// The first time after launch at which the coin changes its face (s); `None` if it never does.
     pub fn first_flip(&self) -> Option<f64> {
         Some(self.heads().first_flip()? / self.precession_rate()).filter(|time| time.is_finite())
     }
@@ -232,7 +236,7 @@ mod tests {
     fn euler_angles_are_continuous_for_many_turns() {
         let horizontal =
             [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [-5.0, 2.0, -9.0]].map(|rate| (rate, 0.0));
-        // End over end from a tilt in both senses, and cones that do and do not enclose the vertical.
+        // Tilted coins that turn end over end in both senses, and cones that do and do not enclose the vertical.
         let tilted = [([3.0, 0.0, 0.0], 0.7), ([-3.0, 0.0, 0.0], 0.7), ([0.8, 1.6, 0.9], 1.3), ([0.3, 0.3, 5.0], 1.0)];
         for (rate, tilt) in horizontal.into_iter().chain(tilted) {
             let motion = motion(Coin::PAPER, rate, tilt);
@@ -250,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_flip_changes_the_outcome_and_none_comes_before() {
+    fn the_face_changes_at_the_first_flip_and_not_before() {
         for motion in samples() {
             let launch = motion.cos_tilt(0.0).unwrap();
             if launch.abs() < 1e-9 {
@@ -267,14 +271,14 @@ mod tests {
     }
 
     #[test]
-    fn cone_and_momentum_tilt_are_the_angles_of_the_geometry() {
+    fn cone_angle_and_momentum_tilt_are_45_degrees_for_equal_components() {
         // Ω = k ωz: n and S enclose 45°.
         let motion = motion(Coin::DISC, [2.0, 0.0, 1.0], 0.0);
         assert!([motion.cone_angle(), motion.momentum_tilt()].iter().all(|angle| (angle - FRAC_PI_4).abs() < 1e-15));
     }
 
     #[test]
-    fn a_phase_above_two_to_the_53_is_refused_and_a_coin_at_rest_never_is() {
+    fn refuses_a_phase_above_two_to_the_53_but_no_coin_at_rest() {
         let fast = motion(Coin::PAPER, [1e10, 0.0, 0.0], 0.0);
         assert!(matches!(fast.cos_tilt(1e6), Err(SolveError::PhaseTooLarge { .. })));
         let spinning_sphere = motion(Coin::from_moments(1.0, 0.0).unwrap(), [0.0, 0.0, 1e300], 0.0);
@@ -283,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn huge_and_subnormal_rates_stay_in_range() {
+    fn huge_and_subnormal_rates_give_accurate_results() {
         let slow = motion(Coin::PAPER, [5e-324, 0.0, 5e-324], 0.3).cos_tilt(1e300).unwrap();
         assert!((slow - 0.3f64.cos()).abs() < 1e-15);
         let fast = motion(Coin::PAPER, [1e300, 1e300, 2.5e300], 0.0);

@@ -1,18 +1,19 @@
-//! Complex curves in polar form, with an argument that is continuous over any number of turns.
+//! This file writes a complex curve a cos x + b sin x in polar form, with an argument that is continuous over any
+//! number of turns. The Euler angles are such arguments, and plain atan2 would make them jump by 2π.
 
 use std::f64::consts::PI;
 
 use numerics::DoubleDouble;
 
-/// A complex number in polar form, its argument as `base` + π `half_turns`, so that sums and differences of arguments
-/// lose no digits to turns that cancel.
+/// A complex number in polar form. Its argument is stored as `base` + π `half_turns`, so that sums and differences of
+/// arguments lose no digits to half turns that cancel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Polar {
-    /// Within a turn or so (rad).
+    /// Part of the argument that stays within about a turn (rad).
     pub(crate) base: f64,
-    /// A whole number.
+    /// Number of half turns, a whole number.
     pub(crate) half_turns: f64,
-    /// May be negative.
+    /// Radius with a sign: it may be negative.
     pub(crate) radius: f64,
 }
 
@@ -25,15 +26,16 @@ impl Polar {
 
 /// π times a whole number (rad).
 pub(crate) fn half_turns(number: f64) -> DoubleDouble {
-    /// π less the f64 next to it.
+    /// π minus the nearest f64.
     const PI_REST: f64 = 1.224_646_799_147_353_2e-16;
     DoubleDouble::product(PI, number) + DoubleDouble::product(PI_REST, number)
 }
 
 /// The complex curve `a cos x + b sin x` in polar form, continuous in x.
 ///
-/// The curve is an ellipse about the origin, run through once in 2π: its argument gains ±π in each half turn. A flat
-/// ellipse is a line through the origin; there the argument stays and the radius changes sign.
+/// The curve is an ellipse about the origin that is traced once as x grows by 2π, so its argument changes by ±π in each
+/// half turn. If a and b are parallel, the ellipse is a line through the origin; then the argument is constant and the
+/// radius changes its sign.
 pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> Polar {
     let ((sin, cos), x) = (x.rounded_sin_cos(), x.hi());
     if let Some((argument, [along_a, along_b])) = flat(a, b) {
@@ -51,7 +53,8 @@ pub(crate) fn continuous_polar(a: [f64; 2], b: [f64; 2], x: DoubleDouble) -> Pol
     Polar { base: start + sense * across.max(0.0).atan2(along), half_turns: sense * half_turns, radius: re.hypot(im) }
 }
 
-/// The line that a flat curve `a cos x + b sin x` runs on: its argument, and the components of a and b along it.
+/// For a curve `a cos x + b sin x` that is a line: the argument of the line, and the components of a and b along it.
+/// `None` if the curve is an ellipse.
 pub(crate) fn flat(a: [f64; 2], b: [f64; 2]) -> Option<(f64, [f64; 2])> {
     if winding(a, b) != 0.0 {
         return None;
@@ -62,7 +65,7 @@ pub(crate) fn flat(a: [f64; 2], b: [f64; 2]) -> Option<(f64, [f64; 2])> {
     Some((argument, [a, b].map(|end| end[0] * cos + end[1] * sin)))
 }
 
-/// Twice the area that a and b span; its sign is the sense in which the ellipse is run through.
+/// Signed area of the parallelogram of a and b. Its sign is the sense in which the ellipse is traced.
 fn winding(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -73,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_continuous_argument_never_jumps() {
-        // Ellipses of both senses, thin and wide, that start anywhere.
+        // Ellipses traced in both senses, thin and wide, from different starts.
         for (a, b) in [([1.0, 0.0], [0.2, 0.5]), ([0.3, -0.4], [0.1, -0.9]), ([0.5, 0.5], [-0.5, 1e-3])] {
             let step = 1e-4;
             let mut last = continuous_polar(a, b, 0.0.into()).argument();
@@ -91,8 +94,8 @@ mod tests {
     }
 
     #[test]
-    fn half_turns_have_twice_the_digits_of_pi() {
-        // What f64 leaves of π is its sine.
+    fn half_turns_are_accurate_to_twice_the_digits_of_f64() {
+        // sin(x) for x the f64 next to π is π - x.
         let rest = half_turns(1e9) - DoubleDouble::product(PI, 1e9);
         assert!((rest.hi() / (1e9 * PI.sin()) - 1.0).abs() < 1e-9);
     }

@@ -1,7 +1,10 @@
-//! How the landing answers to the launch: derivatives of attitude and cos θ.
+//! This file computes the derivatives of the attitude and of cos θ at landing with respect to the launch. They tell how
+//! precisely a hand must throw: how far the landing moves if a rate or the time of flight changes a little.
 //!
-//! The landing is Q0 turned by exp(Φ), Φ = T L with L = (ωx, ωy, k ωz), and then by -q T about n. With φ = |Φ|,
-//! ŝ = L/|L| and v the vertical in BF at landing, a change of the launch turns the landed coin, seen in BF, by
+//! The landed coin is the launched one, Q0, turned by the rotation vector Φ = T L with L = (ωx, ωy, k ωz), and then by
+//! -q T about n, where q = (k - 1) ωz. Let φ = |Φ|, ŝ = L/|L|, z(α) the rotation by α about the body's z axis, `[ŝ]×`
+//! the matrix of the cross product, and v the vertical in the body frame (BF) at landing. A change δω of the rate and
+//! δT of the time then turns the landed coin, in BF, by
 //!
 //! ```text
 //! δϑ = T z(qT) Jr diag(1, 1, k) δω - (k - 1) T ẑ δωz + ω(T) δT
@@ -14,17 +17,17 @@ use nalgebra::{Matrix3, Matrix3x4, Rotation3, Vector3, Vector4};
 
 use crate::motion::ExactMotion;
 
-/// Derivatives of a landing by ωx, ωy, ωz at launch (BF, rad/s) and the time of flight (s), in this order.
+/// Derivatives of a landing with respect to ωx, ωy, ωz at launch (BF, rad/s) and the time of flight (s), in this order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
-    /// Of the attitude: the turn δϑ (BF at landing, rad) by each input.
+    /// Derivatives of the attitude: a column for each input, the turn δϑ (BF at landing, rad) per unit of the input.
     pub attitude: Matrix3x4<f64>,
-    /// Of cos θ.
+    /// Derivatives of cos θ, per unit of each input.
     pub cos_tilt: Vector4<f64>,
 }
 
 impl Sensitivity {
-    /// At the landing of `toss`.
+    /// The derivatives at the landing of `toss`.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
@@ -45,7 +48,7 @@ impl Sensitivity {
     }
 }
 
-/// Jr of the turn Φ (rad).
+/// The right Jacobian Jr at the rotation vector Φ (rad).
 fn right_jacobian(turn: &Vector3<f64>) -> Matrix3<f64> {
     let phase = turn.norm();
     if phase == 0.0 {
@@ -67,9 +70,8 @@ mod tests {
         Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
     }
 
-    /// Both derivatives against central differences of the exact motion.
     #[test]
-    fn the_derivatives_are_those_of_finite_differences() {
+    fn both_derivatives_match_central_differences_of_the_exact_motion() {
         const STEP: f64 = 1e-5;
         let rates = [[1.0, 1.0, 2.5], [2.0, -3.1, 0.7], [0.0, 3.0, 0.0], [-0.3, 0.4, -0.6], [0.0, 0.0, 2.0], [0.0; 3]];
         for rate in rates {

@@ -1,19 +1,20 @@
-//! The exact motion as a solver.
+//! This file makes the exact motion a [`Solver`], so that it can be named, compared and used like the integrators. It
+//! takes no steps, and its outcomes are proven.
 
 use dynamics::{Outcome, Propagation, Settings, SolveError, Solver, SolverEntry, Toss, Work};
 
 use crate::certified::{certify, cos_tilt};
 use crate::motion::{COS_TILT_ERROR, ExactMotion};
 
-/// The solver by [`ExactMotion`]; it takes no steps. Its outcomes are those of [`certify`].
+/// The solver that evaluates [`ExactMotion`]. It takes no steps, and its outcomes are those of [`certify`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ExactSolver;
 
 impl ExactSolver {
-    /// Its name in the registry.
+    /// Name of the solver in the registry.
     pub const NAME: &'static str = "exact";
 
-    /// Its entry in the registry.
+    /// Entry of the solver in the registry.
     pub fn entry() -> SolverEntry {
         let summary = "closed form of the motion: precession about S, spin about n";
         SolverEntry::new(Self::NAME, summary, |_: &Settings| Box::new(Self)).with_color([0, 0, 0])
@@ -54,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn its_outcomes_are_the_proven_ones_whatever_cos_theta_it_is_given() {
+    fn outcomes_are_proven_and_ignore_the_given_cos_theta() {
         let launch = Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         assert_eq!(ExactSolver.outcome(&toss), Ok(Outcome::Heads));

@@ -1,11 +1,16 @@
-//! cos θ as three terms in f64, without a division: what decides an outcome, and what shares of heads are made of.
+//! This file writes cos θ as three terms in f64, all multiplied by the same positive scale. They decide most outcomes
+//! and give the shares of heads over a range of speeds; the scale saves the divisions, which the sign of cos θ does not
+//! need.
 //!
-//! With m the vertical seen from the body at launch, for a quaternion q of any norm, and L = (ωx, ωy, k ωz):
+//! Let Q be the attitude quaternion at launch (of any norm), m the vertical in the body frame (BF) at launch times
+//! |Q|², and L = (ωx, ωy, k ωz) the angular momentum divided by I1. Then
 //!
 //! ```text
-//! |q|² |L|² cos θ = A + B cos φ + C sin φ,   φ = |L| t
+//! |Q|² |L|² cos θ = A + B cos φ + C sin φ,   φ = |L| t
 //! A = (m·L) Lz,   B = mz (Lx² + Ly²) - (mx Lx + my Ly) Lz,   C = (mx Ly - my Lx) |L|
 //! ```
+//!
+//! Below, Ω² = Lx² + Ly². The rate of the spin is q = (k - 1) ωz.
 
 use dynamics::Toss;
 use nalgebra::Vector3;
@@ -14,8 +19,10 @@ use numerics::{Number, UNIT_ROUNDOFF};
 
 use crate::heads::HeadsPhases;
 
-/// Error of `mean`, `cosine` and `sine`, in parts of `size`. With u the [unit roundoff](UNIT_ROUNDOFF), N = |q|² and Ω² = Lx² + Ly²,
-/// each line from the lines before it and one rounding of its own (squares of u are in the rounding up of the last):
+/// Error of `mean`, `cosine` and `sine`, in units of `size`.
+///
+/// With u the [unit roundoff](UNIT_ROUNDOFF), N = |Q|² and Ω² = Lx² + Ly², each line follows from the lines before it
+/// and a rounding of its own. The largest, 11.8u, is rounded up to cover the squares of u.
 ///
 /// ```text
 /// Lz = k ωz             2u |Lz|           two rounded operations
@@ -32,13 +39,14 @@ use crate::heads::HeadsPhases;
 /// ```
 pub const TERM_ERROR: f64 = 12.0 * UNIT_ROUNDOFF;
 
-/// Relative error of the phase: 4u of |L|, u of the time, u of their product.
+/// Relative error of the phases: 4u from |L|, u from the time, u from their product.
 pub const PHASE_ERROR: f64 = 6.0 * UNIT_ROUNDOFF;
 
-/// Precessions slower than its square root count as none, in the unit of rates; squares above it keep their digits.
+/// Smallest |L|², in the square of the unit of rates, that counts as a precession. Squares above it keep all their
+/// digits.
 pub(crate) const SLOWEST_SQUARED: f64 = 1e-200;
 
-/// A, B and C/|L| in any kind of number, for the vertical m seen from the body, the momentum L, and Lx² + Ly².
+/// A, B and C/|L| in any kind of number, from the vertical m in BF, the momentum L, and Lx² + Ly².
 #[inline(always)]
 pub(crate) fn terms<N: Number>([m_x, m_y, m_z]: [N; 3], [x, y, z]: [N; 3], across_squared: N) -> [N; 3] {
     let level = m_x.clone().times_plus(x.clone(), m_y.clone() * y.clone());
@@ -47,25 +55,25 @@ pub(crate) fn terms<N: Number>([m_x, m_y, m_z]: [N; 3], [x, y, z]: [N; 3], acros
     [mean, cosine, m_x.times_plus(y, -(m_y * x))]
 }
 
-/// The terms of cos θ of a toss.
+/// The three terms of cos θ of a toss, with their scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TiltTerms {
-    /// A.
+    /// A, the term that does not depend on the phase.
     pub mean: f64,
-    /// B.
+    /// B, the factor of cos φ.
     pub cosine: f64,
-    /// C.
+    /// C, the factor of sin φ.
     pub sine: f64,
-    /// |q|² |L|², in the square of the unit of rates.
+    /// |Q|² |L|², the scale of the terms, in the square of the unit of rates.
     pub size: f64,
-    /// |L| = ωL and |q|, the rate of the spin, in the unit of rates.
+    /// Rates of precession, |L| = ωL, and of spin, |q|, in the unit of rates.
     rates: [f64; 2],
     /// Unit of rates (rad/s), a power of two.
     unit: f64,
 }
 
 impl TiltTerms {
-    /// The terms of a toss.
+    /// Computes the terms of a toss.
     #[inline]
     pub fn new(toss: &Toss) -> Self {
         let rate = toss.launch.rate();
@@ -75,7 +83,7 @@ impl TiltTerms {
         Self::of_momentum(toss, &momentum, squared, squared.sqrt(), unit)
     }
 
-    /// The terms of a toss whose `momentum` (BF) is known in a `unit` (rad/s) with its square and size.
+    /// The terms of a toss from its `momentum` L (BF), |L|² and |L|, all measured in the `unit` (rad/s).
     #[inline]
     pub(crate) fn of_momentum(toss: &Toss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
         let (x, y, z) = (momentum.x, momentum.y, momentum.z);
@@ -83,8 +91,8 @@ impl TiltTerms {
         let (vertical, norm) = toss.launch.attitude().vertical();
         let spin = ((toss.coin.inertia_ratio() - 1.0) * (toss.launch.rate().z / unit)).abs();
         if squared < SLOWEST_SQUARED {
-            // At rest. Or precessing so slowly next to the spin, whose rate is above ½ then, that the spin's phase is too
-            // large (2^53) when that of the precession is still below 1e-83.
+            // The coin is at rest, or its precession is slower than 1e-100 beside a spin faster than ½ (in the unit of
+            // rates). By the time the spin's phase is too large (2^53), that of the precession is still below 1e-83.
             return Self { mean: vertical[2], cosine: 0.0, sine: 0.0, size: norm, rates: [0.0, spin], unit };
         }
         let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
@@ -95,7 +103,7 @@ impl TiltTerms {
     #[inline]
     pub fn phases(&self, time: f64) -> [f64; 2] {
         let time = self.unit * time;
-        // A motion without a rate has phase 0 at any time, also where the product would be 0 · ∞.
+        // A rate of 0 gives phase 0 at any time, also where the product would be 0 · ∞.
         self.rates.map(|rate| if rate == 0.0 { 0.0 } else { rate * time })
     }
 
@@ -106,7 +114,7 @@ impl TiltTerms {
         self.mean + (self.cosine * cos + self.sine * sin)
     }
 
-    /// The phases at which the motion shows heads.
+    /// The phases ωL t at which the motion shows heads.
     pub fn heads(&self) -> HeadsPhases {
         HeadsPhases::new([self.mean, self.cosine, self.sine].map(|term| term / self.size), TERM_ERROR + UNIT_ROUNDOFF)
     }
@@ -136,20 +144,20 @@ mod tests {
     }
 
     #[test]
-    fn phases_are_those_of_precession_and_spin() {
+    fn phases_are_rates_of_precession_and_spin_times_the_time() {
         let terms = |k: f64, rate: [f64; 3]| {
             let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap();
             TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
         };
         assert_eq!(terms(0.5, [30.0, 0.0, -80.0]).phases(2.0), [100.0, 80.0]);
         assert_eq!(terms(1.5, [0.0; 3]).phases(f64::INFINITY), [0.0, 0.0]);
-        // The slowest precession that counts, next to a spin.
+        // The slowest precession that counts beside a spin, and a slower one.
         assert_eq!(terms(0.0, [1e-100, 0.0, 1.0]).phases(1e100), [1.0, 1e100]);
         assert_eq!(terms(0.0, [0.99e-100, 0.0, 1.0]).phases(1e100), [0.0, 1e100]);
     }
 
     #[test]
-    fn heads_are_shown_up_to_the_errors_of_the_terms() {
+    fn heads_have_the_errors_of_the_terms() {
         let launch =
             Launch::new(Vector3::new(3.0, 1.0, 0.5), TimeOfFlight::Given(1.0)).unwrap().with_tilt(0.3).unwrap();
         let terms = TiltTerms::new(&Toss { coin: Coin::PAPER, launch });

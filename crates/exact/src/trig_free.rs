@@ -1,10 +1,13 @@
-//! Outcomes that need no motion: no sine or cosine is evaluated.
+//! This file proves outcomes without evaluating a sine or cosine. Many tosses never change their face, or land before
+//! they can, and simple inequalities prove it at a fraction of the cost.
 //!
-//! By [`TiltTerms`], `size` cos θ = G(φ) = A + B cos φ + C sin φ. The outcome is certain
+//! [`TiltTerms`] gives `size` cos θ = G(φ) = A + B cos φ + C sin φ at the phase φ = ωL T of the landing. The outcome is
+//! certain in two cases:
 //!
-//! - at any time, if |A| > √(B² + C²): from horizontal this is ψ < 45°. It is the sign of A;
-//! - within a flight too short to flip, if |A + B| > |C| φ + ½ |B| φ² ≥ |G(φ) - G(0)|: the outcome of the launch. From
-//!   horizontal that is a phase of √2 or more.
+//! - The coin never changes its face: |A| > √(B² + C²). From horizontal this means ψ < 45° or ψ > 135°, ψ being the
+//!   angle between the coin's normal and its angular momentum. The outcome is the sign of A.
+//! - The flight is too short for a change: |A + B| > |C| φ + ½ |B| φ² ≥ |G(φ) - G(0)|. The outcome is that of the
+//!   launch, the sign of A + B. From horizontal this covers every phase below √2.
 
 use dynamics::phase::LARGEST_PHASE;
 use dynamics::{Outcome, Toss};
@@ -12,22 +15,23 @@ use numerics::UNIT_ROUNDOFF;
 
 use crate::tilt_terms::TiltTerms;
 
-/// ωL T, if this and |q| T are surely below [`LARGEST_PHASE`] and no digit of them is lost.
+/// The phase ωL T (rad) at landing. `None` if it or the phase |q| T of the spin may exceed [`LARGEST_PHASE`] or have
+/// lost digits.
 #[inline]
 pub(crate) fn phase_in_range(toss: &Toss, terms: &TiltTerms) -> Option<f64> {
     const SMALLEST_TIME: f64 = 1e-200;
     let time = toss.launch.flight_time();
     let [phase, spin] = terms.phases(time);
-    // A smaller time may have lost digits that count at the largest rates. Also false for a phase that is not a number.
+    // A smaller time may have lost digits that matter at the largest rates. The comparisons also reject a NaN.
     let in_range =
         (time >= SMALLEST_TIME || time == 0.0) && phase < 0.99 * LARGEST_PHASE && spin < 0.99 * LARGEST_PHASE;
     in_range.then_some(phase)
 }
 
-/// The proven outcome of a toss that needs no sine or cosine, else `None`, from its terms and the phase of its landing
-/// (rad).
+/// The proven outcome of a toss by its terms and the phase of its landing (rad). `None` if it takes a sine and cosine
+/// to tell.
 ///
-/// With u the [`UNIT_ROUNDOFF`] and each term off by at most 12u `size`:
+/// The errors, with u the [`UNIT_ROUNDOFF`] and an error of at most 12u `size` in each term:
 ///
 /// ```text
 /// |A| - √(B² + C²)              29u size          12u (1 + √2)
@@ -37,6 +41,8 @@ pub(crate) fn phase_in_range(toss: &Toss, terms: &TiltTerms) -> Option<f64> {
 /// |C| φ                         19u φ size        12u of C, 6u of φ, one product
 /// ½ |B| φ²                      13u φ² size       6u of B, 6u of φ², two products
 /// ```
+///
+/// The code uses 100 for the 78, and 32, 24 and 16 for the 25, 19 and 13; the difference is a margin.
 #[inline]
 pub(crate) fn trig_free_by(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
     let TiltTerms { mean, cosine, sine, size, .. } = *terms;
@@ -70,24 +76,24 @@ mod tests {
     }
 
     #[test]
-    fn below_45_degrees_and_before_the_first_flip_the_outcome_is_certain() {
-        // tan ψ = Ω/(k ωz).
+    fn the_outcome_is_certain_below_45_degrees_and_before_the_first_flip() {
+        // tan ψ = Ω/(k ωz), here just below and just above 1.
         assert_eq!(trig_free(&toss(2.0, [1.999, 0.0, 1.0], 0.0, 1e9)), Some(Outcome::Heads));
         assert_eq!(trig_free(&toss(2.0, [2.001, 0.0, 1.0], 0.0, 1e9)), None);
-        // End over end, the first flip is at a quarter of a turn; the certain time is √2 rad of it.
+        // End over end, the first flip is at π/2 rad; the inequality is certain up to √2 rad.
         assert_eq!(trig_free(&toss(2.0, [1.0, 0.0, 0.0], 0.0, SQRT_2 - 1e-8)), Some(Outcome::Heads));
         assert_eq!(trig_free(&toss(2.0, [1.0, 0.0, 0.0], 0.0, SQRT_2 + 1e-8)), None);
         // Upside down, and at rest.
         assert_eq!(trig_free(&toss(2.0, [1.0, 0.0, 9.0], 3.1, 1e9)), Some(Outcome::Tails));
         assert_eq!(trig_free(&toss(2.0, [0.0; 3], 2.0, 1.0)), Some(Outcome::Tails));
-        // A phase that means nothing is left to those who refuse it.
+        // A phase beyond the limit is not decided here, so that the caller can refuse it.
         assert_eq!(trig_free(&toss(2.0, [1.0, 0.0, 9.0], 0.0, 1e300)), None);
     }
 
-    /// Launches around both limits, down to a few units in the last place: cones of nearly 45° that land at their lowest,
-    /// and coins nearly on edge that land as they pass it.
+    /// The launches are near both limits, down to a few units in the last place: cones of nearly 45° that land at their
+    /// lowest point, and coins nearly on edge that land as they pass it.
     #[test]
-    fn what_is_certain_is_the_outcome_in_more_digits() {
+    fn certain_outcomes_are_those_of_multiprecision() {
         let mut decided = [0, 0];
         for index in 0..3000 {
             let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
@@ -110,40 +116,40 @@ mod tests {
         assert!(decided.iter().all(|decided| *decided > 700), "{decided:?}");
     }
 
-    /// Terms of one's choice.
+    /// Terms with these values instead of those of a toss.
     fn terms(mean: f64, cosine: f64, sine: f64, size: f64) -> TiltTerms {
         let mut terms = TiltTerms::new(&toss(1.0, [1.0, 0.0, 0.0], 0.0, 1.0));
         (terms.mean, terms.cosine, terms.sine, terms.size) = (mean, cosine, sine, size);
         terms
     }
 
-    /// The thresholds of the derivation: at them nothing is certain, a unit beyond them it is.
+    /// At each threshold the outcome is not yet certain; two units beyond it, it is.
     #[test]
-    fn what_is_certain_is_beyond_the_bounds_of_the_derivation() {
+    fn decides_only_beyond_its_thresholds() {
         const U: f64 = UNIT_ROUNDOFF;
         let certain_at = |terms: TiltTerms, phase: f64| trig_free_by(&terms, phase).is_some();
-        // At any time: A² - (B² + C²) above 100 u size². A phase of 10 leaves the other test out.
+        // The face never changes: A² - (B² + C²) above 100 u size². At a phase of 10 the other inequality never holds.
         for (units, certain) in [(448.0, false), (450.0, false), (452.0, true)] {
             assert_eq!(certain_at(terms(1.0, 1.0 - units * U, 0.0, 3.0), 10.0), certain, "{units}");
             assert_eq!(certain_at(terms(1.0, 0.0, 1.0 - units * U, 3.0), 10.0), certain, "{units}");
         }
-        // At launch: A + B above 32 u size.
+        // The flight is too short, at phase 0: A + B above 32 u size.
         for (units, certain) in [(94.0, false), (96.0, false), (98.0, true)] {
             assert_eq!(certain_at(terms(1.0, units * U - 1.0, 0.0, 3.0), 0.0), certain, "{units}");
         }
-        // After half a radian: A + B - |C| φ above (32 + 24 φ + 16 φ²) u size = 144 u.
+        // The same at half a radian: A + B - |C| φ above (32 + 24 φ + 16 φ²) u size = 144 u.
         for (units, certain) in [(142.0, false), (144.0, false), (146.0, true)] {
             for sign in [1.0, -1.0] {
                 let sine = sign * (2.0 - 2.0 * units * U);
                 assert_eq!(certain_at(terms(1.0, 0.0, sine, 3.0), 0.5), certain, "{units}");
             }
         }
-        // |A + B| - ½ |B| φ², with A = 0.
+        // |A + B| - ½ |B| φ² > 0, with A = 0: phases below √2.
         assert!(certain_at(terms(0.0, -1.0, 0.0, 1.0), 1.414) && !certain_at(terms(0.0, -1.0, 0.0, 1.0), 1.4143));
     }
 
     #[test]
-    fn phases_are_taken_up_to_a_hundredth_below_the_largest() {
+    fn accepts_phases_up_to_99_percent_of_the_largest() {
         let in_range = |k: f64, rate: [f64; 3], time: f64| {
             let toss = toss(k, rate, 0.0, time);
             phase_in_range(&toss, &TiltTerms::new(&toss)).is_some()

@@ -1,4 +1,5 @@
-//! Batches against single tosses: the same outcomes, the same landings to the last bits, and the same bits on every SIMD level.
+//! These tests compare batches with single tosses: the outcomes must be the same, the landings must agree to the last
+//! bits, and the results of a batch must be the same to the bit at every SIMD level.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// Weyl's sequence from a seed: rates up to `fastest` (rad/s) with both signs, speeds up to `speed` (m/s).
+    /// `count` launches from Weyl's sequence, with rates from -`fastest` to `fastest` (rad/s) and speeds up to `speed`
+    /// (m/s).
     fn new(count: u32, fastest: f64, speed: f64) -> Self {
         let part = |index: u32, irrational: f64| (f64::from(index) * irrational).fract();
         let column = |irrational| (0..count).map(|index| fastest * (2.0 * part(index, irrational) - 1.0)).collect();
@@ -26,7 +28,7 @@ impl Columns {
         Tosses::new(coin, attitude, 9.81, [x, y, z], &self.speeds).expect("columns of one length")
     }
 
-    /// Makes toss `index` another one.
+    /// Replaces the rates and the speed of toss `index`.
     fn set(&mut self, index: usize, [x, y, z, speed]: [f64; 4]) {
         for (column, value) in self.rates.iter_mut().zip([x, y, z]) {
             column[index] = value;
@@ -35,7 +37,7 @@ impl Columns {
     }
 }
 
-/// cos θ, the four columns of the attitude, outcomes.
+/// cos θ, the four columns of the attitude, and the outcomes.
 type Solved = (Vec<f64>, [Vec<f64>; 4], Vec<Outcome>);
 
 fn solved(batch: Batch<'_>, tosses: &Tosses<'_>) -> Result<Solved, Error> {
@@ -53,7 +55,7 @@ fn bits(tosses: Tosses<'_>, level: SimdLevel) -> (Vec<u64>, Vec<Outcome>) {
 }
 
 fn coins() -> [Coin; 4] {
-    // The third has a ratio that f64 does not hold, the last is a rod.
+    // The inertia ratio of the third has no exact f64; the last is nearly a rod.
     [
         Coin::PAPER,
         Coin::DISC,
@@ -71,7 +73,7 @@ fn attitudes() -> [Attitude; 4] {
     ]
 }
 
-/// Slow and fast tosses with, here and there, some that no kernel serves.
+/// Slow and fast tosses, with special cases in between, some of which no kernel solves.
 fn mixed(count: u32) -> Columns {
     let mut columns = Columns::new(count, 60.0, 5.0);
     let others = [
@@ -95,7 +97,7 @@ fn mixed(count: u32) -> Columns {
 }
 
 #[test]
-fn a_batch_is_its_tosses_to_the_last_bits() {
+fn a_batch_matches_its_single_tosses_to_the_last_bits() {
     for (coin, attitude) in coins().into_iter().flat_map(|coin| attitudes().map(|attitude| (coin, attitude))) {
         for columns in
             [Columns::new(5000, 60.0, 5.0), Columns::new(1000, 60.0, 0.0), Columns::new(1000, 1e4, 1e4), mixed(700)]
@@ -117,7 +119,7 @@ fn a_batch_is_its_tosses_to_the_last_bits() {
     }
 }
 
-/// Nor does a toss's neighbourhood: batches of every length, from other starts.
+/// The neighbours are changed by solving parts of the batch, of several lengths and from several starts.
 #[test]
 fn neither_the_simd_level_nor_the_neighbours_change_a_bit() {
     let has_vectors = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
@@ -144,10 +146,10 @@ fn neither_the_simd_level_nor_the_neighbours_change_a_bit() {
     }
 }
 
-/// Launches whose phases are nearer and nearer to one that lands on edge, down to the last digit of their speeds, after few
-/// turns and after many.
+/// The phases at landing approach one that lands on edge, down to the last digit of the speeds, after few turns and
+/// after many.
 #[test]
-fn next_to_an_edge_the_filter_is_right_or_leaves_it() {
+fn near_an_edge_the_filter_decides_rightly_or_not_at_all() {
     for (coin, attitude) in coins().into_iter().flat_map(|coin| attitudes().map(|attitude| (coin, attitude))) {
         for (turns, fewest_left) in [(0.0, 300), (3.0, 300), (1e5, 400), (1e8, 900)] {
             let mut columns = Columns::new(4000, 60.0, 5.0);
@@ -174,7 +176,7 @@ fn next_to_an_edge_the_filter_is_right_or_leaves_it() {
 }
 
 #[test]
-fn counts_are_those_of_the_outcomes() {
+fn counts_match_the_outcomes() {
     let columns = mixed(2000);
     for attitude in attitudes() {
         let tosses = columns.tosses(Coin::PAPER, attitude);
@@ -193,7 +195,7 @@ fn counts_are_those_of_the_outcomes() {
 }
 
 #[test]
-fn what_is_no_toss_is_refused_by_its_index_and_field() {
+fn rejects_invalid_launches_by_index_and_field() {
     for (bad, field) in [
         ([f64::NAN, 1.0, 1.0, 3.0], "rate x [rad/s]"),
         ([1.0, f64::INFINITY, 1.0, 3.0], "rate y [rad/s]"),
@@ -225,7 +227,7 @@ fn what_is_no_toss_is_refused_by_its_index_and_field() {
 }
 
 #[test]
-fn phases_beyond_all_digits_are_refused() {
+fn rejects_phases_above_two_to_the_53() {
     let mut columns = mixed(300);
     columns.set(123, [1e10, 0.0, 1.0, 1e9]);
     for attitude in attitudes() {
@@ -234,7 +236,7 @@ fn phases_beyond_all_digits_are_refused() {
         let too_large = |error: &Error, at| matches!(error, Error::Launch { index, source: SolveError::PhaseTooLarge { .. }, .. } if *index == at);
         assert!(too_large(&error, 123), "{error}");
         assert_eq!(batch.count().unwrap_err(), error);
-        // A rod that hardly precesses may spin too far.
+        // A rod that hardly precesses can still spin beyond the limit.
         let spinning = [[1e-3], [0.0], [1e16]];
         let rod = Coin::from_moments(1.0, 1e-13).unwrap();
         let tosses = Tosses::new(rod, attitude, 2.0, spinning.each_ref().map(|rate| &rate[..]), &[1.0]).unwrap();
@@ -244,14 +246,14 @@ fn phases_beyond_all_digits_are_refused() {
 }
 
 #[test]
-fn columns_of_different_lengths_and_impossible_gravities_are_refused() {
+fn rejects_columns_of_different_lengths_and_impossible_gravities() {
     let (two, three) = ([1.0, 2.0], [1.0, 2.0, 3.0]);
     let tosses = |gravity, speeds| Tosses::new(Coin::PAPER, Attitude::IDENTITY, gravity, [&two, &two, &two], speeds);
     assert_eq!(tosses(9.81, &three).unwrap_err().field(), "columns");
     for gravity in [0.0, -9.81, f64::NAN, f64::INFINITY] {
         assert!(matches!(tosses(gravity, &two), Err(InputError::OutOfRange { field: "gravity [m/s²]", .. })));
     }
-    // Far from ordinary, and solved all the same.
+    // Gravities beyond the range of the kernels are accepted; the tosses are solved one by one.
     for gravity in [1e-300, 1e60] {
         let mut outcomes = [Outcome::Undecided; 2];
         let tosses = tosses(gravity, &two).unwrap();

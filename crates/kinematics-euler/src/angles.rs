@@ -1,11 +1,15 @@
-//! The three Euler angles (5), solved for their derivatives:
+//! [`EulerAnglesSolver`], which integrates the three Euler angles α, β, γ by the paper's kinematics (5). It needs no
+//! derivation beyond (5), and so is the plainest of the integrators to compare the γ-ODE with.
+//!
+//! Solved for the derivatives, (5) reads
 //!
 //! ```text
 //! α' = D / sin β,   β' = ωx cos γ - ωy sin γ,   γ' = ωz - α' cos β,      D = ωx sin γ + ωy cos γ
 //! ```
 //!
-//! At sin β = 0 they read 0/0. A flight may start there (its limit is α' cos β = k ωz / 2) and may not come back: in
-//! the vertical frame that is a typed error, in the momentum frame β is constant.
+//! Here ω = (ωx, ωy, ωz) is the body rate. At sin β = 0 the equation for α' reads 0/0. A flight may start there, with
+//! the limit α' cos β = k ωz / 2, where k is the inertia ratio I3/I1. A return to sin β = 0 is a typed error in the
+//! vertical frame. In the momentum frame β is constant, so that no flight gets there.
 
 use std::f64::consts::PI;
 
@@ -20,7 +24,7 @@ use nalgebra::SVector;
 use crate::initial::InitialConditions;
 use crate::raw::RawAngles;
 
-/// The Euler angles' solver.
+/// The solver that integrates the three Euler angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAnglesSolver {
     stepping: Stepping,
@@ -28,10 +32,10 @@ pub struct EulerAnglesSolver {
 }
 
 impl EulerAnglesSolver {
-    /// Its name in the registry.
+    /// The solver's name in the registry.
     pub const NAME: &'static str = "euler";
 
-    /// Its entry in the registry.
+    /// The solver's entry for the registry.
     pub fn entry() -> SolverEntry {
         let build =
             |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
@@ -41,7 +45,7 @@ impl EulerAnglesSolver {
             .with_color([0, 114, 178])
     }
 
-    /// A solver of `formulation` that steps as `stepping` says.
+    /// A solver that integrates the equations of `formulation` with `stepping`.
     pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
         Self { stepping, formulation }
     }
@@ -76,11 +80,13 @@ impl Solver for EulerAnglesSolver {
     }
 }
 
-/// The right-hand side over (α, β, γ, ωx, ωy).
+/// The guarded system over the state (α, β, γ, ωx, ωy).
 struct AnglesSystem {
+    /// ωz.
     rate_z: f64,
+    /// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame.
     q: f64,
-    /// u = α' cos β where sin β = 0.
+    /// The limit of u = α' cos β at sin β = 0, k ωz / 2.
     limit_of_u: f64,
 }
 
@@ -95,7 +101,7 @@ impl OdeSystem<5> for AnglesSystem {
         let &[_, beta, gamma, rate_x, rate_y] = &y.data.0[0];
         let ((sin_beta, cos_beta), (sin_gamma, cos_gamma)) = (beta.sin_cos(), gamma.sin_cos());
         let precession = if beta == 0.0 || beta.abs() == PI {
-            // cos β is ±1, and its own inverse.
+            // α' = u/cos β, and cos β = ±1 is its own inverse.
             cos_beta * self.limit_of_u
         } else {
             (rate_x * sin_gamma + rate_y * cos_gamma) / sin_beta
@@ -124,7 +130,7 @@ mod tests {
 
     use super::*;
 
-    /// (5) against central differences of the exact angles, where the vertical frame is regular.
+    /// Compares (5) with central differences of the exact angles, on flights where the vertical frame is regular.
     #[test]
     fn the_derivatives_are_those_of_the_exact_motion() {
         for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)]
@@ -150,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn at_both_poles_the_limit_is_finite_and_keeps_the_spin() {
+    fn at_both_poles_the_derivatives_have_their_finite_limits() {
         for beta in [0.0, PI] {
             let system = AnglesSystem::new(0.5, 2.5);
             let derivative = system.derivative(&SVector::from([0.0, beta, 0.0, 3.0, 0.0]));
@@ -171,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_across_or_onto_a_pole_is_met_unless_it_was_launched_there() {
+    fn a_step_across_or_onto_a_pole_is_singular_unless_it_starts_there() {
         let system = AnglesSystem::new(0.5, 1.0);
         let met = |was: f64, is: f64| {
             let [before, after] = [was, is].map(|beta| SVector::from([0.0, beta, 0.0, 1.0, 0.0]));

@@ -1,4 +1,5 @@
-//! The γ-ODE (10), the paper's own equation: one of second order for the spin angle alone.
+//! [`GammaSolver`], which integrates the γ-ODE (10), the paper's own equation: one equation of second order for the
+//! spin angle γ. It is here to test the paper's equation, with guards at the points where that equation is singular.
 //!
 //! ```text
 //! γ'' + A γ' + B γ'² + C = 0                                                                            (10)
@@ -6,9 +7,12 @@
 //! D = ωx sin γ + ωy cos γ = α' sin β,   u = ωz - γ' = α' cos β,   β' = ωx cos γ - ωy sin γ             (8)
 //! ```
 //!
-//! (11) stands here with ωx' = -q ωy and ωy' = q ωx put in. The other two angles follow without dividing by cos β:
-//! β = atan2(s D, s u) (9) and α' = s √(D² + u²), where s is the sign of α', which cannot change: a flight on which
-//! α' vanishes meets D = u = 0, where (10) reads 0/0, and is a typed error.
+//! Here ω = (ωx, ωy, ωz) is the body rate, α the precession, β the nutation, k = I3/I1 and q = (k - 1) ωz. In (11),
+//! ωx' = -q ωy and ωy' = q ωx are inserted already.
+//!
+//! The other two angles follow without a division by cos β, which may be 0: β = atan2(s D, s u) from (9), and
+//! α' = s √(D² + u²), where s is the sign of α'. The sign is constant, because α' could only change it by vanishing. At
+//! that point D and u are 0 and (10) reads 0/0, which is a typed error.
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
@@ -21,14 +25,14 @@ use nalgebra::SVector;
 use crate::initial::InitialConditions;
 use crate::raw::RawGamma;
 
-/// Where |D| is smaller than this part of |β'|, rounding leaves (10) no digit: √ε.
+/// If |D| is below this fraction of |β'|, about √ε, rounding errors leave no correct digit of (10).
 const CANCELLATION_THRESHOLD: f64 = 1.5e-8;
 
-/// α' below this part of |ω|: D and u, from which β is recovered, have lost two digits against the rates that they are
-/// differences of.
+/// A flight is refused if |α'| falls below this fraction of the rates. D and u, from which β is recovered, are then
+/// small differences of the rates and have lost two digits.
 const SMALLEST_PRECESSION: f64 = 1e-2;
 
-/// The γ-ODE's solver.
+/// The solver that integrates the γ-ODE.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GammaSolver {
     stepping: Stepping,
@@ -36,10 +40,10 @@ pub struct GammaSolver {
 }
 
 impl GammaSolver {
-    /// Its name in the registry.
+    /// The solver's name in the registry.
     pub const NAME: &'static str = "gamma";
 
-    /// Its entry in the registry.
+    /// The solver's entry for the registry.
     pub fn entry() -> SolverEntry {
         let build =
             |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
@@ -49,7 +53,7 @@ impl GammaSolver {
             .with_color([213, 94, 0])
     }
 
-    /// A solver of `formulation` that steps as `stepping` says.
+    /// A solver that integrates the equations of `formulation` with `stepping`.
     pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
         Self { stepping, formulation }
     }
@@ -88,15 +92,17 @@ impl Solver for GammaSolver {
     }
 }
 
-/// The right-hand side over (γ, γ', α, ωx, ωy).
+/// The guarded system over the state (γ, γ', α, ωx, ωy).
 struct GammaSystem {
+    /// ωz.
     rate_z: f64,
+    /// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame.
     q: f64,
     /// s, the sign of α'.
     sense: f64,
 }
 
-/// What (8)-(11) are made of, at one state.
+/// D, u and β' of (8) at one state.
 struct Terms {
     d: f64,
     u: f64,
@@ -120,7 +126,7 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        // Without any precession D = u = 0, of either sign, and the flight was let pass because n rests at β = 0.
+        // D = u = 0 (each +0 or -0) is a coin without precession. Such a flight is accepted only if n rests at β = 0.
         let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
         EulerAngles { alpha: y[2], beta, gamma: y[0] }
     }
@@ -132,8 +138,8 @@ impl GammaSystem {
         // Each of A, B and C is a factor times β'/D.
         let (a, b, c) = (3.0 * rate_z - q, -2.0, -(rate_z * (rate_z - q) + d * d));
         let sum = a * gamma_rate + b * gamma_rate * gamma_rate + c;
-        // On the regular solution through sin β = 0 the sum vanishes like D²: γ'' = O(D), and 0 is as near as rounding
-        // lets any evaluation come. Without transverse rate (pure spin) γ' is constant.
+        // On the regular solution through sin β = 0 the sum vanishes like D², so that γ'' is of the order of D. There 0
+        // is as accurate as anything that rounding allows to compute. If β' = 0 too, as in pure spin, γ' is constant.
         let regular = sum.abs() <= CANCELLATION_THRESHOLD * (rate_z * rate_z + gamma_rate * gamma_rate);
         if beta_rate == 0.0 || (d.abs() <= CANCELLATION_THRESHOLD * beta_rate.abs() && regular) {
             return 0.0;
@@ -141,6 +147,7 @@ impl GammaSystem {
         -sum * (beta_rate / d)
     }
 
+    /// Whether |α'| is below [`SMALLEST_PRECESSION`] times the larger one of √(ωx² + ωy²) and |ωz|.
     fn precession_too_slow(&self, y: &SVector<f64, 5>) -> bool {
         let Terms { d, u, .. } = self.terms(y);
         d.hypot(u) < SMALLEST_PRECESSION * y[3].hypot(y[4]).max(self.rate_z.abs())
@@ -162,14 +169,14 @@ impl OdeSystem<5> for GammaSystem {
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
         let (was, is) = (self.terms(before), self.terms(after));
-        // A D of 0 is no crossing: along S a transverse rate next to nothing may underflow.
+        // D = 0 counts as no crossing, because a tiny transverse rate may underflow in the momentum frame.
         let crossed = was.d * is.d < 0.0;
         let stopped = self.precession_too_slow(after) && !self.precession_too_slow(before);
         let turned_back = crossed && was.u * is.u < 0.0;
         if stopped || turned_back {
             return Some(Singularity::PrecessionTooSlow);
         }
-        // At a launch from sin β = 0 the sign of D is a matter of rounding.
+        // At a launch from sin β = 0 rounding decides the sign of D, so that a change of it is no crossing.
         let started_there = was.d.abs() <= CANCELLATION_THRESHOLD * was.beta_rate.abs();
         (crossed && !started_there).then_some(Singularity::NormalAlongAxis)
     }

@@ -1,15 +1,17 @@
-//! Where the angles start: the frame they are taken in, and their values at launch.
+//! The initial conditions of both integrators: the frame in which the Euler angles α, β, γ are taken, and their values
+//! at launch. They are derived once, because a launch from horizontal is a singular point of the vertical frame.
 //!
-//! In the kinematics (5) write D = ωx sin γ + ωy cos γ = α' sin β and u = ωz - γ' = α' cos β. Angles taken in the frame
-//! F describe the attitude `Q = F ⊗ z(α) x(β) z(γ)`.
+//! In the kinematics (5) write D = ωx sin γ + ωy cos γ = α' sin β and u = ωz - γ' = α' cos β, where ω is the body rate.
+//! Angles taken in the frame F describe the attitude `Q = F ⊗ z(α) x(β) z(γ)`. Further, n is the coin's normal, S the
+//! angular momentum, k = I3/I1, ωL = |S|/I1 and q = (k - 1) ωz.
 //!
-//! - [`Formulation::MOMENTUM`]: F's z axis is along s S, where the sign s is that of k ωz, so that n is on its side:
-//!   β ≤ π/2, and a small sin β keeps its digits. Then β is constant, α' = s ωL and γ' = -q for the whole flight, with
-//!   γ(0) = atan2(s ωx, s ωy), α(0) = 0. S is known at launch; that it stays is conservation of angular momentum, and
-//!   the integration shows whether it does.
+//! - [`Formulation::MOMENTUM`]: the z axis of F is along s S, where s = ±1 is the sign of k ωz. This side of S is the
+//!   side of n, so that β ≤ π/2, and a small sin β keeps its digits. The angles start at γ(0) = atan2(s ωx, s ωy) and
+//!   α(0) = 0. In the exact motion β is constant, α' = s ωL and γ' = -q. F is computed at launch and assumed to stay
+//!   fixed, as it does if angular momentum is conserved; the integrated motion shows whether it is.
 //! - [`Formulation::VERTICAL`]: F = 1. At sin β = 0 the motion has the regular limit u = k ωz / 2 and
 //!   γ(0) = atan2(-ωy, ωx), where D = 0.
-//! - [`Formulation::RAW`]: F = 1 and no limit: 0/0 at sin β = 0.
+//! - [`Formulation::RAW`]: F = 1, and (5) as it is, which reads 0/0 at sin β = 0.
 
 use std::f64::consts::PI;
 
@@ -17,24 +19,25 @@ use dynamics::{
     Attitude, EulerAngles, Flight, Formulation, Frame, Propagation, SolveError, State, Toss, Vector3, Work,
 };
 
-/// A launch whose sin ½β or cos ½β is below this is taken as vertical: the attitude differs by less than rounding.
+/// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π), which changes its attitude by
+/// at most 2 ε = 4.4e-16 rad.
 const VERTICAL: f64 = f64::EPSILON;
 
-/// The angles at launch and the frame they are taken in.
+/// The frame of the angles, and their values and rates at launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct InitialConditions {
-    /// The frame F, as the turn from LF to it.
+    /// The frame F, as the turn from LF (the laboratory frame) to it.
     pub(crate) frame: Attitude,
-    /// Angles at launch.
+    /// The angles at launch (rad).
     pub(crate) angles: EulerAngles,
-    /// α' at launch, in the unit of `rate`.
+    /// α' at launch, in the unit of the rates.
     pub(crate) precession: f64,
-    /// u = α' cos β at launch, in the unit of `rate`.
+    /// u = α' cos β at launch, in the unit of the rates.
     pub(crate) u: f64,
 }
 
 impl InitialConditions {
-    /// `rate`: the body rate at launch (BF) in any unit.
+    /// The initial conditions of `toss`, whose body rate at launch is `rate` (BF, the body frame) in any unit.
     pub(crate) fn new(toss: &Toss, rate: &Vector3<f64>, formulation: Formulation) -> Self {
         let momentum_z = toss.coin.inertia_ratio() * rate.z;
         let attitude = toss.launch.attitude();
@@ -45,7 +48,7 @@ impl InitialConditions {
         }
     }
 
-    /// The landing at `angles` with the transverse rates `rate_x`, `rate_y` in the flight's unit.
+    /// The landing of `flight` at `angles`, with the transverse rates ωx and ωy in the flight's unit.
     pub(crate) fn landing(
         &self,
         flight: &Flight,
@@ -53,7 +56,7 @@ impl InitialConditions {
         [rate_x, rate_y]: [f64; 2],
         work: Work,
     ) -> Result<Propagation, SolveError> {
-        // D = u = 0 leaves no β.
+        // β is NaN if the raw γ-ODE ends at D = u = 0.
         if !angles.beta.is_finite() {
             return Err(flight.not_finite());
         }
@@ -61,7 +64,7 @@ impl InitialConditions {
         Ok(Propagation::new(state, work))
     }
 
-    /// Whether n is along the frame's axis and stays there: a pure spin, or no motion.
+    /// Whether n is along the frame's z axis and stays there, as in pure spin or at rest.
     pub(crate) fn rests_at_the_pole(&self, rate: &Vector3<f64>) -> bool {
         self.angles.beta == 0.0 && rate.x == 0.0 && rate.y == 0.0
     }
@@ -92,7 +95,7 @@ impl InitialConditions {
         Self { frame: Attitude::IDENTITY, angles, precession, u }
     }
 
-    /// By (5), which has no answer at sin β = 0.
+    /// The rates by (5), which are not finite at sin β = 0.
     fn from_kinematics(angles: EulerAngles, rate: &Vector3<f64>) -> Self {
         let (sin_gamma, cos_gamma) = angles.gamma.sin_cos();
         let precession = (rate.x * sin_gamma + rate.y * cos_gamma) / angles.beta.sin();
@@ -120,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn up_to_a_rounding_from_the_pole_a_launch_is_taken_as_vertical() {
+    fn a_launch_within_rounding_of_the_pole_is_taken_as_vertical() {
         for (half_beta, vertical) in [(VERTICAL, true), (2.0 * VERTICAL, false)] {
             for components in [[1.0, half_beta, 0.0, 0.0], [half_beta, 1.0, 0.0, 0.0]] {
                 let found = start([1.0, 2.0, 3.0], components, Formulation::VERTICAL);

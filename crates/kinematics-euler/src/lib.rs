@@ -1,8 +1,12 @@
-//! The flight integrated in Euler angles z-x-z: as the three angles (5), and as the γ-ODE (10).
+//! Two integrators of the flight in Euler angles z-x-z, α (precession), β (nutation) and γ (spin): one solves the three
+//! angles (5), the other the γ-ODE (10), the paper's own equation. They exist to compare the paper's equations with the
+//! exact motion.
 //!
-//! Both follow the same angles from the same initial conditions, as their [`Formulation`](dynamics::Formulation) has it; the file
-//! `initial.rs` derives them, with the regular limit at sin β = 0, and `raw.rs` has both systems without any guard. Both
-//! carry ωx and ωy by Euler's equations (1) in their state, never by the closed-form solution.
+//! Numbers in parentheses are equations of the paper "Modeling the unfair toss of an unbiased coin"; symbols are those
+//! of [`dynamics`]. Both integrators start from the same initial conditions (`initial.rs`), which follow from the
+//! [`Formulation`](dynamics::Formulation) and include the regular limit at sin β = 0. Both systems without any guard,
+//! exactly as the paper prints them, are in `raw.rs`. The states include ωx and ωy, integrated by Euler's equations
+//! (1); the closed-form solution is never used.
 
 pub mod angles;
 pub mod gamma;

@@ -1,13 +1,12 @@
-//! The paper's two systems, (5) and (9)-(11), exactly as it prints them, with nothing to guard their singular points.
-//!
-//! They are here to be compared with, not to be relied on: an answer may be wrong without an error.
+//! The paper's two systems, (5) and (9)-(11), exactly as it prints them, without guards at their singular points. They
+//! show where the printed equations fail, and should not be relied on: an answer may be wrong without an error.
 
 use dynamics::EulerAngles;
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use nalgebra::SVector;
 
-/// ωz and q, all that both right-hand sides need of the coin.
+/// The constants of both right-hand sides: ωz, and q = (k - 1) ωz with the inertia ratio k.
 struct Spin {
     rate_z: f64,
     q: f64,
@@ -19,7 +18,7 @@ impl Spin {
     }
 }
 
-/// (5) over (α, β, γ, ωx, ωy): 0/0 at sin β = 0.
+/// The system (5) over the state (α, β, γ, ωx, ωy). It reads 0/0 at sin β = 0.
 pub(crate) struct RawAngles(Spin);
 
 impl RawAngles {
@@ -39,8 +38,8 @@ impl OdeSystem<5> for RawAngles {
     }
 }
 
-/// (10) and (11) over (γ, γ', α, ωx, ωy), with β from tan β = D/u (9) and α' = u/cos β: 0/0 at D = 0, and the quadrant
-/// of β is lost.
+/// The system (10) and (11) over the state (γ, γ', α, ωx, ωy), with β from tan β = D/u (9) and α' = u/cos β. It reads
+/// 0/0 at D = 0, and the arc tangent loses the quadrant of β.
 pub(crate) struct RawGamma(Spin);
 
 impl RawGamma {
@@ -48,6 +47,7 @@ impl RawGamma {
         Self(Spin::new(inertia_ratio, rate_z))
     }
 
+    /// The angles at the state `y`, with β between -π/2 and π/2.
     pub(crate) fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let &[gamma, gamma_rate, alpha, rate_x, rate_y] = &y.data.0[0];
         let (sin, cos) = gamma.sin_cos();
@@ -76,7 +76,8 @@ impl OdeSystem<5> for RawGamma {
 mod tests {
     use super::*;
 
-    /// With D = α' sin β and u = α' cos β, D' u - D u' = α'² β' = (D² + u²) β'. From u' = -γ'' follows γ'' without (10).
+    /// From D = α' sin β and u = α' cos β follows D' u - D u' = α'² β' = (D² + u²) β'. With u' = -γ'' this gives γ''
+    /// without (10), to compare with.
     #[test]
     fn the_gamma_equation_is_the_kinematics_differentiated() {
         for (k, rate_z) in [(0.5, 2.5), (1.98, -0.7), (1.0, 3.0), (0.0, 1.1)] {

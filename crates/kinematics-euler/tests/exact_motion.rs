@@ -1,4 +1,5 @@
-//! Both solvers in every formulation against the exact motion, from launches where that formulation is regular.
+//! Tests of both solvers, in every formulation, against the exact motion. The launches are regular in the formulation,
+//! except where a test shows how the paper's printed equations fail.
 
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ fn solvers(formulation: Formulation) -> [Box<dyn Solver>; 2] {
     [Box::new(GammaSolver::new(method(), formulation)), Box::new(EulerAnglesSolver::new(method(), formulation))]
 }
 
-/// A toss whose launch is turned by `attitude`.
+/// A toss with this attitude at launch.
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
     let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).expect("valid");
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_attitude(attitude) }
@@ -43,7 +44,7 @@ fn check(formulation: Formulation, tosses: &[Toss]) {
     }
 }
 
-/// Launches whose angular momentum points up and down, ahead and back, with and without spin.
+/// Body rates with spin of both signs and without, with transverse rates in several directions and without.
 const RATES: [[f64; 3]; 8] = [
     [1.0, 1.0, 2.5],
     [-1.0, 2.0, -3.0],
@@ -65,7 +66,7 @@ fn along_the_momentum_every_launch_is_regular() {
     }
 }
 
-/// From both poles, turned about the vertical before and after; it lands before n is back.
+/// Launches from both poles, turned about the vertical, with flights that end before n is vertical again.
 #[test]
 fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
     for pole in [0.0, PI] {
@@ -78,12 +79,13 @@ fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
     }
 }
 
-/// Launches whose cone around S holds the vertical: α' never vanishes, nor does cos β on a flight this short.
+/// Launches whose cone around S contains the vertical, so that α' never vanishes, on flights so short that cos β does
+/// not vanish either.
 fn regular_in_the_vertical_frame() -> Vec<Toss> {
     let up = [([0.3, 1.6, 1.4], 1.0), ([0.5, 2.0, 0.9], 0.8), ([-0.6, 1.5, 1.2], 0.7)];
     up.into_iter()
         .flat_map(|([x, y, z], tilt)| {
-            // The same motion backwards, with S down.
+            // The second rate is the same motion backwards, with S down.
             [[x, y, z], [-x, -y, -z]].map(|rate| {
                 let attitude = at(0.3, tilt, -0.2);
                 toss(1.98, rate, attitude, 0.25)
@@ -99,7 +101,7 @@ fn away_from_the_poles_every_formulation_is_right() {
     }
 }
 
-/// (9) read as the paper prints it, by tan β, loses the quadrant of β; with atan2 it is kept.
+/// (9) as the paper prints it, by tan β, loses the quadrant of β. The vertical formulation, by atan2, keeps it.
 #[test]
 fn as_printed_the_gamma_ode_loses_the_quadrant_of_beta() {
     let upside_down = at(0.0, 2.2, 0.0);
@@ -127,7 +129,7 @@ fn as_printed_a_horizontal_launch_is_0_over_0() {
 }
 
 #[test]
-fn solvers_say_what_they_are() {
+fn solvers_report_their_name_and_stepping() {
     for formulation in Formulation::ALL {
         let [gamma, euler] = solvers(formulation);
         assert_eq!((gamma.name(), gamma.stepping()), ("gamma", Some(method())));

@@ -1,5 +1,6 @@
-//! What the solver costs beside the bare stepper: the same right-hand side, start, tolerance and flight, once through
-//! [`QuaternionSolver`] and once through `ode_solvers`' DOP853 alone. Read the ratio of the two.
+//! Benchmark of the overhead of [`QuaternionSolver`] over the stepper DOP853 of `ode_solvers` alone, with the same
+//! right-hand side, start, tolerance and flight. Compare the ratio of the two times, which depends less on the machine
+//! than either.
 
 use std::hint::black_box;
 
@@ -29,7 +30,7 @@ fn toss() -> Toss {
     Toss { coin: Coin::PAPER, launch }
 }
 
-/// The stepper with its own defaults, but sparse output as the solver has it.
+/// The end state by the stepper alone, with its default settings except sparse output, which the solver uses too.
 fn bare(toss: &Toss) -> SVector<f64, 6> {
     let scale = power_of_two_scale(toss.launch.rate().amax());
     let rate = toss.launch.rate() / scale;

@@ -1,12 +1,15 @@
-//! The flight integrated as a quaternion: Q' = ½ Q ⊗ (0, ω).
+//! The integrator of the flight as a quaternion, Q' = ½ Q ⊗ (0, ω), where Q is the attitude and ω the body rate. Unlike
+//! the Euler angles, the quaternion has no singular attitude, so that no launch needs a special case.
 //!
-//! The quaternion P that leads from the launch attitude Q0 to the attitude Q = Q0 ⊗ P starts at 1 for every toss, so
-//! neither error nor work depends on how the coin is held at launch. No attitude is singular.
+//! What is integrated is the quaternion P that leads from the attitude Q0 at launch to the attitude Q = Q0 ⊗ P. It
+//! starts at 1 for every toss, so that neither the error nor the work depends on how the coin is held at launch.
 //!
-//! The state is (P, ωx, ωy): the body rate comes from Euler's equations (1), integrated along with the attitude, never
-//! from their closed-form solution. Rates are dimensionless, as a [`Flight`] has them. `dynamics::integrate` steps it
-//! by Runge and Kutta's methods; Taylor series, which need more of a system than its right-hand side, are here:
-//! `taylor.rs` has a step, `lockstep.rs` the flights.
+//! The state is (P, ωx, ωy). The body rate is integrated along with the attitude, by Euler's equations (1) of the
+//! paper; their closed-form solution is never used. Rates are dimensionless, as in a [`Flight`].
+//!
+//! The Runge-Kutta schemes are those of `dynamics::integrate`. Taylor series are in this crate, because they need the
+//! recurrences of the coefficients in addition to the right-hand side: `taylor.rs` computes one step, and `lockstep.rs`
+//! runs the flights.
 
 mod lockstep;
 mod product;
@@ -23,23 +26,24 @@ use numerics::lanes::SimdLevel;
 
 use crate::lockstep::Plans;
 
-/// Taylor series of an order that follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
+/// The scheme by Taylor series, whose order follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
 pub const TAYLOR: Scheme = Scheme::new("taylor", None).adaptive();
 
-/// The quaternion's solver.
+/// The solver that integrates the quaternion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuaternionSolver {
     stepping: Stepping,
+    /// Whether cos θ is that of the quaternion projected onto unit norm.
     projects: bool,
-    /// `None` for a Runge-Kutta scheme.
+    /// The plans of the steps by Taylor series; `None` for a Runge-Kutta scheme.
     taylor: Option<Plans>,
 }
 
 impl QuaternionSolver {
-    /// Its name in the registry.
+    /// The solver's name in the registry.
     pub const NAME: &'static str = "quaternion";
 
-    /// Its entry in the registry.
+    /// The solver's entry for the registry.
     pub fn entry() -> SolverEntry {
         let [dop853, dopri5, rk4] = Scheme::RUNGE_KUTTA;
         let build =
@@ -50,8 +54,8 @@ impl QuaternionSolver {
             .with_color([0, 158, 115])
     }
 
-    /// A solver that steps as `stepping` says. Without [guards](Formulation::is_guarded) its cos θ is that of the quaternion
-    /// as it was integrated, without projection onto unit norm.
+    /// A solver that integrates with `stepping`. In a formulation without [guards](Formulation::is_guarded), cos θ is
+    /// computed from the quaternion as it was integrated, without projection onto unit norm.
     pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
         let taylor = match (stepping.scheme(), stepping.control()) {
             (TAYLOR, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
@@ -60,8 +64,9 @@ impl QuaternionSolver {
         Self { stepping, projects: formulation.is_guarded(), taylor }
     }
 
-    /// The landings of `tosses`, in their order, each with the same bits as by [`Solver::propagate`]. By
-    /// [`TAYLOR`] as many fly at once as a register at the SIMD `level` has lanes; by the others one after the other.
+    /// The landings of `tosses`, in their order, each with the same bits as from [`Solver::propagate`]. With [`TAYLOR`]
+    /// as many flights are computed at once as a register at the SIMD `level` has lanes; with the other schemes, one
+    /// after the other.
     pub fn propagate_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
         let Some(plans) = &self.taylor else {
             return tosses.iter().map(|toss| self.propagate(toss)).collect();
@@ -71,7 +76,7 @@ impl QuaternionSolver {
         landings
     }
 
-    /// Hands the number and the landing of each of `tosses` to `land`, by Taylor series.
+    /// Solves `tosses` by Taylor series, and calls `land` with the index and the landing of each, in any order.
     fn fly(
         &self,
         tosses: &[Toss],
@@ -84,10 +89,12 @@ impl QuaternionSolver {
         });
     }
 
+    /// The landing of `toss` from the integrated end state.
     fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
         let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
-        // Rounding and truncation change the norm; only the direction is the attitude. To project after each step would
-        // give the same: the equation, and so each step, is linear in the quaternion, and a factor stays a factor.
+        // Rounding and truncation change the norm, but the attitude is the direction of the quaternion alone. One
+        // projection at the end is enough: the equation is linear in the quaternion, and so each step keeps a wrong
+        // norm as a factor.
         let norm = SVector::from(turn).norm();
         let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
         let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
@@ -123,7 +130,7 @@ impl Solver for QuaternionSolver {
         self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
     }
 
-    /// By Taylor series as many fly at once as a register has lanes.
+    /// With Taylor series, computes as many flights at once as a register has lanes.
     fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
         let each = (0..tosses.len()).map(|index| tosses.solve(index, |toss| Ok(*toss)));
@@ -135,26 +142,29 @@ impl Solver for QuaternionSolver {
     }
 }
 
-/// A flight at its end.
+/// The end state of an integrated flight.
 #[derive(Debug, Clone, Copy)]
 struct Landed {
     flight: Flight,
-    /// P, as integrated.
+    /// P, before it is normalised.
     turn: [f64; 4],
     /// ωx and ωy in the flight's unit.
     rate: [f64; 2],
     work: Work,
 }
 
-/// The right-hand side over (w, x, y, z, ωx, ωy); all rates in one unit, whose inverse is the unit of time.
+/// The system over the state (w, x, y, z, ωx, ωy), where (w, x, y, z) is P. Rates may be in any unit; its inverse is
+/// the unit of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuaternionSystem {
+    /// ωz.
     rate_z: f64,
+    /// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame.
     q: f64,
 }
 
 impl QuaternionSystem {
-    /// The system of a coin of inertia ratio `inertia_ratio` = I3/I1 that spins at `rate_z` = ωz.
+    /// The system for a coin with `inertia_ratio` k = I3/I1 and spin `rate_z` = ωz.
     pub fn new(inertia_ratio: f64, rate_z: f64) -> Self {
         Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z) }
     }
@@ -188,7 +198,7 @@ mod tests {
         Toss { coin: Coin::PAPER, launch: launch.with_tilt(tilt).unwrap() }
     }
 
-    /// Q' = ½ Q ⊗ (0, ω) against central differences of the exact attitude.
+    /// Compares Q' = ½ Q ⊗ (0, ω) with central differences of the exact attitude.
     #[test]
     fn the_derivative_is_that_of_the_exact_motion() {
         let motion = ExactMotion::new(&toss(0.4));
@@ -220,8 +230,8 @@ mod tests {
     }
 
     #[test]
-    fn the_norm_error_is_the_loss_of_norm_of_the_steps() {
-        // A turn by RK4 loses (ωh/2)⁶/144 of its norm in each step.
+    fn the_norm_error_is_the_sum_of_the_norms_lost_in_the_steps() {
+        // In a steady turn, RK4 loses the fraction (ωh/2)⁶/144 of the norm in each step of length h.
         let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
         let solver = QuaternionSolver::new(Stepping::fixed(Scheme::RK4, 0.05).unwrap(), Formulation::default());
         let landing = solver.propagate(&Toss { coin: Coin::DISC, launch }).unwrap();
@@ -230,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn raw_leaves_the_norm_in_cos_theta() {
+    fn raw_computes_cos_theta_without_dividing_by_the_norm() {
         let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::DISC, launch };
         let method = Stepping::fixed(Scheme::RK4, 0.05).unwrap();
@@ -242,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_batch_has_the_landings_of_its_tosses_in_their_order_by_any_scheme() {
+    fn many_tosses_land_as_they_do_one_by_one_in_their_order() {
         let [x, y, z, speed] = [[9.0, 3.0, 0.0], [-4.0, 2.0, 1.0], [3.0, 0.5, 2.0], [3.0, 4.0, 5.0]];
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
         for scheme in [TAYLOR, Scheme::DOP853] {

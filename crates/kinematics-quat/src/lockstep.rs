@@ -1,8 +1,12 @@
-//! Flights by Taylor series, as many at once as a vector has lanes.
+//! Integrates flights by Taylor series, as many at once as a SIMD vector has lanes. Each instruction then
+//! works on a different flight in each lane, which makes large batches fast.
 //!
-//! A lane whose flight has landed takes the next one, so that no lane waits for its neighbours. What a lane computes
-//! depends on its flight alone, neither on its neighbours nor on the width of the vector, so that landings have the
-//! same bits in any company and on any machine.
+//! A lane whose flight has landed takes the next flight, so that no lane waits for the others. The result of a lane
+//! depends on its flight alone, neither on the other lanes nor on the width of the vector. A landing therefore has the
+//! same bits whichever flights are solved with it, and on every machine.
+//!
+//! Symbols are those of the file `taylor.rs`: η = ½ (ωx + i ωy) is half the transverse rate, and q the rate at which it
+//! turns.
 
 use dynamics::integrate::STEP_LIMIT;
 use dynamics::{Flight, SolveError, Toss, Work};
@@ -12,40 +16,43 @@ use crate::product::turned;
 use crate::taylor::{LARGEST_ORDER, Series};
 use crate::{Landed, QuaternionSystem};
 
-/// As many lanes as the widest vectors have.
+/// The number of lanes of the widest vectors.
 const MOST_LANES: usize = 8;
 
-/// Octaves by which the shortest step is lengthened as far as its last terms allow, from the largest on.
+/// Exponents of two by which the shortest step is multiplied, tried one after the other from the largest on. A factor
+/// is kept if the last terms of the series allow it.
 const OCTAVES: [f64; 6] = [2.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
 
-/// Above the rate of any term of the series (in the unit of [`Flight`], in which no component of ω reaches 2): half the sum
-/// of ωL and |q|, with I3 ≤ 2 I1.
+/// An upper bound of the rates at which terms of the series turn, ½ (ωL + |q|) with I3 ≤ 2 I1, in the unit of
+/// [`Flight`], in which no component of ω reaches 2.
 const FASTEST: f64 = 4.0;
 
-/// Tolerances below it ask for compensated rates: without them an error of ε |ω| a step comes to 1e-13 in a flight of 100 rad.
+/// Tolerances below this one need compensated rates, that is, η with twice as many digits. Without them the rounding
+/// error of ε |ω| in each step adds up to 1e-13 in a flight of 100 rad.
 const ROUNDING: f64 = 5e-13;
 
-/// How a step is taken.
+/// The constants of a step that follow from the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
     tolerance: f64,
-    /// Even.
+    /// The order of the series, which is even.
     order: usize,
     /// Whether η is carried with twice as many digits.
     compensates: bool,
-    /// The shortest step, and its powers that belong to the last two terms.
+    /// The shortest step, with which the last term is within the tolerance at the fastest rates.
     shortest: f64,
+    /// The powers of the shortest step in the last two terms of the series.
     powers: [f64; 2],
-    /// For each of [`OCTAVES`], by what it lengthens the step and the last term.
+    /// For each of [`OCTAVES`], the factors by which it multiplies the step and the last term.
     growth: [[f64; 2]; OCTAVES.len()],
 }
 
 impl Plan {
-    /// For local errors of `tolerance`.
+    /// The constants for local errors of `tolerance`.
     fn new(tolerance: f64) -> Self {
         let order = order(tolerance);
         let degree = order as f64;
-        // exp(i λ t) has the last term tolerance at (tolerance order!)^(1/order)/λ.
+        // The last term of the series of exp(i λ t) is (λ t)^order/order!, which is the tolerance at this time:
         let factorial: f64 = (1..=order).map(|k| k as f64).product();
         let shortest = (tolerance * factorial).powf(1.0 / degree) / FASTEST;
         let power = std::iter::repeat_n(shortest, order - 1).product::<f64>();
@@ -60,29 +67,31 @@ impl Plan {
     }
 }
 
-/// The even order that takes the least time for an error, by measurement: 18 for 1e-3 and 26 from 1e-7 on. The time changes
-/// by less than a tenth for four orders more or less.
+/// The even order that was measured to take the least time for a given error: 18 for a tolerance of 1e-3, and 26 from
+/// 1e-7 on. Four orders more or less change the time by less than a tenth.
 fn order(tolerance: f64) -> usize {
     let decades = -tolerance.log10();
     let half = (6.5 + 0.83 * decades).ceil();
     (2 * half as usize).min(LARGEST_ORDER)
 }
 
-/// How flights of one tolerance are stepped.
+/// The plans of a solver with a given tolerance, for short and for long flights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plans {
     short: Plan,
-    /// Long flights have a tighter tolerance each: they take the order of the finest one, and compensated rates.
+    /// The plan of [long](Flight::is_long) flights. Each of them has a tolerance of its own, so that all take the order
+    /// of the finest tolerance, and compensated rates.
     long: Plan,
 }
 
 impl Plans {
-    /// For local errors of `tolerance`.
+    /// The plans for local errors of `tolerance`.
     pub(crate) fn new(tolerance: f64) -> Self {
         Self { short: Plan::new(tolerance), long: Plan { tolerance, ..Plan::new(f64::EPSILON) } }
     }
 
-    /// Flies `tosses`, the long flights after all others, and gives `land` the number and the landing of each.
+    /// Solves `tosses`, first the short flights and then the long ones, and calls `land` with the index and the landing
+    /// of each.
     pub(crate) fn fly(
         &self,
         tosses: &[Toss],
@@ -97,39 +106,46 @@ impl Plans {
     }
 }
 
-/// Flights to be made.
+/// One pass through the tosses, for either the long flights or the short ones.
 struct Queue<'a> {
     plan: &'a Plan,
-    /// Whether the long flights are wanted, or all others; and whether such were skipped as are not.
+    /// Whether this pass solves the long flights, and skips the short ones, or the other way round.
     long: bool,
+    /// Whether a toss was skipped.
     skipped: bool,
     tosses: &'a [Toss],
+    /// The index of the next toss.
     next: usize,
     land: &'a mut dyn FnMut(usize, Result<Landed, SolveError>),
 }
 
-/// A number for each lane.
+/// One number for each lane.
 type PerLane = [f64; MOST_LANES];
 
-/// Where the flights are. Rates are halved.
+/// The state of the flight in each lane, in the unit of its [`Flight`].
 #[derive(Default)]
 #[repr(align(64))]
 struct Lanes {
+    /// P = (w, x, y, z), as in [`Landed`].
     attitude: [PerLane; 4],
+    /// η = ½ (ωx + i ωy).
     eta: [PerLane; 2],
+    /// The rounding error of η, if it is compensated.
     eta_low: [PerLane; 2],
+    /// ½ ωz.
     half_z: PerLane,
     q: PerLane,
-    /// Dimensionless time that is left.
+    /// Remaining dimensionless time.
     left: PerLane,
     inverse_tolerance: PerLane,
+    /// The number of steps so far.
     steps: [u32; MOST_LANES],
-    /// Which toss flies, and its flight.
+    /// The index of the toss in this lane and its flight; `None` for an idle lane.
     flying: [Option<(usize, Flight)>; MOST_LANES],
 }
 
 impl WithSimd for Queue<'_> {
-    /// Whether flights were skipped.
+    /// Whether a toss was skipped.
     type Output = bool;
 
     #[inline(always)]
@@ -152,7 +168,7 @@ impl WithSimd for Queue<'_> {
 }
 
 impl Queue<'_> {
-    /// Puts the next wanted flight into `lane`. One that ends where it starts lands at once.
+    /// Puts the next flight of this pass into `lane`. A flight of no duration or without rotation lands at once.
     fn start(&mut self, lanes: &mut Lanes, lane: usize) {
         while let Some(toss) = self.tosses.get(self.next) {
             let index = self.next;
@@ -174,7 +190,7 @@ impl Queue<'_> {
 }
 
 impl Lanes {
-    /// Puts the launch of a toss into `lane`.
+    /// Sets `lane` to the launch of `toss`.
     fn launch(&mut self, lane: usize, plan: &Plan, toss: &Toss, flight: Flight) {
         let QuaternionSystem { rate_z, q } = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
@@ -187,7 +203,7 @@ impl Lanes {
         self.inverse_tolerance[lane] = 1.0 / flight.tightened(plan.tolerance);
     }
 
-    /// One step in each lane.
+    /// Takes one step in each lane.
     #[inline(always)]
     fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut Series<S>) {
         let load = |numbers: &PerLane| Real::load(simd, numbers);
@@ -208,14 +224,15 @@ impl Lanes {
             (complex_product(eta, series.turn_of_eta(order, h)), [h.constant(0.0); 2])
         };
         let [u, v] = series.turn(order, h);
-        // v in the body's own axes.
+        // The direction of η turns v back into the axes of the body.
         let attitude = turned(self.attitude.each_ref().map(load), [u, complex_product(direction, v)]);
         store(attitude, &mut self.attitude);
         store(after, &mut self.eta);
         store(lost, &mut self.eta_low);
     }
 
-    /// The longest step whose last two terms are within the tolerance, or all that is left, which it is taken from.
+    /// The length of the next step in each lane: the shortest step times all of [`OCTAVES`] with which the last two
+    /// terms stay within the tolerance, but no more than the remaining time. It is subtracted from the remaining time.
     #[inline(always)]
     fn step<S: Simd>(&mut self, simd: S, plan: &Plan, series: &Series<S>) -> Real<S> {
         let left = Real::load(simd, &self.left);
@@ -230,14 +247,15 @@ impl Lanes {
             let within = larger_term.at_most(constant(1.0));
             (h, term) = (within.choose(longer_h, h), within.choose(larger_term, term));
         }
-        // As a multiple of the last bit of what is left, so that the difference is exact.
+        // The step is rounded to a multiple of the last bit of the remaining time, so that the subtraction is exact.
         let h = (left + h) - left;
         let h = h.less_than(left).choose(h, left);
         (left - h).store(&mut self.left);
         h
     }
 
-    /// The number and the end of the flight in `lane`, if the step was its last.
+    /// Counts the step of `lane`. If the flight has landed or has reached the limit of steps, returns the index of its
+    /// toss and its end, and leaves the lane idle.
     #[inline(always)]
     fn landed(&mut self, lane: usize, plan: &Plan) -> Option<(usize, Result<Landed, SolveError>)> {
         let (index, flight) = self.flying[lane]?;
@@ -254,11 +272,12 @@ impl Lanes {
         Some((index, Ok(self.landing(lane, flight, plan))))
     }
 
-    /// Leaves `lane` to idle: a step of no length changes nothing.
+    /// Makes `lane` idle. Its steps have length 0 from now on, and change nothing.
     fn stop(&mut self, lane: usize) {
         (self.flying[lane], self.left[lane]) = (None, 0.0);
     }
 
+    /// The end state of the flight in `lane`.
     fn landing(&self, lane: usize, flight: Flight, plan: &Plan) -> Landed {
         let steps = u64::from(self.steps[lane]);
         let work = Work { rhs_calls: steps * plan.order as u64, accepted_steps: steps, rejected_steps: 0 };

@@ -1,8 +1,10 @@
-//! The product of quaternions in registers.
+//! The product of quaternions in SIMD registers. It is written with fused multiply-adds, so that it is fast and has the
+//! same bits at every SIMD level.
 
 use numerics::lanes::{Complex, Real, Simd};
 
-/// P ⊗ R of a quaternion and a turn by its u = w + i z and v = x + i y.
+/// The product P ⊗ R of the quaternion P = (w, x, y, z) and the turn R, given as the complex numbers u = w + i z and
+/// v = x + i y.
 #[inline(always)]
 pub(crate) fn turned<S: Simd>(p: [Real<S>; 4], [[w2, z2], [x2, y2]]: [Complex<Real<S>>; 2]) -> [Real<S>; 4] {
     let [w1, x1, y1, z1] = p;
@@ -21,7 +23,7 @@ mod tests {
 
     use super::*;
 
-    /// The number in the first lane.
+    /// The value in the first lane.
     fn first<S: Simd>(value: Real<S>) -> f64 {
         let mut number = [0.0];
         value.store_up_to(&mut number);

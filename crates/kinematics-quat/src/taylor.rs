@@ -1,34 +1,41 @@
-//! One step by Taylor series of any order, in every lane of a vector.
+//! One step by Taylor series, for the flight in each lane of a SIMD vector. The right-hand sides are polynomials, so
+//! that their Taylor coefficients follow from recurrences, and a high order allows long steps.
 //!
-//! With u = w + i z, v = x + i y, η = ½ (ωx + i ωy) and c = ½ ωz, the system Q' = ½ Q ⊗ (0, ω) with Euler's equations
-//! is
+//! Let (w, x, y, z) be the quaternion, ω the body rate, k = I3/I1 and q = (k - 1) ωz. With u = w + i z, v = x + i y,
+//! η = ½ (ωx + i ωy) and c = ½ ωz, the system Q' = ½ Q ⊗ (0, ω) with Euler's equations is
 //!
 //! ```text
 //! u' = -v η̄ + i c u,   v' = u η - i c v,   η' = i q η.
 //! ```
 //!
-//! A step looks for the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1,
-//! v = 0, in body axes turned about z so that η is real at the start; the coin is symmetric, so they are as good as any
-//! others. Then the coefficients are real up to powers of i: u = Σ iᵏ Uₖ tᵏ, v = -i Σ (-i)ᵏ Wₖ tᵏ, η = |η| Σ iᵏ rₖ tᵏ
-//! with
+//! A step computes the turn R that leads from the attitude P at its start to P ⊗ R at its end. R starts at u = 1 and v
+//! = 0, in body axes that are turned about z so that η is real at the start. In these axes the equations are the same,
+//! because the coin is symmetric, and the coefficients are real up to powers of i. From here on, k counts them, and |η|
+//! is that of the start:
+//!
+//! ```text
+//! u = Σ iᵏ Uₖ tᵏ,   v = -i Σ (-i)ᵏ Wₖ tᵏ,   η = |η| Σ iᵏ rₖ tᵏ.
+//! ```
+//!
+//! Inserted into the equations above, they give the recurrences
 //!
 //! ```text
 //! (k + 1) Uₖ₊₁ = (-1)ᵏ |η| Σ Wₘ rₖ₋ₘ + c Uₖ,   (k + 1) Wₖ₊₁ = -(-1)ᵏ |η| Σ Uₘ rₖ₋ₘ + c Wₖ,   (k + 1) rₖ₊₁ = q rₖ.
 //! ```
 //!
-//! Two convolutions stand for the eight products of components. Nothing is taken from the closed form of the motion:
-//! every step starts from the attitude and the rates that the one before it found.
+//! Two convolutions replace the eight products of quaternion components. The closed form of the motion is not used:
+//! each step starts from the attitude and the rates that the step before it computed.
 
 use numerics::lanes::{Complex, Double, Real, Simd, inverse, sum, times};
 
 /// The highest order of a step.
 pub(crate) const LARGEST_ORDER: usize = 26;
 
-/// Orders up to which η is carried with twice as many digits, where it is compensated. Beyond them a term is so small that its
-/// rounding does not matter.
+/// Number of coefficients of η, from the first on, that have twice as many digits if η is compensated. Later terms are
+/// so small that their rounding does not matter.
 const COMPENSATED: usize = 10;
 
-/// 1/(k + 1).
+/// 1/(k + 1) for each k.
 const INVERSES: [Double<f64>; LARGEST_ORDER] = {
     let mut inverses = [[1.0, 0.0]; LARGEST_ORDER];
     let mut k = 0;
@@ -39,18 +46,19 @@ const INVERSES: [Double<f64>; LARGEST_ORDER] = {
     inverses
 };
 
-/// The coefficients of a step. Aligned, since a vector across two lines of the cache takes two loads.
+/// The coefficients Uₖ, Wₖ and rₖ of a step. They are aligned, because a vector that crosses a cache line takes two
+/// loads.
 #[repr(align(64))]
 pub(crate) struct Series<S: Simd> {
     u: [Real<S>; LARGEST_ORDER + 1],
     w: [Real<S>; LARGEST_ORDER + 1],
     r: [Real<S>; LARGEST_ORDER + 1],
-    /// What rounding took from the first of r.
+    /// The rounding errors of the first coefficients in `r`.
     r_low: [Real<S>; COMPENSATED],
 }
 
 impl<S: Simd> Series<S> {
-    /// No coefficients yet.
+    /// A series whose coefficients have not been computed yet.
     #[inline(always)]
     pub(crate) fn new(simd: S) -> Self {
         let zero = Real::splat(simd, 0.0);
@@ -58,14 +66,16 @@ impl<S: Simd> Series<S> {
         Self { u: none, w: none, r: none, r_low: [zero; COMPENSATED] }
     }
 
-    /// The coefficients up to the even `order` for |η| = `modulus` and c = `half_z`, after those of η.
+    /// Computes Uₖ and Wₖ up to the even `order`, for |η| = `modulus` and c = `half_z`. The coefficients of η must have
+    /// been computed before.
     #[inline(always)]
     pub(crate) fn expand(&mut self, order: usize, modulus: Real<S>, half_z: Real<S>) {
         let Self { u, w, r, .. } = self;
         (u[0], w[0]) = (modulus.constant(1.0), modulus.constant(0.0));
         for k in (0..order).step_by(2) {
             let [[u_even, w_even], [u_odd, w_odd]] = products(&u[..k], &w[..k], &r[..k + 2]);
-            // The products with the newest coefficients come last, so that the next ones wait for no more than these.
+            // Products with the newest coefficients are added last, so that as much as possible is done before they are
+            // known.
             let inverse = modulus.constant(INVERSES[k][0]);
             let (a, c) = (modulus * inverse, half_z * inverse);
             u[k + 1] = u[k].mul_add(c, w[k].mul_add(a, w_even * a));
@@ -78,7 +88,7 @@ impl<S: Simd> Series<S> {
         }
     }
 
-    /// The coefficients of η up to `order`.
+    /// Computes the coefficients rₖ of η up to `order`.
     #[inline(always)]
     pub(crate) fn expand_eta(&mut self, order: usize, q: Real<S>) {
         self.r[0] = q.constant(1.0);
@@ -87,7 +97,7 @@ impl<S: Simd> Series<S> {
         }
     }
 
-    /// The coefficients of η up to `order`, the first ones with what rounding takes from them.
+    /// Computes the coefficients rₖ of η up to `order`, the first ones with their rounding errors.
     #[inline(always)]
     pub(crate) fn expand_eta_compensated(&mut self, order: usize, q: Real<S>) {
         let (r, low) = (&mut self.r, &mut self.r_low);
@@ -104,13 +114,13 @@ impl<S: Simd> Series<S> {
         }
     }
 
-    /// |Uₖ| + |Wₖ| + |rₖ|.
+    /// The size of the coefficients of tᵏ, |Uₖ| + |Wₖ| + |rₖ|.
     #[inline(always)]
     pub(crate) fn size(&self, k: usize) -> Real<S> {
         self.u[k].abs() + self.w[k].abs() + self.r[k].abs()
     }
 
-    /// u and v of R by the terms up to `order`, at `h` after the start.
+    /// u and v of the turn R after the time `h`, by the terms up to `order`.
     #[inline(always)]
     pub(crate) fn turn(&self, order: usize, h: Real<S>) -> [Complex<Real<S>>; 2] {
         let y = -(h * h);
@@ -119,7 +129,7 @@ impl<S: Simd> Series<S> {
         [[even_u, odd_u * h], [-(odd_w * h), -even_w]]
     }
 
-    /// η/|η| by the terms up to `order`, at `h` after the start.
+    /// η after the time `h`, divided by |η|, by the terms up to `order`.
     #[inline(always)]
     pub(crate) fn turn_of_eta(&self, order: usize, h: Real<S>) -> Complex<Real<S>> {
         let [even, odd] = horner(&self.r[..=order], -(h * h));
@@ -143,8 +153,9 @@ impl<S: Simd> Series<S> {
     }
 }
 
-/// Σ uₘ r₋ₘ and Σ wₘ r₋ₘ, with r counted from its last but one, and from its last. The number of terms is even; even and
-/// odd ones are added up apart, so that fewer additions wait for each other.
+/// The sums over m of uₘ rₙ₋ₘ and of wₘ rₙ₋ₘ, first with n the index of the last but one of r, then with that of the
+/// last. The number of terms is even. Even and odd terms are added up separately, so that fewer additions wait for each
+/// other.
 #[inline(always)]
 fn products<S: Simd>(u: &[Real<S>], w: &[Real<S>], r: &[Real<S>]) -> [[Real<S>; 2]; 2] {
     let zero = r[0].constant(0.0);
@@ -179,7 +190,7 @@ mod tests {
 
     use super::*;
 
-    /// u, v and η/|η| after a step of some order and length, from |η| = 0.8, c = 0.6 and q = -0.9.
+    /// Computes u, v and η/|η| after a step of this order and length, for |η| = 0.8, c = 0.6 and q = -0.9.
     struct Step(usize, f64);
 
     impl WithSimd for Step {
@@ -207,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_local_error_falls_with_the_power_after_the_order() {
+    fn the_local_error_of_order_n_falls_with_power_n_plus_1_of_the_step() {
         for order in (2..=10).step_by(2) {
             let ratio = local_error(order, 0.5) / local_error(order, 0.25);
             let expected = f64::exp2(order as f64 + 1.0);
@@ -216,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_a_turn() {
+    fn a_step_of_the_largest_order_has_norm_1_and_turns_eta_by_q_h() {
         let [w, z, x, y, cos, sin] = SimdLevel::widest().run(Step(LARGEST_ORDER, 1.0));
         assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-15);
         assert!((cos * cos + sin * sin - 1.0).abs() < 1e-15);

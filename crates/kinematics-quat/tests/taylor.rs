@@ -1,4 +1,5 @@
-//! Taylor series: the same bits in any company and on any instruction set, right to the tolerance and down to rounding.
+//! Tests of the quaternion by Taylor series: its error against the exact motion, its work, and its bits. A landing must
+//! have the same bits whichever flights are solved with it and at every SIMD level, so that batches can be repeated.
 
 use dynamics::{
     Attitude, Coin, Formulation, Launch, Propagation, SolveError, Solver, Stepping, TimeOfFlight, Toss, Vector3, Work,
@@ -16,7 +17,7 @@ fn toss(k: f64, rate: [f64; 3], time: f64) -> Toss {
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_tilt(0.3).expect("valid") }
 }
 
-/// Flights of all lengths, among them long ones, some that end at once, and one that means nothing.
+/// Flights of many lengths, among them long ones, some that end at once, and one whose phase is too large.
 fn tosses() -> Vec<Toss> {
     let mut tosses = vec![
         toss(0.5, [0.0; 3], 1e300),
@@ -39,13 +40,14 @@ fn tosses() -> Vec<Toss> {
     tosses
 }
 
+/// Error of `attitude` at the landing of `toss` (rad).
 fn error(toss: &Toss, attitude: &Attitude) -> f64 {
     let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight()).expect("valid").attitude;
     exact.angle_to(attitude)
 }
 
 #[test]
-fn landings_have_the_same_bits_in_any_company_and_at_any_simd_level() {
+fn a_landing_has_the_same_bits_alone_or_with_others_and_at_every_simd_level() {
     let tosses = tosses();
     for tolerance in [1e-3, 1e-9, 1e-12, f64::EPSILON] {
         let solver = taylor(tolerance);
@@ -97,7 +99,7 @@ fn rates_do_not_drift_in_long_flights() {
     for (k, rate) in [(0.5, [1.0, 1.0, 2.5]), (0.5, [40.0, 30.0, 20.0]), (1.9, [50.0, 1.0, 50.0])] {
         let toss = toss(k, rate, 1e4);
         let landing = taylor(1e-12).propagate(&toss).unwrap();
-        // Half a bit of a phase of up to 10⁶ rad is 6e-11.
+        // Half a unit in the last place of a phase of up to 10⁶ rad is 6e-11.
         let found = error(&toss, &landing.state.attitude);
         assert!(found < 4e-10, "{found:e} after 10⁴ s at {rate:?}");
     }
@@ -114,7 +116,7 @@ fn flights_that_end_where_they_start_take_no_step() {
 }
 
 #[test]
-fn a_call_is_an_order_of_a_step_and_no_step_is_rejected() {
+fn each_step_counts_as_many_calls_as_its_order_and_none_is_rejected() {
     for (tolerance, order) in [(0.5, 14), (1e-3, 18), (1e-6, 24), (1e-12, 26)] {
         let work = taylor(tolerance).propagate(&toss(0.5, [30.0, 20.0, 10.0], 1.0)).unwrap().work;
         assert!(work.accepted_steps > 1);
@@ -137,7 +139,7 @@ fn steps_are_as_long_as_the_last_two_terms_allow() {
 }
 
 #[test]
-fn what_cannot_be_flown_is_a_typed_error() {
+fn a_phase_that_is_too_large_and_too_many_steps_are_typed_errors() {
     let solver = taylor(1e-12);
     let alone = |time| solver.propagate(&toss(0.5, [30.0, 40.0, 50.0], time));
     assert!(matches!(alone(1e18), Err(SolveError::PhaseTooLarge { .. })));

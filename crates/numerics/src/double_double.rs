@@ -1,4 +1,5 @@
-//! Numbers of twice the precision of f64: unevaluated sums hi + lo with |lo| ≤ ½ ulp(hi).
+//! Double-double numbers, which have twice the precision of f64: unevaluated sums hi + lo with |lo| ≤ ½ ulp(hi). The
+//! exact motion needs them, because the phase of a long flight, rounded to f64, keeps too few digits after the point.
 //!
 //! With u = 2^-53 the relative errors are at most 3 u² (+), 5 u² (×), 10 u² (÷) and 4 u² (√), unless a product or its
 //! rounding error leaves the range of f64. Sources: T. J. Dekker, Numer. Math. 18 (1971), 224 (exact products);
@@ -7,14 +8,14 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number hi + lo.
+/// A number hi + lo, where hi is the nearest f64 and lo the remainder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DoubleDouble {
     hi: f64,
     lo: f64,
 }
 
-/// a + b exactly, as the rounded sum and its error.
+/// a + b exactly, as the rounded sum hi and its error lo.
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
@@ -29,7 +30,7 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { hi, lo: b - (hi - a) }
 }
 
-/// The upper 26 digits of a number and the rest.
+/// Splits a number into its upper 26 binary digits and the rest, so that products of the parts are exact.
 #[inline]
 fn split(a: f64) -> (f64, f64) {
     const SPLITTER: f64 = 134_217_729.0; // 2^27 + 1
@@ -38,8 +39,8 @@ fn split(a: f64) -> (f64, f64) {
     (upper, a - upper)
 }
 
-/// a b exactly. By Dekker's splitting: a fused multiply-add would be a call to a library wherever the build does not
-/// promise the instruction.
+/// a b exactly, by Dekker's splitting. A fused multiply-add is not used, because it is a slow library call in builds
+/// for machines that may lack the instruction.
 #[inline]
 fn two_product(a: f64, b: f64) -> DoubleDouble {
     let hi = a * b;
@@ -51,12 +52,12 @@ impl DoubleDouble {
     /// 0.
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
 
-    /// A number of f64.
+    /// The number `hi`, without an error.
     pub const fn exactly(hi: f64) -> Self {
         Self { hi, lo: 0.0 }
     }
 
-    /// Half of it, exactly.
+    /// Half of the number, exactly.
     #[inline]
     #[must_use]
     pub fn half(self) -> Self {
@@ -69,25 +70,25 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// What the nearest f64 leaves.
+    /// The remainder: the number less its nearest f64.
     #[inline]
     pub fn lo(self) -> f64 {
         self.lo
     }
 
-    /// `a` b exactly.
+    /// `a` × `b` exactly.
     #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         two_product(a, b)
     }
 
-    /// `a`/`b`, for b ≠ 0.
+    /// `a`/`b`, for `b` ≠ 0.
     #[inline]
     pub fn quotient(a: f64, b: f64) -> Self {
         Self::from(a) / Self::from(b)
     }
 
-    /// The square root of a number ≥ 0.
+    /// The square root; 0 for a number ≤ 0.
     #[inline]
     #[must_use]
     pub fn sqrt(self) -> Self {
@@ -99,11 +100,12 @@ impl DoubleDouble {
         quick_two_sum(root, rest / (2.0 * root))
     }
 
-    /// Sine and cosine of a phase (rad), right to about 1.1 u as long as std's are, whatever the size of the phase.
+    /// Sine and cosine of a phase (rad) of any size. The absolute error is about 1.1 u, provided that the standard
+    /// library rounds its sine and cosine well.
     #[inline]
     pub fn sin_cos(self) -> (Self, Self) {
         let ((sin, cos), rest) = (self.hi.sin_cos(), self.lo);
-        // Of the rest, whose square counts from phases of 10^8 on.
+        // Sine, and cosine less 1, of the rest. Its square matters for phases above 10^8.
         let (sin_rest, cos_rest_less_1) = if rest.abs() < 1e-3 {
             let square = rest * rest;
             (rest * (1.0 - square / 6.0), -0.5 * square * (1.0 - square / 12.0))
@@ -120,7 +122,7 @@ impl DoubleDouble {
         (sin.hi, cos.hi)
     }
 
-    /// The number times 2^`exponent`; exact as long as no digit leaves the range of f64.
+    /// The number times 2^`exponent`. The result is exact as long as no digit leaves the range of f64.
     #[inline]
     #[must_use]
     pub fn times_power_of_two(self, exponent: i32) -> Self {
@@ -128,7 +130,7 @@ impl DoubleDouble {
             let factor = f64::from_bits(u64::from((1023 + exponent).unsigned_abs()) << 52);
             return Self { hi: self.hi * factor, lo: self.lo * factor };
         }
-        // In steps, so that no factor leaves the range where the result does not.
+        // In steps, because 2^exponent may leave the range of f64 although the result does not.
         let step = exponent.signum() * 1000;
         self.times_power_of_two(step).times_power_of_two(exponent - step)
     }
@@ -212,7 +214,7 @@ mod tests {
         big(value.hi) + big(value.lo)
     }
 
-    /// Relative error in units of u².
+    /// Asserts a relative error of at most `units` u².
     #[track_caller]
     fn assert_within(found: DoubleDouble, expected: &Big, units: f64) {
         assert_eq!(found.hi + found.lo, found.hi, "normalised");
@@ -250,7 +252,7 @@ mod tests {
                 assert_eq!(exact(DoubleDouble::product(a.hi(), b.hi())), big(a.hi()) * big(b.hi()));
             }
             let square = a * a;
-            // Twice the relative error of the argument may be in the root, beside its own.
+            // The argument is a rounded product, but is taken as exact here: only the root's own error counts.
             assert_within(square.sqrt(), &exact(square).sqrt(), 4.0);
         }
         assert_eq!(DoubleDouble::ZERO.sqrt(), DoubleDouble::ZERO);
@@ -269,7 +271,7 @@ mod tests {
         assert_eq!(DoubleDouble::from(1.0).times_power_of_two(-2500).hi(), 0.0);
     }
 
-    /// Phases whose rest is anything from below rounding to half a radian, against 300 bits.
+    /// Compares with 300 bits, for phases whose lo ranges from far below u to half a radian.
     #[test]
     fn sines_and_cosines_take_the_rest_of_a_phase_into_account() {
         for exponent in [-30, 0, 3, 20, 40, 43, 44, 45, 48, 52] {

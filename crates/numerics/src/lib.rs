@@ -1,15 +1,16 @@
-//! Arithmetic that knows no mechanics.
+//! Arithmetic for the solvers: numbers more precise than f64, powers of two as units, and SIMD vectors of f64. It is a
+//! crate without any mechanics, so that each operation can be bounded and tested on its own.
 //!
 //! | what | module |
 //! |---|---|
 //! | numbers of twice the precision of f64, and the exact sums and products that they are made of | [`double_double`] |
 //! | numbers of any precision | [`big`] |
-//! | the operations that a formula needs, so that it is written once for all kinds of numbers | [`number`] |
-//! | numbers as they were given, times an exact unit; angles, with sine and cosine in more digits | [`quantity`], [`angle`] |
+//! | the trait over which a formula is written once for all kinds of numbers | [`number`] |
+//! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`], [`angle`] |
 //! | powers of two as units | [`scale`] |
-//! | vectors of f64 in the machine's registers, with the same bits on every machine | [`lanes`] |
+//! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
 //!
-//! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]; each bound stands where its operation does.
+//! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]. Each bound is stated at its operation.
 
 pub mod angle;
 pub mod big;
@@ -25,5 +26,5 @@ pub use double_double::DoubleDouble;
 pub use number::Number;
 pub use quantity::{Quantity, Unit};
 
-/// Half of ε: the largest relative error of one rounded operation.
+/// u = 2^-53, half of f64's ε: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;

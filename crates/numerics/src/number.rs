@@ -1,4 +1,5 @@
-//! The operations that a formula needs, so that it is written once for f64, double-double, registers and any precision.
+//! The trait [`Number`]: the operations that a polynomial formula needs. A formula written over it stands once in the
+//! code and serves f64, double-double numbers, SIMD registers and numbers of any precision.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -7,9 +8,10 @@ use pulp::Simd;
 use crate::double_double::DoubleDouble;
 use crate::lanes::Real;
 
-/// A number with sums and products.
+/// A number that can be added, subtracted, multiplied and negated.
 pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
-    /// `self` × `factor` + `term`: rounded once in a register, otherwise after the product and after the sum.
+    /// `self` × `factor` + `term`. In a register it is a fused multiply-add, which rounds once; other numbers are
+    /// multiplied and then added.
     #[inline(always)]
     #[must_use]
     fn times_plus(self, factor: Self, term: Self) -> Self {

@@ -1,4 +1,5 @@
-//! Powers of two: units in which numbers are of the order of 1 and lose no bit.
+//! Powers of two as units. Dividing a vector by one is exact, and leaves components of the order of 1, whose squares do
+//! not overflow.
 
 /// The power of two at or below `largest` ≥ 0, the largest absolute component of a vector; 1 for 0.
 ///

@@ -1,7 +1,8 @@
-//! What sampling costs on top of what it needs, on one thread. Read the ratios:
-//! - `fig4 grid / exact` to `fig4 grid / sine and cosine`: a launch through the exact motion, for the price of its sine
-//!   and cosine;
-//! - `quaternion / estimate` to `quaternion / bare loop`: launches through an integrator, with and without sampling.
+//! This benchmark measures the overhead of sampling, on one thread. Two ratios show it:
+//! - `fig4 grid / exact` to `fig4 grid / sine and cosine`: the cost of a launch by the exact motion in units of that of
+//!   its sine and cosine;
+//! - `quaternion / estimate` to `quaternion / bare loop`: the cost of launches by an integrator, with and without
+//!   sampling.
 
 use std::hint::black_box;
 
@@ -20,7 +21,7 @@ fn heads(space: &Space, plan: Plan, sampler: &Sampler<'_>) -> u64 {
 
 fn fig4(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").expect("it exists");
-    // The phases of the same launches; their range matters to the cost of a sine.
+    // Phases of launches from the same space, because the cost of a sine depends on their range.
     let phase = |toss: &Toss| ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
     let phases: Vec<f64> = random_tosses(&space, 1, 0..250_000).iter().map(phase).collect();
     let mut group = criterion.benchmark_group("fig4 grid");
@@ -46,7 +47,7 @@ fn quaternion(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// One thread, so that the ratios are those of the work.
+/// Runs on one thread, so that times are proportional to the work.
 fn on_one_thread(criterion: &mut Criterion) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     pool.expect("nothing has started a pool yet");

@@ -1,4 +1,5 @@
-//! How one coordinate of a configuration space is distributed: fixed, uniform over lo ≤ x ≤ hi, or normal with μ and σ.
+//! This file describes how one coordinate of a space of launches is distributed: fixed, uniform over lo ≤ x ≤ hi, or
+//! normal with mean μ and standard deviation σ. Each axis can be written as a short text, for command lines and files.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -10,13 +11,13 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::coordinate::Coordinate;
 
-/// How many standard deviations from its mean a normal coordinate reaches: the quantile of 2^-53, the smallest
-/// number that a draw can give, is 8.21.
+/// Number of standard deviations from the mean within which all values of a normal coordinate lie. A draw is at least
+/// 2^-53, and the quantile of 2^-53 is 8.21 standard deviations below the mean.
 pub const NORMAL_REACH: f64 = 8.3;
 
-/// A fixed value, a range or a normal distribution, with the number of points that a grid lays over it.
+/// A fixed value, a range or a normal distribution, with the number of points that a grid has on it.
 ///
-/// An axis is numbers alone. Whether they make sense depends on the coordinate that they are for, and is looked at when
+/// An axis holds numbers without a check. Which of them are valid depends on the coordinate, so they are checked when
 /// the axis becomes part of a [`Space`](crate::Space).
 ///
 /// ```
@@ -32,7 +33,7 @@ pub struct Axis {
     points: Option<u64>,
 }
 
-/// A distribution of one coordinate.
+/// The distribution of one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Distribution {
     /// Uniform from `lo` to `hi`; one value if they are equal.
@@ -42,7 +43,7 @@ pub enum Distribution {
         /// Upper bound.
         hi: f64,
     },
-    /// Normal.
+    /// Normal distribution.
     Normal {
         /// Mean.
         mean: f64,
@@ -52,12 +53,12 @@ pub enum Distribution {
 }
 
 impl Axis {
-    /// One value.
+    /// A single value.
     pub const fn fixed(value: f64) -> Self {
         Self { distribution: Distribution::Uniform { lo: value, hi: value }, points: None }
     }
 
-    /// A range, uniform over it, both ends included.
+    /// The uniform distribution over a range, both ends included.
     pub const fn range(range: RangeInclusive<f64>) -> Self {
         let (lo, hi) = (*range.start(), *range.end());
         Self { distribution: Distribution::Uniform { lo, hi }, points: None }
@@ -68,21 +69,21 @@ impl Axis {
         Self { distribution: Distribution::Normal { mean, sd }, points: None }
     }
 
-    /// The same axis with `points` grid points. On a range both ends are points; a range of one value is one point; on
-    /// a normal distribution they are the medians of `points` parts of equal probability.
+    /// Sets the number of grid points. On a range they are evenly spaced and include both ends; a range of one value
+    /// has one point. On a normal distribution they are the medians of `points` parts of equal probability.
     #[must_use]
     pub const fn with_points(self, points: u64) -> Self {
         Self { points: Some(points), ..self }
     }
 
-    /// The axis, if its numbers make sense for the coordinate `of`.
+    /// Checks the numbers of the axis for the coordinate `of`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] that names `of` for
     /// - a range that is not finite or is reversed,
-    /// - a mean that is not finite, a deviation that is not positive, or one so large that the distribution leaves the
+    /// - a mean that is not finite, a standard deviation that is not positive, or one so large that values leave the
     ///   range of f64,
-    /// - no grid points, or a single one on a range of more than one value.
+    /// - zero grid points, or a single one on a range of more than one value.
     pub(crate) fn validated(self, of: Coordinate) -> Result<Self, InputError> {
         match self.distribution {
             Distribution::Uniform { lo, hi } => {
@@ -109,7 +110,7 @@ impl Axis {
         Ok(self)
     }
 
-    /// Reads the axis of the coordinate `of` as [`str::parse`] does.
+    /// Reads an axis as [`str::parse`] does, for the coordinate `of`.
     ///
     /// # Errors
     /// [`InputError::Malformed`] that names `of`.
@@ -133,12 +134,12 @@ impl Axis {
         })
     }
 
-    /// How the coordinate is distributed.
+    /// The distribution of the coordinate.
     pub fn distribution(&self) -> Distribution {
         self.distribution
     }
 
-    /// The one value, if there is only one.
+    /// The value, if there is only one.
     pub fn value(&self) -> Option<f64> {
         match self.distribution {
             Distribution::Uniform { lo, hi } if lo == hi => Some(lo),
@@ -146,7 +147,7 @@ impl Axis {
         }
     }
 
-    /// The smallest and the largest value that a launch can get.
+    /// The smallest and the largest value that a launch can have.
     pub fn bounds(&self) -> [f64; 2] {
         match self.distribution {
             Distribution::Uniform { lo, hi } => [lo, hi],
@@ -154,12 +155,12 @@ impl Axis {
         }
     }
 
-    /// Number of grid points: 1 for a single value, `None` where none was given.
+    /// Number of grid points: 1 for a single value, else as given; `None` if it was not given.
     pub fn points(&self) -> Option<u64> {
         if self.value().is_some() { Some(1) } else { self.points }
     }
 
-    /// The value below which the share `part` of the distribution lies, 0 < `part` < 1.
+    /// The quantile of `part`, 0 < `part` < 1: the value below which this fraction of the distribution lies.
     pub(crate) fn quantile(&self, part: f64) -> f64 {
         match self.distribution {
             Distribution::Uniform { lo, hi } => lo + part * (hi - lo),
@@ -167,7 +168,7 @@ impl Axis {
         }
     }
 
-    /// Grid point `index` of `points`; the last of a range is its upper bound exactly.
+    /// Grid point number `index` of `points`. The last one of a range is exactly its upper bound.
     #[expect(clippy::cast_precision_loss, reason = "indices stay far below 2^53")]
     pub(crate) fn grid_point(&self, index: u64, points: u64) -> f64 {
         match self.distribution {
@@ -199,7 +200,7 @@ impl FromStr for Axis {
     }
 }
 
-/// As [`str::parse`] reads it.
+/// The text from which [`str::parse`] reads the same axis.
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.distribution, self.value()) {
@@ -218,7 +219,7 @@ mod tests {
     const SPEED: Coordinate = Coordinate::Speed;
 
     #[test]
-    fn a_grid_includes_both_ends() {
+    fn a_grid_over_a_range_includes_both_ends() {
         let axis = Axis::parse(SPEED, "3:5:5").unwrap();
         let points: Vec<f64> = (0..5).map(|index| axis.grid_point(index, 5)).collect();
         assert_eq!(points, [3.0, 3.5, 4.0, 4.5, 5.0]);
@@ -235,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_normal_quantile_is_where_its_share_lies_below() {
+    fn a_normal_quantile_has_its_fraction_of_the_distribution_below_it() {
         let axis = Axis::parse(SPEED, "normal:0:1").unwrap();
         for part in [2f64.powi(-53), 1e-12, 1e-6, 0.01, 0.3, 0.5, 0.77, 0.999] {
             let below = 0.5 * libm::erfc(-axis.quantile(part) / std::f64::consts::SQRT_2);
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn draws_reach_no_farther_than_the_bounds() {
+    fn extreme_draws_lie_just_within_the_bounds() {
         let axis = Axis::parse(SPEED, "normal:4:0.5").unwrap();
         let [lo, hi] = axis.bounds();
         let farthest = [2f64.powi(-53), 1.0 - 2f64.powi(-53)].map(|part| axis.quantile(part));
@@ -253,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_of_one_value_is_one_point() {
+    fn a_range_of_one_value_has_one_grid_point() {
         for text in ["4", "4:4", "4:4:1", "4:4:500"] {
             let axis = Axis::parse(SPEED, text).unwrap();
             assert_eq!(axis.points(), Some(1));
@@ -263,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_reads_back_as_the_same_axis() {
+    fn the_displayed_text_parses_to_the_same_axis() {
         for text in ["0.1", "3:5", "-1.5:1e-300:7", "normal:0:2.5", "normal:-1:0.1:12"] {
             let axis = Axis::parse(SPEED, text).unwrap();
             assert_eq!(Axis::parse(SPEED, &axis.to_string()), Ok(axis));
@@ -271,13 +272,13 @@ mod tests {
     }
 
     #[test]
-    fn a_normal_distribution_may_be_as_wide_as_numbers_allow() {
+    fn accepts_normal_distributions_up_to_the_range_of_f64() {
         assert!(Axis::normal(0.0, 1.08e307).validated(SPEED).is_ok());
         assert!(Axis::normal(-8.9e307, 1.0).validated(SPEED).is_ok());
     }
 
     #[test]
-    fn what_is_no_axis_is_refused_by_name() {
+    fn rejects_invalid_axes_and_names_the_coordinate() {
         for text in [
             "",
             "a",

@@ -1,34 +1,37 @@
-//! A block of launches in columns, as the batch kernels want them.
+//! This file holds a block of launches as columns, one for each coordinate. This is the layout that the batch kernels
+//! of the crate `exact` read, and threads reuse the memory from block to block.
 
 use dynamics::{Attitude, Tosses};
 
 use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};
 
-/// Launches that a thread takes at a time: their columns stay in the second-level cache.
+/// Number of launches that a thread processes at a time, so few that their columns stay in the second-level cache.
 pub(crate) const BLOCK: usize = 512;
 
-/// Values of one coordinate, as registers are loaded best.
+/// Values of one coordinate, aligned to whole cache lines for fast loads.
 #[derive(Clone)]
 #[repr(align(64))]
 struct Column([f64; BLOCK]);
 
-/// Room for up to [`BLOCK`] launches of a space, which a thread uses again and again.
+/// Memory for up to [`BLOCK`] launches of a space, which a thread reuses.
 pub(crate) struct Block {
+    /// A column for each coordinate, in the order of [`Coordinate::ALL`].
     columns: Vec<Column>,
+    /// Number of launches that the columns hold now.
     length: usize,
-    /// Random numbers on their way to the columns.
+    /// Random numbers, launch by launch, from which the columns are made.
     pub(crate) words: Vec<u64>,
 }
 
 impl Block {
-    /// A block whose coordinates have their fixed values of `space` until they are written.
+    /// A block in which every coordinate has its fixed value of `space`, until its column is written.
     pub(crate) fn new(space: &Space) -> Self {
         let columns = space.fixed_values().map(|value| Column([value; BLOCK])).to_vec();
         Self { columns, length: 0, words: Vec::new() }
     }
 
-    /// Makes room for `length` ≤ [`BLOCK`] launches.
+    /// Sets the number of launches to `length` ≤ [`BLOCK`].
     pub(crate) fn start(&mut self, length: usize) {
         self.length = length;
     }
@@ -38,15 +41,17 @@ impl Block {
         self.length
     }
 
+    /// The values of the coordinate `of`.
     pub(crate) fn column(&self, of: Coordinate) -> &[f64] {
         &self.columns[of as usize].0[..self.length]
     }
 
+    /// As [`Block::column`], to be written.
     pub(crate) fn column_mut(&mut self, of: Coordinate) -> &mut [f64] {
         &mut self.columns[of as usize].0[..self.length]
     }
 
-    /// A column, and the random numbers.
+    /// The column of a coordinate, to be written, and the random numbers.
     pub(crate) fn column_and_words(&mut self, of: Coordinate) -> (&mut [f64], &[u64]) {
         (&mut self.columns[of as usize].0[..self.length], &self.words)
     }
@@ -63,7 +68,7 @@ impl Block {
 }
 
 impl Space {
-    /// The tosses of a block, if none but rates and speed differ.
+    /// The launches of a block as tosses for a batch; `None` if gravity or tilt vary in this space.
     pub(crate) fn tosses<'a>(&self, block: &'a Block) -> Option<Tosses<'a>> {
         let (gravity, tilt) = (self.axis(Coordinate::Gravity).value()?, self.axis(Coordinate::Tilt).value()?);
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(|of| block.column(self.place(of)));

@@ -1,22 +1,23 @@
-//! What can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt at launch.
+//! This file names the six coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt. Files,
+//! messages and charts each need a name of their own for them, and all of these are kept together here.
 
 use dynamics::InputError;
 use dynamics::error::find_named;
 
-/// A coordinate of a configuration space.
+/// A coordinate of a space of launches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
-    /// ωx, body rate (rad/s).
+    /// ωx at launch (body frame, rad/s).
     RateX,
-    /// ωy, body rate (rad/s).
+    /// ωy at launch (body frame, rad/s).
     RateY,
-    /// ωz, body rate about the normal (rad/s).
+    /// ωz at launch, about the coin's normal (body frame, rad/s).
     RateZ,
-    /// v0, speed of the launch (m/s).
+    /// v0, the upward speed at launch (m/s).
     Speed,
-    /// g (m/s²).
+    /// g, gravity (m/s²).
     Gravity,
-    /// Turn of the coin about the lab's x axis at launch (rad).
+    /// Angle by which the coin is turned about the x axis of the laboratory frame at launch (rad).
     Tilt,
 }
 
@@ -24,11 +25,11 @@ impl Coordinate {
     /// Number of coordinates.
     pub const COUNT: usize = 6;
 
-    /// All coordinates, in the order of their places in a space.
+    /// All coordinates, in the order in which a space stores them.
     pub const ALL: [Self; Self::COUNT] =
         [Self::RateX, Self::RateY, Self::RateZ, Self::Speed, Self::Gravity, Self::Tilt];
 
-    /// Its name in files, as `rate_x`.
+    /// The name in files, such as `rate_x`.
     pub fn name(self) -> &'static str {
         ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"][self as usize]
     }
@@ -41,23 +42,23 @@ impl Coordinate {
         find_named("coordinate", name, &Self::ALL, |of| of.name()).copied()
     }
 
-    /// Its name and unit in messages, as `rate x [rad/s]`.
+    /// The name and unit in messages, such as `rate x [rad/s]`.
     pub fn field(self) -> &'static str {
         ["rate x [rad/s]", "rate y [rad/s]", "rate z [rad/s]", "speed [m/s]", "gravity [m/s²]", "tilt [rad]"]
             [self as usize]
     }
 
-    /// The symbol and unit on charts, as `ωx/(rad/s)`.
+    /// The symbol and unit on charts, such as `ωx/(rad/s)`.
     pub fn symbol(self) -> &'static str {
         ["ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "g/(m/s²)", "tilt/rad"][self as usize]
     }
 
-    /// How a tie to it is written; only rates can be tied to.
+    /// The text that ties another rate to this one: `x`, `y` or `z`. Other coordinates cannot have ties.
     pub(crate) fn letter(self) -> &'static str {
         self.name().trim_start_matches("rate_")
     }
 
-    /// The coordinate that a tie written as `letter` follows: x, y or z.
+    /// The rate that a tie written as `letter` (x, y or z) refers to.
     pub(crate) fn tied_to(letter: &str) -> Option<Self> {
         match letter {
             "x" => Some(Self::RateX),
@@ -73,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_symbols_and_units_belong_together() {
+    fn names_fields_and_symbols_agree_in_name_and_unit() {
         for of in Coordinate::ALL {
             assert_eq!(Coordinate::named(of.name()), Ok(of));
             let (name, unit) = of.field().split_once(' ').expect("a name and a unit");

@@ -1,6 +1,6 @@
-//! Outcomes, counted: P(heads) = heads/(heads + tails + undecided).
-//!
-//! Proven and estimated outcomes are counted apart, and by type: proven ones come from the crate `exact` alone.
+//! This file counts the outcomes of launches; the probability of heads is heads/(heads + tails + undecided). Proven and
+//! estimated outcomes are counted in different types, so that an estimated one cannot pass as proven: only the crate
+//! `exact` can make proven counts.
 
 use std::ops::Range;
 
@@ -12,14 +12,14 @@ use crate::fold::{Progress, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
-/// Outcomes, counted.
+/// Numbers of launches by their outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
     estimated: Estimated,
     proven: ProvenCounts,
 }
 
-/// Outcomes that are as good as a solver's error estimate.
+/// Outcomes that a solver decided; they are as reliable as its error estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Estimated {
     heads: u64,
@@ -28,38 +28,38 @@ struct Estimated {
 }
 
 impl Counts {
-    /// Launches that land heads.
+    /// Number of launches that land heads.
     pub fn heads(&self) -> u64 {
         self.estimated.heads + self.proven.heads()
     }
 
-    /// Launches that land tails.
+    /// Number of launches that land tails.
     pub fn tails(&self) -> u64 {
         self.estimated.tails + self.proven.tails()
     }
 
-    /// Launches nearer to the edge than the solver's error estimate, and exact ties.
+    /// Number of launches that land with |cos θ| below the solver's error estimate, and of exact ties.
     pub fn undecided(&self) -> u64 {
         self.estimated.undecided + self.proven.ties()
     }
 
-    /// The proven ones among them.
+    /// The proven outcomes among them.
     pub fn proven(&self) -> ProvenCounts {
         self.proven
     }
 
-    /// Number of launches.
+    /// Number of all launches.
     pub fn points(&self) -> u64 {
         self.heads() + self.tails() + self.undecided()
     }
 
-    /// Share of heads among all launches, from 0 to 1.
+    /// Fraction of heads among all launches, from 0 to 1.
     #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
     pub fn probability(&self) -> f64 {
         self.heads() as f64 / self.points() as f64
     }
 
-    /// Whether there are outcomes, and every one is proven.
+    /// Whether every outcome is proven, and there is at least one.
     pub fn are_certified(&self) -> bool {
         self.proven.total() > 0 && self.estimated == Estimated::default()
     }
@@ -97,17 +97,17 @@ impl std::iter::Sum for Counts {
     }
 }
 
-/// What decides the outcomes of launches.
+/// The method that decides the outcomes of launches.
 #[derive(Clone)]
 pub(crate) enum Decider<'a> {
-    /// The exact motion, with a proof.
+    /// By the exact motion, with a proof.
     Exact,
-    /// A solver, as far as its error estimate goes.
+    /// By a solver; an outcome within its error estimate is undecided.
     Solver(Checked<&'a dyn Solver>),
 }
 
 impl Decider<'_> {
-    /// Counts the outcomes of the launches `range`.
+    /// Counts the outcomes of the launches with the numbers `range`.
     ///
     /// # Errors
     /// As [`fold`].
@@ -125,7 +125,7 @@ impl Decider<'_> {
     }
 }
 
-/// The proven outcomes of a block: in registers where its launches differ in rates and speed alone.
+/// Proves the outcomes of a block: as a batch if its launches differ in rates and speed alone, else one by one.
 fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
     match space.tosses(block) {
         Some(tosses) => Batch::new(tosses).count(),
@@ -133,7 +133,7 @@ fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
     }
 }
 
-/// The outcomes of a block by `solver`.
+/// Decides the outcomes of a block by `solver`.
 fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts, Error> {
     let mut counts = Counts::default();
     if let Some(tosses) = space.tosses(block) {
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_add_up() {
+    fn merged_counts_are_sums() {
         let [once, twice] = [Counts::estimated(3, 4, 5), Counts::estimated(6, 8, 10)];
         assert_eq!((once.merge(once), [once, once].into_iter().sum()), (twice, twice));
         assert_eq!((once.heads(), once.tails(), once.undecided(), once.points()), (3, 4, 5, 12));
@@ -186,18 +186,18 @@ mod tests {
         assert!(!proven.merge(Counts::estimated(0, 0, 1)).are_certified());
     }
 
-    /// A batch knows neither Keller's cosine nor outcomes that need no motion.
+    /// A batch skips the two cheapest stages of the proof, so the counts by stage show whether it was used.
     #[test]
-    fn launches_that_differ_in_rates_and_speed_are_a_batch() {
+    fn launches_that_differ_in_rates_and_speed_alone_are_solved_as_a_batch() {
         let batch = counted("0", &Decider::Exact);
         assert_eq!((batch.points(), batch.proven().by(Stage::F64), batch.proven().by(Stage::Keller)), (400, 400, 0));
         let one_by_one = counted("0:1e-9:2", &Decider::Exact);
         assert!(one_by_one.are_certified() && one_by_one.proven().by(Stage::F64) < 800, "{one_by_one:?}");
     }
 
-    /// The exact solver's outcomes are right, but as those of any solver that is handed in they are no proof.
+    /// This holds even for the exact solver: its outcomes are right, but only as reliable as those of any other solver.
     #[test]
-    fn no_outcome_of_a_solver_is_proven() {
+    fn outcomes_of_a_solver_are_never_counted_as_proven() {
         for tilt in ["0", "0:1e-9:2"] {
             let by_solver = counted(tilt, &Decider::Solver(Checked::new(&ExactSolver)));
             let proven = counted(tilt, &Decider::Exact);

@@ -1,13 +1,14 @@
-//! A probability of heads, and how far it may be off, for each of the four methods.
+//! This file turns counts or shares of heads into an estimate: a probability with an interval. What the interval means
+//! depends on how the launches were chosen, so each of the four methods has its own:
 //!
-//! | plan | launches | what the interval is |
+//! | plan | launches | interval |
 //! |---|---|---|
-//! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has an error of discretisation |
+//! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has a discretisation error |
 //! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Wilson's |
 //! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles |
-//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | the speed in closed form | from the scrambles; of rounding if only the speed is free |
+//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles; a rounding error if only the speed varies |
 //!
-//! Sums are integers, so no result depends on the number of threads.
+//! A and B are the paper's names of the methods.
 
 use std::fmt;
 
@@ -18,21 +19,21 @@ use crate::interval::{Interval, from_scrambles, wilson};
 /// Confidence level of the intervals.
 pub const LEVEL: f64 = 0.95;
 
-/// What an interval means.
+/// The meaning of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalKind {
-    /// There is none: the points are a grid.
+    /// There is no interval, because the points are a grid.
     Grid,
-    /// There is none: the points are those of a single scramble.
+    /// There is no interval, because the points are from a single scramble.
     OneScramble,
     /// Wilson's interval for independent launches.
     Wilson,
     /// Student's interval from the means of this many independent scrambles.
     Scrambles(u64),
-    /// Every point of every scramble agrees, so that their spread says nothing: Wilson's interval, as if the points
-    /// were independent.
+    /// Wilson's interval, as if the points were independent. All points of all scrambles have the same outcome, so the
+    /// spread of the scrambles is 0 and gives no error.
     Unanimous,
-    /// A bound on rounding: nothing was sampled.
+    /// A bound on the rounding error, because nothing was sampled.
     Rounding,
 }
 
@@ -40,7 +41,7 @@ impl fmt::Display for IntervalKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Grid => f.write_str("none: a grid has a discretisation error, not a confidence interval"),
-            Self::OneScramble => f.write_str("none: one scramble tells no error"),
+            Self::OneScramble => f.write_str("none: one scramble gives no error estimate"),
             Self::Wilson => f.write_str("wilson 95 %"),
             Self::Scrambles(number) => write!(f, "student 95 % of {number} scrambles"),
             Self::Unanimous => f.write_str("wilson 95 %, all points agree"),
@@ -49,35 +50,36 @@ impl fmt::Display for IntervalKind {
     }
 }
 
-/// A probability of heads.
+/// An estimate of the probability of heads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Share of heads, from 0 to 1.
+    /// Estimated probability of heads, from 0 to 1.
     pub probability: f64,
-    /// Where the probability lies, at the confidence [`LEVEL`]. A launch that is undecided may be heads or not.
+    /// Interval in which the probability lies, at the confidence [`LEVEL`]. It allows for either outcome of the
+    /// undecided launches.
     pub interval: Option<Interval>,
-    /// What the interval means.
+    /// Meaning of the interval.
     pub interval_kind: IntervalKind,
-    /// Number of launches, or of launches without their speeds where those were integrated.
+    /// Number of launches; if the speed was integrated in closed form, each of them stands for all speeds.
     pub points: u64,
-    /// What was found.
+    /// The result that the estimate is made from.
     pub found: Found,
 }
 
-/// What an estimate is made from.
+/// The result that an estimate is made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Found {
-    /// Outcomes.
+    /// Counts of outcomes.
     Counts(Counts),
-    /// Shares over all speeds, with a bound on the rounding error of their mean.
+    /// Shares of heads over all speeds.
     Shares {
-        /// The bound.
+        /// Bound on the rounding error of the mean share.
         rounding_error: f64,
     },
 }
 
 impl Estimate {
-    /// How far the interval reaches from the probability.
+    /// Distance from the probability to the farther end of the interval; `None` without an interval.
     pub fn half_width(&self) -> Option<f64> {
         let Interval { lo, hi } = self.interval?;
         Some((self.probability - lo).max(hi - self.probability))
@@ -123,7 +125,8 @@ impl Estimate {
         Self { probability: share.probability, interval, interval_kind, points, found }
     }
 
-    /// The mean share over a grid; exact if nothing but the speed was free.
+    /// The estimate from the mean share over a grid. It is `exact` if only the speed varies, so that the grid has one
+    /// point.
     pub(crate) fn of_grid_share(share: Share, points: u64, exact: bool) -> Self {
         if !exact {
             return Self::of_share(share, points, None, IntervalKind::Grid);
@@ -152,7 +155,7 @@ impl Estimate {
     }
 }
 
-/// Wilson's interval, which holds for any outcome of the undecided launches.
+/// Wilson's interval, widened so that it holds whatever the outcome of the undecided launches is.
 fn wilson_of(counts: Counts) -> Interval {
     let points = counts.points();
     Interval {
@@ -177,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interval_is_named_and_reaches_as_far_as_its_farther_end() {
+    fn half_width_is_the_distance_to_the_farther_end_and_kinds_have_names() {
         let estimate = |lo, hi| Estimate {
             interval: Some(Interval { lo, hi }),
             ..Estimate::of_independent_counts(Counts::estimated(1, 1, 0))

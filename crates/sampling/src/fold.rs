@@ -1,4 +1,5 @@
-//! Launches by blocks on many threads, with a result that does not depend on how many.
+//! This file processes launches in blocks on many threads and merges the results. It guarantees that result and error
+//! do not depend on the number of threads.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,19 +11,21 @@ use crate::block::{BLOCK, Block};
 use crate::launches::Launches;
 use crate::space::Space;
 
-/// What launches add up to. Merging is associative and commutative to the last bit, which is why the tallies of this
+/// A sum over launches. Merging must be associative and commutative to the last bit, which is why the tallies of this
 /// crate are integers.
 pub(crate) trait Tally: Default + Send {
     fn merge(self, other: Self) -> Self;
 }
 
-/// Is called with the number of launches (or nodes of a map) done since it was last called.
+/// A function that is called with the number of launches (or nodes of a map) done since it was last called.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
 
-/// Merges what `add` makes of all blocks of the launches `range` of `space`, on the threads of the current pool.
+/// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool, and merges
+/// the tallies.
 ///
 /// # Errors
-/// [`Error`] of `add`, whose launch is counted from the start of the sequence; of several failing launches always the first.
+/// The [`Error`] of `add`, with the launch numbered from the start of the sequence. If several launches fail, it is
+/// always the error of the first.
 pub(crate) fn fold<T: Tally>(
     space: &Space,
     launches: &Launches,
@@ -34,7 +37,7 @@ pub(crate) fn fold<T: Tally>(
     let lowest_failure = AtomicU64::new(u64::MAX);
     let run = |block: &mut Block, number: u64| -> Result<T, Error> {
         let start = range.start + number * LENGTH;
-        // A block above the lowest failing launch so far can't hold the first.
+        // A block that starts after a failing launch can't contain the first one.
         if start > lowest_failure.load(Ordering::Relaxed) {
             return Ok(T::default());
         }
@@ -64,7 +67,7 @@ fn first(a: Error, b: Error) -> Error {
 fn index_of(error: &Error) -> u64 {
     match error {
         Error::Launch { index, .. } | Error::BadLaunch { index, .. } => *index,
-        // An error of no launch comes before all launches.
+        // An error without a launch takes precedence over those of launches.
         _ => 0,
     }
 }
@@ -83,14 +86,14 @@ mod tests {
     }
 
     #[test]
-    fn of_two_failures_the_first_launch_counts() {
+    fn of_two_failures_the_earlier_launch_is_reported() {
         let launch = Launch::new(Vector3::zeros(), TimeOfFlight::Given(0.0)).unwrap();
         let failure = |index| failed(index, &Toss { coin: Coin::PAPER, launch });
         assert_eq!((first(failure(3), failure(7)), first(failure(7), failure(3))), (failure(3), failure(3)));
     }
 
     #[test]
-    fn nothing_is_tried_above_a_launch_that_failed() {
+    fn blocks_after_a_failed_launch_are_skipped() {
         let space = named_space("tails").unwrap();
         let launches = Launches::Random { cube: Cube::new(&space, space.free()), seed: 1 };
         let (tried, told) = (AtomicU64::new(0), AtomicU64::new(0));

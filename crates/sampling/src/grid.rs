@@ -1,7 +1,8 @@
-//! Method A: a grid over a space.
+//! This file makes the launches of method A, a grid over a space. Launch number i is computed
+//! directly from i, so that each thread can start anywhere in the grid.
 //!
-//! Along an axis from lo to hi the n points are lo + i (hi - lo)/(n - 1), i = 0 to n - 1, both ends included; the grid
-//! is the product of its axes, every launch once.
+//! Along an axis from lo to hi the n points are lo + i (hi - lo)/(n - 1), i = 0 to n - 1, both ends included. The grid
+//! is the product of its axes and contains every launch once.
 
 use dynamics::InputError;
 
@@ -10,14 +11,15 @@ use crate::block::Block;
 use crate::coordinate::Coordinate;
 use crate::space::Space;
 
-/// The coordinates from the slowest to the fastest. With the speed last, neighbouring launches share their motion.
+/// The coordinates from the slowest to the fastest varying. The speed is last, so that neighbouring launches differ in
+/// their time of flight alone.
 const ORDER: [Coordinate; Coordinate::COUNT] =
     [Coordinate::Tilt, Coordinate::Gravity, Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ, Coordinate::Speed];
 
-/// The grid over a space, or over all its coordinates but the speed.
+/// The grid over all coordinates of a space, or over all but the speed.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
-    /// The coordinates that are not fixed, in the order of [`ORDER`].
+    /// The coordinates that vary, in the order of [`ORDER`].
     sides: Vec<Side>,
 }
 
@@ -27,12 +29,12 @@ struct Side {
     of: Coordinate,
     axis: Axis,
     count: u64,
-    /// Its points, if they are few.
+    /// The points, if they are few; else empty.
     points: Vec<f64>,
 }
 
 impl Side {
-    /// Points above this number are made when they are needed.
+    /// Up to this number of points are stored; more are computed when they are needed.
     const FEW: u64 = 1 << 16;
 
     fn new(of: Coordinate, axis: Axis, count: u64) -> Self {
@@ -45,7 +47,7 @@ impl Side {
         known.copied().unwrap_or_else(|| self.axis.grid_point(index, self.count))
     }
 
-    /// Writes the points from number `from` on.
+    /// Writes the points from number `from` on into `to`.
     fn write(&self, from: u64, to: &mut [f64]) {
         let known = usize::try_from(from).ok().and_then(|from| self.points.get(from..)?.get(..to.len()));
         match known {
@@ -77,7 +79,8 @@ impl Grid {
         Ok(Self { sides: sides.into_iter().map(|(of, axis, count)| Side::new(of, axis, count)).collect() })
     }
 
-    /// Writes the launches from number `start` on: run by run of those that differ in the last coordinate only.
+    /// Writes the launches from number `start` on into `block`, in runs of launches that differ in the last coordinate
+    /// alone.
     pub(crate) fn write(&self, start: u64, block: &mut Block) {
         let Some((last, others)) = self.sides.split_last() else { return };
         let mut done = 0;
@@ -96,10 +99,10 @@ impl Grid {
     }
 }
 
-/// A coordinate and its number of points.
+/// A coordinate, its axis and its number of points.
 type Count = (Coordinate, Axis, u64);
 
-/// The coordinates that are not fixed, in the order of [`ORDER`], with their numbers of points, and that of all launches.
+/// The coordinates that vary, in the order of [`ORDER`], with their numbers of points; and the number of all launches.
 fn counts(space: &Space, includes: impl Fn(Coordinate) -> bool) -> Result<(Vec<Count>, u64), InputError> {
     let free: Vec<Coordinate> = space.free().collect();
     let (mut sides, mut points) = (Vec::new(), 1_u64);
@@ -116,7 +119,7 @@ fn counts(space: &Space, includes: impl Fn(Coordinate) -> bool) -> Result<(Vec<C
 }
 
 impl Space {
-    /// Number of launches of its grid without the speed.
+    /// Number of launches of the grid over all coordinates but the speed.
     ///
     /// # Errors
     /// As [`Space::grid_points`].
@@ -124,7 +127,7 @@ impl Space {
         counts(self, |of| of != Coordinate::Speed).map(|(_, points)| points)
     }
 
-    /// Number of launches of its grid.
+    /// Number of launches of the grid.
     ///
     /// # Errors
     /// [`InputError`] that names an axis without a number of points, or says that the grid is too large to count.
@@ -132,7 +135,8 @@ impl Space {
         counts(self, |_| true).map(|(_, points)| points)
     }
 
-    /// The same space with a grid of at most `points` ≥ 2^(free coordinates) launches, about as many on each axis.
+    /// Sets the numbers of grid points of all free axes to about the same number, for a grid of at most `points`
+    /// launches. `points` must be at least 2^n for n free coordinates.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] that names an axis for which too few points are left.
@@ -141,7 +145,7 @@ impl Space {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
         let nearly = ((points as f64).powf(1.0 / free.len().max(1) as f64) as u64).saturating_sub(1);
         let mut counts = vec![nearly.max(1); free.len()];
-        // Each axis in turn gets a point more, as long as all together stay within the number.
+        // Adds a point to each axis in turn, as long as the grid stays within `points` launches.
         let mut growing = true;
         while growing {
             growing = false;
@@ -172,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn the_grid_covers_the_box_corner_to_corner_with_the_speed_fastest() {
+    fn the_grid_covers_the_box_to_its_corners_and_varies_the_speed_fastest() {
         let space = space(["0:1:2", "5:6:2", "7:8:2", "3:5:3"]);
         let grid = Grid::new(&space).unwrap();
         assert_eq!(space.grid_points(), Ok(24));
@@ -198,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn without_the_speed_its_axis_needs_no_points() {
+    fn a_grid_without_the_speed_needs_no_points_on_its_axis() {
         let space = space(["0:1:3", "x", "7", "3:5"]);
         assert!(Grid::new(&space).is_err());
         assert_eq!(space.grid_points_without_speed(), Ok(3));
@@ -206,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_without_points_is_no_grid_and_neither_is_one_too_large() {
+    fn rejects_an_axis_without_points_and_a_grid_too_large_to_count() {
         let error = space(["0:1", "x", "7", "3"]).grid_points().unwrap_err().to_string();
         assert!(error.starts_with("rate x [rad/s] = '0:1'"), "{error}");
         let many = "0:1:5000000000";
@@ -215,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_of_a_given_size_is_as_even_as_it_can_be() {
+    fn a_grid_of_a_given_size_spreads_its_points_evenly_over_the_axes() {
         let box_of_four = space(["1:60", "1:60", "1:60", "3:5"]);
         let counts = |points| {
             let space = box_of_four.with_grid_of(points).unwrap();

@@ -1,4 +1,5 @@
-//! Confidence intervals of a share: counted in independent random launches, or told from independent scrambles.
+//! This file computes confidence intervals for a probability, from counts of independent random launches or from the
+//! means of independent scrambles. Without an interval an estimate cannot be judged.
 //!
 //! ```text
 //! Wilson              |h/n - p| ≤ z √(p (1 - p)/n), solved for p
@@ -6,8 +7,10 @@
 //! Student             mean ± t s/√m of m scrambles
 //! ```
 //!
-//! They say nothing about a grid, whose error is of discretisation. Wilson's interval is for display; Clopper and
-//! Pearson's never covers less than its level and is for gates.
+//! Here h of n launches land heads, p is the probability, z and t are quantiles of the normal and of Student's
+//! distribution, 1 - α is the confidence level, and s the standard deviation of m means. None of the intervals applies
+//! to a grid, whose error is one of discretisation. Wilson's interval is displayed with results. Clopper and Pearson's
+//! never covers less than its level, so tests and checks use it.
 
 use statrs::distribution::{Beta, ContinuousCDF, Normal, StudentsT};
 
@@ -21,20 +24,20 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The interval with `error` added at both ends, within [0, 1].
+    /// The interval, extended by `error` at both ends but not beyond [0, 1].
     #[must_use]
     pub fn widened(self, error: f64) -> Self {
         Self { lo: (self.lo - error).max(0.0), hi: (self.hi + error).min(1.0) }
     }
 
-    /// Whether `probability` lies in it.
+    /// Whether `probability` lies in the interval, ends included.
     pub fn contains(&self, probability: f64) -> bool {
         (self.lo..=self.hi).contains(&probability)
     }
 }
 
-/// Student's interval for the expectation of `means`, which are independent and have the same distribution; `None`
-/// for fewer than two.
+/// Student's interval at the confidence `level` for the expectation of `means`, which are independent and have the same
+/// distribution. `None` for fewer than two.
 #[expect(clippy::cast_precision_loss, reason = "a handful of means")]
 pub fn from_scrambles(means: &[f64], level: f64) -> Option<Interval> {
     let number = means.len() as f64;
@@ -64,7 +67,7 @@ pub fn wilson(heads: u64, points: u64, level: f64) -> Interval {
 pub fn clopper_pearson(heads: u64, points: u64, level: f64) -> Interval {
     let tail = 0.5 * (1.0 - level);
     let (h, n) = (heads as f64, points as f64);
-    // Both shapes are at least 1 where the quantile is asked for.
+    // Both shape parameters are at least 1 in the two calls below.
     let quantile = |a: f64, b: f64, p: f64| Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p));
     Interval {
         lo: if heads == 0 { 0.0 } else { quantile(h, n - h + 1.0, tail) },
@@ -99,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn students_interval_has_the_tables_quantile() {
+    fn students_interval_matches_the_tabulated_quantile() {
         // t(0.975) with 7 degrees of freedom is 2.3646; the deviation of these means is 0.01 √(8/7).
         let means: Vec<f64> = (0..8).map(|i| if i % 2 == 0 { 0.49 } else { 0.51 }).collect();
         let half_width = 2.364_624 * 0.01 / 7.0_f64.sqrt();
@@ -109,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn all_heads_and_all_tails_have_closed_ends() {
+    fn intervals_of_all_heads_or_all_tails_end_at_1_or_0() {
         // (tail)^(1/n) is the exact lower end for n of n.
         assert_interval(clopper_pearson(50, 50, 0.95), 0.025_f64.powf(1.0 / 50.0), 1.0, 1e-12);
         assert_eq!(wilson(50, 50, 0.95).hi, 1.0);
@@ -117,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interval_contains_its_ends_and_what_is_between() {
+    fn an_interval_contains_its_ends_and_nothing_outside() {
         let interval = Interval { lo: 0.25, hi: 0.5 };
         assert!([0.25, 0.3, 0.5].iter().all(|inside| interval.contains(*inside)));
         assert!([0.25_f64.next_down(), 0.5_f64.next_up(), f64::NAN].iter().all(|outside| !interval.contains(*outside)));

@@ -1,4 +1,5 @@
-//! The launches that a plan tries, by their index.
+//! This file computes the launches that a plan tries, as numbered sequences. Launch i depends on i alone, so that
+//! threads can compute any part of a sequence.
 
 use std::ops::Range;
 
@@ -8,7 +9,7 @@ use crate::random::write_random;
 use crate::sobol::ScrambledSobol;
 use crate::space::Cube;
 
-/// A sequence of launches; launch i does not depend on how many others are asked for.
+/// A sequence of launches. Launch i does not depend on how many others are computed.
 #[derive(Debug, Clone)]
 pub(crate) enum Launches {
     Grid(Grid),
@@ -23,7 +24,7 @@ impl Launches {
         Self::Sobol { cube, sequence: sequence.expect("a space has six coordinates, the sequence eight dimensions") }
     }
 
-    /// Writes the launches `range` into `block`.
+    /// Writes the launches with the numbers `range` into `block`.
     pub(crate) fn write(&self, range: Range<u64>, block: &mut Block) {
         block.start(usize::try_from(range.end - range.start).expect("a block at most"));
         match self {

@@ -1,12 +1,14 @@
-//! From launches to probabilities.
+//! This crate computes the probability of heads for launches that vary. One toss is determined by mechanics; chance
+//! enters only through the distribution of launches, which this crate describes, samples and sums up.
 //!
 //! ```text
 //! axes → space → launches (grid, random, Sobol) in columns
 //!      → outcomes or shares → counts or means → estimate with its interval
 //! ```
 //!
-//! A [`Space`] says which launches are meant, a [`Plan`] which of them are tried and how; a [`Sampler`] answers. Sums are
-//! integers and do not depend on the number of threads. This is the only crate that knows a random number generator.
+//! A [`Space`] is the distribution of the launches, and a [`Plan`] selects the launches that are tried. A [`Sampler`]
+//! solves these and returns an [`Estimate`]. Sums are integers, so that no result depends on the number of threads.
+//! This is the only crate with a random number generator.
 
 pub mod axis;
 mod block;

@@ -1,7 +1,10 @@
-//! The probability of heads in the limit of a long flight.
+//! This file computes the probability of heads in the limit of a long flight, and the launch that has a wanted
+//! probability. In this limit the probability does not depend on the distribution of the speed, so that a formula gives
+//! it.
 //!
-//! Over many turns the phase ωL t is uniform, and with ψ the angle between n and S, φ the angle between S and the
-//! vertical, cos θ = cos φ cos ψ + sin φ sin ψ cos(phase) is positive for the share
+//! Over many turns the phase ωL t becomes uniform. Let ψ be the angle between the coin's normal n and its angular
+//! momentum S, and φ the angle between S and the vertical. Then cos θ = cos φ cos ψ + sin φ sin ψ cos(phase) is
+//! positive with the probability
 //!
 //! ```text
 //! p = ½ + asin(cot φ cot ψ)/π,   1 or 0 where |cot φ cot ψ| ≥ 1.
@@ -15,36 +18,40 @@ use std::f64::consts::PI;
 use dynamics::InputError;
 use dynamics::error::require;
 
-/// p for the angles `cone` = ψ and `momentum_tilt` = φ (rad), each from 0 to π.
+/// The probability p of heads for the angles `cone` = ψ and `momentum_tilt` = φ (rad), each from 0 to π.
 pub fn long_flight_probability(cone: f64, momentum_tilt: f64) -> f64 {
     let along = cone.cos() * momentum_tilt.cos();
     let across = cone.sin() * momentum_tilt.sin();
-    // atan2 keeps the digits near p = 1 that asin of a ratio near 1 loses. Without a second side, p is 1 or 0.
+    // atan2 keeps the digits near p = 1 that asin of a ratio near 1 would lose. If `second_side` is 0, p is 1 or 0.
     let second_side = ((across - along) * (across + along)).max(0.0).sqrt();
     0.5 + along.atan2(second_side) / PI
 }
 
-/// The angle ψ (rad) between n and S of a launch from horizontal whose long flights land heads with `probability`:
-/// ψ = acot √sin(π (p - ½)), from 45° for p = 1 (where every smaller angle serves as well) to 90° for p = ½.
+/// The angle ψ (rad) between n and S of a launch from horizontal whose long flights land heads with `probability`.
+///
+/// It is ψ = acot √sin(π (p - ½)), from 90° for p = ½ to 45° for p = 1, where every smaller angle has p = 1 too.
 ///
 /// # Errors
-/// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: none has less than ½.
+/// [`InputError::OutOfRange`] for a probability below ½ or above 1, which no launch from horizontal has.
 pub fn long_flight_cone(probability: f64) -> Result<f64, InputError> {
     require("probability", probability, "at least 1/2, at most 1", (0.5..=1.0).contains(&probability))?;
     Ok(1f64.atan2(cotangent(probability)))
 }
 
 /// The ratio Ω/ωz of a launch from horizontal whose long flights land heads with `probability`, for a coin with the
-/// inertia ratio `k`: Ω/ωz = k tan ψ, with ψ of [`long_flight_cone`]. For p = 1 it is the largest such ratio, k.
+/// inertia ratio `k`. Ω = √(ωx² + ωy²).
+///
+/// It is Ω/ωz = k tan ψ, with ψ from [`long_flight_cone`]. For p = 1 it is k; every smaller ratio has p = 1 too.
 ///
 /// # Errors
-/// [`InputError::OutOfRange`] for a probability that no launch from horizontal has: ½ needs ωz = 0, and none has less.
+/// [`InputError::OutOfRange`] for a probability of ½, which needs ωz = 0, and for one below ½ or above 1, which no
+/// launch from horizontal has.
 pub fn rate_ratio(probability: f64, k: f64) -> Result<f64, InputError> {
     require("probability", probability, "above 1/2, at most 1", probability > 0.5 && probability <= 1.0)?;
     Ok(k / cotangent(probability))
 }
 
-/// cot ψ = √sin(π (p - ½)), for p from ½ to 1; p - ½ is exact.
+/// cot ψ = √sin(π (p - ½)), for p from ½ to 1, where the difference p - ½ is exact in f64.
 fn cotangent(probability: f64) -> f64 {
     (PI * (probability - 0.5)).sin().sqrt()
 }
@@ -54,12 +61,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ratio_of_rates_has_the_probability_that_was_asked_for() {
+    fn the_ratio_of_rates_has_the_wanted_probability() {
         for k in [0.5, 1.0, 1.98] {
             for probability in [0.5 + 1e-12, 0.507_696, 0.66, 0.95, 0.999, 1.0] {
                 let cone = (rate_ratio(probability, k).unwrap() / k).atan();
                 let found = long_flight_probability(cone, cone);
-                // Near p = 1 it falls with the square root of the angle beyond 45°.
+                // Just above 45°, p falls with the square root of the angle beyond 45°.
                 let within = if probability == 1.0 { 1e-7 } else { 1e-12 };
                 assert!((found - probability).abs() < within, "{k}, {probability}: {found}");
             }
@@ -70,8 +77,8 @@ mod tests {
     }
 
     #[test]
-    fn the_cone_is_that_of_the_reference_probabilities() {
-        // p(ψ) to 16 digits, from the closed form in 50; the angle answers to one of their roundings by dψ/dp.
+    fn the_cone_matches_the_reference_probabilities() {
+        // p(ψ) computed with 50 digits and rounded to 16; the rounding of p changes ψ by dψ/dp times as much.
         for (degrees, probability) in [
             (50.0_f64, 0.748_644_041_020_130_9),
             (55.0, 0.663_109_352_400_508_2),
@@ -87,19 +94,19 @@ mod tests {
     }
 
     #[test]
-    fn the_cone_has_the_probability_that_was_asked_for() {
+    fn the_cone_has_the_wanted_probability() {
         for part in 0..1000 {
             let probability = 0.5 + 0.499 * f64::from(part) / 999.0;
             let cone = long_flight_cone(probability).unwrap();
             let found = long_flight_probability(cone, cone);
-            // What a rounding of the angle does to p, and the roundings of p.
+            // The effect on p of rounding the angle, and the rounding of p itself.
             let within = f64::EPSILON * (2.0 * cone * slope(cone) + 2.0);
             assert!((found - probability).abs() < within, "{probability}: off by {:e}", found - probability);
         }
     }
 
     #[test]
-    fn no_cone_has_a_probability_below_one_half_or_above_one() {
+    fn rejects_probabilities_below_one_half_or_above_one() {
         for probability in [0.5_f64.next_down(), 0.0, -1.0, 1.0_f64.next_up(), f64::NAN, f64::INFINITY] {
             let error = long_flight_cone(probability).unwrap_err();
             assert!(matches!(error, InputError::OutOfRange { field: "probability", .. }), "{error}");
@@ -113,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tilted_momentum_agrees_with_counting_phases() {
+    fn the_probability_of_a_tilted_momentum_matches_counted_phases() {
         for (cone, tilt) in [(1.0_f64, 1.2_f64), (0.4, 2.0), (2.5, 0.9), (1.4, 1.4), (0.3, 0.3), (0.3, 3.0)] {
             let phases = 100_000;
             let heads = (0..phases)

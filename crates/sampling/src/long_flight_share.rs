@@ -1,4 +1,5 @@
-//! The long-flight limit beside what it is the limit of: the share of heads among long flights.
+//! This file compares the probability of heads in the limit of a long flight with the share of heads among flights that
+//! are long but finite. The comparison shows that the formula of the limit holds.
 
 use std::f64::consts::PI;
 
@@ -14,36 +15,36 @@ use crate::space::Space;
 /// ωL of the long flights (rad/s).
 const PRECESSION: f64 = 100.0;
 
-/// Their speeds (m/s).
+/// Smallest and largest speed of the long flights (m/s).
 const SPEEDS: [f64; 2] = [300.0, 600.0];
 
-/// Turns ωL T/2π of the slowest and of the fastest of them, with the default gravity.
+/// Numbers of turns ωL T/2π of the slowest and of the fastest long flight, with the default gravity.
 pub const LONG_FLIGHT_TURNS: [f64; 2] = [turns(SPEEDS[0]), turns(SPEEDS[1])];
 
-/// With T = 2 v0/g.
+/// Number of turns ωL T/2π of a long flight with this speed (m/s), where T = 2 v0/g.
 const fn turns(speed: f64) -> f64 {
     PRECESSION * speed / (PI * DEFAULT_GRAVITY)
 }
 
-/// The share of heads among long flights from horizontal, and its limit.
+/// The share of heads among long flights from horizontal, beside the probability in the limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LongFlightShare {
-    /// ψ (rad).
+    /// ψ, the angle between the coin's normal and its angular momentum (rad).
     pub cone_angle: f64,
-    /// p(ψ).
+    /// p(ψ), the probability of heads in the limit; see [`long_flight_probability`].
     pub limit: f64,
-    /// What random speeds give.
+    /// The estimate from random speeds.
     pub estimate: Estimate,
 }
 
 impl Sampler<'_> {
-    /// For each of `cone_angles` = ψ (rad), the share of heads among `points` flights of [`LONG_FLIGHT_TURNS`] at random
-    /// speeds. No two angles share their random numbers: the seed of the first is `seed`, that of the next `seed` + 1, and
-    /// so on.
+    /// Estimates, for each of `cone_angles` = ψ (rad), the share of heads among `points` flights of
+    /// [`LONG_FLIGHT_TURNS`] at random speeds. Each angle has random numbers of its own: the seed is `seed` for the
+    /// first angle, `seed` + 1 for the next, and so on.
     ///
     /// # Errors
-    /// As [`Sampler::estimate`]; an [`InputError`] for an angle that is no number, for no points, and for a rod (k = 0),
-    /// whose ψ is 90° at any rate.
+    /// As [`Sampler::estimate`]; an [`InputError`] for an angle that is not finite, for zero points, and for a rod, as
+    /// k = 0 means that ψ is 90° at any rate.
     pub fn long_flight_shares(
         &self,
         coin: Coin,
@@ -59,7 +60,7 @@ impl Sampler<'_> {
     }
 }
 
-/// Long flights at one cone angle: Ω = ωL sin ψ and k ωz = ωL cos ψ.
+/// The space of long flights at one cone angle ψ: Ω = ωL sin ψ and k ωz = ωL cos ψ.
 fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
     let [lo, hi] = SPEEDS;
     Space::builder(coin)
@@ -78,12 +79,12 @@ mod tests {
     use crate::{Coordinate, Found, clopper_pearson};
 
     #[test]
-    fn the_shares_surround_their_limits() {
+    fn the_limits_lie_within_the_intervals_of_the_shares() {
         let cones = [0.5, 0.9, 1.1, 1.3, 1.5, 1.9, 2.8];
         for coin in [Coin::PAPER, Coin::from_moments(5e-7, 9.9e-7).unwrap()] {
             for found in Sampler::exact().long_flight_shares(coin, &cones, (4000, 1)).unwrap() {
                 let Found::Counts(counts) = found.estimate.found else { panic!("flights are counted") };
-                // 1e-3 is what is left of a part of a turn.
+                // The last, incomplete turn may shift the share by 1e-3.
                 let interval = clopper_pearson(counts.heads(), counts.points(), 1.0 - 1e-6);
                 assert!(interval.lo - 1e-3 <= found.limit && found.limit <= interval.hi + 1e-3, "{found:?}");
             }
@@ -91,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn long_flights_have_so_many_turns() {
+    fn long_flights_have_the_documented_numbers_of_turns() {
         let precessions = [300.0, 600.0].map(|speed| {
             let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Coordinate::Speed, speed).unwrap();
             let toss = space.toss(&space.fixed_values());
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rod_has_no_long_flights_at_a_given_angle() {
+    fn rejects_a_rod() {
         let rod = Coin::from_moments(5e-7, 0.0).unwrap();
         let refused = Sampler::exact().long_flight_shares(rod, &[1.0], (10, 1));
         assert!(matches!(refused, Err(Error::Input(_))));

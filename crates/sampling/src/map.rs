@@ -1,7 +1,9 @@
-//! The probability of heads over two coordinates of a space: P(heads | x, y) at the nodes (x, y) of a grid.
+//! This file maps the probability of heads over two coordinates of a space: P(heads | x, y) at the nodes (x, y) of a
+//! grid. It also gives, at each node, the least cos θ of the motion, so that the line can be drawn on which heads
+//! becomes certain.
 //!
-//! The line on which heads becomes certain is where the least cos θ of the motion, cos(φ + ψ), is 0: from horizontal
-//! ψ = 45°.
+//! The least cos θ is cos(φ + ψ), with ψ the angle between the coin's normal n and its angular momentum S, and φ the
+//! angle between S and the vertical. The line is where it is 0; for launches from horizontal, φ = ψ, this is ψ = 45°.
 
 use dynamics::{Error, InputError};
 use exact::ExactMotion;
@@ -12,7 +14,7 @@ use crate::plan::Plan;
 use crate::sampler::Sampler;
 use crate::space::{AxisOrTie, Space};
 
-/// P(heads) at the nodes of a grid over two coordinates, the others being what the space says.
+/// P(heads) at the nodes of a grid over two coordinates, with the other coordinates distributed as in the space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// The coordinate that varies along a row, and its values.
@@ -28,17 +30,17 @@ pub struct Map {
 pub struct Node {
     /// P(heads), from 0 to 1.
     pub probability: f64,
-    /// cos(φ + ψ), the least cos θ of the motion: where it is at least 0 the coin shows heads at every time. From
-    /// horizontal φ = ψ, and this is ψ ≤ 45° or ψ ≥ 135°. `None` where rates or tilt vary within the node.
+    /// cos(φ + ψ), the least cos θ of the motion. If it is not negative, the coin shows heads at all times; from
+    /// horizontal this means ψ ≤ 45° or ψ ≥ 135°. `None` if a rate or the tilt varies within the node.
     pub least_cos_tilt: Option<f64>,
 }
 
 impl Sampler<'_> {
-    /// Maps P(heads) of `space` over the grid of the coordinates `across` and `up`, estimating each node by `plan`.
+    /// Estimates P(heads) of `space` by `plan` at each node of the grid over the coordinates `across` and `up`.
     ///
     /// # Errors
-    /// As [`Sampler::estimate`]; an [`InputError`] names the coordinate that is tied or has no range with a number of
-    /// points.
+    /// As [`Sampler::estimate`], and an [`InputError`] that names a coordinate of the grid if it is given twice, is
+    /// tied, or has no number of points from 2 to 10 000.
     pub fn map(&self, space: &Space, [across, up]: [Coordinate; 2], plan: Plan) -> Result<Map, Error> {
         if across == up {
             let (field, value) = (up.field(), up.name().to_owned());
@@ -54,19 +56,19 @@ impl Sampler<'_> {
             Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
         };
         let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, Error>>>();
-        // In order, so that of several errors it is always the first.
+        // Collected in order, so that of several errors it is always the first that is returned.
         let nodes = nodes.into_iter().collect::<Result<_, _>>()?;
         Ok(Map { across: (across, columns), up: (up, rows), nodes })
     }
 }
 
-/// The grid's values of a coordinate.
+/// The grid points of a coordinate.
 fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
     const MOST: u64 = 10_000;
     let refused = |value: String| InputError::Malformed {
         field: of.field(),
         value,
-        expected: "for a map: LO:HI:POINTS with 2 to 10000 points, not tied",
+        expected: "an axis for a map: LO:HI:POINTS with 2 to 10000 points, and not tied",
     };
     match space.axis_or_tie(of) {
         AxisOrTie::Axis(axis) => match axis.points() {
@@ -77,6 +79,7 @@ fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
     }
 }
 
+/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies.
 fn least_cos_tilt(space: &Space) -> Option<f64> {
     let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
     let motion = ExactMotion::new(&space.toss(&space.fixed_values()));
@@ -119,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tied_rate_follows_and_a_varying_one_blurs_the_line() {
+    fn a_tied_rate_follows_its_partner_and_a_varying_rate_leaves_no_least_cos_tilt() {
         let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
         let map = Sampler::exact().map(&space(&texts), [RateX, Tilt], plan).unwrap();
@@ -128,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_cos_tilt_is_that_of_the_motion_also_from_a_tilt() {
+    fn the_least_cos_tilt_is_the_minimum_over_the_motion() {
         let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0.6")];
         let tilted = Sampler::exact().map(&space(&texts), [RateX, RateZ], EXACT).unwrap();
         for (index, node) in tilted.nodes.iter().enumerate() {
@@ -146,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_mapped_is_refused_by_name() {
+    fn rejects_coordinates_that_cannot_be_mapped() {
         let space = space(&[(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "4")]);
         for (axes, field) in [
             ([RateX, RateX], "rate x"),

@@ -1,4 +1,5 @@
-//! Which launches of a space are tried, and how: the four methods.
+//! This file lists the four methods of choosing the launches of a space that are tried. A plan is plain data: the
+//! sampler carries it out, and its number of launches is known before.
 
 use dynamics::InputError;
 use dynamics::error::require;
@@ -7,54 +8,54 @@ use crate::coordinate::Coordinate;
 use crate::sobol;
 use crate::space::{Cube, Space};
 
-/// Scrambles of Sobol's sequence that an estimate is made of, unless it is told otherwise.
+/// Default number of independent scrambles of Sobol's sequence in an estimate.
 pub const SCRAMBLES: u64 = 8;
 
-/// Which launches of a space are tried.
+/// The method that chooses the launches of a space that are tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plan {
-    /// Method A: the space's grid.
+    /// Method A: all launches of the space's grid.
     Grid,
-    /// Method B: `points` launches at random.
+    /// Method B: independent random launches.
     Random {
         /// Number of launches.
         points: u64,
         /// Seed of the random numbers.
         seed: u64,
     },
-    /// Owen-scrambled Sobol points.
+    /// Owen-scrambled points of Sobol's sequence, which fill the space more evenly than random ones.
     Sobol(Scrambled),
-    /// The speed integrated in closed form, by the exact motion.
+    /// All speeds in closed form, by the exact motion; the other coordinates as in [`Rest`].
     ExactSpeed(Rest),
 }
 
-/// How the coordinates are chosen that are not integrated in closed form.
+/// How [`Plan::ExactSpeed`] chooses the coordinates other than the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rest {
-    /// By the space's grid, whose speed axis needs no points.
+    /// By the space's grid. The axis of the speed needs no number of points.
     Grid,
-    /// By Owen-scrambled Sobol points.
+    /// By Owen-scrambled points of Sobol's sequence.
     Sobol(Scrambled),
 }
 
-/// Sobol points: so many in all, shared out evenly over independent scrambles.
+/// A number of Sobol points, divided evenly among independent scrambles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scrambled {
-    /// Number of launches in all; a power of two for each scramble is best.
+    /// Number of launches of all scrambles together. The points are most even if each scramble has a power of two.
     pub points: u64,
-    /// Number of scrambles. From a single one no error can be told.
+    /// Number of scrambles. A single one gives no error estimate.
     pub scrambles: u64,
-    /// Seed of the scrambles.
+    /// Seed of the random scrambles.
     pub seed: u64,
 }
 
 impl Scrambled {
-    /// `points` launches over [`SCRAMBLES`] scrambles.
+    /// `points` launches, divided among [`SCRAMBLES`] scrambles.
     pub fn new(points: u64, seed: u64) -> Self {
         Self { points, scrambles: SCRAMBLES, seed }
     }
 
-    /// Points of each scramble.
+    /// Number of points of each scramble.
     pub(crate) fn points_each(&self) -> Result<u64, InputError> {
         let each = self.points / self.scrambles.max(1);
         if (1..=sobol::MOST_POINTS).contains(&each) && each * self.scrambles == self.points {
@@ -63,13 +64,14 @@ impl Scrambled {
         Err(InputError::Malformed {
             field: "points",
             value: self.points.to_string(),
-            expected: "a multiple of the number of scrambles (8), at most 2^36 for each",
+            expected: "a multiple of the number of scrambles (8 by default), at most 2^36 points for each",
         })
     }
 }
 
 impl Plan {
-    /// Number of launches, or of launches without their speeds, that the plan tries in `space`: 1 for an exact answer.
+    /// Number of launches that the plan tries in `space`. For [`Plan::ExactSpeed`] each of them stands for all speeds;
+    /// it is 1 if nothing but the speed varies.
     ///
     /// # Errors
     /// [`InputError`] if the plan does not fit the space.
@@ -90,7 +92,7 @@ impl Plan {
     }
 }
 
-/// The cube over what is free beside the speed.
+/// The unit cube over the coordinates that vary, without the speed.
 pub(crate) fn cube_of_the_rest(space: &Space) -> Cube {
     Cube::new(space, space.free().filter(|of| *of != Coordinate::Speed))
 }

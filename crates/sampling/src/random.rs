@@ -1,7 +1,8 @@
-//! Method B: independent random launches.
+//! This file draws the launches of method B, which are random and independent. Launch i depends on the seed and on i
+//! alone, so that threads can draw any part of the sequence.
 //!
-//! Launch i depends on the seed and on i only: the random numbers are the output of a block cipher in counter mode
-//! (ChaCha with 8 rounds), read at a position that follows from i.
+//! The random numbers are the output of a cipher in counter mode (ChaCha with 8 rounds), read at a position that
+//! follows from i.
 
 use std::ops::Range;
 
@@ -14,7 +15,7 @@ use crate::axis::Distribution;
 use crate::block::{BLOCK, Block};
 use crate::space::{Cube, Space};
 
-/// Writes the launches from number `start` on of the random sequence of `seed` over `cube`.
+/// Writes the launches from number `start` on of the random sequence with this `seed` over `cube` into `block`.
 pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block) {
     const WORDS_PER_NUMBER: u128 = 2;
     let dimensions = cube.dimensions();
@@ -36,7 +37,7 @@ pub(crate) fn write_random(cube: &Cube, seed: u64, start: u64, block: &mut Block
     }
 }
 
-/// The place of a number among those of its launch.
+/// Position of a coordinate's random number among those of its launch.
 #[derive(Clone, Copy)]
 struct Row {
     dimension: usize,
@@ -44,7 +45,7 @@ struct Row {
 }
 
 impl Row {
-    /// Numbers between `lo` and `hi` from every row of `words`.
+    /// Fills `column` with uniform numbers in `range`, from one word of each row (launch) of `words`.
     fn uniform(self, words: &[u64], column: &mut [f64], range: [f64; 2]) {
         let Self { dimension, dimensions } = self;
         SimdLevel::widest().run(|| match dimensions {
@@ -58,7 +59,7 @@ impl Row {
     }
 }
 
-/// As [`Row::uniform`], for a number of dimensions that the compiler knows.
+/// As [`Row::uniform`], for a number of dimensions that is a constant, so that the compiler can vectorise the loop.
 #[inline(always)]
 fn uniform<const DIMENSIONS: usize>(words: &[u64], column: &mut [f64], dimension: usize, [lo, hi]: [f64; 2]) {
     for (value, row) in column.iter_mut().zip(words.as_chunks::<DIMENSIONS>().0) {
@@ -66,14 +67,15 @@ fn uniform<const DIMENSIONS: usize>(words: &[u64], column: &mut [f64], dimension
     }
 }
 
-/// The middle of one of 2^52 equal parts of the interval, as [`rand::distr::Open01`] has it.
+/// A number between 0 and 1 from the upper 52 bits of `word`: the middle of one of 2^52 equal parts, as in
+/// [`rand::distr::Open01`].
 #[inline(always)]
 fn between_0_and_1(word: u64) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     f64::from_bits(word >> 12 | ONE) - (1.0 - 0.5 * f64::EPSILON)
 }
 
-/// The launches `range` of the random sequence of `seed` over `space`.
+/// The launches with the numbers `range` of the random sequence with this `seed` over `space`.
 pub fn random_tosses(space: &Space, seed: u64, range: Range<u64>) -> Vec<Toss> {
     let cube = Cube::new(space, space.free());
     let mut block = Block::new(space);
@@ -95,7 +97,7 @@ mod tests {
     use crate::coordinate::Coordinate::{self, RateX, RateY, RateZ, Speed};
 
     #[test]
-    fn launch_i_depends_on_seed_and_i_only() {
+    fn launch_i_depends_on_the_seed_and_i_alone() {
         let texts = [(RateX, "0:50"), (RateY, "normal:0:5"), (RateZ, "30"), (Speed, "3:5")];
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let all = random_tosses(&space, 7, 0..3000);
@@ -106,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn the_numbers_are_those_of_the_generator_in_their_order() {
+    fn draws_are_the_generators_numbers_in_their_order() {
         let ranges = ["0:50", "1:2", "-3:3", "3:5", "9:10", "0:1"];
         for free in 1..=Coordinate::COUNT {
             let fixed = |place: usize| if place < free { ranges[place] } else { "1" };

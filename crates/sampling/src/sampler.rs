@@ -1,4 +1,5 @@
-//! Who decides the outcomes of launches, and who hears of the progress: what all questions about many launches share.
+//! This file holds the sampler, which estimates probabilities of heads. It keeps the settings that all such
+//! computations share: what decides the outcomes of launches, and where progress is reported.
 
 use dynamics::{Checked, Error, InputError, Solver};
 
@@ -11,7 +12,7 @@ use crate::plan::{Plan, Rest, Scrambled, cube_of_the_rest};
 use crate::shares::{Shares, add_shares};
 use crate::space::{Cube, Space};
 
-/// Answers questions about many launches, on the threads of the current pool.
+/// Estimates probabilities of heads over many launches, on the threads of the current pool.
 ///
 /// ```
 /// use dynamics::Coin;
@@ -29,19 +30,20 @@ pub struct Sampler<'a> {
 }
 
 impl Sampler<'static> {
-    /// The exact motion decides: every outcome is proven.
+    /// A sampler that decides outcomes by the exact motion. Every outcome is proven.
     pub fn exact() -> Self {
         Self { decider: Decider::Exact, progress: &|_| {} }
     }
 }
 
 impl<'a> Sampler<'a> {
-    /// `solver` decides, as far as its error estimate goes. Nothing that it answers is a proof.
+    /// A sampler that decides outcomes by `solver`. Outcomes within its error estimate are undecided, and none is
+    /// proven.
     pub fn by(solver: &'a dyn Solver) -> Self {
         Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {} }
     }
 
-    /// The same, with `progress` called with the number of launches (or nodes of a map) done since it was last called.
+    /// Sets a function that is called with the number of launches (or nodes of a map) done since it was last called.
     #[must_use]
     pub fn on_progress<'b>(self, progress: Progress<'b>) -> Sampler<'b>
     where
@@ -50,7 +52,7 @@ impl<'a> Sampler<'a> {
         Sampler { decider: self.decider, progress }
     }
 
-    /// Without a word about the progress.
+    /// The same sampler without progress reports.
     pub(crate) fn silent(&self) -> Sampler<'a> {
         Sampler { decider: self.decider.clone(), progress: &|_| {} }
     }
@@ -58,8 +60,8 @@ impl<'a> Sampler<'a> {
     /// Estimates the probability of heads in `space` by `plan`.
     ///
     /// # Errors
-    /// [`Error`]: of several failing launches always the first; [`InputError`] if the plan does not fit the space, or for
-    /// [`Plan::ExactSpeed`], which integrates the exact motion, with a solver.
+    /// [`Error`] of a launch that fails; if several fail, always of the first. [`InputError`] if the plan does not fit
+    /// the space, and for [`Plan::ExactSpeed`] with a solver, because it uses the exact motion.
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let points = plan.points(space)?;
         match plan {
@@ -79,14 +81,14 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Counts the first `points` launches.
+    /// Counts the outcomes of the first `points` launches.
     fn count(&self, space: &Space, launches: &Launches, points: u64) -> Result<Counts, Error> {
         self.decider.count(space, launches, 0..points, self.progress)
     }
 
     fn integrate_speed(&self, space: &Space, rest: Rest, points: u64) -> Result<Estimate, Error> {
         if let Decider::Solver(solver) = &self.decider {
-            let expected = "the exact motion, which exact-speed integrates over the speeds: no solver";
+            let expected = "no solver for exact-speed, which uses the exact motion";
             let value = solver.name().to_owned();
             return Err(InputError::Malformed { field: "solver", value, expected }.into());
         }
@@ -105,7 +107,7 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// The `tally` of each scramble.
+/// Calls `tally` for each scramble, with its launches and their number, and collects the results.
 fn each_scramble<T>(
     cube: &Cube,
     scrambled: Scrambled,

@@ -1,4 +1,6 @@
-//! How estimates converge as launches are added: p(n) over n, and √⟨(p(n) - P)²⟩ over independent estimates p(n).
+//! This file follows how estimates converge as launches are added. It gives the running probability p(n) after n
+//! launches, as in the paper's Fig. 4, and the root-mean-square error √⟨(p(n) - P)²⟩ of independent estimates p(n) of
+//! each method.
 
 use dynamics::Error;
 use dynamics::error::require;
@@ -13,23 +15,23 @@ use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
 use crate::space::{Cube, Space};
 
-/// The shares of heads among the first launches of both methods.
+/// The shares of heads among the first launches of method A and method B.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RunningStep {
-    /// Launches so far.
+    /// Number of launches so far.
     pub launches: u64,
-    /// Of the grid in its order (A).
+    /// Share of heads among the first launches of the grid (A).
     pub grid: f64,
-    /// At random (B).
+    /// Share of heads among the first random launches (B).
     pub random: f64,
-    /// Lower end of B's interval of 95 %.
+    /// Lower end of the 95 % interval of the random launches.
     pub random_lo: f64,
-    /// Upper end of it.
+    /// Upper end of that interval.
     pub random_hi: f64,
 }
 
 impl RunningStep {
-    /// Its values in their order.
+    /// The values in the order of the fields.
     pub fn columns(&self) -> [f64; 5] {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         let launches = self.launches as f64;
@@ -38,8 +40,8 @@ impl RunningStep {
 }
 
 impl Sampler<'_> {
-    /// The running probability of the whole grid of `space` (A) beside that of as many random launches (B), in `steps`
-    /// equal steps.
+    /// The running probability over the whole grid of `space` (A), beside that over as many random launches (B), in
+    /// `steps` equal steps.
     ///
     /// # Errors
     /// As [`Sampler::estimate`].
@@ -59,8 +61,8 @@ impl Sampler<'_> {
         Ok(grid.iter().zip(&random).map(step).collect())
     }
 
-    /// The running counts of method A, whose launches come in the grid's order: the speed fastest, ωx slowest of the four.
-    /// `steps` equal steps, the last of them the whole grid.
+    /// The running counts of method A, in `steps` equal steps, the last of which is the whole grid. The launches come
+    /// in the order of the grid, in which the speed varies fastest.
     fn running_grid(&self, space: &Space, steps: u64) -> Result<Vec<Counts>, Error> {
         self.running(space, &Launches::Grid(Grid::new(space)?), space.grid_points()?, steps)
     }
@@ -71,10 +73,11 @@ impl Sampler<'_> {
         self.running(space, &Launches::Random { cube, seed }, points, steps)
     }
 
+    /// The running counts over the first `points` of `launches`, in `steps` equal steps.
     fn running(&self, space: &Space, launches: &Launches, points: u64, steps: u64) -> Result<Vec<Counts>, Error> {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-        require("steps", steps as f64, "at least 1, and at most one a launch", (1..=points).contains(&steps))?;
-        // The step's end in whole launches, without overflow.
+        require("steps", steps as f64, "at least 1, at most the number of launches", (1..=points).contains(&steps))?;
+        // Number of launches at the end of a step, computed without overflow.
         let end =
             |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);
         let mut counts = Counts::default();
@@ -91,15 +94,15 @@ impl Sampler<'_> {
 /// A way to estimate a probability from a given number of launches.
 #[derive(Debug, Clone, Copy)]
 pub struct Estimator {
-    /// Its name.
+    /// Name of the method.
     pub name: &'static str,
-    /// Whether it draws random numbers.
+    /// Whether it uses random numbers.
     pub is_random: bool,
     plan: fn(points: u64, seed: u64) -> Plan,
 }
 
-/// The four methods. Those that use Sobol's sequence give all points to one scramble, which is the most accurate
-/// that they can do, except the last, which is exact-speed as it is used to tell its error.
+/// The four methods, the last of them twice. Those that use Sobol's sequence give all points to one scramble, which is
+/// most accurate but has no error estimate. The last entry has 8 scrambles, as in an estimate with an interval.
 pub const ESTIMATORS: [Estimator; 5] = [
     Estimator { name: "grid", is_random: false, plan: |_, _| Plan::Grid },
     Estimator { name: "random", is_random: true, plan: |points, seed| Plan::Random { points, seed } },
@@ -121,8 +124,8 @@ pub const ESTIMATORS: [Estimator; 5] = [
 ];
 
 impl Estimator {
-    /// The estimates from `points` launches by the seeds 1 to `replicates`; a method without random numbers has one,
-    /// from the largest even grid of at most so many launches.
+    /// Estimates the probability from `points` launches, for each of the seeds 1 to `replicates`. A method without
+    /// random numbers gives a single estimate, from the largest even grid of at most `points` launches.
     ///
     /// # Errors
     /// As [`Sampler::estimate`].
@@ -139,7 +142,7 @@ impl Estimator {
     }
 }
 
-/// Root of the mean square of what `estimates` are off `probability`.
+/// Root of the mean square of the differences between `estimates` and the true `probability`.
 #[expect(clippy::cast_precision_loss, reason = "a handful of estimates")]
 pub fn rms_error(estimates: &[f64], probability: f64) -> f64 {
     let sum: f64 = estimates.iter().map(|estimate| (estimate - probability).powi(2)).sum();
@@ -158,7 +161,7 @@ mod tests {
     use crate::space_file::named_space;
 
     #[test]
-    fn a_running_count_ends_with_the_whole() {
+    fn running_counts_end_with_the_counts_of_the_estimate() {
         let space = named_space("paper-fig4").unwrap();
         let counts_of = |plan| match Sampler::exact().estimate(&space, plan).unwrap().found {
             Found::Counts(counts) => counts,
@@ -177,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn running_shares_put_the_grid_beside_as_many_random_launches() {
+    fn running_shares_compare_the_grid_with_as_many_random_launches() {
         let space = named_space("tails").unwrap().with_axis(Speed, Axis::range(0.0..=5.0).with_points(90)).unwrap();
         let steps = Sampler::exact().running_shares(&space, 9, 5).unwrap();
         let grid = Sampler::exact().running_grid(&space, 9).unwrap();
@@ -192,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn each_method_converges_faster_than_the_one_before() {
+    fn methods_with_sobol_points_and_exact_speed_have_smaller_errors() {
         let texts = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
         let space = Space::parse(Coin::PAPER, &texts).unwrap();
         let probability = 0.580_665_055_2;
@@ -201,7 +204,7 @@ mod tests {
         });
         let [_, random, sobol, exact_speed, scrambled] = errors;
         assert!(sobol < random && 10.0 * exact_speed < sobol && 5.0 * scrambled < sobol, "{errors:?}");
-        // Independent launches: √(p (1 - p)/n) = 3.9e-3, and the mean of 16 squares varies by 35 %.
+        // For independent launches √(p (1 - p)/n) = 3.9e-3; the mean of 16 squares scatters by 35 %.
         assert!((2e-3..6e-3).contains(&random), "{random}");
     }
 }

@@ -1,4 +1,5 @@
-//! Shares of heads, added up: P(heads) = Σ share/n, each share over all speeds.
+//! This file adds up shares of heads: P(heads) is their mean, and each share is that over all speeds of a launch. The
+//! sums are integers, so that the result does not depend on the order in which threads add to them.
 
 use std::ops::Range;
 
@@ -9,7 +10,7 @@ use crate::fold::{Progress, Tally, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
-/// Shares added up. The sums are integers, in units of 2^-53, so that their order is free.
+/// Sums of shares and of their error bounds, as integers in units of 2^-53.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Shares {
     launches: u64,
@@ -17,9 +18,11 @@ pub(crate) struct Shares {
     error: u128,
 }
 
+/// 2^-53.
 const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 impl Shares {
+    /// Adds a share. Its error is rounded up, plus one unit for the rounding of the share itself.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "shares lie between 0 and 1")]
     fn add(&mut self, share: Share) {
         self.launches += 1;
@@ -27,7 +30,7 @@ impl Shares {
         self.error += (share.error / UNIT).ceil() as u128 + 1;
     }
 
-    /// The mean share.
+    /// The mean share, with the mean of the error bounds.
     #[expect(clippy::cast_precision_loss, reason = "rounded once")]
     pub(crate) fn mean(&self) -> Share {
         let mean = |sum: u128| sum as f64 * UNIT / self.launches as f64;
@@ -45,7 +48,7 @@ impl Tally for Shares {
     }
 }
 
-/// Adds up the shares of the launches `range`, whose speeds are not looked at.
+/// Adds up the shares of the launches with the numbers `range`. Their speeds are not used.
 pub(crate) fn add_shares(
     space: &Space,
     launches: &Launches,
@@ -67,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_order_of_a_sum_is_free() {
+    fn a_sum_does_not_depend_on_its_order() {
         let shares: Vec<Share> =
             (0..1000).map(|i| Share::new(f64::from(i * 7919 % 1000) / 999.0, 1e-16 * f64::from(i))).collect();
         let sum = |order: &mut dyn Iterator<Item = &Share>| {
@@ -80,7 +83,7 @@ mod tests {
         assert_eq!(sum(&mut first.iter()).merge(sum(&mut rest.iter())), sum(&mut shares.iter()));
         let mean = sum(&mut shares.iter()).mean();
         assert!((mean.probability - 0.5).abs() < 1e-15);
-        // Beside the errors given, 499.5e-16 in the mean, that of the unit of the sum.
+        // The mean of the given errors is 499.5e-16; rounding to units adds 1 to 3 units.
         assert!((499.5e-16 + UNIT..499.5e-16 + 3.0 * UNIT).contains(&mean.error), "{:e}", mean.error);
     }
 }

@@ -1,14 +1,16 @@
-//! Sobol's low-discrepancy sequence, scrambled as Owen has it, in all 52 digits of an f64 between 0 and 1.
+//! This file generates the points of Sobol's low-discrepancy sequence with Owen's scrambling. The points fill a cube
+//! more evenly than random ones, so that estimates converge faster, and independent scrambles still give an error
+//! estimate.
 //!
-//! Every run of 2^m points that starts at a multiple of 2^m is a (t, m, s)-net in base 2: each elementary interval of
-//! volume 2^(t-m) holds exactly 2^t of the points. In s dimensions t = Σ (degree of the dimension's polynomial - 1),
-//! that is 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 to 8.
+//! All digits are binary; a coordinate has 52 of them. Every run of 2^m points that starts at a multiple of 2^m is a
+//! (t, m, s)-net in base 2: each elementary interval of volume 2^(t-m) holds exactly 2^t of the points. In s dimensions
+//! t = Σ (degree of the dimension's polynomial - 1), that is 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 to 8.
 //!
-//! Owen's nested uniform scrambling flips digit d of a coordinate by a random bit that belongs to the d - 1 digits
-//! before it. Each point is then uniform over the cube, the net property stays, and independent scrambles give
-//! independent estimates, from whose spread the error is told. The bits of six digits' levels are 63 nodes of a
-//! binary tree, and one 64-bit hash of the digits before them gives them all. From digit 37 on every prefix is met
-//! once at most, and one hash gives the remaining digits.
+//! Owen's nested uniform scrambling flips digit d of a coordinate by a random bit that depends on the d - 1 digits
+//! before it. Each point is then uniform over the cube, every run stays a net, and independent scrambles give
+//! independent estimates, whose spread is the error. The random bits form a binary tree. Those for six successive
+//! digits are 63 nodes of it, and one 64-bit hash of the digits before them gives all 63. From digit 37 on, at most one
+//! point has any given prefix, so one hash gives all remaining digits.
 //!
 //! Sources: I. M. Sobol', USSR Comput. Math. Math. Phys. 7 (1967), 86 (the sequence, t); S. Joe and F. Y. Kuo, SIAM J.
 //! Sci. Comput. 30 (2008), 2635 (direction numbers); A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in
@@ -22,12 +24,13 @@ use rand::{Rng, SeedableRng};
 /// Number of dimensions.
 pub const DIMENSIONS: usize = 8;
 
-/// Digits of a coordinate that come from the sequence, so that 2^36 points differ in each.
+/// Number of digits of a coordinate that come from the sequence: 2^36 points differ in each coordinate.
 const DEPTH: u32 = 36;
-/// Digits of a coordinate in all.
+/// Number of digits of a coordinate in all.
 const DIGITS: u32 = 52;
-/// Digits whose flips one hash gives.
+/// Number of digits whose flips come from one hash.
 const GROUP: u32 = 6;
+/// Number of such groups of digits.
 const GROUPS: usize = (DEPTH / GROUP) as usize;
 
 /// Number of points of the sequence.
@@ -45,9 +48,11 @@ const POLYNOMIALS: [(usize, u64, &[u64]); DIMENSIONS - 1] = [
     (5, 2, &[1, 1, 5, 5, 17]),
 ];
 
-/// Column j of a generator matrix holds what bit j of the index adds; the highest of its DEPTH bits is the first digit.
+/// A generator matrix. Column j holds the digits that bit j of the index adds modulo 2; the highest of its DEPTH bits
+/// is the first digit.
 type Directions = [u64; DEPTH as usize];
 
+/// The generator matrix of a dimension, from its polynomial; that of dimension 0 is van der Corput's sequence.
 fn directions(dimension: usize) -> Directions {
     let mut numbers = [1_u64; DEPTH as usize];
     if let Some(&(degree, coefficients, first)) = dimension.checked_sub(1).and_then(|index| POLYNOMIALS.get(index)) {
@@ -62,18 +67,19 @@ fn directions(dimension: usize) -> Directions {
     std::array::from_fn(|j| numbers[j] << (DEPTH as usize - 1 - j))
 }
 
-/// The random bits of one coordinate's scrambling, as keys of the hash: one for each group of digits, one for the rest.
+/// The random keys of the hash that scramble one coordinate: one for each group of digits, and one for the remaining
+/// digits.
 type Keys = [u64; GROUPS + 1];
 
-/// A scrambled sequence.
+/// A scrambled Sobol sequence.
 #[derive(Debug, Clone)]
 pub struct ScrambledSobol {
     coordinates: Vec<(Directions, Keys)>,
 }
 
 impl ScrambledSobol {
-    /// The sequence in `dimensions` dimensions, scrambled by scramble number `scramble` of `seed`. `None` for more
-    /// than [`DIMENSIONS`].
+    /// The sequence in `dimensions` dimensions with scramble number `scramble` of `seed`. `None` for more than
+    /// [`DIMENSIONS`].
     pub fn new(dimensions: usize, seed: u64, scramble: u64) -> Option<Self> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(scramble);
@@ -81,8 +87,9 @@ impl ScrambledSobol {
         (dimensions <= DIMENSIONS).then(|| Self { coordinates: (0..dimensions).map(coordinate).collect() })
     }
 
-    /// Calls `each` with the points `range` of the sequence, whose coordinates lie strictly between 0 and 1; the range
-    /// ends at [`MOST_POINTS`] or before. Inside of each aligned run of 2^m points the order is Gray's.
+    /// Calls `each` with the points of the sequence with the numbers `range`, which ends at [`MOST_POINTS`] or before.
+    /// All coordinates lie strictly between 0 and 1. The points come in the order of the Gray code, which permutes each
+    /// aligned run of 2^m points.
     pub fn for_each(&self, range: Range<u64>, mut each: impl FnMut(&[f64])) {
         let gray = range.start ^ (range.start >> 1);
         let start = |directions: &Directions| {
@@ -93,7 +100,7 @@ impl ScrambledSobol {
         for index in range {
             for ((digits, coordinate), (directions, keys)) in digits.iter_mut().zip(&mut point).zip(&self.coordinates) {
                 *coordinate = scrambled(*digits, keys);
-                // The last point of all has no next one, whose bit would lie outside.
+                // After the last point of all there is no next one; its bit would lie outside of the matrix.
                 *digits ^= directions.get((index + 1).trailing_zeros() as usize).copied().unwrap_or(0);
             }
             each(&point);
@@ -101,7 +108,7 @@ impl ScrambledSobol {
     }
 }
 
-/// The middle of the interval of 2^-52 to which Owen's scrambling moves `digits`.
+/// The coordinate that Owen's scrambling makes of `digits`: the middle of an interval of length 2^-52.
 #[expect(clippy::cast_precision_loss, reason = "both numbers have at most 53 bits")]
 fn scrambled(digits: u64, keys: &Keys) -> f64 {
     let mut scrambled = 0;
@@ -110,7 +117,7 @@ fn scrambled(digits: u64, keys: &Keys) -> f64 {
         // A leading 1 tells prefixes of different lengths apart.
         let flips = hash(key, (1 << (GROUP * group)) | (digits >> (below + GROUP)));
         let path = (1 << GROUP) | (digits >> below & ((1 << GROUP) - 1));
-        // Node 1 is the root; the node that a digit's flip belongs to is the path up to the digit.
+        // Node 1 is the root of the tree. The digits before a digit, after a leading 1, number the node of its flip.
         let flipped =
             (1..=GROUP).rev().fold(path, |flipped, level| flipped ^ ((flips >> (path >> level) & 1) << (level - 1)));
         scrambled = scrambled << GROUP | (flipped & ((1 << GROUP) - 1));
@@ -120,7 +127,7 @@ fn scrambled(digits: u64, keys: &Keys) -> f64 {
     numerator / (1_u64 << DIGITS) as f64
 }
 
-/// 64 random bits that belong to `prefix` under `key`.
+/// 64 random bits for `prefix` under `key`.
 fn hash(key: &u64, prefix: u64) -> u64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     let mut z = key.wrapping_add(prefix.wrapping_mul(GOLDEN));
@@ -139,8 +146,8 @@ mod tests {
         points
     }
 
-    /// The first eight points before scrambling, in the order of the Gray code, are those that Sobol's sequence is
-    /// commonly shown with (P. Bratley and B. L. Fox, ACM Trans. Math. Softw. 14 (1988), 88, Algorithm 659).
+    /// The first eight points before scrambling, in the order of the Gray code, as published by P. Bratley and B. L.
+    /// Fox, ACM Trans. Math. Softw. 14 (1988), 88, Algorithm 659.
     #[test]
     fn the_sequence_begins_as_published() {
         let expected = [
@@ -167,7 +174,7 @@ mod tests {
         }
     }
 
-    /// Direction numbers m_6 to m_9 of all dimensions, read off the points 2^5 to 2^8 of another implementation: SciPy 1.17,
+    /// The expected direction numbers m_6 to m_9 of all dimensions are read off the points 2^5 to 2^8 of SciPy 1.17,
     /// scipy.stats.qmc.Sobol(8, scramble=False).
     #[test]
     fn direction_numbers_are_those_of_scipy() {
@@ -183,7 +190,7 @@ mod tests {
         }
     }
 
-    /// All ways to cut `digits` digits into `parts` parts.
+    /// All ways to write `digits` as an ordered sum of `parts` numbers ≥ 0.
     fn compositions(digits: u32, parts: usize) -> Vec<Vec<u32>> {
         if parts == 1 {
             return vec![vec![digits]];
@@ -195,7 +202,7 @@ mod tests {
             .collect()
     }
 
-    /// How many points lie in each elementary interval with 2^cut parts along each dimension.
+    /// The number of points in each elementary interval, if dimension i is cut into 2^cut[i] parts.
     fn occupancy(points: &[Vec<f64>], cut: &[u32]) -> Vec<u32> {
         let mut counts = vec![0; 1 << cut.iter().sum::<u32>()];
         for point in points {
@@ -224,14 +231,14 @@ mod tests {
     }
 
     #[test]
-    fn the_published_quality_is_no_better_than_it_is_said_to_be() {
-        // t = 1 in three dimensions: some interval of the volume of one point holds two.
+    fn the_published_quality_is_not_exceeded_in_three_dimensions() {
+        // t = 1 means that some interval with the volume of one point does not hold exactly one.
         let points = points(&ScrambledSobol::new(3, 5, 0).unwrap(), 0..1 << 6);
         assert!(compositions(6, 3).iter().any(|cut| occupancy(&points, cut).iter().any(|count| *count != 1)));
     }
 
     #[test]
-    fn far_points_are_reached_directly_and_the_last_one_exists() {
+    fn any_range_can_be_generated_up_to_the_last_point() {
         let sequence = ScrambledSobol::new(DIMENSIONS, 1, 0).unwrap();
         let all = points(&sequence, 1_000_000..1_000_100);
         assert_eq!(points(&sequence, 1_000_050..1_000_060), all[50..60]);
@@ -240,7 +247,8 @@ mod tests {
         assert!(ScrambledSobol::new(DIMENSIONS + 1, 1, 0).is_none());
     }
 
-    /// S. Vigna's splitmix64.c adds the golden number before each hash: its outputs for the seeds 0 and 1234567.
+    /// The expected numbers are outputs of S. Vigna's splitmix64.c for the seeds 0 and 1234567. It adds the constant
+    /// `GOLDEN` before each hash, as a prefix of 1, 2, 3 does here.
     #[test]
     fn the_hash_is_that_of_splitmix64() {
         let outputs = |seed: u64| [1, 2, 3].map(|number| hash(&seed, number));
@@ -251,9 +259,9 @@ mod tests {
         );
     }
 
-    /// Digit by digit as Owen defines it: the flip belongs to all digits before.
+    /// The expected digits are computed one by one from Owen's definition.
     #[test]
-    fn each_digit_is_flipped_by_a_bit_of_the_digits_before_it() {
+    fn each_digit_is_flipped_by_a_bit_that_depends_on_the_digits_before_it() {
         let keys: Keys = std::array::from_fn(|index| hash(&3, index as u64));
         for digits in (0..500).map(|number| hash(&4, number) >> (64 - DEPTH)).chain([0, MOST_POINTS - 1]) {
             let first = |number: u32| digits >> (DEPTH - number);
@@ -269,15 +277,15 @@ mod tests {
         }
     }
 
-    /// Over many scrambles one point is uniform, and two points that share d digits part at the next one for sure
-    /// and are independent from there on.
+    /// Over many scrambles one point is uniform. Two points that share exactly the first d digits always differ in the
+    /// next one, and are independent in all digits after it.
     #[test]
     fn scrambles_are_uniform_and_nested() {
         const SCRAMBLES: u64 = 4096;
         let (mut bits, mut parted) = ([[0_u32; DIGITS as usize]; 2], 0);
         for scramble in 0..SCRAMBLES {
             let sequence = ScrambledSobol::new(1, 9, scramble).unwrap();
-            // Points 1 and 2 in Gray's order: 0.5 and 0.75, which share the first digit.
+            // Points 1 and 2 in the order of the Gray code are 0.5 and 0.75, which share the first digit.
             let point = points(&sequence, 1..3);
             let digits = [point[0][0], point[1][0]].map(|coordinate| (coordinate * 2f64.powi(52)) as u64);
             assert_eq!((digits[0] ^ digits[1]) >> 50, 1, "one digit in common, the next one different");

@@ -1,7 +1,8 @@
-//! Configuration spaces as data: which launches a probability is about.
+//! This file defines the space of launches that a probability refers to. A space is plain data without random numbers,
+//! so that all methods of sampling can be applied to the same space.
 //!
-//! A space is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt, but for rates
-//! that are tied to another. Equal heights: T = 2 v0/g.
+//! It is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt; a rate may also be
+//! tied to another rate, and then has the same value. The coin is caught at the height of its launch: T = 2 v0/g.
 
 use std::fmt;
 
@@ -14,16 +15,16 @@ use crate::coordinate::Coordinate;
 /// The values of one launch, in the order of [`Coordinate::ALL`].
 pub(crate) type Values = [f64; Coordinate::COUNT];
 
-/// A coordinate that has an axis of its own, or equals another.
+/// The axis of a coordinate, or its tie to another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AxisOrTie {
-    /// Its own axis.
+    /// The coordinate has an axis of its own.
     Axis(Axis),
-    /// The same value as another rate, which is not tied itself.
+    /// The coordinate has the same value as this other rate, which is not tied itself.
     SameAs(Coordinate),
 }
 
-/// As [`Space::parse`] reads it.
+/// The text from which [`Space::parse`] reads the same.
 impl fmt::Display for AxisOrTie {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -33,17 +34,17 @@ impl fmt::Display for AxisOrTie {
     }
 }
 
-/// Launches of one coin over a box of coordinates, independent of each other but for ties.
+/// The distribution of the launches of one coin. Its coordinates are independent of each other, except for ties.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space {
     coin: Coin,
     axes: [AxisOrTie; Coordinate::COUNT],
-    /// Which coordinate each has its value from: itself, or the one it is tied to.
+    /// For each coordinate, the one that its value is taken from: itself, or the one that it is tied to.
     places: [Coordinate; Coordinate::COUNT],
 }
 
 impl Space {
-    /// A space over axes that are all given, in the order of [`Coordinate::ALL`].
+    /// Makes and checks a space from an axis or tie for every coordinate, in the order of [`Coordinate::ALL`].
     pub(crate) fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
         let mut places = Coordinate::ALL;
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
@@ -57,12 +58,12 @@ impl Space {
         }
         let space = Self { coin, axes, places };
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
-        let valid = "speeds >= 0 only; a normal distribution reaches 8.3 standard deviations";
+        let valid = "speeds >= 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
         let [weakest, _] = space.axis(Coordinate::Gravity).bounds();
-        let valid = "gravities > 0 only; a normal distribution reaches 8.3 standard deviations";
+        let valid = "gravities > 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Gravity.field(), weakest, valid, weakest > 0.0)?;
-        // The longest flight is the first to overflow.
+        // If the time of any flight overflows, that of the longest does.
         Launch::new(Vector3::zeros(), TimeOfFlight::Ballistic { speed: fastest, gravity: weakest })?;
         Ok(space)
     }
@@ -88,12 +89,12 @@ impl Space {
         self.coin
     }
 
-    /// The axis of a coordinate or its tie.
+    /// The axis of a coordinate, or its tie.
     pub fn axis_or_tie(&self, of: Coordinate) -> AxisOrTie {
         self.axes[of as usize]
     }
 
-    /// The axis that gives a coordinate its values; for a tied one its partner's.
+    /// The axis that gives a coordinate its values. For a tied coordinate it is the axis of its partner.
     pub fn axis(&self, of: Coordinate) -> Axis {
         match self.axes[of as usize] {
             AxisOrTie::Axis(axis) => axis,
@@ -101,23 +102,23 @@ impl Space {
         }
     }
 
-    /// The coordinates with more than one value of their own.
+    /// The coordinates that vary: those that are not tied and have more than one value.
     pub fn free(&self) -> impl Iterator<Item = Coordinate> {
         let own = |of: &Coordinate| matches!(self.axes[*of as usize], AxisOrTie::Axis(axis) if axis.value().is_none());
         Coordinate::ALL.into_iter().filter(own)
     }
 
-    /// The fixed values; a coordinate that is not fixed has the lower end of what it may be.
+    /// The values of the fixed coordinates. A coordinate that varies has the lower end of its range here.
     pub(crate) fn fixed_values(&self) -> Values {
         Coordinate::ALL.map(|of| self.axis(of).bounds()[0])
     }
 
-    /// The coordinate that `of` has its values from: itself, or the one it is tied to.
+    /// The coordinate that the value of `of` is taken from: itself, or the one that it is tied to.
     pub(crate) fn place(&self, of: Coordinate) -> Coordinate {
         self.places[of as usize]
     }
 
-    /// The toss with these values; those of tied coordinates are taken from their partners.
+    /// The toss with these values. The value of a tied coordinate is taken from its partner.
     pub(crate) fn toss(&self, values: &Values) -> Toss {
         let value = |of: Coordinate| values[self.place(of) as usize];
         let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
@@ -129,6 +130,7 @@ impl Space {
     }
 }
 
+/// Checks that `of` and `to` are rates and that `to` has an axis of its own.
 pub(crate) fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: bool) -> Result<(), InputError> {
     let is_rate = |of| of <= Coordinate::RateZ;
     if is_rate(of) && is_rate(to) && partner_has_an_axis {
@@ -137,11 +139,11 @@ pub(crate) fn require_tie(of: Coordinate, to: Coordinate, partner_has_an_axis: b
     Err(InputError::Malformed {
         field: of.field(),
         value: to.letter().to_owned(),
-        expected: "a tie of one rate to another, which is given and not tied itself",
+        expected: "a tie of a rate to another rate that is given and not tied itself",
     })
 }
 
-/// The unit cube over some coordinates of a space: each point of it is a launch.
+/// The unit cube over some coordinates of a space. Each point of it stands for a launch, by the quantiles of the axes.
 #[derive(Debug, Clone)]
 pub(crate) struct Cube {
     axes: Vec<(Coordinate, Axis)>,
@@ -157,7 +159,7 @@ impl Cube {
         self.axes.len()
     }
 
-    /// The coordinates with their axes, a dimension each.
+    /// The coordinate and axis of each dimension.
     pub(crate) fn axes(&self) -> &[(Coordinate, Axis)] {
         &self.axes
     }
@@ -190,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn another_coin_flies_the_same_launches() {
+    fn with_coin_keeps_the_launches() {
         let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_coin(Coin::DISC));
         let toss = disc.toss(&paper.fixed_values());
         assert_eq!((toss.coin, toss.launch), (Coin::DISC, paper.toss(&paper.fixed_values()).launch));
@@ -198,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn gravity_and_tilt_reach_the_launch() {
+    fn launches_have_the_gravity_and_the_tilt() {
         let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
         let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
         assert_eq!(toss.launch.flight_time(), 4.0);
@@ -206,14 +208,14 @@ mod tests {
     }
 
     #[test]
-    fn a_cube_spans_the_free_coordinates() {
+    fn a_cube_has_a_dimension_for_each_free_coordinate() {
         let space = parse(&with(Gravity, "9:10")).unwrap();
         let cube = Cube::new(&space, space.free());
         assert_eq!(cube.axes(), [RateX, Speed, Gravity].map(|of| (of, space.axis(of))));
     }
 
     #[test]
-    fn invalid_physics_is_refused_by_coordinate() {
+    fn rejects_invalid_values_and_names_the_coordinate() {
         for (texts, message) in [
             (with(Speed, "-1:5"), "speed [m/s] = -1.0"),
             (with(Speed, "normal:4:0.5"), "speed [m/s] = -0.15"),
@@ -243,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_named() {
+    fn a_missing_coordinate_is_named() {
         let error = parse(&BOX[..3]).unwrap_err().to_string();
         assert!(error.starts_with("speed [m/s] is missing"), "{error}");
     }

@@ -1,4 +1,5 @@
-//! A space is made axis by axis, each by the name of its coordinate.
+//! This file builds a space axis by axis. Each axis is given by the name of its coordinate, and the space is checked as
+//! a whole at the end.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, InputError};
@@ -7,7 +8,7 @@ use crate::axis::Axis;
 use crate::coordinate::Coordinate;
 use crate::space::{AxisOrTie, Space, require_tie};
 
-/// Collects the axes of a [`Space`], each by the name of its coordinate.
+/// A builder of a [`Space`], with a method for the axis of each coordinate.
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct SpaceBuilder {
@@ -16,54 +17,55 @@ pub struct SpaceBuilder {
 }
 
 impl SpaceBuilder {
-    /// The axis of the coordinate `of`.
+    /// Sets the axis of the coordinate `of`.
     pub fn axis(mut self, of: Coordinate, axis: impl Into<Axis>) -> Self {
         self.axes[of as usize] = Some(AxisOrTie::Axis(axis.into()));
         self
     }
 
-    /// The body rate ωx (rad/s): a value, a range, or any other [`Axis`].
+    /// Sets the body rate ωx (rad/s): a value, a range, or any other [`Axis`].
     pub fn rate_x(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::RateX, axis)
     }
 
-    /// The body rate ωy (rad/s).
+    /// Sets the body rate ωy (rad/s).
     pub fn rate_y(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::RateY, axis)
     }
 
-    /// The body rate ωz about the normal (rad/s).
+    /// Sets the body rate ωz about the coin's normal (rad/s).
     pub fn rate_z(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::RateZ, axis)
     }
 
-    /// The speed v0 (m/s).
+    /// Sets the upward speed v0 (m/s).
     pub fn speed(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::Speed, axis)
     }
 
-    /// Gravity (m/s²); 9.81 if it is not given.
+    /// Sets gravity (m/s²). It is 9.81 if it is not given.
     pub fn gravity(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::Gravity, axis)
     }
 
-    /// The turn of the coin about the lab's x axis at launch (rad); 0 if it is not given.
+    /// Sets the angle by which the coin is turned about the x axis of the laboratory frame at launch (rad). It is 0 if
+    /// it is not given.
     pub fn tilt(self, axis: impl Into<Axis>) -> Self {
         self.axis(Coordinate::Tilt, axis)
     }
 
-    /// The rate `of` has the same value as the rate `to`, which has an axis of its own.
+    /// Ties the rate `of` to the rate `to`, which has an axis of its own: both have the same value.
     pub fn tie(mut self, of: Coordinate, to: Coordinate) -> Self {
         self.axes[of as usize] = Some(AxisOrTie::SameAs(to));
         self
     }
 
-    /// ωy = ωx.
+    /// Ties ωy to ωx.
     pub fn tie_rate_y_to_x(self) -> Self {
         self.tie(Coordinate::RateY, Coordinate::RateX)
     }
 
-    /// The coordinate `of` as a text: `x`, `y` or `z` for a tie to that rate, else an [`Axis`].
+    /// Sets the coordinate `of` from a text: `x`, `y` or `z` for a tie to that rate, else an [`Axis`].
     ///
     /// # Errors
     /// [`InputError::Malformed`] that names `of`.
@@ -77,17 +79,19 @@ impl SpaceBuilder {
         })
     }
 
-    /// The space.
+    /// Checks the axes and makes the space.
     ///
     /// # Errors
-    /// [`InputError`] that names the coordinate: for numbers that make no sense, a range that includes negative speeds or a
-    /// gravity that is not positive, a flight that may last for ever, a tie to anything but a rate with an axis of its
-    /// own, and for a rate or a speed that is not given.
+    /// [`InputError`] that names the coordinate (or the time of flight), for
+    /// - an invalid axis, or speeds that may be negative or gravities that may not be positive,
+    /// - times of flight beyond the range of f64,
+    /// - a tie to anything but a rate with an axis of its own,
+    /// - a rate or a speed that is not given.
     pub fn build(mut self) -> Result<Space, InputError> {
         for (of, default) in [(Coordinate::Gravity, DEFAULT_GRAVITY), (Coordinate::Tilt, 0.0)] {
             self.axes[of as usize].get_or_insert(AxisOrTie::Axis(Axis::fixed(default)));
         }
-        // A tie without its partner is a clearer complaint than the missing partner.
+        // Checked before missing coordinates, because naming the tie is clearer than naming its missing partner.
         for of in Coordinate::ALL {
             if let Some(AxisOrTie::SameAs(other)) = self.axes[of as usize] {
                 require_tie(of, other, matches!(self.axes[other as usize], Some(AxisOrTie::Axis(_))))?;
@@ -101,7 +105,7 @@ impl SpaceBuilder {
 }
 
 impl Space {
-    /// A builder of a space for `coin`; see [`SpaceBuilder`].
+    /// A builder of a space of launches of `coin`; see [`SpaceBuilder`].
     ///
     /// ```
     /// use dynamics::Coin;
@@ -120,7 +124,7 @@ impl Space {
         SpaceBuilder { coin, axes: [None; Coordinate::COUNT] }
     }
 
-    /// A space from texts, as the command line and files have them; see [`SpaceBuilder::parse`].
+    /// Makes a space from texts, such as those of the command line and of files; see [`SpaceBuilder::parse`].
     ///
     /// # Errors
     /// As [`SpaceBuilder::build`].

@@ -1,4 +1,5 @@
-//! Spaces as plain data, for serde: the coin, and each coordinate by its name as a number or a text.
+//! This file reads and writes spaces as plain data by serde, so that they can be part of any file format. A space is
+//! written as its coin and, for each coordinate by its name, a number or a text.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::coordinate::Coordinate;
 use crate::space::Space;
 
-/// A coordinate as it is written.
+/// The value of a coordinate in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text like \"3:5:500\"")]
 pub(crate) enum Entry {
@@ -18,21 +19,22 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
+    /// The value as a text for [`Space::parse`].
     pub(crate) fn text(self) -> String {
         match self {
-            // The shortest digits that read back as the same number.
+            // Display writes the fewest digits that read back as the same number.
             Self::Number(number) => number.to_string(),
             Self::Text(text) => text,
         }
     }
 }
 
-/// The coin of a space that names none.
+/// The default coin of a space, that of the paper.
 pub(crate) fn paper() -> Coin {
     Coin::PAPER
 }
 
-/// A space as it is written.
+/// A space in a file.
 #[derive(Serialize, Deserialize)]
 struct SpaceData {
     #[serde(default = "paper")]
@@ -77,7 +79,7 @@ mod tests {
     use crate::space_file::named_spaces;
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn a_written_space_reads_back_the_same() {
         for (name, named) in named_spaces() {
             let text = toml::to_string(&named.space).unwrap();
             assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
@@ -85,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named() {
+    fn errors_name_the_coordinate_or_key() {
         for (text, message) in [
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1", "coordinate = 'spin' is unknown"),

@@ -1,4 +1,5 @@
-//! Spaces as TOML, and those that have a name.
+//! This file reads spaces from TOML files, and holds the spaces that come with the crate under a name. Its errors give
+//! line and column, because such files are written by hand, like this one:
 //!
 //! ```toml
 //! description = "a hand that spins the coin at 20 ± 2 rad/s"
@@ -6,7 +7,7 @@
 //! rate_x = "normal:20:2"           # mean and standard deviation
 //! rate_y = "x"                     # the same value as rate_x
 //! rate_z = 5                       # fixed
-//! speed = "3:5:500"                # a range, with 500 points where a grid is laid over it
+//! speed = "3:5:500"                # a range, with 500 points for a grid
 //! gravity = 9.81                   # this and the next are the defaults
 //! tilt = 0
 //! ```
@@ -22,10 +23,10 @@ use crate::coordinate::Coordinate;
 use crate::space::Space;
 use crate::space_data::{Entry, paper};
 
-/// A space and what is said of it.
+/// A space with its description.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescribedSpace {
-    /// What it is, in a line; empty if nothing was said.
+    /// The description, in a line; empty if the file has none.
     pub description: String,
     /// The space.
     pub space: Space,
@@ -47,10 +48,10 @@ struct File {
 }
 
 impl DescribedSpace {
-    /// Reads a space from TOML, as [this module](self) shows it. Without a coin it is the paper's.
+    /// Reads a space from TOML in the format that [this module](self) shows. If no coin is given, it is the paper's.
     ///
     /// # Errors
-    /// [`Error::Text`] with line and column.
+    /// [`Error::Text`] with the line and column of the error.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = toml::from_str(text)
             .map_err(|error: toml::de::Error| error_at(text, error.span(), error.message().to_owned()))?;
@@ -69,7 +70,8 @@ impl DescribedSpace {
     }
 }
 
-/// An error at the start of `span` in `text`; what is missing is missed at the end.
+/// An error at the start of `span` in `text`, or at the end of `text` if there is no span because a coordinate is
+/// missing.
 fn error_at(text: &str, span: Option<Range<usize>>, message: String) -> Error {
     let before = text.get(..span.map_or(text.len(), |span| span.start)).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -77,17 +79,17 @@ fn error_at(text: &str, span: Option<Range<usize>>, message: String) -> Error {
     Error::Text { line, column, message }
 }
 
-/// Names and texts of the spaces that can be named.
+/// Names and texts of the named spaces.
 const NAMED: &[(&str, &str)] = &[
     ("paper-fig4", include_str!("../spaces/paper-fig4.toml")),
     ("cheated", include_str!("../spaces/cheated.toml")),
     ("tails", include_str!("../spaces/tails.toml")),
 ];
 
-/// All spaces that can be named, with their names.
+/// All named spaces, with their names.
 ///
 /// # Panics
-/// Never: a test reads them all.
+/// Never, because a test reads all of them.
 pub fn named_spaces() -> impl Iterator<Item = (&'static str, DescribedSpace)> {
     NAMED.iter().map(|(name, text)| (*name, DescribedSpace::from_toml(text).expect("a test reads them all")))
 }
@@ -106,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_named_spaces_exist_with_the_launches_they_promise() {
+    fn named_spaces_have_a_description_and_the_expected_grid() {
         let sizes: Vec<u64> = named_spaces().map(|(_, named)| named.space.grid_points().unwrap()).collect();
         assert_eq!(sizes, [250_000, 500, 500]);
         assert!(named_spaces().all(|(name, named)| {
@@ -115,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_says_all_that_a_space_can_hold() {
+    fn a_file_can_set_the_coin_and_every_coordinate() {
         let text = "description = 'd'\ncoin = { cylinder = [0.00567, 0.01213, 0.00175] }\nrate_x = 'normal:20:2'\n\
                     rate_y = 'x'\nrate_z = -5e0\nspeed = '3:5:7'\ngravity = '9.78:9.83'\ntilt = 0.1";
         let described = DescribedSpace::from_toml(text).unwrap();
@@ -127,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_found_by_line_and_column() {
+    fn errors_give_line_and_column() {
         let valid = "rate_x = '0:1'\nrate_y = 'x'\nrate_z = 0\nspeed = 3\n";
         for (text, line, column, words) in [
             (valid.replace("'0:1'", "'1:0'"), 1, 10, "rate x [rad/s] = 0.0"),

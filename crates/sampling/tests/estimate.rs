@@ -1,4 +1,5 @@
-//! The four methods from outside.
+//! These tests check properties that all four methods of sampling share: results that do not depend on threads,
+//! agreement with each other, and errors. They use the public interface alone.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -21,7 +22,7 @@ const PLANS: [Plan; 5] = [
 ];
 
 #[test]
-fn estimates_are_the_same_to_the_bit_for_any_number_of_threads() {
+fn estimates_have_the_same_bits_for_any_number_of_threads() {
     let space = named_space("paper-fig4").unwrap();
     for plan in PLANS {
         let estimates = [1, 2, 8].map(|threads| {
@@ -48,7 +49,7 @@ fn progress_adds_up_to_the_number_of_launches() {
 #[test]
 fn all_methods_agree_on_the_same_space() {
     let space = named_space("paper-fig4").unwrap();
-    // The grid's ends weigh as much as its inner points, which shifts its share by some 1e-3.
+    // The ends of a grid have the same weight as its inner points, which shifts its share by some 1e-3.
     for (plan, within) in PLANS.into_iter().zip([2e-3, 1e-2, 1e-3, 1e-3, 1e-4]) {
         let found = Sampler::exact().estimate(&space, plan).unwrap();
         assert!((found.probability - 0.661_452).abs() < within, "{plan:?}: {found:?}");
@@ -57,7 +58,7 @@ fn all_methods_agree_on_the_same_space() {
 }
 
 #[test]
-fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampled() {
+fn intervals_of_certain_outcomes_have_a_width_only_if_points_were_sampled() {
     for (name, probability) in [("cheated", 1.0), ("tails", 0.0)] {
         let space = named_space(name).unwrap();
         for plan in PLANS {
@@ -77,8 +78,8 @@ fn certain_outcomes_have_intervals_that_admit_doubt_only_where_points_were_sampl
 }
 
 #[test]
-fn exact_speed_admits_doubt_where_every_point_agrees() {
-    // ψ < 45° throughout: heads at every speed of every point.
+fn exact_speed_has_a_wilson_interval_if_all_points_agree() {
+    // ψ < 45° for all launches, so that all land heads.
     let space = space(["0:10", "x", "60", "3:5"]);
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(4096, 1)));
     let found = Sampler::exact().estimate(&space, plan).unwrap();
@@ -87,7 +88,7 @@ fn exact_speed_admits_doubt_where_every_point_agrees() {
 }
 
 #[test]
-fn a_union_of_cells_has_the_weighted_mean_of_their_probabilities() {
+fn a_range_of_speeds_has_the_weighted_mean_of_its_parts() {
     let probability = |speeds: &str| {
         let found = Sampler::exact().estimate(&space(["3", "2", "1", speeds]), PLANS[3]).unwrap();
         found.probability
@@ -103,7 +104,7 @@ fn a_union_of_cells_has_the_weighted_mean_of_their_probabilities() {
 }
 
 #[test]
-fn plans_that_make_no_sense_are_refused_before_any_work() {
+fn rejects_invalid_plans_before_any_launch_is_solved() {
     let fig4 = named_space("paper-fig4").unwrap();
     let scrambled = |points, scrambles| Scrambled { points, scrambles, seed: 1 };
     for plan in [
@@ -124,7 +125,7 @@ fn plans_that_make_no_sense_are_refused_before_any_work() {
     }
 }
 
-/// Fails on every speed above 4 m/s.
+/// A solver that fails for every speed above 4 m/s.
 struct Fragile;
 impl Solver for Fragile {
     fn name(&self) -> &str {
@@ -140,7 +141,7 @@ impl Solver for Fragile {
 }
 
 #[test]
-fn the_first_failing_launch_is_named_and_no_count_given() {
+fn an_estimate_with_failing_launches_is_the_error_of_the_first() {
     let space = space(["1", "1", "1", "3:5:20001"]);
     for threads in [1, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -149,7 +150,7 @@ fn the_first_failing_launch_is_named_and_no_count_given() {
     }
 }
 
-/// Fails on the 10th toss that it is given; on one thread this is launch 9 of the plan.
+/// A solver that fails for the 10th toss that it solves. On one thread this is launch 9 of the plan.
 #[derive(Default)]
 struct Worn(AtomicU64);
 impl Solver for Worn {
@@ -166,7 +167,7 @@ impl Solver for Worn {
 }
 
 #[test]
-fn a_launch_of_a_later_scramble_is_counted_from_the_first() {
+fn launches_are_numbered_across_scrambles() {
     let plan = Plan::Sobol(Scrambled { points: 32, scrambles: 8, seed: 1 });
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let worn = Worn::default();
@@ -174,9 +175,9 @@ fn a_launch_of_a_later_scramble_is_counted_from_the_first() {
     assert!(matches!(error, Error::Launch { index: 9, .. }), "{error}");
 }
 
-/// Exact-speed integrates the exact motion: a solver that is handed in would have no say.
+/// Exact-speed uses the exact motion, so that a solver would have no effect.
 #[test]
-fn exact_speed_refuses_a_solver() {
+fn exact_speed_rejects_a_solver() {
     let error = Sampler::by(&Fragile).estimate(&named_space("tails").unwrap(), PLANS[3]).unwrap_err();
     assert_eq!((error.kind(), error.field()), ("input", Some("solver")));
     assert!(error.to_string().contains("'fragile'"), "{error}");

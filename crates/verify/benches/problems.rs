@@ -1,5 +1,5 @@
-//! The problems of the work-precision record, flown by every solver at its default settings: what `cargo bench` times is
-//! what the charts draw.
+//! `cargo bench` times the problems of the work-precision record with every solver at its default settings. They are
+//! the problems that the charts draw, so that both can be compared.
 
 use std::hint::black_box;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! The machine and the code of a measurement.
+//! This file describes the machine and the version of the code of a measurement. Times depend on the machine, and
+//! errors on the code, so a record without them could not be interpreted.
 
 use std::process::Command;
 
@@ -7,29 +8,29 @@ use serde::{Deserialize, Serialize};
 /// Version of the layout of records.
 const SCHEMA: u32 = 1;
 
-/// The machine and the code of a record.
+/// The machine, the code and the day of a record.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Host {
     /// Version of the layout of the record.
     pub schema: u32,
     /// Day of the run (UTC).
     pub date: String,
-    /// The commit, with `+` if files were changed.
+    /// The commit, followed by `+` if tracked files outside `validation` were changed.
     pub commit: String,
-    /// The compiler.
+    /// The compiler's version.
     pub rustc: String,
-    /// Architecture and operating system.
+    /// The architecture and the operating system.
     pub target: String,
-    /// The processor.
+    /// The name of the processor.
     pub cpu: String,
-    /// Its cores that may be used.
+    /// Number of cores that the program may use.
     pub cores: usize,
 }
 
 impl Host {
-    /// This machine, now. What can't be found out is `unknown`.
+    /// This machine, today. Each text that cannot be found out is `unknown`.
     pub fn here() -> Self {
-        // What `--bless` writes itself is no change of the code.
+        // `--bless` writes into `validation`, and that is no change of the code.
         let status = ["status", "--porcelain", "--untracked-files=no", "--", ".", ":!validation"];
         let changed = output("git", &status).is_some_and(|files| !files.is_empty());
         let commit = output("git", &["rev-parse", "HEAD"]).unwrap_or_else(unknown);

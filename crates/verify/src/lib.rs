@@ -1,4 +1,8 @@
-//! The verification suite: cases × solvers × checks → rows → one verdict.
+//! The verification suite measures every solver of a tossed coin against independent references, compares the errors
+//! with bounds, and reports the result. It is a crate of its own, so no solver can use the code that judges it.
+//!
+//! A check is a claim and how it is measured; a subject is a solver with its settings; a row is one subject under one
+//! check, with its verdict.
 //!
 //! ```text
 //! measure                                            judge                   render
@@ -7,9 +11,9 @@
 //! reference (256 bits, files)─┘       bound or claim ─┘      baseline ┘
 //! ```
 //!
-//! Data flows in one direction. [`measure`] compares what solvers answer with references and knows no bound; [`mod@judge`]
-//! compares measurements with `validation/bounds.toml`, or with the error that a solver claims for itself, and with the
-//! regression baseline; [`render`] shows rows. [`mod@bench`] measures what a toss costs.
+//! Data flows in one direction. [`measure`] compares the answers of solvers with references and contains no bounds.
+//! [`mod@judge`] compares measurements with `validation/bounds.toml` or, for a solver without bounds, with its own
+//! error estimate, and with the regression baseline. [`render`] shows rows. [`mod@bench`] measures what a toss costs.
 
 pub mod bench;
 pub mod files;

@@ -1,7 +1,8 @@
-//! The program `verify`, which `cargo xtask` starts.
+//! This is the program `verify`, which `cargo xtask` starts. It parses the command line, runs one command and turns its
+//! result into an exit code, which tells a script what happened.
 //!
-//! Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
-//! within bounds; 4 could not run.
+//! Exit codes: 0, all checks pass; 1, a check fails; 2, bad usage; 3, accuracy or work is worse than the baseline,
+//! though within its bounds; 4, the command could not run.
 
 mod commands;
 
@@ -11,7 +12,7 @@ use clap::Parser;
 
 use commands::Program;
 
-/// What could not run.
+/// Exit code of a command that could not run.
 const COULD_NOT_RUN: u8 = 4;
 
 fn main() -> ExitCode {

@@ -1,4 +1,5 @@
-//! The baseline catches slips of accuracy or work, each injected as a solver that is slightly worse than the library's.
+//! These tests compare solvers that are slightly worse than the library's with the library's baseline. The baseline
+//! must catch each loss of accuracy or work, also where it stays within the bounds.
 
 use std::path::Path;
 
@@ -14,10 +15,12 @@ use verify::judge::baseline::{Baseline, Direction, Move};
 use verify::judge::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, judge};
 
+/// The checks that these tests run.
 const CHECKED: [&str; 5] =
     ["reference-cos-tilt", "random-cos-tilt", "random-attitude", "invariant-projection", "work-precision"];
 
-/// What the checks say of the exact motion and a quaternion that `build` makes: the baseline, and the rows that fail.
+/// Runs the checks on the exact motion and on a quaternion solver that `build` makes. Returns the baseline of that run
+/// and the rows that fail.
 fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
     let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
     let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
@@ -35,7 +38,7 @@ fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
     (Baseline::of(&rows, context.records().sweep), failing.collect())
 }
 
-/// What is worse than the library's own, and the rows that fail.
+/// What is worse with the solver that `build` makes than with the library's, and the rows that fail.
 fn slips(build: fn(&Settings) -> Box<dyn Solver>) -> (Vec<Move>, Vec<String>) {
     let (baseline, failing) =
         measure(|settings| Box::new(QuaternionSolver::new(settings.stepping, settings.formulation)));
@@ -49,11 +52,11 @@ fn slips(build: fn(&Settings) -> Box<dyn Solver>) -> (Vec<Move>, Vec<String>) {
 fn assert_worse(moves: &[Move], check: &str, what: &str) {
     let found =
         moves.iter().any(|moved| moved.check == check && moved.what == what && moved.subject == "quaternion/dop853");
-    assert!(found, "{check} did not see it; worse: {moves:?}");
-    assert!(moves.iter().all(|moved| moved.subject.starts_with("quaternion")), "the exact motion is not to blame");
+    assert!(found, "{check} is not worse; worse: {moves:?}");
+    assert!(moves.iter().all(|moved| moved.subject.starts_with("quaternion")), "only the quaternion was changed");
 }
 
-/// The same solver with another tolerance.
+/// The library's quaternion solver with its tolerance multiplied by `factor`.
 fn with_tolerance_times(factor: f64, settings: &Settings) -> Box<dyn Solver> {
     let stepping = match settings.stepping.control() {
         StepControl::Tolerance(tolerance) => {
@@ -65,7 +68,7 @@ fn with_tolerance_times(factor: f64, settings: &Settings) -> Box<dyn Solver> {
 }
 
 #[test]
-fn a_tolerance_passed_wrongly_is_seen() {
+fn a_tolerance_ten_times_too_loose_or_too_tight_is_detected() {
     let (loose, failing) = slips(|settings| with_tolerance_times(10.0, settings));
     for check in ["work-precision/cheated", "work-precision/ensemble", "work-precision/long"] {
         assert_worse(&loose, check, "error");
@@ -73,10 +76,11 @@ fn a_tolerance_passed_wrongly_is_seen() {
     assert!(failing.contains(&"random-attitude / quaternion/dop853".to_owned()), "{failing:?}");
     let (tight, failing) = slips(|settings| with_tolerance_times(0.1, settings));
     assert_worse(&tight, "work-precision/ensemble", "calls");
-    assert_eq!(failing, [""; 0], "more work is within every bound");
+    assert_eq!(failing, [""; 0], "more calls alone exceed no bound");
 }
 
-/// The quaternion's system, whose state grows by a part in 1e12 in each radian, about a step.
+/// The quaternion's equations, changed so that the state grows by a part in 1e12 in each radian, which is about one
+/// step.
 struct Perturbed(QuaternionSystem);
 
 impl OdeSystem<6> for Perturbed {
@@ -109,7 +113,7 @@ impl Solver for PerturbedSolver {
 }
 
 #[test]
-fn a_state_perturbed_by_a_part_in_1e12_is_seen_and_located() {
+fn a_state_perturbed_by_a_part_in_1e12_is_detected_as_error_of_its_solver() {
     let (worse, _) = slips(|settings| Box::new(PerturbedSolver(settings.stepping)));
     assert_worse(&worse, "work-precision/ensemble", "error");
     assert_worse(&worse, "work-precision/long", "error");
@@ -117,14 +121,14 @@ fn a_state_perturbed_by_a_part_in_1e12_is_seen_and_located() {
 }
 
 #[test]
-fn a_dropped_projection_is_seen() {
+fn a_quaternion_that_is_not_normalised_at_landing_fails() {
     let (_, failing) = slips(|settings| Box::new(QuaternionSolver::new(settings.stepping, Formulation::RAW)));
     for method in ["dop853", "dopri5", "rk4"] {
         assert!(failing.contains(&format!("invariant-projection / quaternion/{method}")), "{failing:?}");
     }
 }
 
-/// Gravity is standard gravity, not the paper's.
+/// The quaternion solver with standard gravity (9.80665 m/s²) in place of the toss's own.
 struct OtherGravity(QuaternionSolver);
 
 impl Solver for OtherGravity {
@@ -148,7 +152,7 @@ impl Solver for OtherGravity {
 }
 
 #[test]
-fn another_gravity_fails() {
+fn a_solver_with_another_gravity_fails() {
     let (worse, failing) =
         slips(|settings| Box::new(OtherGravity(QuaternionSolver::new(settings.stepping, settings.formulation))));
     assert_worse(&worse, "work-precision/cheated", "error");

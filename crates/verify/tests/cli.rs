@@ -1,4 +1,5 @@
-//! The suite's program from outside: exit codes, formats, reports.
+//! These tests start the suite's program and look at what a script or a user sees: exit codes, standard output and the
+//! files that it writes. The library's tests do not reach these.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -20,7 +21,7 @@ fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
         .expect("the program starts")
 }
 
-/// A folder with everything that a run reads, without a baseline or records.
+/// A copy of everything that a run reads, without a baseline or records, so that a test can change it.
 fn copy_of_validation() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::create_dir(folder.path().join("reference")).expect("a folder");
@@ -30,9 +31,8 @@ fn copy_of_validation() -> tempfile::TempDir {
     folder
 }
 
-/// The charts of the records are written beside the reports.
 #[test]
-fn long_flights_are_drawn() {
+fn a_run_of_a_check_with_a_chart_writes_that_chart_beside_the_reports() {
     let out = tempfile::tempdir().unwrap();
     let output = run(&["run", "--only", "long-flight-error"], &validation(), out.path());
     assert_eq!(output.status.code(), Some(0));
@@ -44,7 +44,7 @@ fn long_flights_are_drawn() {
     assert!(report["records"]["atlas"].is_null());
 }
 
-/// Every solver of the registry, each integrator by all of its schemes.
+/// The number of subjects: every solver of the registry, each integrator with all of its schemes.
 fn subjects() -> usize {
     Registry::standard().entries().iter().map(|entry| entry.schemes().len().max(1)).sum()
 }
@@ -72,7 +72,7 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 }
 
 #[test]
-fn a_row_above_its_bound_ends_with_1_and_says_how_to_repeat_it() {
+fn a_row_above_its_bound_ends_the_run_with_1_and_is_printed_with_a_command_that_repeats_it() {
     let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
     let bounds = std::fs::read_to_string(validation().join("bounds.toml")).unwrap();
     let tightened = bounds.replacen("exact = ", "exact = 1e-20 #", 1);
@@ -104,11 +104,11 @@ fn a_run_prints_one_line_per_check_and_with_verbose_one_per_row() {
 }
 
 #[test]
-fn what_slips_within_its_bound_ends_with_3_and_is_named() {
+fn a_row_within_its_bound_but_worse_than_the_baseline_ends_the_run_with_3_and_is_named() {
     let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
     let baseline = folder.path().join("baseline");
     std::fs::create_dir(&baseline).unwrap();
-    // As if the γ-ODE had been twice as accurate, and the quaternion half as much.
+    // A baseline as if the γ-ODE had been twice as accurate as it is, and the quaternion half as accurate.
     let lines = [
         "check,subject,error,calls",
         "reference-cos-tilt,gamma/dop853,1.5e-12,",
@@ -132,7 +132,7 @@ fn what_slips_within_its_bound_ends_with_3_and_is_named() {
 }
 
 #[test]
-fn without_records_there_is_no_history() {
+fn history_needs_records_and_says_how_to_make_one() {
     let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
     std::fs::create_dir(folder.path().join("record")).unwrap();
     let output = run(&["history"], folder.path(), out.path());
@@ -144,7 +144,7 @@ fn without_records_there_is_no_history() {
 }
 
 #[test]
-fn figures_are_drawn_from_what_is_committed() {
+fn figures_are_drawn_from_committed_data() {
     let (folder, out) = (copy_of_validation(), tempfile::tempdir().unwrap());
     let path = out.path().join("figure.svg");
     let draw = |figure, validation: &Path| {
@@ -159,7 +159,7 @@ fn figures_are_drawn_from_what_is_committed() {
 }
 
 #[test]
-fn bad_usage_ends_with_2_and_missing_data_with_4() {
+fn bad_usage_ends_with_2_and_missing_data_ends_with_4() {
     let out = tempfile::tempdir().unwrap();
     for arguments in [
         ["run", "--only", "nonsense"],
@@ -183,7 +183,7 @@ fn bad_usage_ends_with_2_and_missing_data_with_4() {
 
 #[test]
 fn a_worst_input_is_replayed_by_every_contestant() {
-    // α' = 0 on the way.
+    // A flight on which the precession turns back (α' = 0).
     let line = "i1=0x1.0000000000000p+1 i3=0x1.0000000000000p+0 rate_x=0x1.3333333333333p-2 rate_y=0x1.3333333333333p-2 \
                 rate_z=0x1.4000000000000p+2 tilt=0x1.0000000000000p+0 time=0x1.4000000000000p+2";
     let output = run(&["replay", line], &validation(), Path::new("unused"));
@@ -202,7 +202,7 @@ fn a_worst_input_is_replayed_by_every_contestant() {
 }
 
 #[test]
-fn every_check_is_listed() {
+fn list_prints_one_line_for_every_check() {
     let output = run(&["list"], &validation(), Path::new("unused"));
     assert_eq!(output.status.code(), Some(0));
     let list = String::from_utf8(output.stdout).unwrap();

@@ -1,7 +1,8 @@
-//! The suite proves itself: known faults, each injected as a solver of its own, make the verdict fail.
+//! These tests check the suite itself: each hands it a solver with a known fault, and the suite must fail. A suite that
+//! passes everything would otherwise not be noticed.
 //!
-//! The γ-ODE and the quaternion are written out again here, with a place for the fault; without it they pass, so that it
-//! is the fault that is caught and nothing else.
+//! The γ-ODE and the quaternion are written again here, each with a parameter for the fault. Without their faults these
+//! copies pass, so a failure is due to the fault alone.
 
 use std::path::Path;
 
@@ -15,7 +16,8 @@ use toss::{
 use verify::judge::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, judge};
 
-/// The γ-ODE (10)-(11) with the frame's z axis along S; `sign_of_c` is 1 where it is right.
+/// A solver of the γ-ODE, equations (10) and (11) of the paper, with the frame's z axis along the angular momentum S.
+/// The coefficient C has the right sign for `sign_of_c` = 1.
 struct GammaCopy {
     stepping: Stepping,
     sign_of_c: f64,
@@ -28,7 +30,7 @@ struct GammaCopySystem {
 }
 
 impl GammaCopySystem {
-    /// D, u and β'.
+    /// The terms D = ωx sin γ + ωy cos γ, u = ωz - γ' and β' of the equations.
     fn terms(&self, y: &SVector<f64, 5>) -> (f64, f64, f64) {
         let (sin, cos) = y[0].sin_cos();
         (y[3] * sin + y[4] * cos, self.rate_z - y[1], y[3] * cos - y[4] * sin)
@@ -59,7 +61,7 @@ impl Solver for GammaCopy {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
         let k = toss.coin.inertia_ratio();
-        // Seen from the other face where S is against n, so that α' > 0.
+        // If S points against the coin's normal n, the flight is solved as seen from the other face, so that α' > 0.
         if k * rate.z < 0.0 {
             return self.seen_from_the_other_face(toss);
         }
@@ -90,7 +92,7 @@ impl GammaCopy {
     }
 }
 
-/// Q' = `half` Q ⊗ (0, ω); `half` is ½ where it is right.
+/// A solver of the quaternion's equation Q' = `half` Q ⊗ (0, ω), which is right for `half` = ½.
 struct QuaternionCopy {
     stepping: Stepping,
     half: f64,
@@ -139,7 +141,7 @@ impl Solver for QuaternionCopy {
     }
 }
 
-/// A right solver of the coin with I1 and I3 swapped.
+/// A correct solver that is given the coin with I1 and I3 swapped.
 struct Swapped<S>(S);
 
 impl<S: Solver> Solver for Swapped<S> {
@@ -152,7 +154,7 @@ impl<S: Solver> Solver for Swapped<S> {
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         match Coin::from_moments(toss.coin.i3(), toss.coin.i1()) {
             Ok(coin) => self.0.propagate(&Toss { coin, ..*toss }),
-            // A rod has no swapped twin; any answer will do.
+            // Some coins have no valid twin with swapped moments. For them any wrong answer will do.
             Err(_) => {
                 let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
                 Ok(Propagation::new(state, Work::default()))
@@ -173,8 +175,9 @@ fn entry(name: &'static str, integrates: bool, build: fn(&Settings) -> Box<dyn S
     }
 }
 
-/// The checks that fail with `solver` beside the exact motion. Two checks need the vertical frame, which the copies lack,
-/// and two their guards; two are about sampling alone, and take long.
+/// The ids of the checks that fail with `solver` beside the exact motion. Six checks are left out: two need the
+/// vertical frame and two the refusals of singular flights, which the copies do not have; two test sampling alone and
+/// take long.
 fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
     const LEFT_OUT: [&str; 6] = [
         "vertical-frame-to-first-return",
@@ -203,7 +206,7 @@ fn failing_checks(solver: SolverEntry) -> Vec<&'static str> {
 fn assert_caught(solver: SolverEntry, by: &[&str]) {
     let failing = failing_checks(solver);
     for check in by {
-        assert!(failing.contains(check), "{check} missed it; caught by {failing:?}");
+        assert!(failing.contains(check), "{check} does not fail; failing: {failing:?}");
     }
 }
 
@@ -216,13 +219,13 @@ fn the_copies_pass_without_their_faults() {
 }
 
 #[test]
-fn a_wrong_sign_in_c_is_caught() {
+fn a_wrong_sign_of_the_gamma_odes_coefficient_c_is_caught() {
     let faulty = entry("gamma", true, |s| Box::new(GammaCopy { stepping: s.stepping, sign_of_c: -1.0 }));
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", "cross-method-attitude", "fig4-same-counts"]);
 }
 
 #[test]
-fn a_lost_half_is_caught() {
+fn a_missing_factor_of_one_half_in_the_quaternions_equation_is_caught() {
     let faulty = entry("quaternion", true, |s| Box::new(QuaternionCopy { stepping: s.stepping, half: 1.0 }));
     let invariant = "invariant-momentum-vector";
     assert_caught(faulty, &["reference-cos-tilt", "random-attitude", invariant, "tails-in-flight", "first-flip"]);

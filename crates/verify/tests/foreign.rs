@@ -1,4 +1,5 @@
-//! Solvers that the suite has never heard of: each is judged by the error that it claims for itself, and none can crash it.
+//! These tests give the suite solvers that are not in its tables of bounds. Each must be judged by its own error
+//! estimate (its claim), and none, however broken, may end the run.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -10,7 +11,7 @@ use toss::{
 use verify::judge::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, Row, Status, judge};
 
-/// The exact motion with another name and claim, as `change` leaves it.
+/// The exact motion under another name, with a claim of its own and an answer that is altered by `change`.
 struct Foreign {
     name: &'static str,
     claim: Option<f64>,
@@ -33,10 +34,10 @@ fn closed_form(name: &'static str, claim: Option<f64>, change: fn(Propagation) -
     SolverEntry::new(name, "", move |_| Box::new(Foreign { name, claim, change }))
 }
 
-/// The quaternion by a scheme that nobody else has.
+/// A quaternion solver with a scheme that no other solver has.
 struct Stepper(Stepping);
 
-/// Its scheme.
+/// The scheme of [`Stepper`].
 const OWN: Scheme = Scheme::new("own", None).adaptive();
 
 impl Solver for Stepper {
@@ -56,12 +57,13 @@ impl Solver for Stepper {
     }
 }
 
-/// The attitude off by 1 mrad, and cos θ with it.
+/// The landing with its attitude turned by 1 mrad, and cos θ accordingly.
 fn turned(landing: Propagation) -> Propagation {
     let State { attitude, rate } = landing.state;
     Propagation::new(State { attitude: Attitude::about_x(1e-3) * attitude, rate }, landing.work)
 }
 
+/// The message of the panics that these tests cause.
 const PANIC: &str = "out of order";
 
 fn foreigners() -> Vec<SolverEntry> {
@@ -79,7 +81,8 @@ fn foreigners() -> Vec<SolverEntry> {
     ]
 }
 
-/// The rows of our own solvers and of all these, from every check but those that measure no solver and take long.
+/// The rows of the library's solvers together with all the foreign ones, from every check except those that measure no
+/// solver and take long.
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     const LEFT_OUT: [&str; 7] = [
         "plan-delivers",
@@ -104,14 +107,13 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     checks.flat_map(|check| judge(check, (check.measure)(&context).expect("rows, whatever happens"), &bounds)).collect()
 });
 
-/// The rows of the solver called `name`; a comparison belongs to the solver that it ends with, and to the first one only if
-/// the other is ours.
+/// The rows of the solver called `name`. A comparison of two solvers, `a ~ b`, counts as a row of b alone.
 fn rows_of(name: &str) -> Vec<&'static Row> {
     let is_of = |subject: &str| subject.split('/').next() == Some(name);
     ROWS.iter().filter(|row| row.subject.split(" ~ ").last().is_some_and(is_of)).collect()
 }
 
-/// The checks of `name` whose status is one of `statuses`.
+/// The ids of the checks under which `name` has one of `statuses`.
 fn checks_with(name: &str, statuses: &[Status]) -> Vec<&'static str> {
     rows_of(name).into_iter().filter(|row| statuses.contains(&row.status)).map(|row| row.check.as_str()).collect()
 }
@@ -130,7 +132,7 @@ fn a_registry_with_two_solvers_of_one_name_is_refused() {
 }
 
 #[test]
-fn what_stands_beside_them_changes_nothing_for_ours() {
+fn the_librarys_solvers_pass_by_their_bounds_beside_foreign_ones() {
     for ours in ["exact", "gamma", "euler", "quaternion"] {
         assert_eq!(failing(ours), [""; 0], "{ours}");
         assert_eq!(checks_with(ours, &[Status::PassByClaim, Status::NotJudged]), [""; 0], "{ours}");
@@ -138,7 +140,7 @@ fn what_stands_beside_them_changes_nothing_for_ours() {
 }
 
 #[test]
-fn a_solver_that_keeps_its_claim_passes_without_a_bound_and_says_so() {
+fn a_solver_within_its_claim_passes_without_a_bound_as_passing_by_claim() {
     for name in ["good", "stepper", "rough"] {
         let rows = rows_of(name);
         assert!(rows.len() > 18, "{name}: {} rows", rows.len());
@@ -165,7 +167,7 @@ fn a_solver_that_is_wrong_fails_whatever_it_claims() {
     ] {
         let failing = checks_with(name, &[Status::FailByClaim]);
         for check in checks {
-            assert!(failing.contains(check), "{name}: {check} missed it; caught by {failing:?}");
+            assert!(failing.contains(check), "{name}: {check} does not fail; failing: {failing:?}");
         }
     }
 }
@@ -179,7 +181,7 @@ fn a_solver_that_claims_no_error_fails_where_an_error_is_judged() {
 }
 
 #[test]
-fn panics_and_nan_make_failing_rows() {
+fn panics_and_nan_become_failing_rows_that_say_why() {
     for (name, why) in [
         ("nan", "answered cos θ = NaN"),
         ("claims-nan", "claims an error of NaN"),
@@ -191,7 +193,7 @@ fn panics_and_nan_make_failing_rows() {
         assert_eq!(row.status, Status::FailByClaim, "{name}");
         assert!(row.failure.as_ref().is_some_and(|failure| failure.contains(why)), "{name}: {row:?}");
         let passing: Vec<&str> = rows.iter().filter(|row| row.status.passes()).map(|row| row.check.as_str()).collect();
-        // An error is no wrong answer.
+        // These checks allow errors, because an error is not a wrong answer.
         let without_an_answer = ["atlas-answers", "adversarial-silence", "adversarial-refusals"];
         assert!(passing.iter().all(|check| without_an_answer.contains(check)), "{name}: {passing:?}");
     }

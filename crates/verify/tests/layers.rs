@@ -1,4 +1,5 @@
-//! Data flows from measuring to judging to rendering, and never back.
+//! This test reads the sources and checks that data flows from measuring to judging to rendering, and never back. The
+//! compiler does not check this, because all three are modules of one crate.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn measuring_knows_no_judge_and_judging_no_check_and_nothing_how_it_is_rendered() {
+fn no_module_uses_the_modules_that_come_after_it() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for (folder, forbidden) in [
         ("measure", ["crate::judge", "crate::render", "crate::bench"].as_slice()),

@@ -1,11 +1,12 @@
-//! What docs/paper-audit.md names exists: its checks, its tests, and what it says of methods that fail.
+//! These tests keep docs/paper-audit.md true: the checks and tests that it names must exist, and its table of failures
+//! must be that of the atlas. Otherwise the document would become outdated without notice.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const AUDIT: &str = include_str!("../../../docs/paper-audit.md");
 
-/// The commands of the document that begin with `prefix`, without it.
+/// The commands of the document that begin with `prefix`, with the prefix removed.
 fn commands(prefix: &str) -> Vec<&'static str> {
     let spans = AUDIT.split('`').filter_map(|span| span.strip_prefix(prefix));
     let commands: Vec<&str> = spans.collect();
@@ -18,14 +19,14 @@ fn root() -> PathBuf {
 }
 
 #[test]
-fn its_checks_are_listed() {
+fn every_check_that_the_audit_names_exists() {
     for id in commands("cargo xtask verify --only ") {
         assert!(verify::CHECKS.iter().any(|check| check.id == id), "no check {id}");
     }
 }
 
 #[test]
-fn its_tests_are_in_the_crate_that_it_names() {
+fn every_test_that_the_audit_names_is_in_the_named_crate() {
     for command in commands("cargo test --release -p ") {
         let (package, name) = command.split_once(' ').unwrap();
         let folder = if package == "blackbox" { "tests".to_owned() } else { format!("crates/{package}") };
@@ -33,6 +34,7 @@ fn its_tests_are_in_the_crate_that_it_names() {
     }
 }
 
+/// Whether a source file in `folder` contains the text `function`.
 fn defines(folder: &Path, function: &str) -> bool {
     std::fs::read_dir(folder).expect("a crate's folder").any(|entry| {
         let path = entry.expect("an entry").path();
@@ -43,7 +45,7 @@ fn defines(folder: &Path, function: &str) -> bool {
 }
 
 #[test]
-fn its_table_of_failures_is_that_of_the_atlas() {
+fn the_audits_table_of_failures_is_that_of_the_atlas() {
     let text = std::fs::read_to_string(root().join("validation/atlas.toml")).unwrap();
     let atlas: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(&text).unwrap();
     let contestants = ["gamma/dop853/raw", "gamma/dop853/vertical", "euler/dop853/raw", "euler/dop853/vertical"];

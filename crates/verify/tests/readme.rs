@@ -1,4 +1,5 @@
-//! The README's table of speed and accuracy is that of the newest record.
+//! This test compares the README's table of speed and accuracy with the newest record. Otherwise the table would become
+//! outdated with the next record.
 
 use std::path::Path;
 
@@ -7,7 +8,7 @@ use serde_json::Value;
 const README: &str = include_str!("../../../README.md");
 
 #[test]
-fn the_table_is_that_of_the_newest_record() {
+fn the_readmes_table_of_accuracy_is_that_of_the_newest_record() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/record");
     let records = verify::judge::record::read(&folder).unwrap();
     let date = &records.last().unwrap().host.date;

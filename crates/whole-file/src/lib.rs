@@ -1,13 +1,15 @@
-//! Writes a file whole or not at all.
+//! Writes a file whole or not at all. A program that is interrupted while it writes a report or a baseline must not
+//! leave half a file, which the next run would read.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes `content` to a neighbour of `path` first, which then takes its name: whoever reads `path` sees the old content or
-/// the new one, and nothing is left behind if the writing fails.
+/// Writes `content` to a temporary file in the folder of `path`, and then renames it to `path`. A reader of `path`
+/// therefore sees the old content or the new one, never a part. If an error is returned, no temporary file is left
+/// behind.
 ///
 /// # Errors
-/// If the neighbour can't be written or renamed; the folder has to exist.
+/// If the temporary file can't be written or renamed. The folder has to exist.
 pub fn write(path: &Path, content: &str) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = neighbour().tempfile_in(folder)?;
@@ -16,7 +18,8 @@ pub fn write(path: &Path, content: &str) -> io::Result<()> {
     Ok(())
 }
 
-/// Readable by those whom the umask lets read a new file, not by its owner alone as temporary files are.
+/// Settings of the temporary file. Its permissions are those of any new file under the umask, because the default of
+/// temporary files, readable by the owner alone, would stay after the renaming.
 #[cfg(unix)]
 fn neighbour() -> tempfile::Builder<'static, 'static> {
     use std::os::unix::fs::PermissionsExt;
@@ -35,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_whole_and_nothing_is_left_behind() {
+    fn replaces_a_file_and_leaves_no_temporary_file_behind() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         write(&path, "one, and longer").unwrap();
@@ -50,7 +53,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_file_is_as_readable_as_any_new_file() {
+    fn a_written_file_has_the_permissions_of_any_new_file() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));

@@ -1,11 +1,12 @@
-//! Every method reaches the end, counts its calls, and says when it stopped.
+//! Tests of the integration driver on small systems with known solutions: every method has to reach the end, count its
+//! calls, and report the time of an error in seconds. The faults of `ode_solvers` would show here first.
 
 use nalgebra::{Vector1, Vector2};
 
 use super::*;
 use crate::scheme::Scheme;
 
-/// y' = i y as a real system: after t, a turn by t.
+/// y' = i y as a real system: the state turns by the angle t.
 struct Circle;
 impl OdeSystem<2> for Circle {
     fn derivative(&self, y: &Vector2<f64>) -> Vector2<f64> {
@@ -13,7 +14,7 @@ impl OdeSystem<2> for Circle {
     }
 }
 
-/// y' = y², which leaves every bound at t = 1 from y = 1.
+/// y' = y², which from y = 1 grows beyond every bound as t approaches 1.
 struct Explosion;
 impl OdeSystem<1> for Explosion {
     fn derivative(&self, y: &Vector1<f64>) -> Vector1<f64> {
@@ -32,7 +33,7 @@ fn methods() -> [Stepping; 5] {
 }
 
 #[test]
-fn every_method_reaches_the_end_exactly_once() {
+fn every_method_ends_exactly_at_the_end_of_the_interval() {
     // 2.0005 s is no multiple of any step.
     for method in methods() {
         let (end, work) = integrate(&Circle, Vector2::x(), 2.0005, 1.0, &method).unwrap();
@@ -81,7 +82,7 @@ fn a_system_that_explodes_is_an_error_for_every_method() {
 }
 
 #[test]
-fn refuses_a_scheme_that_is_not_runge_and_kuttas() {
+fn refuses_a_scheme_that_is_no_runge_kutta_scheme() {
     let method = Stepping::adaptive(Scheme::new("taylor", None).adaptive(), 1e-9).unwrap();
     let refused = Err(SolveError::NotOffered { scheme: "taylor" });
     assert_eq!(integrate(&Circle, Vector2::x(), 1.0, 1.0, &method), refused);
@@ -97,7 +98,7 @@ fn too_many_steps_are_refused_before_any_work() {
 }
 
 #[test]
-fn the_scale_only_changes_the_clock() {
+fn the_scale_changes_the_unit_of_time_and_no_bit_of_the_result() {
     let method = methods()[0];
     let (slow, _) = integrate(&Circle, Vector2::x(), 2.0, 1.0, &method).unwrap();
     let (fast, _) = integrate(&Circle, Vector2::x(), 0.5, 4.0, &method).unwrap();
@@ -127,12 +128,12 @@ fn the_first_singular_point_ends_the_run_with_its_time_in_seconds() {
 }
 
 #[test]
-fn where_a_run_stops_is_told_in_seconds() {
+fn errors_report_the_time_in_seconds() {
     let method = Stepping::adaptive(Scheme::DOP853, 1e-12).unwrap();
     let error = integrate(&Explosion, Vector1::new(1.0), 1.5, 4.0, &method).unwrap_err();
     let SolveError::StepSizeUnderflow { time } = error else { panic!("{error}") };
     assert!((time - 0.25).abs() < 1e-6, "{time}");
-    // A million steps would take a while.
+    // The conversion alone is tested, because a run of a million steps would take long.
     let too_many = IntegrationError::MaxNumStepReached { x: 10.0, n_step: STEP_LIMIT };
     assert_eq!(in_seconds(&too_many, 4.0), SolveError::StepLimit { time: 2.5, limit: STEP_LIMIT });
 }

@@ -1,4 +1,5 @@
-//! Times to their last digits, and throws that make no sense.
+//! Tests of the times of flight against numbers of 200 digits, and of the refusal of impossible throws. Inputs reach to
+//! the ends of the range of f64, where intermediate results over- or underflow most easily.
 
 use nalgebra::Vector3;
 
@@ -11,7 +12,7 @@ fn a_ballistic_flight_lasts_two_v_over_g() {
     assert_eq!(thrown.seconds(), 6.0 / 9.81);
 }
 
-/// Against 200 digits, in units of the last place: short and long falls, at rest, at the apex and next to it.
+/// Compares with 200 digits, for short and long falls, from rest, at the apex and next to it.
 #[test]
 fn a_flight_to_another_height_lasts_until_its_later_crossing() {
     use dashu_float::FBig;
@@ -70,7 +71,7 @@ fn a_time_that_overflows_is_refused() {
 }
 
 #[test]
-fn what_makes_no_throw_is_named() {
+fn an_impossible_throw_is_refused_with_the_field_at_fault() {
     let field = |speed, gravity, drop| {
         let time = TimeOfFlight::thrown(speed, gravity, drop);
         Launch::new(Vector3::zeros(), time).err().map(|error| error.field())
@@ -99,9 +100,9 @@ fn a_coin_flies_if_it_is_thrown_up_or_has_a_way_to_fall() {
     assert!(TimeOfFlight::Given(5e-324).is_positive() && !TimeOfFlight::Given(0.0).is_positive());
 }
 
-/// The rest of a time is that of the exact quotient, or left out where products underflow.
+/// The rest has to be that of the exact quotient, or 0 where products underflow.
 #[test]
-fn a_compensated_time_is_the_exact_one_to_twice_the_digits() {
+fn a_compensated_time_has_twice_the_digits_of_f64() {
     for speed in [3.1, 1e-300, 1.7e-308, 3e-310, 7e-320] {
         for gravity in [9.81, 1e-3, 1.7e5] {
             let time = TimeOfFlight::Ballistic { speed, gravity };

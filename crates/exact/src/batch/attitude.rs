@@ -1,4 +1,5 @@
-//! Attitudes at landing, Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ).
+//! This kernel computes the attitudes at landing, Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ), of all tosses of a batch. ŝ is
+//! the direction of the angular momentum at launch and q = (k - 1) ωz the rate of the spin.
 
 use dynamics::{Error, SolveError, Toss};
 use numerics::lanes::{Real, Simd, sin_cos_to_sign};
@@ -9,16 +10,16 @@ use super::momentum::{Constants, Extent};
 use crate::compensated::compensated_landing;
 
 impl Batch<'_> {
-    /// The attitude at landing of each toss, body to LF, as columns of the quaternion's w, x, y and z. Its sign means
-    /// nothing.
+    /// Writes the attitude at landing of each toss, from the body to the laboratory frame (LF), as columns of the
+    /// quaternion's w, x, y and z. The sign of each quaternion is arbitrary.
     ///
     /// # Errors
-    /// [`Error`] for the first toss that has none; what is in `out` then means nothing.
+    /// [`Error`] for the first toss that has no attitude; the contents of `out` are then unspecified.
     ///
     /// # Panics
-    /// If a column has another length than the batch has tosses.
+    /// If a column does not have one entry per toss.
     pub fn attitudes(&self, out: [&mut [f64]; 4]) -> Result<(), Error> {
-        assert!(out.iter().all(|column| column.len() == self.tosses.len()), "one result a toss");
+        assert!(out.iter().all(|column| column.len() == self.tosses.len()), "each column must have one entry per toss");
         let constants = Constants::new(&self.tosses);
         let start = if self.is_flat() { None } else { Some(self.tosses.attitude().components()) };
         self.level.run(Run { kernel: &Attitudes { constants, start }, tosses: self.tosses, out })
@@ -27,7 +28,7 @@ impl Batch<'_> {
 
 struct Attitudes {
     constants: Constants,
-    /// Q0, if it is not 1.
+    /// Q0; `None` if it is the identity.
     start: Option<[f64; 4]>,
 }
 
@@ -42,7 +43,7 @@ impl Kernel<7, 4> for Attitudes {
         let [x, y, z] = rates;
         let ([turns, rest], [spin, spin_rest]) = (motion.turns, self.constants.spin_turns(z, speed));
         let inverse = motion.size * (motion.half_inverse + motion.half_inverse);
-        // Half an angle in quarters of a turn is twice the angle in turns.
+        // Half of an angle, measured in quarters of a turn, is twice the angle measured in turns.
         let twice = [turns + turns, rest + rest, spin + spin, spin_rest + spin_rest];
         [twice[0], twice[1], twice[2], twice[3], x * inverse, y * inverse, motion.along * inverse]
     }
@@ -69,7 +70,7 @@ impl Kernel<7, 4> for Attitudes {
     }
 }
 
-/// `left` ⊗ `right`.
+/// The quaternion product `left` ⊗ `right`.
 #[inline(always)]
 fn product<S: Simd>(left: [f64; 4], right: [Real<S>; 4]) -> [Real<S>; 4] {
     let [w, x, y, z] = right;

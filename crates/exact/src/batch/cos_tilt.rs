@@ -1,8 +1,10 @@
-//! cos θ at landing, with φ = |L| T and the terms of [`TiltTerms`](crate::TiltTerms):
+//! These kernels compute cos θ at landing for all tosses of a batch. There are two, because a launch from horizontal
+//! needs only one cosine. With the phase φ = |L| T, the terms A, B, C of [`TiltTerms`](crate::TiltTerms) and the
+//! attitude quaternion Q at launch:
 //!
 //! ```text
 //! cos θ = (Lz² + (Lx² + Ly²) cos φ)/|L|²              from horizontal
-//! cos θ = (A + B cos φ + C sin φ)/(|q|² |L|²)          from any attitude
+//! cos θ = (A + B cos φ + C sin φ)/(|Q|² |L|²)         from any attitude
 //! ```
 
 use dynamics::{Error, SolveError, Toss};
@@ -14,15 +16,15 @@ use super::momentum::{Constants, Extent, TiltTerms};
 use crate::compensated::compensated_cos_tilt;
 
 impl Batch<'_> {
-    /// cos θ at landing of each toss.
+    /// Writes cos θ at landing of each toss.
     ///
     /// # Errors
-    /// [`Error`] for the first toss that has none; what is in `out` then means nothing.
+    /// [`Error`] for the first toss that has no cos θ; the contents of `out` are then unspecified.
     ///
     /// # Panics
-    /// If `out` has another length than the batch has tosses.
+    /// If `out` does not have one entry per toss.
     pub fn cos_tilts(&self, out: &mut [f64]) -> Result<(), Error> {
-        assert_eq!(out.len(), self.tosses.len(), "one result a toss");
+        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
         let constants = Constants::new(&self.tosses);
         if self.is_flat() {
             self.level.run(Run { kernel: &Flat(constants), tosses: self.tosses, out: [out] })
@@ -33,7 +35,7 @@ impl Batch<'_> {
     }
 }
 
-/// (Lz² + Ω² cos φ)/|L|²: from horizontal.
+/// The kernel for launches from horizontal: (Lz² + Ω² cos φ)/|L|², where Ω² = Lx² + Ly².
 struct Flat(Constants);
 
 impl Kernel<4, 1> for Flat {
@@ -59,7 +61,7 @@ impl Kernel<4, 1> for Flat {
     }
 }
 
-/// (A + B cos φ + C sin φ)/|L|²: from any attitude.
+/// The kernel for launches from any attitude: (A + B cos φ + C sin φ)/(|Q|² |L|²).
 struct Tilted(Constants, TiltTerms);
 
 impl Kernel<6, 1> for Tilted {
@@ -94,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quaternion_of_any_norm_is_the_same_attitude() {
+    fn cos_tilt_does_not_depend_on_the_norm_of_the_quaternion() {
         let speeds = [0.0, 1.0, 2.0, 3.0, 4.0];
         let columns = [[3.0; 5], [4.0; 5], [5.0; 5]];
         let columns = columns.each_ref().map(<[f64; 5]>::as_slice);

@@ -1,7 +1,6 @@
-//! How a kernel is run over the columns of a batch.
-//!
-//! In tiles that stay in the first-level cache, each in two loops: with fewer operations in a loop, those of more
-//! tosses are under way at a time, and none waits long for the one before.
+//! This file runs a kernel over the columns of a batch. It works in tiles that stay in the first-level cache, and
+//! passes over each tile in two short loops instead of one long one: the processor then overlaps the operations of more
+//! tosses, and waits less for results.
 
 use std::ops::Range;
 
@@ -10,29 +9,30 @@ use numerics::lanes::{Real, Simd, WithSimd};
 
 use super::momentum::{Constants, Extent};
 
-/// Tosses of a tile; a multiple of the number of lanes.
+/// Number of tosses in a tile, a multiple of the number of lanes of every SIMD level.
 const TILE: usize = 128;
 
-/// Columns of a tile, as registers are loaded and stored best.
+/// Columns of a tile, aligned to whole cache lines for fast loads and stores.
 #[repr(align(64))]
 struct Columns<const N: usize>([[f64; TILE]; N]);
 
-/// Makes `OUT` columns, by way of `MID` others.
+/// A computation that makes `OUT` columns of results by way of `MID` intermediate columns.
 pub(super) trait Kernel<const MID: usize, const OUT: usize> {
-    /// What is the same for all tosses.
+    /// The constants that all tosses share.
     fn constants(&self) -> &Constants;
 
-    /// The first loop: from rates (BF, rad/s) and v0 (m/s).
+    /// The body of the first loop: from rates (in the body frame, rad/s) and speeds v0 (m/s) to the intermediate
+    /// columns. It adds the tosses to `extent`.
     fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; MID];
 
-    /// The second loop.
+    /// The body of the second loop: from the intermediate columns to the results.
     fn end<S: Simd>(&self, begun: [Real<S>; MID]) -> [Real<S>; OUT];
 
-    /// The results for a toss that is not ordinary.
+    /// Solves a single toss that is not ordinary.
     fn solve_one(&self, toss: &Toss) -> Result<[f64; OUT], SolveError>;
 }
 
-/// A kernel, and where its results go.
+/// A kernel, the tosses that it is run over, and the columns for its results.
 pub(super) struct Run<'a, 'out, K, const MID: usize, const OUT: usize> {
     pub(super) kernel: &'a K,
     pub(super) tosses: Tosses<'a>,
@@ -76,7 +76,7 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for Run<'
 }
 
 impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> Run<'_, '_, K, MID, OUT> {
-    /// Solves those of a tile one by one that are not ordinary.
+    /// Solves the tosses of a tile that are not ordinary, one by one.
     #[cold]
     #[inline(never)]
     fn solve_others(&mut self, tile: Range<usize>) -> Result<(), Error> {
@@ -94,8 +94,8 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> Run<'_, '_, K, MID
     }
 }
 
-/// The columns of some tosses for whole registers of so many `lanes`; where the last is not full, filled up in `room` with
-/// ordinary tosses.
+/// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
+/// to `room`, which holds ordinary tosses beyond them.
 #[inline(always)]
 fn whole_registers<'a>(
     tosses: &Tosses<'a>,

@@ -1,4 +1,5 @@
-//! Many tosses at once by the exact motion, in vectors: structures of arrays in, arrays out, nothing allocated.
+//! This module solves many tosses at once by the exact motion, in SIMD registers. It takes columns of launches and
+//! writes columns of results without allocating, at a fraction of the cost of single tosses.
 //!
 //! | wanted | kernel | error |
 //! |---|---|---|
@@ -6,9 +7,10 @@
 //! | proven outcomes | [`Batch::outcomes`], [`Batch::count`] | none |
 //! | attitude at landing | [`Batch::attitudes`] | 1e-15 rad |
 //!
-//! A kernel serves ordinary tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², ωL T
-//! below 2^40 turns, or k times that for a coin with a ratio k below 1. Others are solved one by one, as accurately.
-//! Neither the instruction set nor the neighbours of a toss change a bit of its results.
+//! A kernel solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², and
+//! a phase ωL T below 2^40 turns (below k 2^40 turns for a coin with an inertia ratio k < 1). L = (ωx, ωy, k ωz) is the
+//! angular momentum divided by I1. All other tosses are solved one by one, as accurately. Neither the instruction set
+//! nor the other tosses of the batch change a bit of a result.
 
 mod attitude;
 mod cos_tilt;
@@ -19,7 +21,7 @@ mod outcome;
 use dynamics::{Attitude, Tosses};
 use numerics::lanes::SimdLevel;
 
-/// Tosses to be solved at once, and the SIMD level of their kernels.
+/// Tosses to be solved together, and the SIMD level of the kernels.
 #[derive(Debug, Clone, Copy)]
 pub struct Batch<'a> {
     tosses: Tosses<'a>,
@@ -27,12 +29,12 @@ pub struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// A batch of `tosses`, solved at the widest SIMD level of the machine.
+    /// Makes a batch of `tosses`, to be solved at the widest SIMD level of the machine.
     pub fn new(tosses: Tosses<'a>) -> Self {
         Self { tosses, level: SimdLevel::widest() }
     }
 
-    /// The same batch at another SIMD level. No bit of the results depends on it.
+    /// Sets the SIMD level. The results are the same to the bit at every level.
     #[must_use]
     pub fn on(self, level: SimdLevel) -> Self {
         Self { level, ..self }

@@ -1,7 +1,9 @@
-//! Angular momenta and phases of as many tosses as a register holds, with what rounding lost of them.
+//! This file computes angular momenta and phases with their rounding errors, for as many tosses as a register holds. It
+//! is the arithmetic of [`compensated`](crate::compensated) in SIMD registers, which all kernels share.
 //!
-//! As [`compensated`](crate::compensated), but with phases in turns and without a unit of rates: what could leave the
-//! range of f64 is no ordinary toss.
+//! Unlike there, phases are in turns, and rates are not scaled: a toss whose squares could leave the range of f64 is
+//! not ordinary, and no kernel solves it. L = (ωx, ωy, k ωz) is the angular momentum divided by I1, Ω² = Lx² + Ly², and
+//! q = (k - 1) ωz. A pair is a rounded value and its rest, the part that rounding has lost.
 
 use dynamics::Tosses;
 use numerics::DoubleDouble;
@@ -9,24 +11,26 @@ use numerics::lanes::{MOST_TURNS, Real, Simd};
 
 use crate::tilt_terms::terms;
 
-/// Largest |L|² ((rad/s)²), and inverse of the smallest.
+/// Largest |L|² ((rad/s)²) of an ordinary toss. The smallest is half of its inverse.
 const LARGEST_SQUARE: f64 = 1e100;
 
-/// 1/π.
+/// 1/π and its rest.
 const INVERSE_PI: [f64; 2] = [std::f64::consts::FRAC_1_PI, -1.967_867_667_518_248_6e-17];
 
-/// What is the same for all tosses of a batch.
+/// Constants that all tosses of a batch share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Constants {
+    /// k, and its rest.
     ratio: [f64; 2],
-    /// 1/(π g), turns of ωL T by a unit of ωL v0, and what f64 leaves of it, relative.
+    /// 1/(π g), the turns of ωL T per unit of ωL v0, and its rest divided by it.
     turns: [f64; 2],
-    /// (k - 1)/(π g), turns of q T by a unit of ωz v0, and what f64 leaves of it.
+    /// (k - 1)/(π g), the turns of q T per unit of ωz v0, and its rest.
     spin_turns: [f64; 2],
+    /// Largest number of turns of ωL T of an ordinary toss.
     most_turns: f64,
 }
 
-/// The motion of tosses.
+/// The motions of as many tosses as a register holds.
 pub(super) struct Motion<S: Simd> {
     /// Lz = k ωz (rad/s).
     pub(super) along: Real<S>,
@@ -36,13 +40,13 @@ pub(super) struct Motion<S: Simd> {
     pub(super) across_squared: Real<S>,
     /// |L| = ωL (rad/s).
     pub(super) size: Real<S>,
-    /// ½/|L|².
+    /// ½/|L|² ((rad/s)^-2).
     pub(super) half_inverse: Real<S>,
-    /// ωL T (turns).
+    /// ωL T (turns), and its rest.
     pub(super) turns: [Real<S>; 2],
 }
 
-/// The same in plain f64.
+/// The same as [`Motion`] in plain f64, without the rests.
 pub(super) struct PlainMotion<S: Simd> {
     pub(super) along: Real<S>,
     pub(super) across_squared: Real<S>,
@@ -52,7 +56,7 @@ pub(super) struct PlainMotion<S: Simd> {
     pub(super) turns: Real<S>,
 }
 
-/// Sums over many tosses that tell whether all of them are ordinary.
+/// Sums over the tosses of a tile that show whether all of them are ordinary.
 pub(super) struct Extent<S: Simd> {
     squared: Real<S>,
     inverse: Real<S>,
@@ -66,18 +70,18 @@ impl Constants {
         let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
         let turns = inverse_pi / tosses.gravity().into();
         let spin_turns = turns * (k - 1.0.into());
-        // In this range no product of a gravity loses digits.
+        // In this range no product with 1/(π g) loses digits to over- or underflow.
         let is_ordinary = (1e-50..1e50).contains(&tosses.gravity());
         Self {
             ratio: [k.hi(), k.lo()],
             turns: [turns.hi(), turns.lo() / turns.hi()],
             spin_turns: [spin_turns.hi(), spin_turns.lo()],
-            // The spin turns by at most 1/k times as much.
+            // The phase of the spin, |q| T, is at most 1/k times as large if k < 1.
             most_turns: if is_ordinary { MOST_TURNS * k.hi().min(1.0) } else { 0.0 },
         }
     }
 
-    /// The motion after launches with these rates (rad/s) and speeds (m/s).
+    /// The motions after launches with these rates (BF, rad/s) and speeds (m/s), which it adds to `extent`.
     #[inline(always)]
     pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
         let [along, along_rest] = x.constant(self.ratio[0]).product(z);
@@ -89,7 +93,7 @@ impl Constants {
         let squared_rest = (squared_rest + along_squared_rest) + (across_rest + (x_squared[1] + y_squared[1]));
         let size = squared.sqrt();
         let half_inverse = x.constant(0.5) / squared;
-        // Relative, and so for all that is proportional to |L|.
+        // The rest of |L| divided by |L|, which is also the relative rest of all that is proportional to |L|.
         let size_rest = ((-size).mul_add(size, squared) + squared_rest) * half_inverse;
         let [turned, turned_rest] = size.product(speed);
         let [turns, turns_rest] = turned.product(x.constant(self.turns[0]));
@@ -106,7 +110,7 @@ impl Constants {
         }
     }
 
-    /// Turns of q T, and the rest, for ωz (rad/s) and v0 (m/s).
+    /// q T (turns) and its rest, for the rates ωz (rad/s) and speeds v0 (m/s).
     #[inline(always)]
     pub(super) fn spin_turns<S: Simd>(&self, z: Real<S>, speed: Real<S>) -> [Real<S>; 2] {
         let [turned, turned_rest] = z.product(speed);
@@ -115,7 +119,7 @@ impl Constants {
         [turns, turned.mul_add(z.constant(self.spin_turns[1]), turns_rest)]
     }
 
-    /// As [`Constants::motion`], without what rounding loses.
+    /// As [`Constants::motion`], in plain f64. It sets no lower limit on |L|², because it adds no 1/|L|² to `extent`.
     #[inline(always)]
     pub(super) fn plain_motion<S: Simd>(
         &self,
@@ -132,7 +136,8 @@ impl Constants {
         PlainMotion { along, across_squared, squared, size, turns }
     }
 
-    /// Whether a toss with these rates (rad/s) and this speed (m/s) is ordinary: no square and no phase leaves its range.
+    /// Whether a toss with these rates (rad/s) and this speed (m/s) is ordinary: no square and no phase leaves its
+    /// range.
     pub(super) fn is_ordinary(&self, [x, y, z, speed]: [f64; 4]) -> bool {
         let simd = pulp::Scalar;
         let mut extent = Extent::new(simd);
@@ -156,8 +161,9 @@ impl<S: Simd> Extent<S> {
         self.sign = self.sign.either_sign(speed);
     }
 
-    /// Whether all tosses are ordinary. Sums are compared, of which no part is negative, or else the sign tells: so one
-    /// toss that is not ordinary is always seen, and ordinary ones may together be taken for one that is not.
+    /// Whether all tosses are ordinary. Only sums are compared with the limits. No summand is negative unless a speed
+    /// is, which `sign` records, so a single toss beyond a limit always takes the sum beyond it. Many ordinary tosses
+    /// may do so too; they are then checked one by one.
     #[inline(always)]
     pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
         let Self { squared, inverse, turns, sign } = *self;
@@ -167,11 +173,12 @@ impl<S: Simd> Extent<S> {
     }
 }
 
-/// A, B and C of [`TiltTerms`](crate::TiltTerms) for tosses from one attitude.
+/// The factors of A, B and C of [`TiltTerms`](crate::TiltTerms) that all tosses of a batch share, by their attitude Q
+/// at launch.
 pub(super) struct TiltTerms {
-    /// The vertical seen from the body at launch, times |q|².
+    /// The vertical in the body frame (BF) at launch, times |Q|².
     pub(super) vertical: [f64; 3],
-    /// |q|².
+    /// |Q|².
     pub(super) norm: f64,
 }
 
@@ -211,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn ordinary_tosses_end_where_they_are_said_to() {
+    fn ordinary_tosses_reach_up_to_the_documented_limits() {
         let of_square = |squared: f64| constants(0.5, 1.0).is_ordinary([squared.sqrt(), 0.0, 0.0, 0.0]);
         assert!([0.51e-100, 1.0, 0.99e100].into_iter().all(of_square));
         assert!(![0.0, 0.49e-100, 1.01e100, 1e305, f64::INFINITY, f64::NAN].into_iter().any(of_square));
@@ -227,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_toss_that_is_not_ordinary_is_seen_in_any_company() {
+    fn one_toss_that_is_not_ordinary_is_detected_beside_ordinary_ones() {
         let are_ordinary = |tosses: [[f64; 4]; 2]| {
             let mut extent = Extent::new(pulp::Scalar);
             for toss in tosses {

@@ -1,14 +1,16 @@
-//! Proven outcomes: a filter in f64 decides nearly all of them, and [`certify`] the rest.
+//! This file proves the outcomes of all tosses of a batch. A filter in f64 decides nearly all of them in SIMD
+//! registers, and [`certify`] proves the few that the filter leaves undecided.
 //!
-//! With x half the phase φ = 2πτ, in turns reduced to |x| ≤ ½, s and c its sine and cosine, G = A + B cos φ + C sin φ
-//! of [`TiltTerms`](crate::TiltTerms) is
+//! The filter evaluates G = A + B cos φ + C sin φ of [`TiltTerms`](crate::TiltTerms), which has the sign of cos θ. Let
+//! the phase be φ = 2πτ, x what is left of τ without its whole turns, |x| ≤ ½, s = sin πx and c = cos πx. Then
 //!
 //! ```text
 //! G = (A + B) + 2 s (C c - B s)
 //! ```
 //!
-//! whatever the common sign of s and c. In units of `size`, with u = 2^-53 and ε the error of the rough s and c, which
-//! have no need of many digits where G is far from 0:
+//! because s and c are sine and cosine of φ/2 up to a common sign, which cancels. Few digits of s and c suffice where G
+//! is far from 0, so they come from short polynomials with an error of ε. In units of `size`, with u = 2^-53, the
+//! errors of G are:
 //!
 //! ```text
 //! A, B, C            41u          12u (1 + √2 + 1), as derived there; fused products round less
@@ -17,8 +19,8 @@
 //! operations         12u          six, of numbers below 4
 //! ```
 //!
-//! [`THRESHOLD`] is more than twice the sum without φ, and the part of φ is rounded up. What underflows is below
-//! 2^-1000, and [`SMALLEST`] is above it.
+//! [`THRESHOLD`] is more than twice the sum of all lines but that of φ, and [`THRESHOLD_OF_TURN`] is that of φ rounded
+//! up. Underflow loses less than 2^-1000, which is below [`SMALLEST`].
 
 use std::ops::Range;
 
@@ -32,19 +34,19 @@ use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::certify;
 
-/// How near to 0 the filter leaves a G/size undecided, beside what the phase adds.
+/// |G|/size up to which the filter leaves a toss undecided, for a phase of 0.
 const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
 
-/// What a turn adds to it.
+/// What each turn of the phase adds to [`THRESHOLD`].
 const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
 
-/// How near to 0 a G is left undecided that is not measured in its size ((rad/s)²).
+/// |G| up to which the filter leaves a toss undecided whatever its size ((rad/s)²).
 const SMALLEST: f64 = 1e-200;
 
-/// Tosses that are filtered before the rest of them is proven otherwise.
+/// Number of tosses that are filtered together, before the undecided ones among them are proven one by one.
 const BLOCK: usize = 512;
 
-/// Outcomes that the filter decides.
+/// Numbers of outcomes that the filter decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct FilterCounts {
     heads: u64,
@@ -52,15 +54,15 @@ struct FilterCounts {
 }
 
 impl Batch<'_> {
-    /// How each toss lands, proven. It is undecided only for an exact tie.
+    /// Writes the proven outcome of each toss. It is undecided only for an exact tie.
     ///
     /// # Errors
-    /// [`Error`] for the first toss that has no outcome; what is in `out` then means nothing.
+    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
     ///
     /// # Panics
-    /// If `out` has another length than the batch has tosses.
+    /// If `out` does not have one entry per toss.
     pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
-        assert_eq!(out.len(), self.tosses.len(), "one result a toss");
+        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
         let filter = Filter::new(self);
         let mut heights = Column([0.0; BLOCK]);
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
@@ -77,7 +79,7 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Counts the outcomes, all of them proven: nearly all by the filter in f64, the others by [`certify`].
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
     ///
     /// # Errors
     /// [`Error`] for the first toss that has no outcome.
@@ -85,7 +87,7 @@ impl Batch<'_> {
         self.count_and(|_| ())
     }
 
-    /// As [`Batch::count`]; `left` is called with each outcome that the filter left to [`certify`].
+    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`] did.
     ///
     /// # Errors
     /// As [`Batch::count`].
@@ -112,19 +114,19 @@ impl Batch<'_> {
     }
 }
 
-/// Heads or tails by the sign of a height. A table, since which face it is is chance: a branch would be foreseen wrongly
-/// every other time.
+/// The outcome by the sign of a height: heads for positive, tails for negative, undecided for 0. It is looked up in a
+/// table, because heads and tails alternate at random and the processor would mispredict half of the branches.
 #[inline]
 fn of_sign(height: f64) -> Outcome {
     const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
     OF_SIGNS[usize::from(height > 0.0) + 2 * usize::from(height < 0.0)]
 }
 
-/// As registers are loaded and stored best.
+/// Heights of a block, aligned to whole cache lines for fast loads and stores.
 #[repr(align(64))]
 struct Column([f64; BLOCK]);
 
-/// The kernel for a batch.
+/// The filter's kernel for a batch, by the attitude at launch.
 enum Filter {
     Flat(Flat),
     Tilted(Tilted),
@@ -140,7 +142,8 @@ impl Filter {
         }
     }
 
-    /// What G exceeds its threshold by, with its sign; 0 where it does not.
+    /// Writes by how much |G| exceeds its threshold, with the sign of G, for the tosses of `range`; 0 where it does
+    /// not.
     fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
         let (level, tosses) = (batch.level, batch.tosses.part(range));
         match self {
@@ -150,10 +153,10 @@ impl Filter {
     }
 }
 
-/// From horizontal, where A + B = |L|², B = Ω² and C = 0.
+/// The kernel for launches from horizontal, where A + B = |L|², B = Ω² = Lx² + Ly² and C = 0.
 struct Flat(Constants);
 
-/// From any attitude.
+/// The kernel for launches from any attitude.
 struct Tilted(Constants, TiltTerms);
 
 impl Kernel<4, 1> for Flat {
@@ -203,20 +206,20 @@ impl Kernel<5, 1> for Tilted {
     }
 }
 
-/// How near to 0 a G of this `size` is left undecided.
+/// |G| up to which a toss with this phase (turns) and `size` is left undecided.
 #[inline(always)]
 fn threshold<S: Simd>(turns: Real<S>, size: Real<S>) -> Real<S> {
     let relative = turns.mul_add(turns.constant(THRESHOLD_OF_TURN), turns.constant(THRESHOLD));
     relative.mul_add(size, turns.constant(SMALLEST))
 }
 
-/// |`height`| - `threshold` with the sign of `height`, or 0.
+/// |`height`| - `threshold` with the sign of `height`, or 0 if that is negative.
 #[inline(always)]
 fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
     (height.abs() - threshold).max(height.constant(0.0)).times_sign_of(height)
 }
 
-/// Counts the signs of numbers.
+/// Counts the positive numbers (heads) and the negative ones (tails).
 struct Signs<'a>(&'a [f64]);
 
 impl WithSimd for Signs<'_> {
@@ -262,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_those_of_the_outcomes_also_where_no_register_is_full() {
+    fn counts_match_the_outcomes_at_every_level_and_length() {
         let speeds = speeds();
         for (level, length) in
             SimdLevel::all().into_iter().flat_map(|level| (0..=20).map(move |length| (level, length)))
@@ -280,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn heights_and_thresholds_grow_with_the_norm_of_the_quaternion() {
+    fn heights_and_thresholds_are_proportional_to_the_norm_of_the_quaternion() {
         let speeds = speeds();
         let tosses = tosses(&speeds);
         let heights = |factor: f64| {

@@ -1,4 +1,4 @@
-//! Ties, agreement of the stages, and the bounds of the derivations.
+//! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
 use dynamics::{Attitude, Coin, Launch};
 use nalgebra::Vector3;
@@ -34,7 +34,7 @@ fn what_is_proven_is_the_toss_as_it_was_given() {
     }
 }
 
-/// On edge, exactly: w = x, so that mz = w² - x² = 0 and m is along y.
+/// A coin exactly on edge: w = x, so that mz = w² - x² = 0 and the vertical m is along the body's y axis.
 fn on_edge() -> Attitude {
     let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
     assert_eq!(edge.components()[0], edge.components()[1]);
@@ -45,7 +45,7 @@ fn on_edge() -> Attitude {
 fn exact_ties_are_undecided_and_nothing_else_is() {
     let certified = |k, rate, time| certify(&toss(k, rate, on_edge(), time)).unwrap();
     let tie = Certificate::new(Outcome::Undecided, Stage::Multiprecision);
-    // At rest, at once, in pure spin, and about a vertical S in the middle plane.
+    // A coin at rest, one that lands at once, two in pure spin, and two whose S is vertical and in the coin's plane.
     for (k, rate, time) in [
         (1.5, [0.0; 3], 1.0),
         (1.5, [1.0, 2.0, 3.0], 0.0),
@@ -56,9 +56,9 @@ fn exact_ties_are_undecided_and_nothing_else_is() {
     ] {
         assert_eq!(certified(k, rate, time), tie, "{k} {rate:?} {time}");
     }
-    // A momentum that is not level makes no tie, though m is along its part across the normal.
+    // No tie if S has a part along the normal, even though m is parallel to the part across it.
     assert_ne!(by_multiprecision(&toss(1.5, [0.0, 7.0, 3.0], on_edge(), 1.0)), Outcome::Undecided);
-    // Dropped, not thrown, it does not land at once.
+    // No tie for a coin that is dropped from a height: it has speed 0, but does not land at once.
     let dropped = TimeOfFlight::BallisticTo { speed: 0.0, gravity: 9.81, drop: 1.0 };
     let launch = Launch::new(Vector3::new(1.0, 2.0, 3.0), dropped).unwrap().with_attitude(on_edge());
     assert_ne!(by_multiprecision(&Toss { coin: Coin::PAPER, launch }), Outcome::Undecided);

@@ -1,4 +1,5 @@
-//! The γ-ODE against the exact motion, and at the edges of what it takes.
+//! Tests of the γ-ODE: its derivatives against the exact motion, and its guards on both sides of their thresholds. A
+//! guard that fails shows as a wrong answer without an error, which no other test would notice.
 
 use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
 use exact::ExactMotion;
@@ -10,7 +11,7 @@ fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
     Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
 }
 
-/// (10) and (11) against central differences of the exact γ, where the vertical frame is regular.
+/// Compares (10) and (11) with central differences of the exact γ, on flights where the vertical frame is regular.
 #[test]
 fn the_acceleration_is_that_of_the_exact_motion() {
     for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)] {
@@ -72,7 +73,7 @@ fn a_precession_that_turns_back_is_an_error_with_its_time() {
         let error = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&tilted).unwrap_err();
         let SolveError::Singular { point: Singularity::PrecessionTooSlow, time } = error else { panic!("{error}") };
         assert!(time > 0.0 && time < 5.0, "{time}");
-        // The same flight along the momentum.
+        // In the momentum frame the same flight is regular.
         let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).propagate(&tilted).unwrap();
         let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
         assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
@@ -91,13 +92,13 @@ fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
     }
 }
 
-/// A system with q = rate_z (k - 1) and a state with given D, u and β': γ = 0 makes ωy D and ωx β'.
+/// A state of `system` with these D, u and β'. At γ = 0, ωy is D and ωx is β'.
 fn state(system: &GammaSystem, d: f64, u: f64, beta_rate: f64) -> SVector<f64, 5> {
     SVector::from([0.0, system.rate_z - u, 0.0, beta_rate, d])
 }
 
 #[test]
-fn only_the_regular_solution_may_pass_where_d_vanishes() {
+fn where_d_vanishes_only_the_regular_solution_has_an_acceleration_of_0() {
     for rate_z in [0.5, 2.0, -3.0] {
         let system = GammaSystem::new(0.5, rate_z, 1.0);
         let acceleration = |d: f64, u: f64, beta_rate: f64| {
@@ -106,14 +107,14 @@ fn only_the_regular_solution_may_pass_where_d_vanishes() {
         };
         let regular = 0.25 * rate_z;
         assert_eq!(acceleration(0.0, regular, 3.0), 0.0);
-        // (10)'s sum vanishes at the regular u, and has this slope there.
+        // The sum in (10) vanishes at the regular u, and its derivative with respect to u is -`slope` there.
         let slack = CANCELLATION_THRESHOLD * (rate_z * rate_z + (rate_z - regular).powi(2));
         let slope = system.q + rate_z;
         for (part, passes) in [(0.8, true), (-0.8, true), (1.25, false), (-1.25, false)] {
             let u = regular + part * slack / slope;
             assert_eq!(acceleration(0.0, u, 3.0) == 0.0, passes, "{rate_z}, {part}");
         }
-        // Whether there is a digit in D is a matter of D over β'.
+        // Whether D has a correct digit depends on D/β' only.
         for (d, passes) in [(0.8, true), (1.25, false)] {
             for beta_rate in [0.01, -7.0] {
                 let found =
@@ -142,7 +143,7 @@ fn precession_is_too_slow_below_one_in_a_hundred_of_the_rate() {
 }
 
 #[test]
-fn a_step_meets_the_point_that_it_crosses() {
+fn a_step_reports_the_singular_point_that_it_crosses() {
     let system = GammaSystem::new(0.5, 1.0, 1.0);
     let met = |was: [f64; 3], is: [f64; 3]| {
         let [before, after] = [was, is].map(|[d, u, beta_rate]| state(&system, d, u, beta_rate));
@@ -170,7 +171,7 @@ fn a_step_meets_the_point_that_it_crosses() {
 }
 
 #[test]
-fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
+fn accepts_a_rod_in_pure_spin_at_the_pole_and_refuses_other_rods_without_precession() {
     let stepping = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
     for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
         let solver = GammaSolver::new(stepping, formulation);

@@ -1,19 +1,21 @@
-//! Sums and products in registers that keep what rounding takes from them, and complex numbers.
+//! Sums and products of SIMD vectors with twice as many digits, and complex numbers. The steps by Taylor series need
+//! both: each step turns a complex rate by an angle, and its rounding errors would add up in long flights.
 //!
-//! A number and its error stand beside each other, fused and without the renormalisation of
-//! [`DoubleDouble`](crate::DoubleDouble) after each operation, which registers do not need for a handful of them.
+//! A number stands beside its rounding error. Unlike [`DoubleDouble`](crate::DoubleDouble), the pair is not
+//! renormalised after each operation, which saves time and costs little accuracy in a short chain of operations.
 
 use pulp::Simd;
 
 use super::real::Real;
 
-/// A complex number, as its real and imaginary part.
+/// A complex number: its real part and its imaginary part.
 pub type Complex<R> = [R; 2];
 
-/// A number and what rounding took from it.
+/// A rounded number and its rounding error; their sum is the value.
 pub type Double<R> = [R; 2];
 
-/// 1/n. The halves of its digits are multiplied by n exactly, so that the remainder is exact.
+/// 1/n with twice the digits of f64. The remainder 1 - n fl(1/n) is computed exactly, by multiplying the two halves of
+/// the quotient's digits by n separately.
 pub const fn inverse(n: usize) -> Double<f64> {
     let n = n as f64;
     let rounded = 1.0 / n;
@@ -21,27 +23,27 @@ pub const fn inverse(n: usize) -> Double<f64> {
     [rounded, ((1.0 - n * upper) - n * (rounded - upper)) / n]
 }
 
-/// `a` × `b`.
+/// `a` × `b`, with twice as many digits.
 #[inline(always)]
 pub fn times<S: Simd>(a: Double<Real<S>>, b: Double<Real<S>>) -> Double<Real<S>> {
     let [product, error] = a[0].product(b[0]);
     [product, a[0].mul_add(b[1], a[1].mul_add(b[0], error))]
 }
 
-/// `a` + `b`.
+/// `a` + `b`, with twice as many digits.
 #[inline(always)]
 pub fn sum<S: Simd>(a: Double<Real<S>>, b: Double<Real<S>>) -> Double<Real<S>> {
     let [sum, error] = a[0].sum(b[0]);
     [sum, error + (a[1] + b[1])]
 }
 
-/// `a` × `b`.
+/// `a` × `b`, rounded to f64.
 #[inline(always)]
 pub fn complex_product<S: Simd>(a: Complex<Real<S>>, b: Complex<Real<S>>) -> Complex<Real<S>> {
     [a[0].mul_add(b[0], -(a[1] * b[1])), a[0].mul_add(b[1], a[1] * b[0])]
 }
 
-/// `a` × `b`.
+/// `a` × `b` with twice as many digits; the parts of the result are renormalised.
 #[inline(always)]
 pub fn compensated_product<S: Simd>(
     a: Complex<Double<Real<S>>>,
@@ -52,14 +54,15 @@ pub fn compensated_product<S: Simd>(
     [normal(real), normal(imaginary)]
 }
 
-/// `a` with an error of at most half a bit of its number.
+/// Renormalises `a`, so that its error is at most half a unit in the last place of its number.
 #[inline(always)]
 fn normal<S: Simd>(a: Double<Real<S>>) -> Double<Real<S>> {
     let rounded = a[0] + a[1];
     [rounded, a[1] - (rounded - a[0])]
 }
 
-/// The modulus and the direction of `a`, which is 1 for 0, and where the square of the modulus underflows.
+/// The modulus |z| and the direction z/|z| of z = x + iy. Where the square of the modulus is 0 or underflows to 0, the
+/// modulus is 0 and the real part of the direction is 1.
 #[inline(always)]
 pub fn polar<S: Simd>([x, y]: Complex<Real<S>>) -> (Real<S>, Complex<Real<S>>) {
     let one = x.constant(1.0);
@@ -86,11 +89,12 @@ mod tests {
         }
     }
 
-    /// Some numbers of either sign with what follows their last bit.
+    /// Numbers of either sign, each with a part below its last bit.
     fn doubles() -> [Double<f64>; 4] {
         [[0.7, 3.1e-17], [-1.9, 0.8e-16], [1.0 / 3.0, -2.2e-17], [0.01, 0.7e-18]]
     }
 
+    /// Calls the closure with each pair of [`doubles`], their product and their sum.
     struct Doubles<'a>(&'a dyn Fn(Double<f64>, Double<f64>, [Double<f64>; 2]));
 
     impl WithSimd for Doubles<'_> {
@@ -117,7 +121,7 @@ mod tests {
         DoubleDouble::exactly(high) + DoubleDouble::exactly(low)
     }
 
-    /// Of 2^-106, the rounding of numbers with twice as many digits, for a number near 1.
+    /// Absolute error in units of 2^-106, the rounding of a number near 1 with twice as many digits.
     fn error(found: Double<f64>, expected: DoubleDouble) -> f64 {
         (double_double(found) - expected).hi().abs() * f64::exp2(106.0)
     }
@@ -133,7 +137,7 @@ mod tests {
         }
     }
 
-    /// What the complex numbers and turns of a step are made of, of two complex numbers and their errors.
+    /// Computes the products, and the polar form, of two complex numbers that come with their errors.
     struct OfAStep([Complex<Double<f64>>; 2]);
 
     struct Found {

@@ -1,12 +1,14 @@
-//! Vectors of f64 numbers, as wide as the machine has them, with the same bits on every machine.
+//! SIMD vectors of f64 that use the machine's widest registers. Their results have the same bits on every machine, so
+//! that a batch of launches can be repeated anywhere.
 //!
-//! A kernel is written once over [`Real`], and compiled for each instruction set that [`SimdLevel`] can choose from at run
-//! time. Its bits do not depend on the choice: every operation is one rounded operation of IEEE 754 in each lane, and
-//! each fused multiply-add is written as one. Where the machine has no such instruction it is a call of the
-//! mathematical library, right but slow.
+//! A kernel is a function written over [`Real`]. It is compiled for each instruction set that [`SimdLevel`] can choose
+//! at run time. The choice does not change a bit of the result, because every operation is one rounded operation of
+//! IEEE 754 in each lane (one number of a vector), and because the compiler never fuses a product and a sum by itself:
+//! each fused multiply-add is written as one. A machine without that instruction calls the mathematical library
+//! instead, which gives the same bits slowly.
 //!
-//! Everything here is inlined always, and closures and iterators that hide a loop are avoided in kernels: the compiler
-//! does not inline the instructions of a set into a function that does not promise them.
+//! All functions here are `#[inline(always)]`, and kernels avoid closures and iterators that hide a loop. The reason is
+//! that the compiler cannot inline the instructions of a set into a function that is not compiled for this set.
 
 mod double;
 mod real;
@@ -26,14 +28,14 @@ pub use trigonometry::{
 pub struct SimdLevel(pulp::Arch);
 
 impl SimdLevel {
-    /// The widest that this machine has.
+    /// The widest level that this machine has.
     #[inline]
     pub fn widest() -> Self {
         Self(pulp::Arch::new())
     }
 
-    /// The best for a kernel that fills one lane: among those with a fused multiply-add the narrowest, whose vectors pass
-    /// through the units of the machine the fastest.
+    /// The fastest level for a kernel that fills one lane only. It is the narrowest one with a fused multiply-add,
+    /// because narrow vectors pass through the execution units the fastest.
     #[inline]
     pub fn for_one_lane() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -43,7 +45,7 @@ impl SimdLevel {
         Self::widest()
     }
 
-    /// Every one that this machine has, the plain one first.
+    /// Every level that this machine has, the plain one (one lane, no SIMD) first.
     pub fn all() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
         let others = [
@@ -55,7 +57,7 @@ impl SimdLevel {
         std::iter::once(pulp::Arch::Scalar).chain(others.into_iter().flatten()).map(Self).collect()
     }
 
-    /// Its name, as `avx512`.
+    /// Its name, for example `avx512`.
     pub fn name(self) -> &'static str {
         struct Lanes;
         impl WithSimd for Lanes {
@@ -65,11 +67,11 @@ impl SimdLevel {
             }
         }
         let two = if cfg!(target_family = "wasm") { "simd128" } else { "neon" };
-        // With 1, 2, 4 and 8 lanes.
+        // The levels with 1, 2, 4 and 8 lanes.
         ["plain", two, "avx2", "avx512"][self.run(Lanes).ilog2() as usize]
     }
 
-    /// Runs `kernel` with these instructions.
+    /// Runs `kernel` with the instructions of this level.
     #[inline]
     pub fn run<K: WithSimd>(self, kernel: K) -> K::Output {
         self.0.dispatch(kernel)
@@ -87,7 +89,7 @@ mod tests {
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-            // All parts of AVX-512 that the psABI's level x86-64-v4 has.
+            // The parts of AVX-512 that make up x86-64-v4 in the psABI (the ABI document for the processor).
             let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512bw")
                 && is_x86_feature_detected!("avx512cd")

@@ -1,18 +1,19 @@
-//! A vector of f64 with the operators of a number.
+//! [`Real`], a vector of f64 with the operators of a number. A kernel written over it reads like a formula for one
+//! number and computes one result in each lane.
 
 use std::any::TypeId;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::{Scalar, Simd};
 
-/// As many numbers as a register of `S` holds.
+/// A vector of as many f64 as a register of the instruction set `S` holds. Operations act on each lane separately.
 #[derive(Debug, Clone, Copy)]
 pub struct Real<S: Simd> {
     simd: S,
     value: S::f64s,
 }
 
-/// Which lanes a condition holds in.
+/// The lanes in which a condition holds.
 #[derive(Debug, Clone, Copy)]
 pub struct Mask<S: Simd> {
     simd: S,
@@ -29,7 +30,7 @@ impl<S: Simd> Real<S> {
         Self { simd, value: simd.splat_f64s(value) }
     }
 
-    /// As `self`, with `value` in every lane.
+    /// A vector for the same instruction set as `self`, with `value` in every lane.
     #[inline(always)]
     pub fn constant(self, value: f64) -> Self {
         Self::splat(self.simd, value)
@@ -62,7 +63,7 @@ impl<S: Simd> Real<S> {
         self.simd.reduce_sum_f64s(self.value)
     }
 
-    /// √.
+    /// √self.
     #[inline(always)]
     #[must_use]
     pub fn sqrt(self) -> Self {
@@ -76,14 +77,15 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.abs_f64s(self.value), ..self }
     }
 
-    /// `self` × `factor` + `term`, rounded once: a call of a library where it is no instruction.
+    /// `self` × `factor` + `term`, rounded once. It is a library call where the machine has no such instruction.
     #[inline(always)]
     #[must_use]
     pub fn mul_add(self, factor: Self, term: Self) -> Self {
         Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
     }
 
-    /// `self` × `factor` exactly, as the rounded product and its error. Without a fused multiply-add by Dekker's splitting.
+    /// `self` × `factor` exactly, as the rounded product and its error. Where a fused multiply-add would be a library
+    /// call, Dekker's splitting is used instead.
     #[inline(always)]
     pub fn product(self, factor: Self) -> [Self; 2] {
         let product = self * factor;
@@ -103,6 +105,7 @@ impl<S: Simd> Real<S> {
         [sum, (self - (sum - rounded)) + (other - rounded)]
     }
 
+    /// The upper 26 binary digits and the rest (Dekker).
     #[inline(always)]
     fn split(self) -> [Self; 2] {
         let c = self.constant(134_217_729.0) * self; // 2^27 + 1
@@ -110,13 +113,13 @@ impl<S: Simd> Real<S> {
         [upper, self - upper]
     }
 
-    /// Whether a fused multiply-add is an instruction.
+    /// Whether the fused multiply-add is an instruction rather than a library call.
     #[inline(always)]
     fn is_fused() -> bool {
         cfg!(target_feature = "fma") || cfg!(target_arch = "aarch64") || TypeId::of::<S>() != TypeId::of::<Scalar>()
     }
 
-    /// `self` with the sign of `other` multiplied in.
+    /// `self` times the sign of `other` (1 or -1, also of ±0).
     #[inline(always)]
     #[must_use]
     pub fn times_sign_of(self, other: Self) -> Self {
@@ -125,7 +128,7 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.transmute_f64s_u64s(self.simd.xor_u64s(one, sign)), ..self }
     }
 
-    /// A number that is negative, or -0, where `self` or `other` is.
+    /// A number whose sign bit is set where that of `self` or of `other` is. Only its sign means anything.
     #[inline(always)]
     #[must_use]
     pub fn either_sign(self, other: Self) -> Self {
@@ -140,7 +143,7 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
-    /// The nearest number from -1 to 1; `self` is not NaN.
+    /// The number in [-1, 1] that is nearest to `self`, which is not NaN.
     #[inline(always)]
     #[must_use]
     pub fn clamp_to_cosine(self) -> Self {
@@ -148,20 +151,20 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.min_f64s(at_least.value, self.simd.splat_f64s(1.0)), ..self }
     }
 
-    /// Nearest integer to `self`, whose size is below 2^51.
+    /// The integer nearest to `self`, ties to even, for |self| < 2^51.
     #[inline(always)]
     pub fn round(self) -> Self {
         let magic = self.constant(6_755_399_441_055_744.0); // 1.5 · 2^52
         (self + magic) - magic
     }
 
-    /// Where `self` < `other`; false for a number that is none.
+    /// The lanes in which `self` < `other`; false where either is NaN.
     #[inline(always)]
     pub fn less_than(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, value: self.simd.less_than_f64s(self.value, other.value) }
     }
 
-    /// Where `self` ≤ `other`; false for a number that is none.
+    /// The lanes in which `self` ≤ `other`; false where either is NaN.
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, value: self.simd.less_than_or_equal_f64s(self.value, other.value) }
@@ -169,13 +172,13 @@ impl<S: Simd> Real<S> {
 }
 
 impl<S: Simd> Mask<S> {
-    /// Whether it holds in every lane.
+    /// Whether the condition holds in every lane.
     #[inline(always)]
     pub fn everywhere(self) -> bool {
         self.simd.first_true_m64s(self.simd.not_m64s(self.value)) == S::F64_LANES
     }
 
-    /// `yes` where it holds, else `no`.
+    /// `yes` in the lanes in which the condition holds, `no` in the others.
     #[inline(always)]
     pub fn choose(self, yes: Real<S>, no: Real<S>) -> Real<S> {
         Real { simd: self.simd, value: self.simd.select_f64s(self.value, yes.value, no.value) }

@@ -1,17 +1,19 @@
-//! Sine and cosine of angles that are given in turns, with what rounding lost of them.
+//! Sine and cosine of SIMD vectors of angles, for angles given in turns, halves or quarters of a turn. In these units
+//! whole turns are subtracted without an error, whereas an angle in radians needs a long multiple of π subtracted.
 //!
-//! In turns, whole ones go without an error, and there is no multiple of π to be taken away. What is left goes into the
-//! polynomial that is best for its interval in the largest error (Remez). Coefficients are rounded to f64, the first
-//! also has what that leaves of it.
+//! An angle may come with a rest, the part that rounding took from it. What remains after whole turns goes into the
+//! polynomial with the least maximum error on its interval (found by the Remez algorithm). Its coefficients are rounded
+//! to f64. The first one counts most, so that its rounding error is a coefficient too.
 
 use pulp::Simd;
 
 use super::real::Real;
 
-/// Largest number of turns of which what is left has all its digits.
+/// Largest number of turns, 2^40, whose fractional part has all digits of an f64 if the number comes with a rest.
 pub const MOST_TURNS: f64 = 1_099_511_627_776.0;
 
-/// sin(2πx)/x over x², |x| ≤ ¼: 2π, what f64 leaves of it, and the rest, with an error of 2e-19.
+/// sin(2πx)/x as a polynomial in x², for |x| ≤ ¼, with an error of 2e-19: the f64 nearest to 2π, the rest of 2π, and
+/// the further coefficients.
 const SINE_OF_TURNS: (f64, [f64; 9]) = (
     std::f64::consts::TAU,
     [
@@ -27,7 +29,8 @@ const SINE_OF_TURNS: (f64, [f64; 9]) = (
     ],
 );
 
-/// sin(½πx)/x over x², |x| ≤ ½, with an error of 2e-18.
+/// sin(½πx)/x as a polynomial in x², for |x| ≤ ½, with an error of 2e-18: the f64 nearest to ½π, the rest of ½π, and
+/// the further coefficients.
 const SINE_OF_QUARTERS: (f64, [f64; 7]) = (
     std::f64::consts::FRAC_PI_2,
     [
@@ -41,7 +44,7 @@ const SINE_OF_QUARTERS: (f64, [f64; 7]) = (
     ],
 );
 
-/// cos(½πx) over x², |x| ≤ ½, with an error of 3e-20.
+/// cos(½πx) as a polynomial in x², for |x| ≤ ½, with an error of 3e-20: 1, and the further coefficients.
 const COSINE_OF_QUARTERS: (f64, [f64; 7]) = (
     1.0,
     [
@@ -55,7 +58,7 @@ const COSINE_OF_QUARTERS: (f64, [f64; 7]) = (
     ],
 );
 
-/// sin(πx)/x over x², |x| ≤ ½, with an error of [`ROUGH_ERROR`].
+/// sin(πx)/x as a polynomial in x², for |x| ≤ ½, with an error of [`ROUGH_ERROR`] in sin πx.
 const ROUGH_SINE_OF_HALVES: [f64; 6] = [
     3.141_592_653_243_753_5,
     -5.167_712_741_221_601,
@@ -65,7 +68,7 @@ const ROUGH_SINE_OF_HALVES: [f64; 6] = [
     -0.007_000_500_303_568_821,
 ];
 
-/// cos πx over x², |x| ≤ ½, with the same error.
+/// cos πx as a polynomial in x², for |x| ≤ ½, with the same error.
 const ROUGH_COSINE_OF_HALVES: [f64; 7] = [
     0.999_999_999_999_251_8,
     -4.934_802_200_250_965,
@@ -76,10 +79,11 @@ const ROUGH_COSINE_OF_HALVES: [f64; 7] = [
     0.001_840_021_874_339_118_3,
 ];
 
-/// Error of [`rough_sin_of_half`] and [`rough_cos_of_half`].
+/// Largest absolute error of [`rough_sin_of_half`] and [`rough_cos_of_half`].
 pub const ROUGH_ERROR: f64 = 1.4e-11;
 
-/// By Horner's scheme, which needs the fewest operations.
+/// The polynomial with these coefficients, the lowest power first, by Horner's scheme, which needs the fewest
+/// operations.
 #[inline(always)]
 fn polynomial<S: Simd, const N: usize>(at: Real<S>, coefficients: [f64; N]) -> Real<S> {
     let mut sum = at.constant(coefficients[N - 1]);
@@ -89,15 +93,15 @@ fn polynomial<S: Simd, const N: usize>(at: Real<S>, coefficients: [f64; N]) -> R
     sum
 }
 
-/// sin 2πx of a number of turns x, |x| ≤ ¼, with an error of at most 2u, u = 2^-53.
+/// sin 2πx of x = `turns`, for |x| ≤ ¼, with an error of at most 2u, u = 2^-53.
 #[inline(always)]
 pub fn sin_of_turns<S: Simd>(turns: Real<S>) -> Real<S> {
     let (first, others) = SINE_OF_TURNS;
     turns.mul_add(turns.constant(first), turns * polynomial(turns * turns, others))
 }
 
-/// The number of turns, at most a quarter, whose sine is the cosine of `turns` + `rest`, for |`turns`| ≤ [`MOST_TURNS`] and a
-/// small `rest`.
+/// Turns a cosine into a sine: the number of turns x, |x| ≤ ¼ up to the rest, with sin 2πx = cos 2π(`turns` + `rest`).
+/// It holds for |`turns`| ≤ [`MOST_TURNS`] and a `rest` that rounding took from `turns`.
 #[inline(always)]
 pub fn cosine_as_sine<S: Simd>(turns: Real<S>, rest: Real<S>) -> Real<S> {
     let part = turns - turns.round();
@@ -117,8 +121,9 @@ pub fn rough_cos_of_half<S: Simd>(x: Real<S>) -> Real<S> {
     polynomial(x * x, ROUGH_COSINE_OF_HALVES)
 }
 
-/// Sine and cosine of `quarters` + `rest` quarters of a turn, and the nearest whole number of quarters; the signs are right
-/// if half of that is even, else both are wrong.
+/// Sine and cosine of `quarters` + `rest` quarters of a turn, up to a common sign, and n, the whole number nearest to
+/// `quarters`. Both signs are right if ⌊n/2⌋ is even, and both are wrong otherwise. Quaternions need
+/// no more, since Q and -Q are the same attitude.
 #[inline(always)]
 pub fn sin_cos_to_sign<S: Simd>(quarters: Real<S>, rest: Real<S>) -> ([Real<S>; 2], Real<S>) {
     let whole = quarters.round();
@@ -129,17 +134,18 @@ pub fn sin_cos_to_sign<S: Simd>(quarters: Real<S>, rest: Real<S>) -> ([Real<S>; 
     let (first, others) = COSINE_OF_QUARTERS;
     let cos = square.mul_add(polynomial(square, others), part.constant(first));
     let pairs = (whole * whole.constant(0.5)).round();
-    // An odd number of quarters is no multiple of two: what is left of it is 1 or -1.
+    // An odd number of quarters leaves 1 or -1 when pairs are subtracted.
     let is_even = (whole - (pairs + pairs)).abs().at_most(whole.constant(0.0));
     ([is_even.choose(sin, cos), is_even.choose(cos, -sin)], whole)
 }
 
-/// Sine and cosine of `quarters` + `rest` quarters of a turn, at most four times [`MOST_TURNS`], to 2u.
+/// Sine and cosine of `quarters` + `rest` quarters of a turn, with an error of at most 2u, for |`quarters`| at most
+/// four times [`MOST_TURNS`].
 #[inline(always)]
 pub fn sin_cos<S: Simd>(quarters: Real<S>, rest: Real<S>) -> [Real<S>; 2] {
     let ([sin, cos], whole) = sin_cos_to_sign(quarters, rest);
     let (half, quarter) = (whole.constant(0.5), whole.constant(0.25));
-    // Whole pairs of quarters, and whether their number is odd.
+    // The number of whole pairs of quarters (half turns), and whether it is odd: then both signs change.
     let pairs = (whole.mul_add(half, -quarter)).round();
     let even = (pairs.mul_add(half, -quarter)).round();
     let is_odd = pairs - (even + even);
@@ -173,7 +179,7 @@ mod tests {
         [sin, cos]
     }
 
-    /// From -`to` to `to`.
+    /// Evenly spaced numbers from -`to` to `to`.
     fn interval(to: f64) -> impl Iterator<Item = f64> {
         (-20_000..=20_000).map(move |part| to * f64::from(part) / 20_000.0)
     }
@@ -196,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rest_counts_after_many_turns() {
+    fn after_many_turns_the_rest_of_the_angle_is_taken_into_account() {
         for x in interval(0.5) {
             let (turns, rest) = (1e9 + x, x - ((1e9 + x) - 1e9));
             let cos = value(sin_of_turns(cosine_as_sine(real(turns), real(rest))));
@@ -207,9 +213,9 @@ mod tests {
         }
     }
 
-    /// The filter of outcomes relies on it; and it is no better, or the filter could be sharper.
+    /// The filter of outcomes relies on the bound. A bound that is too large would make the filter weaker than need be.
     #[test]
-    fn rough_sines_and_cosines_are_as_rough_as_they_say() {
+    fn the_bound_of_rough_sines_and_cosines_holds_and_is_sharp() {
         let error = |x: f64| {
             let [sin, cos] = expected(x, 1.0);
             (value(rough_sin_of_half(real(x))) - sin).abs().max((value(rough_cos_of_half(real(x))) - cos).abs())

@@ -1,37 +1,39 @@
-//! Contestants, and how they are timed.
+//! A contest times contestants: ways to solve many tosses. They are timed in turn, many times over, so that a change of
+//! the machine's speed does not favour one of them.
 
 use std::time::{Duration, Instant};
 
 use super::reference::Reference;
 
-/// Something to be timed.
+/// A way to solve tosses, to be timed.
 pub(super) struct Contest<'a> {
     pub(super) group: &'static str,
     pub(super) name: String,
-    /// Its largest error, if it has one.
+    /// Its largest error, if it was measured.
     pub(super) error: Option<f64>,
-    /// Tosses that it solves in a run.
+    /// Number of tosses that a run solves.
     pub(super) tosses: usize,
     pub(super) run: Box<dyn FnMut() + 'a>,
 }
 
-/// The shortest times of a toss (ns).
+/// The shortest times of a toss (ns): of the reference and of each contestant.
 pub(super) struct Times {
     pub(super) reference: f64,
     pub(super) contests: Vec<f64>,
 }
 
-/// Times all contests in turn, many times over. Without a process for it the first contest is the reference.
+/// Times all contestants in turn, many times over. Without a process of the reference the first contestant takes its
+/// place.
 ///
 /// # Errors
-/// If the reference ends.
+/// If the reference's process ends.
 pub(super) fn race(contests: &mut [Contest<'_>], mut reference: Option<&mut Reference>) -> anyhow::Result<Times> {
     const ROUNDS: usize = 40;
     let mut times = Times { reference: f64::INFINITY, contests: vec![f64::INFINITY; contests.len()] };
     for _ in 0..ROUNDS {
         for (contest, shortest) in contests.iter_mut().zip(&mut times.contests) {
             *shortest = shortest.min(contest.nanoseconds());
-            // The machine's clock may change while others run.
+            // The processor's clock rate may change during a race, so the reference is timed beside each contestant.
             if let Some(reference) = &mut reference {
                 times.reference = times.reference.min(reference.nanoseconds()?);
             }
@@ -44,7 +46,7 @@ pub(super) fn race(contests: &mut [Contest<'_>], mut reference: Option<&mut Refe
 }
 
 impl Contest<'_> {
-    /// The shortest time of a toss (ns) of some runs.
+    /// The shortest time of a toss (ns) over the runs that fit into a short time.
     fn nanoseconds(&mut self) -> f64 {
         const BUDGET: Duration = Duration::from_micros(500);
         let (start, mut shortest) = (Instant::now(), Duration::MAX);

@@ -1,7 +1,8 @@
-//! Instructions of a toss: what a time would be on a machine that is never disturbed, so that they can be judged.
+//! This file counts the instructions that a toss takes. Unlike times, counts are the same in every run, so they can be
+//! compared with a baseline and judged.
 //!
-//! Each work is run by valgrind's callgrind, some times and once more, and the difference divided by its tosses. Valgrind
-//! knows AVX2 but not AVX-512.
+//! Valgrind's callgrind runs each work once and three times; the difference is divided by the tosses that the two more
+//! rounds solve, so that the start of the program does not count. Valgrind supports AVX2 but not AVX-512.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,13 +15,13 @@ use toss::{Formulation, QuaternionSolver, SimdLevel, Stepping, TAYLOR};
 use super::tosses::Columns;
 use crate::files;
 
-/// Tosses of a work.
+/// Number of tosses in a work.
 const TOSSES: usize = 512;
 
-/// More than this times the instructions of the baseline are worse.
+/// A work is worse if it takes more than this many times the instructions of the baseline.
 const MORE: f64 = 1.05;
 
-/// Works by name; the part after the slash is a SIMD level.
+/// The names of the works: what is computed, a slash, and the SIMD level.
 const WORKS: [&str; 8] = [
     "cos-tilts/plain",
     "cos-tilts/avx2",
@@ -32,13 +33,16 @@ const WORKS: [&str; 8] = [
     "taylor/avx2",
 ];
 
-/// Does a work `times` times.
+/// Does the work called `name` `times` times.
 ///
 /// # Errors
-/// For an unknown work, or a SIMD level that this machine does not have.
+/// If the work is unknown, or this machine does not have its SIMD level.
 pub fn work(name: &str, times: u32) -> anyhow::Result<()> {
-    let (work, level) = name.split_once('/').context("a work is named as count/avx2")?;
-    let level = SimdLevel::all().into_iter().find(|known| known.name() == level).context("no such SIMD level here")?;
+    let (work, level) = name.split_once('/').context("a work has a name such as count/avx2")?;
+    let level = SimdLevel::all()
+        .into_iter()
+        .find(|known| known.name() == level)
+        .context("this machine has no such SIMD level")?;
     let columns = Columns::new(TOSSES);
     let batch = columns.batch(level);
     let (mut out, mut quaternions) = (vec![0.0; TOSSES], [(); 4].map(|()| vec![0.0; TOSSES]));
@@ -56,7 +60,7 @@ pub fn work(name: &str, times: u32) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Instructions of a toss by work.
+/// Number of instructions for each toss, by work.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Instructions(BTreeMap<String, f64>);
 
@@ -68,7 +72,7 @@ struct Line {
 }
 
 impl Instructions {
-    /// Counts, by running this program under valgrind.
+    /// Counts the instructions of all works that this machine can do, by running this program under valgrind.
     ///
     /// # Errors
     /// If there is no valgrind, or it fails.
@@ -80,7 +84,7 @@ impl Instructions {
         Ok(Self(WORKS.iter().filter(here).map(count).collect::<anyhow::Result<_>>()?))
     }
 
-    /// The baseline; empty if there is none.
+    /// Reads the baseline from the file at `path`; empty if there is no file.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -93,7 +97,7 @@ impl Instructions {
         Ok(Self(lines.collect::<Result<_, _>>()?))
     }
 
-    /// Writes what is fewer or new into the baseline.
+    /// Writes the baseline with counts that are smaller or new; larger ones are not taken over.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -109,7 +113,7 @@ impl Instructions {
         files::write(path, &String::from_utf8(writer.into_inner()?)?)
     }
 
-    /// The table, and whether a work takes more than the baseline allows.
+    /// The table of counts beside `baseline`, and whether a work takes more instructions than allowed.
     pub fn compared(&self, baseline: &Self) -> (String, bool) {
         let mut text = format!("{:<20} {:>14} {:>10}\n", "work", "instructions", "baseline");
         let mut is_worse = false;
@@ -124,7 +128,7 @@ impl Instructions {
     }
 }
 
-/// Instructions of this program when it does a work some times.
+/// Number of instructions that this program executes to do a work `times` times.
 fn collected(work: &str, times: u32) -> anyhow::Result<f64> {
     let program = std::env::current_exe()?;
     let output = Command::new("valgrind")
@@ -152,7 +156,7 @@ mod tests {
         let baseline = counts(100.0);
         assert!(!counts(104.0).compared(&baseline).1);
         assert!(counts(106.0).compared(&baseline).1);
-        assert!(!counts(106.0).compared(&Instructions::default()).1, "new");
+        assert!(!counts(106.0).compared(&Instructions::default()).1, "a work without a baseline is not worse");
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("instructions.csv");
         for (found, kept) in [(106.0, 100.0), (90.0, 90.0)] {

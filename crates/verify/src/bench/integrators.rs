@@ -1,4 +1,5 @@
-//! Integrators at the same errors.
+//! This file times integrators at the same errors. Each takes the loosest tolerance that keeps the error asked for,
+//! because the same tolerance gives different errors with different schemes.
 
 use std::rc::Rc;
 
@@ -7,16 +8,17 @@ use toss::{Attitude, ExactMotion, Formulation, QuaternionSolver, Scheme, SimdLev
 use super::contest::Contest;
 use super::tosses::Columns;
 
-/// Number of flights.
+/// Number of tosses that each integrator solves.
 pub(super) const FLOWN: usize = 1024;
 
-/// Errors that are asked for.
+/// Errors of the attitude that are asked for (rad).
 const ERRORS: [f64; 4] = [1e-5, 1e-8, 1e-11, 5e-14];
 
-/// Lands all tosses.
+/// Solves all tosses and returns their attitudes at landing.
 type Fly = Box<dyn Fn(&[Toss], Stepping) -> Vec<Attitude>>;
 
-/// Each integrator with the loosest tolerance that keeps each error, or the smallest error that it reaches.
+/// Each integrator at each error: with the loosest tolerance that keeps it or, if none does, with the tolerance of its
+/// smallest error.
 pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>> {
     let tosses = columns.each();
     let mut integrators: Vec<(String, Scheme, Fly)> = [Scheme::DOPRI5, Scheme::DOP853, TAYLOR]
@@ -45,7 +47,8 @@ pub(super) fn contests<'a>(columns: &Columns) -> anyhow::Result<Vec<Contest<'a>>
     Ok(contests)
 }
 
-/// The stepping with the loosest tolerance that keeps the error, and its error.
+/// The stepping with the loosest tolerance whose error is at most `asked`, and its error (rad); if there is none, that
+/// with the smallest error.
 fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Result<(Stepping, f64)> {
     const A_DECADE: i32 = 5;
     let mut best: Option<(Stepping, f64)> = None;

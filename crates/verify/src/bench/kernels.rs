@@ -1,4 +1,5 @@
-//! Landings by the exact motion: one by one and in batches, at every SIMD level of the machine.
+//! This file times and measures landings by the exact motion: one toss after the other and in batches, at every SIMD
+//! level of the machine. It shows what the batches gain, and that their errors are those of rounding.
 
 use exact::{compensated_cos_tilt, compensated_landing};
 use toss::{Attitude, Batch, ExactMotion, ExactSolver, Outcome, SimdLevel, Solver, Toss, certify};
@@ -12,13 +13,13 @@ const COS_TILT: &str = "cos θ of a toss";
 const OUTCOME: &str = "proven outcome of a toss";
 const ATTITUDE: &str = "attitude of a toss";
 
-/// The row of the reference, which measures itself.
+/// The row of the reference, whose process measures its own time.
 pub(super) fn reference(columns: &Columns, reference: &Reference, nanoseconds: f64) -> Row {
     let error = Some(cos_tilt_error(columns, &reference.cos_tilts));
     Row { group: COS_TILT, name: "reference".to_owned(), error, nanoseconds, by_reference: 1.0 }
 }
 
-/// All kernels; the first is the reference's loop, one toss after the other.
+/// All kernels. The first is the reference's loop in Rust, which is the unit of time if there is no C compiler.
 pub(super) fn contests(columns: &Columns) -> Vec<Contest<'_>> {
     let mut out = vec![0.0; TOSSES];
     scalar(columns, &mut out);
@@ -87,7 +88,7 @@ fn solve_attitudes(batch: &Batch<'_>, out: &mut [Vec<f64>; 4]) {
     batch.attitudes(out.each_mut().map(Vec::as_mut_slice)).expect("valid tosses");
 }
 
-/// The largest error against the exact motion in double-double.
+/// The largest error of cos θ against the exact motion in double-double arithmetic.
 fn cos_tilt_error(columns: &Columns, found: &[f64]) -> f64 {
     let error = |(toss, found): (&Toss, &f64)| {
         let parts = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight());

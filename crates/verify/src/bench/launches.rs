@@ -1,4 +1,5 @@
-//! Launches of a space, from the choice of their numbers to the count of their outcomes.
+//! This file times whole estimates of P(heads): launches are made, their outcomes proven and counted. The cost of
+//! making and counting launches is not part of the times of the kernels.
 
 use anyhow::Context;
 use rayon::ThreadPoolBuilder;
@@ -9,8 +10,8 @@ use super::contest::Contest;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
-/// Grids and random launches over the space of the paper's Fig. 4 and over the box of the reference, on one thread and on
-/// all.
+/// Estimates by a grid and by random launches, over the space of the paper's Fig. 4 and over the box of launches that
+/// the other benchmarks solve, on one thread and on all.
 pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
     use Coordinate::{RateX, RateY, RateZ, Speed};
     let texts = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
@@ -23,7 +24,7 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
     let mut contests = Vec::new();
     for (name, space, plan) in cases {
         for threads in [1, all] {
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build().context("threads")?;
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().context("cannot start the threads")?;
             let points = usize::try_from(plan.points(&space)?)?;
             let run = move || {
                 let found = pool.install(|| Sampler::exact().estimate(&space, plan));

@@ -1,8 +1,10 @@
-//! What a toss costs: `cargo xtask bench`.
+//! This module measures what a toss costs; `cargo xtask bench` prints the table. It says how fast each way to solve a
+//! toss is on your machine, and how large its error is.
 //!
-//! Times are in nanoseconds, and in xR, multiples of the time of a reference (`reference.rs`) that is measured beside them, so
-//! that they can be compared across machines. Each is the shortest of many runs in turn, so that a machine that slows down
-//! affects all alike. Times are not judged.
+//! Times are in nanoseconds and in xR, multiples of the time of a reference (`reference.rs`) that is measured in turn
+//! with them, so they can be compared across machines. Each time is the shortest of many runs. All are run in turn, so
+//! that a machine that slows down affects all alike. Times are not judged, because they vary from run to run;
+//! [`instructions`] are.
 
 mod contest;
 pub mod instructions;
@@ -18,14 +20,14 @@ use crate::host::Host;
 use contest::{Contest, race};
 use reference::Reference;
 
-/// The table of all contestants.
+/// The table of all contestants, the ways to solve a toss that are timed.
 pub struct Table {
     host: Host,
     reference: String,
     rows: Vec<Row>,
 }
 
-/// One contestant.
+/// The result of one contestant.
 struct Row {
     group: &'static str,
     name: String,
@@ -35,10 +37,10 @@ struct Row {
 }
 
 impl Table {
-    /// Measures.
+    /// Times all contestants and measures their errors.
     ///
     /// # Errors
-    /// If the reference ends, or a contestant fails.
+    /// If the reference's process ends, or a contestant fails.
     pub fn measure() -> anyhow::Result<Self> {
         let (columns, mut reference) = (tosses::Columns::new(tosses::TOSSES), Reference::start().ok());
         let flown = tosses::Columns::new(integrators::FLOWN);

@@ -1,6 +1,7 @@
-/* The reference of `cargo xtask bench`: cos θ at landing by the closed form in f64, as a compiler makes vectors of it.
+/* The reference of `cargo xtask bench`: cos θ at landing by the closed form in f64, in a loop that a compiler vectorises.
  *
- * Prints the cosines of its tosses. Then, for each line that it reads, the shortest time of a toss (ns) of some runs. */
+ * It prints cos θ of each toss. Then, for each line that it reads, it prints the shortest time of a toss (ns) over some
+ * runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

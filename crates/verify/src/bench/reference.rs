@@ -1,8 +1,10 @@
-//! What times are measured in: the closed form in plain f64, as a C compiler makes vectors of it.
+//! The reference is the unit of the benchmark's times: the closed form of cos θ in plain f64, vectorised by a C
+//! compiler. It stands for what you could reach without any care for accuracy, and makes times comparable across
+//! machines.
 //!
-//! The program is compiled on the spot, for this processor, and stays beside the benchmark as a process of its own, which
-//! measures whenever it is asked, so that both see the same machine. Without a C compiler the same loop in Rust, one toss
-//! at a time by the standard library, takes its place.
+//! The program `reference.c` is compiled for this processor when the benchmark starts, and runs as a process of its
+//! own. It measures once for each line that it reads, so that it can be timed in turn with the contestants. Without a C
+//! compiler the same loop in Rust, one toss at a time, takes its place.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -11,22 +13,22 @@ use anyhow::{Context, ensure};
 
 use super::tosses::{Columns, TOSSES};
 
-/// The process.
+/// The running process of the reference.
 pub(super) struct Reference {
     process: Child,
     questions: ChildStdin,
     answers: BufReader<ChildStdout>,
-    /// How it was compiled.
+    /// The compiler's flags.
     pub(super) flags: String,
-    /// Its cos θ of each toss.
+    /// cos θ of each toss, as it computed them.
     pub(super) cos_tilts: Vec<f64>,
 }
 
 impl Reference {
-    /// Compiles and starts it.
+    /// Compiles the program and starts it.
     ///
     /// # Errors
-    /// If there is no C compiler that does it.
+    /// If there is no C compiler with a vector library of mathematical functions (libmvec).
     pub(super) fn start() -> anyhow::Result<Self> {
         let folder = std::env::temp_dir().join(format!("unfair-toss-bench-{}", std::process::id()));
         std::fs::create_dir_all(&folder)?;
@@ -39,20 +41,20 @@ impl Reference {
         };
         let flags = ["-O3", "-march=native", "-ffast-math"];
         let started = compile(&flags).then(|| Self::run(&program, flags.join(" ")));
-        // A running program needs no file.
+        // The running process no longer needs its file.
         std::fs::remove_dir_all(&folder)?;
         started.context("no C compiler with libmvec")?
     }
 
     fn run(program: &std::path::Path, flags: String) -> anyhow::Result<Self> {
         let mut process = Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
-        let questions = process.stdin.take().context("no input")?;
-        let mut answers = BufReader::new(process.stdout.take().context("no output")?);
+        let questions = process.stdin.take().context("the reference has no standard input")?;
+        let mut answers = BufReader::new(process.stdout.take().context("the reference has no standard output")?);
         let cos_tilts = (0..TOSSES).map(|_| read(&mut answers)).collect::<anyhow::Result<_>>()?;
         Ok(Self { process, questions, answers, flags, cos_tilts })
     }
 
-    /// The shortest time of a toss (ns) of some runs.
+    /// The shortest time of a toss (ns) over some runs, measured now.
     pub(super) fn nanoseconds(&mut self) -> anyhow::Result<f64> {
         self.questions.write_all(b"\n")?;
         read(&mut self.answers)
@@ -68,11 +70,11 @@ impl Drop for Reference {
 
 fn read(answers: &mut impl BufRead) -> anyhow::Result<f64> {
     let mut line = String::new();
-    ensure!(answers.read_line(&mut line)? > 0, "the reference has ended");
+    ensure!(answers.read_line(&mut line)? > 0, "the process of the reference has ended");
     Ok(line.trim().parse()?)
 }
 
-/// The reference's loop in Rust.
+/// The loop of the reference in Rust: cos θ of all tosses, one after the other.
 pub(super) fn scalar(tosses: &Columns, out: &mut [f64]) {
     let Columns { rates: [x, y, z], speeds } = tosses;
     for (index, out) in out.iter_mut().enumerate() {

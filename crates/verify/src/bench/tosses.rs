@@ -1,11 +1,12 @@
-//! The tosses that benchmarks solve.
+//! This file makes the tosses that all benchmarks solve, so that their times and errors can be compared. They are the
+//! same in every run.
 
 use toss::{Attitude, Batch, Coin, SimdLevel, Toss, Tosses};
 
-/// Number of tosses: their columns stay in the second-level cache.
+/// Number of tosses, so few that their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
 
-/// Rates of 1 to 60 rad/s on each axis and speeds of 3 to 5 m/s, by Weyl's sequence.
+/// Columns of rates from 1 to 60 rad/s on each axis and of speeds from 3 to 5 m/s, spread evenly by Weyl's sequence.
 pub(super) struct Columns {
     pub(super) rates: [Vec<f64>; 3],
     pub(super) speeds: Vec<f64>,
@@ -19,7 +20,7 @@ impl Columns {
         Self { rates: [2.0, 3.0, 5.0].map(|square| column(1.0, 59.0, square)), speeds: column(3.0, 2.0, 7.0) }
     }
 
-    /// The tosses of the paper's coin from horizontal.
+    /// The columns as tosses of the paper's coin that start horizontal.
     fn tosses(&self) -> Tosses<'_> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);

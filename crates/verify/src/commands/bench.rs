@@ -1,4 +1,5 @@
-//! `verify bench`: what a toss costs.
+//! `verify bench` measures what a toss costs, in time or in instructions. Times are only printed; instructions are
+//! compared with a baseline, because they are the same in every run.
 
 use clap::Args;
 use verify::bench::Table;
@@ -12,13 +13,13 @@ pub(super) struct Bench {
     /// Count instructions by valgrind instead, and compare them with the baseline
     #[arg(long)]
     instructions: bool,
-    /// Take fewer instructions into the baseline; times are never judged
+    /// Take smaller counts of instructions over into the baseline
     #[arg(long, requires = "instructions")]
     bless: bool,
 }
 
 impl Bench {
-    /// 3 if a work takes more instructions than the baseline allows.
+    /// Returns the exit code: 3 if a work takes more instructions than the baseline allows, otherwise 0.
     pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
         if !self.instructions {
             print!("{}", Table::measure()?);

@@ -1,4 +1,5 @@
-//! `verify history`: the accuracy of the committed records over time.
+//! `verify history` prints and draws the accuracy of the committed records over time. It shows slow changes that no
+//! single comparison with the baseline does.
 
 use toss::Registry;
 use verify::files;

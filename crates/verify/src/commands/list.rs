@@ -1,4 +1,5 @@
-//! `verify list`: the checks.
+//! `verify list` prints the id, the evidence and the claim of every check, one line each. The ids are what `--only`
+//! takes.
 
 use verify::CHECKS;
 

@@ -1,4 +1,5 @@
-//! The commands, one file each; [`run`] is the suite.
+//! The command line of the program `verify`: each command is a file of this folder. `verify run`, which runs the
+//! checks, is what `cargo xtask verify` starts.
 
 mod bench;
 mod figure;
@@ -23,13 +24,13 @@ pub(crate) struct Program {
     folders: Folders,
 }
 
-/// Where files are; the defaults are right in the root of the workspace.
+/// The folders of the suite; the defaults are relative to the root of the workspace.
 #[derive(Debug, Args)]
 struct Folders {
-    /// Bounds, reference numbers, baseline and records
+    /// Read bounds, reference numbers, baseline and records from this folder
     #[arg(long, global = true, value_name = "FOLDER", default_value = "validation", hide = true)]
     validation: PathBuf,
-    /// Reports and charts
+    /// Write reports and charts into this folder
     #[arg(long, global = true, value_name = "FOLDER", default_value = "target/verify", hide = true)]
     out: PathBuf,
 }
@@ -42,7 +43,7 @@ enum Command {
     Replay(replay::Replay),
     Bench(bench::Bench),
     Work(work::Work),
-    /// Measure the planner's table
+    /// Measure the planner's table of costs and errors, and write it
     Fit,
     /// Draw the accuracy of the committed records over time
     History,
@@ -50,7 +51,7 @@ enum Command {
 }
 
 impl Program {
-    /// The exit code.
+    /// Runs the command and returns the exit code.
     ///
     /// # Errors
     /// If the command could not run.

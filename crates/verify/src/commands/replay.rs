@@ -1,4 +1,5 @@
-//! `verify replay`: one toss by every contestant.
+//! `verify replay` solves one toss with every solver, scheme and formulation and prints their answers side by side. The
+//! toss is given as the hex floats of a row's worst input, so a failure can be studied exactly.
 
 use clap::Args;
 use toss::Registry;
@@ -7,15 +8,15 @@ use verify::measure::atlas::conditioning::Conditioning;
 use verify::measure::case::Case;
 use verify::render::runs;
 
-/// Fly one toss by every solver, scheme and formulation
+/// Solve one toss with every solver, scheme and formulation
 #[derive(Debug, Args)]
 pub(super) struct Replay {
-    /// The toss, as the hex floats of a worst input
+    /// The toss, as the hex floats of a row's worst input
     #[arg(value_parser = input)]
     pub(super) input: Case,
 }
 
-/// The toss that hex floats describe.
+/// Reads the toss from a line of hex floats.
 pub(super) fn input(line: &str) -> Result<Case, String> {
     Case::from_hex(line).map_err(|error| format!("{error:#}"))
 }

@@ -1,4 +1,5 @@
-//! `verify run`: the checks, their reports, and the baseline.
+//! `verify run` runs the checks, writes their reports, and compares the result with the baseline. It connects
+//! measuring, judging and rendering, which are separate modules.
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -48,7 +49,7 @@ fn known_check(id: &str) -> Result<&'static Check, String> {
 }
 
 impl Run {
-    /// 1 if a check fails, 3 if something is worse than the baseline.
+    /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
     pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
         let effort = self.effort();
         let bounds = Bounds::read(&folders.validation.join("bounds.toml"))?;
@@ -106,7 +107,7 @@ impl Run {
         Ok(rows)
     }
 
-    /// Into files and, as the format says, to standard output.
+    /// Writes the reports into files, and one of them, chosen by the format, to standard output.
     fn write(&self, report: &Report<'_>, folders: &Folders) -> anyhow::Result<()> {
         let (json, junit) = (report.json()?, junit::xml(report.rows)?);
         let charts = charts::charts(&report.records, Registry::standard().entries())?;

@@ -1,15 +1,16 @@
-//! `verify work`: what valgrind runs for `verify bench --instructions`.
+//! `verify work` does one piece of work a number of times and prints nothing. `verify bench --instructions` runs it
+//! under valgrind to count its instructions.
 
 use clap::Args;
 use verify::bench::instructions::work;
 
-/// Do a work of `bench --instructions` so many times
+/// Do one work of `bench --instructions` a number of times
 #[derive(Debug, Args)]
 #[command(hide = true)]
 pub(super) struct Work {
-    /// Its name, as count/avx2
+    /// The name of the work, such as count/avx2
     name: String,
-    /// How often
+    /// How many times
     #[arg(long, default_value_t = 1)]
     times: u32,
 }

@@ -1,7 +1,9 @@
-//! The regression baseline: the last accepted error and work of every check × subject, and what has moved against it.
+//! The regression baseline holds the last accepted error and number of calls for each pair of check and subject, and
+//! says what has changed since. Bounds say what is allowed; the baseline says what was reached, so that accuracy cannot
+//! become worse unnoticed within its bounds.
 //!
-//! Bounds say what is allowed; the baseline says what was, so that accuracy can't slip unnoticed within its bounds. There
-//! is one for each effort, because the largest error depends on how much is tried.
+//! There is one baseline for each effort, because the largest error depends on how many cases are tried. A call is an
+//! evaluation of the right-hand side by an integrator.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,32 +14,34 @@ use serde::{Deserialize, Serialize};
 use super::row::Row;
 use crate::measure::work_precision::{Sample, Sweep};
 
-/// An error this many times larger is worse, and this many times smaller better.
+/// An error is worse if it is more than this many times the accepted one, and better if it is less by the same factor.
 const ERROR_RATIO: f64 = 1.25;
 
-/// Calls this many times more are worse, and this many times fewer better.
+/// The number of calls is worse if it is more than this many times the accepted one, and better if it is less by the
+/// same factor.
 const CALLS_RATIO: f64 = 1.05;
 
-/// Errors that differ by less are the platform's: its sine and cosine may round otherwise.
+/// Smaller differences between errors are ignored, because sine and cosine round differently on different platforms.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Errors of single runs below it are taken for it (rad): there rounding decides, which differs by platform.
+/// Errors of single runs (rad) below this count as this one, because there rounding decides, which differs between
+/// platforms.
 const FLOOR: f64 = 1e-11;
 
-/// Stands for the error of a run that failed (rad).
+/// The error (rad) that counts for a run that failed.
 const FAILED: f64 = std::f64::consts::PI;
 
-/// Check and subject.
+/// The id of a check and the name of a subject.
 type Key = (String, String);
 
-/// What was measured of a check × subject.
+/// What was measured for one pair of check and subject.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Entry {
     error: f64,
     calls: Option<u64>,
 }
 
-/// Errors and work by check × subject.
+/// Errors and calls by check and subject.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Baseline(BTreeMap<Key, Entry>);
 
@@ -50,40 +54,40 @@ struct Line {
     calls: Option<u64>,
 }
 
-/// Which way an entry went.
+/// How an entry changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// More error or work than was accepted.
+    /// The error is larger, or the calls are more, than what was accepted.
     Worse,
-    /// Less of it.
+    /// The error is smaller, or the calls are fewer.
     Better,
-    /// Not in the baseline.
+    /// The entry is not in the baseline.
     New,
-    /// In the baseline only.
+    /// The entry is only in the baseline.
     Gone,
 }
 
-/// An entry that moved.
+/// An entry that changed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Move {
-    /// The check, or `work-precision/` and a problem.
+    /// The check, or `work-precision/` followed by a problem.
     pub check: String,
     /// The subject.
     pub subject: String,
-    /// `error` or `calls`.
+    /// What changed: `error` or `calls`.
     pub what: &'static str,
     /// The accepted value.
     pub before: Option<f64>,
-    /// The value found.
+    /// The value of this run.
     pub now: Option<f64>,
-    /// Which way.
+    /// How it changed.
     pub direction: Direction,
 }
 
 impl Baseline {
-    /// What a run found: the measured value of each passing row, and of the sweep, by problem, the geometric mean of the
-    /// errors and the sum of the calls.
+    /// The baseline that a run would give: the measured value of each passing row and, for each problem of the sweep,
+    /// the geometric mean of the errors and the sum of the calls.
     pub fn of(rows: &[Row], sweep: Option<&Sweep>) -> Self {
         let passing = rows.iter().filter(|row| row.status.passes());
         let mut entries: BTreeMap<Key, Entry> = passing
@@ -103,7 +107,7 @@ impl Baseline {
         Self(entries)
     }
 
-    /// The baseline in the file at `path`; empty if there is none.
+    /// Reads the baseline from the file at `path`; empty if there is no file.
     ///
     /// # Errors
     /// If the file can't be read.
@@ -143,7 +147,8 @@ impl Baseline {
         self.0.keys().filter(move |key| key.0 == check).map(|key| key.1.as_str())
     }
 
-    /// What moved from this baseline to what was `found`. A `complete` run also misses what is gone.
+    /// What changed from this baseline to what was `found`. If the run was `complete`, entries that it did not find are
+    /// gone.
     pub fn moves(&self, found: &Self, complete: bool) -> Vec<Move> {
         let mut moves = Vec::new();
         for (key, now) in &found.0 {
@@ -159,8 +164,9 @@ impl Baseline {
         moves
     }
 
-    /// The baseline after a complete run: what is better or new is taken over, what is gone goes, and everything else
-    /// stays, so that many small steps back are seen as the large one that they are.
+    /// The baseline after a complete run: better and new entries are taken over, entries that are gone are removed, and
+    /// everything else stays. Where the run was worse, the accepted value stays, so many small steps for the worse add
+    /// up until they show.
     #[must_use]
     pub fn ratcheted(&self, found: &Self) -> Self {
         let accept = |(key, now): (&Key, &Entry)| {
@@ -172,7 +178,7 @@ impl Baseline {
 }
 
 impl Entry {
-    /// Of one subject's samples on one problem.
+    /// The entry for one subject's samples on one problem.
     fn of(samples: &[&Sample]) -> Self {
         let logs: f64 = samples.iter().map(|sample| sample.err_attitude_rad.unwrap_or(FAILED).max(FLOOR).ln()).sum();
         Self {
@@ -205,6 +211,7 @@ impl Entry {
     }
 }
 
+/// How `now` compares with `before`; `None` if they differ by less than a factor of `ratio`, apart from `slack`.
 fn direction(before: f64, now: f64, ratio: f64, slack: f64) -> Option<Direction> {
     if now > ratio * before + slack {
         Some(Direction::Worse)
@@ -243,11 +250,11 @@ mod tests {
             [("error", Direction::Better), ("calls", Direction::Worse)]
         );
         assert_eq!(directions(&baseline, &one(1e-9, 900)), [("calls", Direction::Better)]);
-        assert_eq!(directions(&one(1e-16, 0), &one(9e-16, 0)), [], "rounding is the platform's");
+        assert_eq!(directions(&one(1e-16, 0), &one(9e-16, 0)), [], "differences of rounding do not count");
     }
 
     #[test]
-    fn a_ratchet_keeps_what_is_worse_and_takes_what_is_better() {
+    fn a_ratcheted_baseline_takes_what_is_better_and_keeps_what_would_be_worse() {
         let baseline = one(1e-9, 1000);
         assert_eq!(baseline.ratcheted(&one(1e-8, 900)), one(1e-9, 900));
         assert_eq!(baseline.ratcheted(&one(1e-10, 2000)), one(1e-10, 1000));
@@ -259,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_gives_every_bit_back() {
+    fn a_baseline_keeps_every_bit_through_its_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("quick.csv");
         assert_eq!(Baseline::read(&path).unwrap(), Baseline::default());

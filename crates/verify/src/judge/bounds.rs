@@ -1,4 +1,5 @@
-//! Reads `validation/bounds.toml`, the one table of allowed deviations.
+//! This file reads `validation/bounds.toml`, the only table of allowed deviations. Bounds stand in a file of their own,
+//! with reasons, so that every change of one is visible in a review.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,7 +9,7 @@ use serde::Deserialize;
 
 use crate::files;
 
-/// Allowed deviations: check → subject → bound, with the reason for each check's bounds.
+/// Allowed deviations by check and subject, with the reason for each check's bounds.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(transparent)]
 pub struct Bounds(BTreeMap<String, CheckBounds>);
@@ -24,7 +25,7 @@ impl Bounds {
     /// Reads the table at `path`.
     ///
     /// # Errors
-    /// If it can't be read, or a bound is negative or has no reason.
+    /// If the file can't be read, or a bound is negative or not finite, or has no reason.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         Self::parse(&files::read(path)?).with_context(|| format!("in {}", path.display()))
     }
@@ -38,13 +39,16 @@ impl Bounds {
         for (check, entry) in &bounds.0 {
             ensure!(!entry.reason.trim().is_empty(), "[{check}] gives no reason for its bounds");
             for (subject, bound) in &entry.allowed {
-                ensure!(bound.is_finite() && *bound >= 0.0, "[{check}] {subject} = {bound} is no bound");
+                ensure!(
+                    bound.is_finite() && *bound >= 0.0,
+                    "[{check}] {subject} = {bound}: a bound must be finite and at least 0"
+                );
             }
         }
         Ok(bounds)
     }
 
-    /// What `check` allows `subject`.
+    /// The bound of `subject` under `check`, in the unit of the check.
     pub fn get(&self, check: &str, subject: &str) -> Option<f64> {
         self.0.get(check)?.allowed.get(subject).copied()
     }

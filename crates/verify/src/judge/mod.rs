@@ -1,11 +1,13 @@
-//! Judging: what was measured against what is allowed, and against what was accepted before.
+//! This module decides what passes: it compares what was measured with what is allowed, and with what was accepted
+//! before. It is the only place with bounds, and it measures nothing itself, so that limits cannot be adjusted where a
+//! check is written.
 //!
 //! | what | where |
 //! |---|---|
-//! | a measurement against its bound, or against the solver's own claim | [`row`] |
-//! | `validation/bounds.toml` | [`bounds`] |
-//! | the regression baseline, `validation/baseline` | [`baseline`] |
-//! | dated records, `validation/record` | [`record`] |
+//! | compares a measurement with its bound, or with the solver's own error estimate | [`row`] |
+//! | reads `validation/bounds.toml` | [`bounds`] |
+//! | compares a run with the regression baseline, `validation/baseline` | [`baseline`] |
+//! | reads and writes dated records, `validation/record` | [`record`] |
 
 pub mod baseline;
 pub mod bounds;

@@ -1,4 +1,5 @@
-//! Dated records: what a run found, with the machine that found it beside it.
+//! A record is what a run found on a certain day, together with the machine that ran it. Records are committed, so that
+//! accuracy and speed can be followed over time.
 
 use std::path::Path;
 
@@ -9,15 +10,15 @@ use crate::files;
 use crate::host::Host;
 use crate::measure::work_precision::{Sample, Sweep};
 
-/// The file of a record's runs, one a line.
+/// Name of the file with a record's samples, one on each line.
 const SAMPLES: &str = "work-precision.jsonl";
 
 /// One committed record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    /// Where and when it was made.
+    /// The machine, the commit and the day.
     pub host: Host,
-    /// What it found.
+    /// The errors and calls by check and subject.
     pub accuracy: Baseline,
 }
 
@@ -33,7 +34,7 @@ pub fn write(folder: &Path, host: &Host, accuracy: &Baseline, sweep: &Sweep) -> 
     files::write(&folder.join("host.json"), &(serde_json::to_string_pretty(host)? + "\n"))
 }
 
-/// The records in `folder`, by date.
+/// Reads the records in `folder`, ordered by date.
 ///
 /// # Errors
 /// If one can't be read.
@@ -49,7 +50,7 @@ pub fn read(folder: &Path) -> anyhow::Result<Vec<Record>> {
     dates.iter().filter(|entry| entry.path().is_dir()).map(|entry| record(&entry.path())).collect()
 }
 
-/// The runs of the record in `folder`/`date`.
+/// Reads the samples of the record in `folder`/`date`.
 ///
 /// # Errors
 /// If they can't be read.

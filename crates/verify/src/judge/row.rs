@@ -1,4 +1,6 @@
-//! The one place that judges: a measurement against its bound or, without one, against what the solver claims for itself.
+//! This file turns measurements into rows, each with a verdict: it is the only place that decides whether something
+//! passes. A measurement is compared with its bound or, if it has none, with what the solver's own error estimate
+//! allows (its claim), so solvers from outside can be judged too.
 
 use serde::Serialize;
 
@@ -6,30 +8,30 @@ use super::bounds::Bounds;
 use crate::measure::check::{Basis, Check};
 use crate::measure::measurement::{Claim, Measurement, Worst};
 
-/// A bound this many times above what was measured hides bugs, and is reported.
+/// A bound that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;
 
-/// What the judge says of a row.
+/// The verdict on a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// Within its bound.
     Pass,
-    /// Within its bound, which is ten times above what was measured, or more.
+    /// Within its bound, but the bound is ten times what was measured or more.
     PassLoose,
-    /// Without a bound, and within the error that the solver claims.
+    /// It has no bound, and is within the error that the solver claims.
     PassByClaim,
-    /// Without a bound, and not an error, so that no error estimate applies.
+    /// It has no bound, and it is not an error, so no error estimate applies.
     NotJudged,
     /// Above its bound.
     Fail,
-    /// Without a bound, and above the error that the solver claims.
+    /// It has no bound, and is above the error that the solver claims.
     FailByClaim,
-    /// Without a bound, of a solver that claims no error.
+    /// It has no bound, and the solver claims no error.
     NoClaim,
-    /// Without a bound, and not of a solver.
+    /// It has no bound, and does not belong to a solver.
     NoBound,
-    /// A bound for something that was not measured.
+    /// There is a bound for it, but it was not measured.
     NotMeasured,
 }
 
@@ -39,7 +41,7 @@ impl Status {
         matches!(self, Self::Pass | Self::PassLoose | Self::PassByClaim | Self::NotJudged)
     }
 
-    /// Its name.
+    /// Its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -55,32 +57,32 @@ impl Status {
     }
 }
 
-/// A measurement, judged; everything that a report renders.
+/// A judged measurement, with everything that a report shows of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
-    /// The check.
+    /// The id of the check.
     pub check: String,
-    /// Its claim.
+    /// The claim of the check.
     pub claim: String,
-    /// What the claim rests on.
+    /// The kind of evidence for the claim.
     pub basis: Option<Basis>,
-    /// Who was measured.
+    /// The subject that was measured.
     pub subject: String,
     /// Unit of `measured` and `bound`.
     pub unit: String,
     /// The deviation that was judged; `None` if the subject failed.
     pub measured: Option<f64>,
-    /// What is allowed, by the bound or by the solver's claim.
+    /// The deviation that is allowed, by the bound or by the solver's claim.
     pub bound: Option<f64>,
     /// `bound / measured`; `None` where either is missing or zero.
     pub margin: Option<f64>,
     /// The verdict.
     pub status: Status,
-    /// Cases tried.
+    /// Number of cases that were tried.
     pub cases: u64,
-    /// The worst case's input, with hex floats.
+    /// The input of the worst case, as hex floats or in words.
     pub worst_input: Option<String>,
-    /// Why the subject failed, if it did.
+    /// Why the subject failed on the worst case, if it did.
     pub failure: Option<String>,
     /// A command that repeats the worst case.
     pub replay: Option<String>,
@@ -91,7 +93,7 @@ pub fn judge(check: &Check, measurements: Vec<Measurement>, bounds: &Bounds) -> 
     measurements.into_iter().map(|measurement| row(check, measurement, bounds)).collect()
 }
 
-/// What was judged of a measurement, against what, and how.
+/// The value that was judged, what it was compared with, and the result.
 struct Verdict {
     measured: f64,
     allowed: Option<f64>,
@@ -144,14 +146,14 @@ fn row(check: &Check, measurement: Measurement, bounds: &Bounds) -> Row {
     }
 }
 
-/// A failing row for every bound that no row of a complete run used: its check or its subject is gone.
+/// A failing row for every bound that no row of a complete run used, because its check or its subject no longer exists.
 pub fn unused_bounds(rows: &[Row], bounds: &Bounds) -> Vec<Row> {
     bounds
         .pairs()
         .filter(|(check, subject)| !rows.iter().any(|row| row.check == *check && row.subject == *subject))
         .map(|(check, subject)| Row {
             check: check.to_owned(),
-            claim: "every bound is used".to_owned(),
+            claim: "Every bound belongs to something that was measured; a bound for anything else fails.".to_owned(),
             basis: None,
             subject: subject.to_owned(),
             unit: String::new(),
@@ -193,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_bound_a_solver_is_judged_by_its_own_claim_and_anything_else_fails() {
+    fn without_a_bound_a_solver_is_judged_by_its_own_claim_and_all_else_fails() {
         for bounds in ["", "[c]\nreason = 'r'\nallowed = { other = 1e-9 }"] {
             assert_eq!(status(figure(0.0), bounds), Status::NoBound);
             for (measured, expected) in [
@@ -210,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_goes_before_the_claim() {
+    fn a_bound_takes_precedence_over_the_solvers_claim() {
         let bounds = "[c]\nreason = 'r'\nallowed = { s = 1e-9 }";
         assert_eq!(status(figure(1e-8).claiming(Some(1.0)), bounds), Status::Fail);
         assert_eq!(status(figure(1e-9).claiming(Some(1e-12)), bounds), Status::Pass);

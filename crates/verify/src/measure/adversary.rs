@@ -1,4 +1,9 @@
-//! Launches that an adversary would pick: random ones of all sizes, and ones at and next to everything that is special.
+//! This file makes launches that an adversary would choose to break a solver: random ones of all sizes, and ones at and
+//! next to every special case. Launches of ordinary size hardly ever come near enough to a singular point to provoke a
+//! wrong answer.
+//!
+//! n is the coin's normal, S its angular momentum, k = I3/I1 its inertia ratio, ψ the cone angle between n and S, β the
+//! angle of n to the vertical.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,7 +13,7 @@ use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::case::Case;
 
-/// Launch `index` of the sequence of `seed`; it depends on nothing else.
+/// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
 ///
 /// # Errors
 /// Never: every launch is valid.
@@ -24,22 +29,22 @@ pub fn launch(seed: u64, index: u64) -> Result<Case, InputError> {
     Ok(Case { toss: Toss { launch: Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?, ..still }, tilt })
 }
 
-/// One of `values`.
+/// One of `values`, each equally likely.
 fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
     values[rng.random_range(0..N)]
 }
 
-/// 10 to a power that is uniform.
+/// 10 to a power that is uniform between `low` and `high`.
 fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// A number of either sign, of a size from 1e-17 to 1, as likely in each decade.
+/// A number of either sign and of a size from 1e-17 to 1, equally likely in each decade.
 fn near(rng: &mut ChaCha8Rng) -> f64 {
     decades(rng, -17.0, 0.0) * one(rng, [-1.0, 1.0])
 }
 
-/// From rod to flat disc, the sphere and its neighbours included.
+/// An inertia ratio k from a rod (0) to a flat disc (2), often at or next to that of a sphere (1).
 fn inertia_ratio(rng: &mut ChaCha8Rng) -> f64 {
     match rng.random_range(0..3) {
         0 => one(rng, [0.0, 5e-324, 1e-300, 1e-9, 0.5, 1.0 - f64::EPSILON, 1.0, 1.0 + f64::EPSILON, 1.98, 2.0]),
@@ -48,7 +53,8 @@ fn inertia_ratio(rng: &mut ChaCha8Rng) -> f64 {
     }
 }
 
-/// ω (rad/s) of a coin of inertia ratio `k`: a hand's; near pure spin, no spin or ψ = 45°; of three sizes; or of any size.
+/// The body rate ω (rad/s) of a coin of inertia ratio `k`: as of a hand; near pure spin, no spin or ψ = 45°; with
+/// components of very different sizes; or of any size.
 fn rate(rng: &mut ChaCha8Rng, k: f64) -> Vector3<f64> {
     let hand = Vector3::from_fn(|_, _| rng.random_range(-60.0..60.0));
     match rng.random_range(0..6) {
@@ -67,8 +73,8 @@ fn rate(rng: &mut ChaCha8Rng, k: f64) -> Vector3<f64> {
     }
 }
 
-/// β at launch (rad), from 0 to π: level, on edge, upside down, with S upright, where `cone` is its angle to n; next to
-/// these; or any.
+/// The tilt β at launch (rad), from 0 to π: level, on edge, upside down or with S along the vertical (`cone` is the
+/// angle between n and S); next to one of these; or any.
 fn tilt(rng: &mut ChaCha8Rng, cone: f64) -> f64 {
     let special = one(rng, [0.0, FRAC_PI_2, PI, cone, PI - cone]);
     match rng.random_range(0..4) {
@@ -79,9 +85,10 @@ fn tilt(rng: &mut ChaCha8Rng, cone: f64) -> f64 {
     }
 }
 
-/// Time of flight (s). Slow and fast coins get times in which they turn by up to 300 rad; one in fifty flies for up to 100 s
-/// if it is of ordinary speed, and one in a hundred turns beyond 2^53 rad. Between these phases integrators only run
-/// into their largest number of steps, at a second a flight.
+/// The time of flight (s). Most coins, slow or fast, get a time in which they turn by up to 300 rad. One in fifty flies
+/// for up to 100 s, if it is of ordinary speed, and one in a hundred turns by more than 10^16 rad, where every solver
+/// must refuse. Phases in between are left out: there integrators only reach their largest number of steps, which takes
+/// a second a flight.
 fn time(rng: &mut ChaCha8Rng, motion: &ExactMotion, rate: &Vector3<f64>) -> f64 {
     let turns_in_a_second = motion.phase(1.0).unwrap_or(f64::INFINITY).max(rate.amax()).max(f64::MIN_POSITIVE);
     let ordinary = (1e-3..200.0).contains(&turns_in_a_second);
@@ -91,6 +98,6 @@ fn time(rng: &mut ChaCha8Rng, motion: &ExactMotion, rate: &Vector3<f64>) -> f64 
         3 => 0.0,
         _ => decades(rng, -3.0, 2.5) / turns_in_a_second,
     };
-    // Beyond the range of f64 nothing is left to try.
+    // A time beyond the range of f64 becomes the largest one.
     if time.is_finite() { time } else { f64::MAX }
 }

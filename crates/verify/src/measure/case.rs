@@ -1,4 +1,5 @@
-//! A case: a toss that a row can name in full and the command line can repeat.
+//! A case is a toss that the report can write down in full and the command line can repeat. Hex floats hold every bit
+//! of the inputs, so a failure can be reproduced exactly.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +8,17 @@ use toss::{Coin, Launch, Quantity, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::subject::Subject;
 
-/// A toss from a coin turned about the lab's x axis, as the command line can repeat it.
+/// A toss whose attitude at launch is a turn about the laboratory's x axis, as the command line can repeat it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Case {
     /// The toss.
     pub toss: Toss,
-    /// The turn at launch (rad).
+    /// The tilt at launch (rad): the angle of that turn.
     pub tilt: f64,
 }
 
 impl Case {
-    /// All inputs as hex floats.
+    /// All inputs as `NAME=HEX` fields, separated by spaces.
     pub fn hex(&self) -> String {
         let Toss { coin, launch } = self.toss;
         let rate = launch.rate();
@@ -38,7 +39,7 @@ impl Case {
         fields.iter().map(|(name, value)| format!("{name}={}", hex_float(*value))).collect::<Vec<_>>().join(" ")
     }
 
-    /// The case that a line of [`Case::hex`] describes.
+    /// Reads a case from a line that [`Case::hex`] wrote.
     ///
     /// # Errors
     /// If a field is missing, unknown or can't be read, or the toss is invalid.
@@ -66,12 +67,12 @@ impl Case {
                 }
             }
         };
-        ensure!(fields.is_empty(), "unknown: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
+        ensure!(fields.is_empty(), "unknown fields: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt)?;
         Ok(Self { toss: Toss { coin, launch }, tilt })
     }
 
-    /// The command that repeats this toss by `subject`.
+    /// The shell command that solves this toss with the solver and settings of `subject`.
     pub fn replay(&self, subject: &Subject) -> String {
         let Toss { coin, launch } = self.toss;
         let rate = launch.rate();
@@ -97,7 +98,7 @@ impl Case {
     }
 }
 
-/// `value` as a hexadecimal floating-point literal of C99, which holds every bit.
+/// `value` as a hexadecimal floating-point literal of C99, which keeps every bit.
 fn hex_float(value: f64) -> String {
     let bits = value.to_bits();
     let (fraction, exponent) = (bits & 0x000f_ffff_ffff_ffff, (bits >> 52) & 0x7ff);
@@ -109,7 +110,7 @@ fn hex_float(value: f64) -> String {
     }
 }
 
-/// The value of a literal that [`hex_float`] wrote.
+/// Reads a literal that [`hex_float`] wrote; `None` for anything else.
 fn from_hex_float(text: &str) -> Option<f64> {
     let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
     let (digits, exponent) = rest.strip_prefix("0x")?.split_once('p')?;
@@ -128,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hex_line_gives_the_case_back() {
+    fn a_case_survives_a_round_trip_through_its_hex_line() {
         for index in 0..500 {
             let case = crate::measure::adversary::launch(3, index).unwrap();
             assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
@@ -148,14 +149,14 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_line_says_what_is_wrong() {
+    fn reading_a_broken_hex_line_names_the_broken_field() {
         let line = crate::measure::adversary::launch(3, 0).unwrap().hex();
         let first = line.split_once(' ').unwrap().0;
         for (broken, message) in [
             (line.replace("tilt", "tlit"), "tilt is missing"),
             (line.replace("i1=0x1", "i1=0x3"), "i1: '0x3"),
             (format!("{line} {first}"), "i1 is given twice"),
-            (format!("{line} spin=0x0p+0"), "unknown: spin"),
+            (format!("{line} spin=0x0p+0"), "unknown fields: spin"),
             (format!("{line} spin"), "'spin' is no NAME=VALUE"),
             (line.replace("i1=0x1", "i1=-0x1"), "I1"),
         ] {
@@ -165,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn hex_floats_hold_every_bit() {
+    fn hex_floats_keep_every_bit() {
         assert_eq!(hex_float(1.0), "0x1.0000000000000p+0");
         assert_eq!(hex_float(-0.1), "-0x1.999999999999ap-4");
         assert_eq!(hex_float(5e-324), "0x0.0000000000001p-1022");

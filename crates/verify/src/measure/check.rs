@@ -1,26 +1,27 @@
-//! What a check is: a claim, its basis, and a function that measures it for every subject.
+//! A check is a claim about the solvers, the kind of evidence for it, and a function that measures it for every
+//! subject. All checks have this one type, so that they are run, judged and reported by the same code.
 
 use serde::Serialize;
 
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 
-/// What a claim rests on.
+/// The kind of evidence that a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Basis {
-    /// The exact motion in more digits.
+    /// A closed form, evaluated in more digits.
     ClosedForm,
     /// A conserved quantity.
     Invariant,
-    /// A figure that somebody published.
+    /// A published number.
     PublishedFigure,
-    /// Different ways to the same answer agree.
+    /// The agreement of different methods.
     CrossMethod,
 }
 
 impl Basis {
-    /// Its name.
+    /// Its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::ClosedForm => "closed form",
@@ -34,14 +35,14 @@ impl Basis {
 /// A claim and how it is measured.
 #[derive(Debug)]
 pub struct Check {
-    /// Short name, unique.
+    /// Unique short name; the key of its bounds.
     pub id: &'static str,
-    /// The claim, in a sentence.
+    /// What is measured, against what, and when it fails, in plain sentences for the report.
     pub claim: &'static str,
-    /// What it rests on.
+    /// The kind of evidence.
     pub basis: Basis,
-    /// Unit of what is measured; "1" for a pure number.
+    /// Unit of the measured value; "1" for a pure number.
     pub unit: &'static str,
-    /// Measures the claim for every subject.
+    /// Measures every subject; one measurement for each row of the report.
     pub measure: fn(&Context) -> anyhow::Result<Vec<Measurement>>,
 }

@@ -1,4 +1,6 @@
-//! What checks share: the subjects, the data from outside, and what is computed once for several of them.
+//! A [`Context`] holds what all checks of a run share: the subjects, the reference data, and results that several
+//! checks read. Each result is computed when the first check asks for it, so a run of one check computes only what
+//! that check needs.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -25,21 +27,21 @@ use crate::measure::tables::{Probability, fig4, probabilities};
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
 
-/// What checks share: the subjects, the data, and what is computed once for several of them.
+/// The subjects, the reference data and the shared results of a run.
 pub struct Context {
-    /// How much is tried.
+    /// How many cases are tried.
     pub effort: Effort,
-    /// The registry under verification.
+    /// The solvers under verification.
     pub registry: Vec<SolverEntry>,
-    /// Its subjects.
+    /// These solvers with each of their schemes at tight settings.
     pub subjects: Vec<Subject>,
-    /// Motions from outside.
+    /// Reference motions from outside the workspace.
     pub data: ReferenceData,
-    /// Probabilities from outside.
+    /// Reference probabilities from outside the workspace.
     pub reference_probabilities: ReferenceProbabilities,
-    /// The flights over which speed is compared with accuracy.
+    /// The problems on which speed is compared with accuracy.
     pub problems: Vec<Problem>,
-    /// What contestants are known to do at hazards.
+    /// What contestants are known to do near the places where methods fail.
     pub expected: Expected,
     survey: OnceLock<Survey>,
     atlas: OnceLock<Atlas>,
@@ -53,10 +55,11 @@ pub struct Context {
 }
 
 impl Context {
-    /// A context over `registry`, with the reference numbers under `validation`.
+    /// A context for the solvers of `registry`, with the reference numbers in the folder `validation`.
     ///
     /// # Errors
-    /// If the reference numbers can't be read, two solvers have the same name, or a scheme takes neither a tolerance nor steps.
+    /// If the reference numbers can't be read, two solvers have the same name, or a scheme takes neither a tolerance
+    /// nor steps.
     pub fn new(registry: &[SolverEntry], effort: Effort, validation: &Path) -> anyhow::Result<Self> {
         require_own_names(registry)?;
         Ok(Self {
@@ -79,15 +82,15 @@ impl Context {
         })
     }
 
-    /// The landings of every subject from random launches; computed when first asked for.
+    /// The landings of every subject from random launches; computed on the first call.
     ///
     /// # Errors
-    /// Never for the survey's own space.
+    /// Never: the space of launches is fixed and valid.
     pub fn survey(&self) -> Result<&Survey, InputError> {
         once(&self.survey, || Survey::new(&self.subjects, self.effort.launches()))
     }
 
-    /// The atlas of failures; computed when first asked for.
+    /// The atlas of failures; computed on the first call.
     ///
     /// # Errors
     /// As [`Atlas::new`].
@@ -95,7 +98,7 @@ impl Context {
         once(&self.atlas, || Atlas::new(&self.registry))
     }
 
-    /// The long flights; computed when first asked for.
+    /// The long flights; computed on the first call.
     ///
     /// # Errors
     /// As [`LongFlights::new`].
@@ -103,7 +106,7 @@ impl Context {
         once(&self.long_flights, || LongFlights::new(&self.registry))
     }
 
-    /// What the search by adversarial launches found; done when first asked for.
+    /// What the search by adversarial launches found; computed on the first call.
     ///
     /// # Errors
     /// As [`search`].
@@ -111,7 +114,7 @@ impl Context {
         once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
     }
 
-    /// The sweep of tolerances and steps; done when first asked for.
+    /// The sweep of tolerances and steps; computed on the first call.
     ///
     /// # Errors
     /// As [`Sweep::new`].
@@ -119,7 +122,7 @@ impl Context {
         once(&self.sweep, || Sweep::new(&self.registry, &self.problems, self.effort))
     }
 
-    /// Errors by fixed step; measured when first asked for.
+    /// The errors by fixed step; computed on the first call.
     ///
     /// # Errors
     /// As [`convergence`].
@@ -127,7 +130,7 @@ impl Context {
         once(&self.convergence, || convergence(&self.registry))
     }
 
-    /// Random scenes solved as planned and by every other model; solved when first asked for.
+    /// Random scenes, solved as planned and by every other model; computed on the first call.
     ///
     /// # Errors
     /// As [`Trial::new`].
@@ -135,7 +138,7 @@ impl Context {
         once(&self.trial, || Trial::new(self.effort))
     }
 
-    /// Every named space by every method; estimated when first asked for.
+    /// P(heads) of every named space by every method; computed on the first call.
     ///
     /// # Errors
     /// As [`probabilities`].
@@ -143,7 +146,7 @@ impl Context {
         once(&self.probabilities, probabilities)
     }
 
-    /// The running shares of Fig. 4's space; counted when first asked for.
+    /// The running shares of heads in Fig. 4's space; computed on the first call.
     ///
     /// # Errors
     /// As [`fig4`].
@@ -151,7 +154,7 @@ impl Context {
         once(&self.fig4, fig4)
     }
 
-    /// What was asked for so far, for the reports.
+    /// The shared results that have been computed so far, for the reports.
     pub fn records(&self) -> Records<'_> {
         Records {
             atlas: self.atlas.get(),
@@ -165,12 +168,12 @@ impl Context {
     }
 }
 
-/// Runs behind the rows, where a check asked for them.
+/// The shared results of a run; `None` for those that no check needed.
 #[derive(Debug, Clone, Serialize)]
 pub struct Records<'a> {
     /// The atlas of failures.
     pub atlas: Option<&'a Atlas>,
-    /// Error and drift by time.
+    /// Error and drift by time of flight.
     pub long_flights: Option<&'a LongFlights>,
     /// Error and work by tolerance or step.
     pub sweep: Option<&'a Sweep>,
@@ -180,12 +183,14 @@ pub struct Records<'a> {
     pub convergence: Option<&'a Vec<Convergence>>,
     /// P(heads) of the named spaces.
     pub probabilities: Option<&'a Vec<Probability>>,
-    /// Fig. 4's running shares.
+    /// The running shares of heads in Fig. 4's space.
     pub fig4: Option<&'a Vec<RunningStep>>,
 }
 
+/// Checks that no two solvers share a name, because their rows could not be told apart.
+///
 /// # Errors
-/// If two solvers have the same name: their rows could not be told apart.
+/// If two solvers have the same name.
 fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     let mut names = BTreeSet::new();
     for entry in registry {
@@ -194,7 +199,7 @@ fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What is in `cell`, made first if it is empty.
+/// The content of `cell`, which is computed by `make` if the cell is empty.
 fn once<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
     if cell.get().is_none() {
         let _ = cell.set(make()?);

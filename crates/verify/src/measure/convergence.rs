@@ -1,7 +1,9 @@
-//! Order of convergence: the error of each scheme with fixed steps, against the step.
+//! This file measures the error of each scheme over a range of fixed steps, and fits the order of convergence to it.
+//! The order shows mistakes in coefficients and equations that a single error would hide.
 //!
-//! The error is that of the whole state: attitude, body rate and the norm error. The attitude alone would flatter DOPRI5:
-//! for a turn its leading error is one of length, which a normalised attitude does not see.
+//! The error is that of the whole state: attitude, body rate, and the norm error of an integrated quaternion. The
+//! attitude alone would make DOPRI5 look better than it is: on a turn its leading error changes the length of the
+//! quaternion, which disappears when the quaternion is normalised.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -20,31 +22,32 @@ use toss::{
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
 
-/// Flights whose errors are added up, so that no cancellation in a single one passes for a higher order.
+/// Number of flights whose errors are added up, so that a cancellation in a single flight does not look like a higher
+/// order.
 const FLIGHTS: usize = 12;
 
 /// Time of flight (s).
 const TIME: f64 = 2.0;
 
-/// The errors of one subject, and the order that they show.
+/// The errors of one subject over its steps, and the order fitted to them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Convergence {
     /// `solver/scheme`.
     pub subject: String,
-    /// Order by theory.
+    /// Order of the scheme by theory.
     pub order: u32,
-    /// Order observed in the asymptotic window; null if too few errors are in it.
+    /// Order fitted to the errors in the asymptotic window; null if too few are in it.
     pub observed: Option<f64>,
-    /// How often the step was halved in that window.
+    /// Number of halvings of the step within that window.
     pub halvings: f64,
-    /// Steps (s) and errors, from large to small.
+    /// Steps (s) with their errors, from large to small.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Every integrator of `registry` by every scheme that takes equal steps and has an order.
+/// Measures every integrator of `registry` with each scheme that takes fixed steps and has an order.
 ///
 /// # Errors
-/// If no regular flights are found, which the fixed space of launches does not let happen.
+/// If too few regular flights are found; the fixed space of launches has enough.
 pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
     let flights: Vec<(Toss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
@@ -59,11 +62,11 @@ pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>>
     Ok(all.collect::<Result<_, _>>()?)
 }
 
-/// Flights whose cone encloses the vertical at a distance, so that the vertical frame, where all three angles are at
-/// work, is regular.
+/// Flights on which the cone of the normal encloses the vertical and keeps a distance from it. There the vertical frame
+/// is regular, and all three Euler angles vary.
 fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     const CLEARANCE: f64 = 0.8;
-    // Flights of TIME s.
+    // With this gravity and a speed of 1 m/s, 2 v0/g is TIME.
     let gravity = (2.0 / TIME).to_string();
     let axes = [(RateX, "-3:3"), (RateY, "-3:3"), (RateZ, "0:3"), (Speed, "1"), (Gravity, &gravity), (Tilt, "1.2:1.4")];
     let space = Space::parse(Coin::DISC, &axes)?;
@@ -80,8 +83,9 @@ fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     Ok(tosses)
 }
 
-/// Errors below it drown in rounding, errors above it are not asymptotic. For order 8 the two are a halving of the step
-/// apart: four halvings would be a factor of 2^32 in the error, which f64 does not have.
+/// The range of errors to which the order is fitted. Smaller errors are rounding; larger ones are not asymptotic yet.
+/// For order 8 the range covers only about one halving of the step, because four halvings would need a factor of 2^32
+/// in the error, more than f64 leaves between the two limits.
 fn window(scheme: Scheme) -> Range<f64> {
     if scheme == Scheme::DOP853 { 3e-12..1e-9 } else { 3e-12..1e-5 }
 }
@@ -94,7 +98,7 @@ impl Convergence {
         for eighth_octave in 0..120 {
             let step = TIME / (2.0 * 2f64.powf(0.125 * f64::from(eighth_octave))).round();
             let subject = Subject::new(entry, Some(Stepping::fixed(scheme, step)?), formulation);
-            // Steps of half a flight may well fail; too few that succeed leave the order undefined.
+            // Long steps may fail, which is no fault; if too few succeed, the order stays undefined.
             let Ok(error) = error(subject.solver.as_ref(), flights) else { continue };
             if error < window(scheme).start {
                 break;
@@ -113,7 +117,7 @@ impl Convergence {
     }
 }
 
-/// The sum over `flights` of the errors of the whole state.
+/// The sum over `flights` of the errors of the whole state: attitude (rad), body rate (relative) and quaternion norm.
 pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
     let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
         let Propagation { state: State { attitude, rate }, norm_error, .. } = solver.propagate(toss)?;
@@ -122,8 +126,8 @@ pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Resul
     flights.iter().map(of_one).sum()
 }
 
-/// p of the least-squares fit of `ln C + p ln h + c h²` to the logarithms of the errors: the leading term and a trace of
-/// the next ones.
+/// The order p from a least-squares fit of `ln C + p ln h + c h²` to the logarithms of the errors, where h is the step.
+/// The last term accounts for the next order of the error. `None` for fewer than 6 points.
 fn observed_order(points: &[(f64, f64)]) -> Option<f64> {
     if points.len() < 6 {
         return None;

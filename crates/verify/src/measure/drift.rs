@@ -1,29 +1,32 @@
-//! How far what a free coin conserves has drifted from launch to landing, each relative to its value at launch.
+//! This file computes how far conserved quantities of a free coin have drifted between launch and landing, relative to
+//! their values at launch. Any drift is an error of the solver, and is found without a reference solution.
 //!
-//! For n·S, S at launch, fixed in TF, is carried into the landed body by its attitude, because n·S as I3 ωz would hold by
-//! definition. Both frames then see the same number, by two ways through the attitude; S as a vector is the stronger check.
+//! S is the angular momentum, n the coin's normal, BF the body frame and TF the transport frame, in which S is
+//! constant. For n·S the value of S at launch is carried from TF into the landed body by the landed attitude. Computing
+//! n·S as I3 ωz instead would test nothing, because the solvers keep ωz constant. Both frames give the same number by
+//! two ways through the attitude; the drift of S as a vector is the stronger test.
 
 use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use toss::{State, Toss};
 
-/// Where the flight of `toss` starts.
+/// The state of `toss` at launch.
 pub fn at_launch(toss: &Toss) -> State {
     State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }
 }
 
-/// Of |S|.
+/// Relative drift of |S|.
 pub fn momentum(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = [&at_launch(toss), landing].map(|state| angular_momentum(&toss.coin, &state.rate).norm());
     (after - before).abs() / before
 }
 
-/// Of the kinetic energy.
+/// Relative drift of the kinetic energy.
 pub fn energy(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = [&at_launch(toss), landing].map(|state| kinetic_energy(&toss.coin, &state.rate));
     (after - before).abs() / before
 }
 
-/// Of n·S in BF, relative to |S|.
+/// Drift of n·S, computed in BF, relative to |S|.
 pub fn normal_momentum_body(toss: &Toss, landing: &State) -> f64 {
     let launch = at_launch(toss);
     let momentum = angular_momentum_tf(&toss.coin, &launch);
@@ -31,7 +34,7 @@ pub fn normal_momentum_body(toss: &Toss, landing: &State) -> f64 {
     (after.z - before.z).abs() / momentum.norm()
 }
 
-/// Of n·S in TF, relative to |S|.
+/// Drift of n·S, computed in TF, relative to |S|.
 pub fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
     let launch = at_launch(toss);
     let momentum = angular_momentum_tf(&toss.coin, &launch);
@@ -39,7 +42,7 @@ pub fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
     (after - before).abs() / momentum.norm()
 }
 
-/// Of S as a vector in TF.
+/// Drift of S as a vector in TF, relative to |S|.
 pub fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = [&at_launch(toss), landing].map(|state| angular_momentum_tf(&toss.coin, state));
     (after - before).norm() / before.norm()

@@ -1,21 +1,22 @@
-//! How much a run tries.
+//! A run tries few, many or very many cases, as you ask. The baseline is kept for each effort, because the largest
+//! error depends on how many cases are tried.
 
 use serde::Serialize;
 
-/// How much is tried.
+/// How many cases a run tries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
-    /// Within a minute on two cores.
+    /// `--quick`: takes a minute on two cores.
     Quick,
-    /// Within five minutes.
+    /// The default: takes five minutes on two cores.
     Standard,
-    /// As long as it takes.
+    /// `--deep`: about ten times as many cases as the default, with no limit on time.
     Deep,
 }
 
 impl Effort {
-    /// Its name.
+    /// Its name, as in the baseline's file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Quick => "quick",

@@ -1,4 +1,5 @@
-//! Error and drift by time of flight: the paper's cheated toss, flown far longer than any coin.
+//! This file solves the paper's cheated toss for times of flight of up to 10⁴ s, far longer than any coin flies, and
+//! measures error and drift. The errors of integrators grow with time, and this shows how fast.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -9,38 +10,38 @@ use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, subjects, usual};
 
-/// Step of schemes without a tolerance (s); the default of 1e-3 s would need too many.
+/// Step of schemes without a tolerance (s); the default of 1e-3 s would need too many steps.
 const STEP: f64 = 1e-2;
 
-/// Times of flight (s): two a decade.
+/// Times of flight (s), two in each decade.
 const TIMES: [f64; 9] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4];
 
-/// One subject after one time. What is relative is so to its value at launch.
+/// One subject after one time of flight.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LongFlight {
     /// The subject's name.
     pub subject: String,
     /// Time of flight (s).
     pub time: f64,
-    /// What was found, or the error.
+    /// Error and drift at landing, or why the solver failed.
     #[serde(flatten)]
     pub found: Result<Drift, String>,
 }
 
-/// Error and drift at landing.
+/// Error and drift at landing; relative drifts are relative to the value at launch.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Drift {
     /// Angle to the exact attitude (rad).
     pub err_attitude: f64,
-    /// What the solver's error estimate allows (rad), if it has one.
+    /// The attitude error that the solver's error estimate allows (rad); `None` if it has no estimate.
     pub allowed: Option<f64>,
-    /// Of |S|, relative.
+    /// Drift of |S|, relative.
     pub momentum: f64,
-    /// Of the kinetic energy, relative.
+    /// Drift of the kinetic energy, relative.
     pub energy: f64,
-    /// Of n·S, relative to |S|.
+    /// Drift of n·S, relative to |S|.
     pub normal_momentum: f64,
-    /// Of S in TF, as a vector, relative.
+    /// Drift of S as a vector in the transport frame, relative.
     pub momentum_vector: f64,
     /// Norm error of an integrated quaternion.
     pub norm_error: f64,
@@ -52,7 +53,7 @@ pub struct Drift {
 pub struct LongFlights(pub Vec<LongFlight>);
 
 impl LongFlights {
-    /// Flies every solver of `registry`, each integrator by every scheme.
+    /// Solves all flights with every solver of `registry`, each integrator by every scheme.
     ///
     /// # Errors
     /// Never for the library's own solvers.
@@ -68,12 +69,12 @@ impl LongFlights {
         Ok(Self(flights.into_par_iter().with_max_len(1).map(fly).collect::<Result<_, _>>()?))
     }
 
-    /// The names of the subjects, in their order.
+    /// The names of the subjects, in the order of the registry.
     pub fn subjects(&self) -> impl Iterator<Item = &str> {
         self.0.chunk_by(|a, b| a.subject == b.subject).map(|flights| flights[0].subject.as_str())
     }
 
-    /// What `subject` found, by time (s).
+    /// The flights of `subject`: time of flight (s) and what was found.
     pub fn of<'a>(&'a self, subject: &'a str) -> impl Iterator<Item = (f64, &'a Result<Drift, String>)> {
         self.0.iter().filter(move |flight| flight.subject == subject).map(|flight| (flight.time, &flight.found))
     }

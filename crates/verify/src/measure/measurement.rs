@@ -1,4 +1,8 @@
-//! What a check measures: the largest deviation of a subject, the case that shows it, and what the subject itself claims.
+//! A measurement is the largest deviation of one subject under one check, with the case that shows it and the deviation
+//! that the subject's own error estimate allows. Every check returns its results in this form, so that one judge can
+//! compare all of them with their bounds.
+//!
+//! A subject is a solver with its settings, or a named set of cases of the exact motion.
 
 use std::cmp::Ordering;
 
@@ -8,36 +12,37 @@ use super::case::Case;
 use super::run::Allowance;
 use super::subject::Subject;
 
-/// What one subject showed under one check.
+/// The result of one subject under one check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// The subject's name.
     pub subject: String,
-    /// The largest deviation found; infinite if the subject failed where it should not.
+    /// The largest deviation found; infinite if the subject failed or gave a NaN.
     pub measured: f64,
-    /// How many cases were tried.
+    /// Number of cases that were tried.
     pub cases: u64,
     /// The case with the largest deviation.
     pub worst: Option<Worst>,
-    /// What the solver's own error estimate says of it.
+    /// What the solver's own error estimate allows.
     pub claim: Claim,
 }
 
-/// What a solver's own error estimate says of a measurement.
+/// What a solver's own error estimate allows for a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Claim {
-    /// The measurement is not one of a solver.
+    /// The measurement is not of a solver, so there is no estimate.
     NoSolver,
-    /// An error estimate says nothing of what is measured: an order, a slope, an amount of work.
+    /// The measured quantity is not an error (but an order, a slope or an amount of work), so no estimate applies to
+    /// it.
     Silent,
     /// The solver has no error estimate.
     NoEstimate,
-    /// The estimate allows a deviation. Of several cases this is the one whose deviation, divided by what is allowed, is the
-    /// largest; its deviation itself need not be.
+    /// The estimate allows a deviation. Of several cases this is the one with the largest ratio of deviation to allowed
+    /// deviation, which need not be the one with the largest deviation.
     Allows {
-        /// The deviation.
+        /// The deviation of that case.
         measured: f64,
-        /// What the estimate allows.
+        /// The deviation that the estimate allows for it.
         allowed: f64,
         /// The case.
         worst: Option<Worst>,
@@ -47,20 +52,20 @@ pub enum Claim {
 /// The worst case of a measurement.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Worst {
-    /// Its input in words, or as hex floats.
+    /// The case's input, as hex floats or in words.
     pub input: String,
     /// The error, if the subject failed.
     pub failure: Option<String>,
-    /// A command that repeats it.
+    /// The command that repeats the case.
     pub replay: String,
 }
 
-/// A deviation, or why there is none.
+/// A deviation, or why the solver failed.
 pub type Deviation = Result<f64, SolveError>;
 
 impl Measurement {
-    /// The largest of the deviations of `subject`, which are in the order of their cases. `allowed` is what of the subject's
-    /// own allowance applies to them. A NaN is the largest of all.
+    /// The largest of the deviations of `subject`, which are in the order of their cases. `allowed` selects the part of
+    /// the subject's allowance that applies to them. A NaN or a failure counts as infinite.
     pub fn largest(
         subject: &Subject,
         deviations: impl IntoIterator<Item = Deviation>,
@@ -72,7 +77,8 @@ impl Measurement {
         })
     }
 
-    /// The largest of the deviations of `subject`; `allowed` is what it claims for each of them, `None` for no claim.
+    /// The largest of the deviations of `subject`; `allowed` returns the deviation that its estimate allows for a case,
+    /// `None` if it has no estimate.
     pub fn largest_within(
         subject: &Subject,
         deviations: impl IntoIterator<Item = Deviation>,
@@ -85,18 +91,19 @@ impl Measurement {
         Self { claim, ..Self::without_estimate(&subject.name, &deviations, worst) }
     }
 
-    /// The largest of the deviations of the exact motion in a set of cases.
+    /// The largest of the deviations of the exact motion in the set of cases called `name`.
     pub fn of_set(name: &str, deviations: &[Deviation], case: impl Fn(usize) -> Case) -> Self {
         let exact = Subject::exact();
         Self::without_estimate(name, deviations, |index, failure| worst(&case(index), &exact, failure))
     }
 
-    /// How many cases of `subject` are `found`; the first one is the worst.
+    /// The number of cases of `subject` for which `found` is true; the first one becomes the worst case.
     pub fn count(subject: &Subject, found: &[Result<bool, SolveError>], case: impl Fn(usize) -> Case) -> Self {
         Self::counted(&subject.name, found, |index, failure| worst(&case(index), subject, failure))
     }
 
-    /// How many cases of a set are `found` of the exact motion; the first one is the worst.
+    /// The number of cases for which `found` is true of the exact motion, in the set called `name`; the first one
+    /// becomes the worst case.
     pub fn count_of_set(name: &str, found: &[Result<bool, SolveError>], case: impl Fn(usize) -> Case) -> Self {
         let exact = Subject::exact();
         Self::counted(name, found, |index, failure| worst(&case(index), &exact, failure))
@@ -117,7 +124,7 @@ impl Measurement {
         Self { subject: name.to_owned(), measured, cases, worst, claim: Claim::NoSolver }
     }
 
-    /// A single figure without an input of its own.
+    /// A single number that belongs to no toss; the command that repeats it runs the whole check.
     pub fn figure(check: &str, subject: &str, measured: f64, cases: u64, input: String) -> Self {
         let replay = format!("cargo xtask verify --only {check}");
         let measured = if measured.is_nan() { f64::INFINITY } else { measured };
@@ -125,14 +132,15 @@ impl Measurement {
         Self { subject: subject.to_owned(), measured, cases, worst, claim: Claim::NoSolver }
     }
 
-    /// The largest of several measurements of one subject, with the one of their claims that is furthest exceeded.
+    /// The largest of several measurements of one subject, with the claim of theirs that has the largest ratio of
+    /// measured to allowed deviation.
     pub fn worst_of(all: Vec<Self>) -> Option<Self> {
         let claim = all.iter().map(|one| &one.claim).max_by(|a, b| a.part().total_cmp(&b.part()))?.clone();
         let worst = all.into_iter().max_by(|a, b| a.measured.total_cmp(&b.measured))?;
         Some(Self { claim, ..worst })
     }
 
-    /// The same measurement, of a solver that allows itself `allowed`; `None` if it has no error estimate.
+    /// The same measurement with the deviation that the solver's estimate allows; `None` if the solver has no estimate.
     #[must_use]
     pub fn claiming(self, allowed: Option<f64>) -> Self {
         let claim = allowed.map_or(Claim::NoEstimate, |allowed| Claim::Allows {
@@ -143,7 +151,7 @@ impl Measurement {
         Self { claim, ..self }
     }
 
-    /// The same measurement, of a solver whose error estimate says nothing of it.
+    /// The same measurement, of a quantity to which no error estimate applies.
     #[must_use]
     pub fn without_claim(self) -> Self {
         Self { claim: Claim::Silent, ..self }
@@ -151,7 +159,7 @@ impl Measurement {
 }
 
 impl Claim {
-    /// The deviation, divided by what is allowed; infinite without an estimate.
+    /// The deviation divided by what is allowed; infinite for a solver without an estimate.
     fn part(&self) -> f64 {
         match self {
             Self::NoSolver | Self::Silent => 0.0,
@@ -187,12 +195,12 @@ impl Claim {
     }
 }
 
-/// `measured` divided by `allowed`, of which both may be 0.
+/// `measured` divided by `allowed`; 0 if `measured` is 0, also where nothing is allowed.
 fn part(measured: f64, allowed: f64) -> f64 {
     if measured == 0.0 { 0.0 } else { measured / allowed }
 }
 
-/// The place and the size of the largest deviation, and why it failed if it did.
+/// The index and the size of the largest deviation, and why the solver failed there if it did.
 fn largest(deviations: &[Deviation]) -> Option<(usize, f64, Option<String>)> {
     let mut worst: Option<(usize, f64, Option<String>)> = None;
     for (index, deviation) in deviations.iter().enumerate() {

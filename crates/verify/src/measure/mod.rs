@@ -1,13 +1,14 @@
-//! Measuring: checks, and what they measure with. Nothing here knows a bound.
+//! This module compares what solvers answer with references and measures how large the deviations are. It contains no
+//! bounds: the module `judge` decides what is allowed, so that no check can pass by a limit of its own.
 //!
 //! | what | where |
 //! |---|---|
 //! | what is measured: a solver with its settings; a toss; both together | [`subject`], [`case`], [`run`] |
-//! | the exact motion in 256 bits, and numbers from outside | [`mod@reference`] |
+//! | the 256-bit reference, and numbers from outside the workspace | [`mod@reference`] |
 //! | claims and how they are measured | [`check`], [`checks`], [`measurement`] |
-//! | what several checks share, computed once, and how much is tried | [`context`], [`effort`] |
-//! | flights: random ones, adversarial ones, long ones, those near where methods fail | [`survey`], [`adversary`], [`search`], [`long_flights`], [`atlas`] |
-//! | error by step and by work; drift of what is conserved | [`convergence`], [`work_precision`], [`drift`] |
+//! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
+//! | flights: random, adversarial, long, and near the places where methods fail | [`survey`], [`adversary`], [`search`], [`long_flights`], [`atlas`] |
+//! | error by step and by work; drift of conserved quantities | [`convergence`], [`work_precision`], [`drift`] |
 //! | the planner's table, and its accuracy and cost | [`planner`] |
 //! | probabilities of the named spaces | [`tables`] |
 

@@ -1,4 +1,6 @@
-//! A run: one toss flown by one subject, with its errors against the exact motion. Records are made of these.
+//! A run is one toss solved by one subject (a solver with its settings), with its errors against the 256-bit reference.
+//! The atlas, the sweep of tolerances, the search by adversarial launches and the records are all made of runs, so that
+//! they judge an answer by the same rule.
 
 use exact::motion::COS_TILT_ERROR;
 use serde::{Deserialize, Serialize};
@@ -9,22 +11,22 @@ use super::drift;
 use super::reference::Reference;
 use super::subject::Subject;
 
-/// What an answer is worth, from the best to the worst.
+/// How good an answer is, from the best to the worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Answer {
     /// Within the [allowance](Allowance), and no wrong outcome.
     Right,
-    /// No answer but an error that says why.
+    /// No answer, but an error that says why.
     TypedError,
-    /// An answer of a solver that claims no error, and no wrong outcome.
+    /// An answer of a solver without an error estimate, and no wrong outcome.
     Unclaimed,
     /// An answer outside the allowance, or the wrong outcome, without an error.
     SilentlyWrong,
 }
 
 impl Answer {
-    /// Its name.
+    /// Its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -35,17 +37,17 @@ impl Answer {
     }
 }
 
-/// The errors that an answer may have by the solver's own error estimate.
+/// The errors that the solver's own error estimate allows an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Allowance {
-    /// Of cos θ: the error estimate, or the last bit of the exact motion where that is less.
+    /// Error of cos θ: the error estimate, or the rounding error of the exact motion if the estimate is smaller.
     pub cos_tilt: f64,
-    /// Of the attitude (rad), and relative errors of conserved quantities: ten times that.
+    /// Error of the attitude (rad), and relative errors of conserved quantities: ten times the error of cos θ.
     pub attitude: f64,
 }
 
 impl Allowance {
-    /// What `subject` may be off by on `toss`; `None` if it has no error estimate.
+    /// The errors that are allowed `subject` on `toss`; `None` if it has no error estimate.
     ///
     /// # Errors
     /// As [`Solver::error_estimate`](toss::Solver::error_estimate).
@@ -58,39 +60,39 @@ impl Allowance {
     }
 }
 
-/// A toss flown and compared with the exact motion.
+/// A solved toss, compared with the 256-bit reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Run {
     /// The subject's name.
     pub subject: String,
     /// The toss, as hex floats.
     pub inputs: String,
-    /// What the answer is worth.
+    /// How good the answer is.
     pub answer: Answer,
-    /// The error that was returned.
+    /// The error that the solver returned.
     pub failure: Option<String>,
-    /// |Δ cos θ| at landing.
+    /// Error of cos θ at landing.
     pub err_cos_tilt: Option<f64>,
     /// Angle to the exact attitude at landing (rad).
     pub err_attitude: Option<f64>,
     /// The attitude's error, divided by what the solver's error estimate allows.
     pub err_by_allowance: Option<f64>,
-    /// Drift of S in TF, relative; null also for a coin at rest.
+    /// Relative drift of the angular momentum S in the transport frame; null also for a coin at rest.
     pub err_invariants: Option<f64>,
-    /// Whether the outcome is the exact one; null where none was stated.
+    /// Whether the outcome is the exact one; null if it was left undecided.
     pub outcome_ok: Option<bool>,
     /// Norm error of an integrated quaternion.
     pub norm_error: Option<f64>,
     /// Evaluations of the right-hand side.
     pub rhs_calls: Option<u64>,
-    /// Steps that were kept.
+    /// Steps that the step control accepted.
     pub accepted_steps: Option<u64>,
-    /// Steps that were thrown away.
+    /// Steps that the step control rejected.
     pub rejected_steps: Option<u64>,
 }
 
 impl Run {
-    /// Flies `case` by `subject`.
+    /// Solves `case` with `subject` and compares the answer with `reference`.
     pub fn new(subject: &Subject, case: &Case, reference: &Reference) -> Self {
         match Compared::new(subject, &case.toss, reference) {
             Ok(compared) => compared.run(subject, case),
@@ -113,7 +115,7 @@ impl Run {
     }
 }
 
-/// An answer beside the exact one.
+/// An answer with its errors.
 struct Compared {
     landing: Propagation,
     err_cos_tilt: f64,

@@ -1,4 +1,5 @@
-//! A search for answers that are wrong without an error: adversarial launches flown by every default solver.
+//! This file searches for answers that are wrong without an error, by solving adversarial launches with every solver
+//! and scheme in its default formulation. Such an answer is the worst fault of a solver, because you cannot see it.
 
 use rayon::prelude::*;
 use toss::{Formulation, InputError, Scheme, SolverEntry, Stepping};
@@ -12,24 +13,24 @@ use super::subject::Subject;
 
 const SEED: u64 = 20_261_121;
 
-/// Tolerances, of which each launch is flown at one.
+/// Tolerances; launches take them in turn.
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// Steps of schemes without a tolerance in units of 1/|ω|, of which each launch is flown at one.
+/// Steps of schemes without a tolerance, in units of 1/|ω|; launches take them in turn.
 const STEPS: [f64; 2] = [0.1, 0.03];
 
-/// What the search found of one solver and scheme.
+/// What the search found for one solver and scheme.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Findings {
     /// The subject's name.
     pub subject: String,
-    /// Launches flown.
+    /// Launches that were tried.
     pub launches: u64,
     /// Launches that were refused with an error.
     pub refused: u64,
     /// Launches that were answered wrongly without an error.
     pub silently_wrong: u64,
-    /// Launches that were answered without an error estimate.
+    /// Launches that were answered by a solver without an error estimate.
     pub unclaimed: u64,
     /// The first refused launch.
     pub first_refused: Option<Worst>,
@@ -37,7 +38,7 @@ pub struct Findings {
     pub first_wrong: Option<Worst>,
 }
 
-/// Searches `launches` launches for every solver of `registry`, each integrator by every scheme.
+/// Tries `launches` adversarial launches with every solver of `registry`, each integrator by every scheme.
 ///
 /// # Errors
 /// Never: every launch is valid.
@@ -70,7 +71,7 @@ pub fn search(registry: &[SolverEntry], launches: u64) -> Result<Vec<Findings>, 
     contestants.iter().enumerate().map(findings).collect()
 }
 
-/// A solver and its scheme, if it integrates.
+/// A solver, with its scheme if it is an integrator.
 type Contestant<'a> = (&'a SolverEntry, Option<Scheme>);
 
 fn contestants(registry: &[SolverEntry]) -> Vec<Contestant<'_>> {
@@ -80,14 +81,14 @@ fn contestants(registry: &[SolverEntry]) -> Vec<Contestant<'_>> {
     registry.iter().flat_map(|entry| schemes(entry).into_iter().map(move |scheme| (entry, scheme))).collect()
 }
 
-/// The contestant with the settings at which it flies launch `index`, `case`.
+/// The contestant with its settings for launch number `index`, which is `case`.
 fn subject((entry, scheme): Contestant<'_>, case: &Case, index: u64) -> Result<Subject, InputError> {
     let turn = usize::try_from(index).unwrap_or(0);
     let stepping = |scheme: Scheme| {
         if scheme.is_adaptive() {
             return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]);
         }
-        // A coin at rest takes any step.
+        // For a coin at rest 1/|ω| is infinite, and the longest step will do.
         let rate = case.toss.launch.turn_rate().max(f64::MIN_POSITIVE);
         Stepping::fixed(scheme, (STEPS[turn % STEPS.len()] / rate).min(f64::MAX))
     };

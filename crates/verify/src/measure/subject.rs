@@ -1,4 +1,5 @@
-//! What is verified: each solver of the registry with each scheme that it offers.
+//! A subject is what the suite verifies: a solver of the registry with one of its schemes, its tolerance or step, and a
+//! formulation. Its name is the key of its bounds and of its baseline, so every combination is judged on its own.
 
 use toss::{
     ExactSolver, Formulation, InputError, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, StepControl,
@@ -8,26 +9,27 @@ use toss::{
 /// Tolerance of the adaptive schemes under verification.
 const TIGHT_TOLERANCE: f64 = 1e-12;
 
-/// Step of the others under verification (s).
+/// Step of the schemes without a tolerance under verification (s).
 const TIGHT_STEP: f64 = 1e-4;
 
 /// A solver with its settings.
 pub struct Subject {
-    /// `solver`, `solver/scheme` or, if not by default, `solver/scheme/formulation`; the key of its bounds.
+    /// `solver`, `solver/scheme` or, in a formulation that is not the default, `solver/scheme/formulation`; the key of
+    /// its bounds.
     pub name: String,
     /// Its entry in the registry.
     pub entry: SolverEntry,
-    /// How it steps, if it integrates.
+    /// Its scheme and step control, if it is an integrator.
     pub stepping: Option<Stepping>,
-    /// How its kinematics are set up.
+    /// The formulation of its kinematics.
     pub formulation: Formulation,
     /// The solver.
     pub solver: Box<dyn Solver>,
 }
 
 impl Subject {
-    /// `entry` with `stepping`, which a closed form has none of, in `formulation`. A solver that cannot be made is one
-    /// that fails on every toss.
+    /// The solver of `entry` with `stepping` (`None` for a closed form) in `formulation`. If the solver cannot be made,
+    /// the subject fails on every toss, so it appears in the report instead of ending the run.
     pub fn new(entry: &SolverEntry, stepping: Option<Stepping>, formulation: Formulation) -> Self {
         let scheme = stepping.map(|stepping| format!("/{}", stepping.scheme().name())).unwrap_or_default();
         let suffix =
@@ -43,17 +45,17 @@ impl Subject {
         }
     }
 
-    /// The exact motion.
+    /// The solver of the exact motion.
     pub fn exact() -> Self {
         Self::new(&ExactSolver::entry(), None, Formulation::default())
     }
 
-    /// Its scheme, if it integrates.
+    /// Its scheme, if it is an integrator.
     pub fn scheme(&self) -> Option<Scheme> {
         self.stepping.map(|stepping| stepping.scheme())
     }
 
-    /// The options of the command line that make the same solver.
+    /// The options of the command line that select the same solver and settings.
     pub fn options(&self) -> String {
         let Some(stepping) = self.stepping else { return format!("--solver {}", self.entry.name()) };
         let control = match stepping.control() {
@@ -68,7 +70,7 @@ impl Subject {
     }
 }
 
-/// Stands for a solver that cannot be made.
+/// Takes the place of a solver that cannot be made, and fails on every toss with the reason.
 struct NotMade {
     name: String,
     reason: InputError,
@@ -86,7 +88,7 @@ impl Solver for NotMade {
     }
 }
 
-/// `scheme` with the tight settings.
+/// `scheme` with the tight tolerance or step of the verification.
 ///
 /// # Errors
 /// Never for a scheme that takes a tolerance or steps.
@@ -94,7 +96,7 @@ pub fn tight(scheme: Scheme) -> Result<Stepping, InputError> {
     if scheme.is_adaptive() { Stepping::adaptive(scheme, TIGHT_TOLERANCE) } else { Stepping::fixed(scheme, TIGHT_STEP) }
 }
 
-/// `scheme` with the settings that a user gets without asking.
+/// `scheme` with the library's default tolerance or step.
 ///
 /// # Errors
 /// As [`tight`].
@@ -106,10 +108,10 @@ pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
     }
 }
 
-/// Every solver of `registry`, each integrator by every scheme with its `stepping`.
+/// Every solver of `registry`, each integrator with every one of its schemes, set up by `stepping`.
 ///
 /// # Errors
-/// As `stepping`'s.
+/// If `stepping` returns one.
 pub fn subjects(
     registry: &[SolverEntry],
     stepping: fn(Scheme) -> Result<Stepping, InputError>,
@@ -118,10 +120,10 @@ pub fn subjects(
     registry.iter().map(of_entry).collect::<Result<Vec<_>, _>>().map(|all| all.into_iter().flatten().collect())
 }
 
-/// `entry` by every scheme in `formulation`, or once if it is a closed form.
+/// The solver of `entry` in `formulation` with every one of its schemes, or once if it is a closed form.
 ///
 /// # Errors
-/// As `stepping`'s.
+/// If `stepping` returns one.
 pub fn by_every_scheme(
     entry: &SolverEntry,
     formulation: Formulation,

@@ -1,4 +1,6 @@
-//! Random launches, flown once by every subject and by the reference; several checks read the landings.
+//! The survey solves the same random launches once with every subject and once with the 256-bit reference. Several
+//! checks read these landings (errors, conserved quantities, differences between solvers), so that they are computed
+//! only once.
 
 use std::f64::consts::PI;
 
@@ -11,24 +13,24 @@ use crate::measure::case::Case;
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
 
-/// Seed of the launches; any other would do.
+/// Seed of the launches; its value has no meaning.
 const SEED: u64 = 20_260_101;
 
-/// Landings of the random launches.
+/// The random launches with their landings.
 pub struct Survey {
     /// The launches.
     pub cases: Vec<Case>,
-    /// Their exact landings.
+    /// Their landings in 256 bits.
     pub references: Vec<Reference>,
-    /// For each subject, in their order: the landing of each launch.
+    /// The landing of each launch, by subject in the order of the subjects.
     pub landings: Vec<Vec<Result<Propagation, SolveError>>>,
 }
 
 impl Survey {
-    /// Flies `launches` launches by every subject.
+    /// Solves `launches` random launches with every subject.
     ///
     /// # Errors
-    /// Never: the space is fixed.
+    /// Never: the space of launches is fixed and valid.
     pub fn new(subjects: &[Subject], launches: u64) -> Result<Self, InputError> {
         let cases = launches_of_the_survey(launches)?;
         let references = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();
@@ -38,8 +40,9 @@ impl Survey {
     }
 }
 
-/// Rates of up to 60 rad/s on each axis, speeds of 3 to 5 m/s, k = 0.5 and 1.98 in turn; of each four launches two are
-/// from horizontal and two are tilted by an angle between 0 and π, spread evenly by the golden section.
+/// The launches: rates of up to 60 rad/s on each axis, speeds of 3 to 5 m/s, and inertia ratios k of 0.5 and 1.98 in
+/// turn. Of each four launches two start horizontal and two are tilted by an angle between 0 and π; multiples of the
+/// golden section spread these angles evenly.
 fn launches_of_the_survey(launches: u64) -> Result<Vec<Case>, InputError> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let axes = [(RateX, "-60:60"), (RateY, "-60:60"), (RateZ, "-60:60"), (Speed, "3:5")];

@@ -1,11 +1,12 @@
-//! Tables of probability: every named space by every way of sampling, and the running shares of Fig. 4.
+//! This file estimates P(heads) of every named space by every sampling method, and the running shares of heads in Fig.
+//! 4's space. Counts, and shares rounded to 12 digits, are the same on every platform, so a test can hold them fixed.
 
 use sampling::{Estimate, Found, Plan, Rest, RunningStep, Sampler, Scrambled, named_space, named_spaces};
 use serde::Serialize;
 
-/// Launches of method B.
+/// Number of independent random launches, the paper's method B.
 const RANDOM_LAUNCHES: u64 = 250_000;
-/// Seed of method B.
+/// Seed of the random launches and of the scrambles.
 const SEED: u64 = 1;
 
 /// One line of the probability tables.
@@ -13,9 +14,9 @@ const SEED: u64 = 1;
 pub struct TableLine {
     /// Name of the space.
     pub space: &'static str,
-    /// How it was sampled.
+    /// The sampling method.
     pub method: &'static str,
-    /// What was found.
+    /// What the method found.
     #[serde(flatten)]
     pub found: TableEntry,
 }
@@ -24,16 +25,16 @@ pub struct TableLine {
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
 pub enum TableEntry {
-    /// Outcomes.
+    /// Numbers of outcomes.
     Counts {
         /// Launches that land heads.
         heads: u64,
         /// Launches that land tails.
         tails: u64,
-        /// Launches too near to the edge.
+        /// Launches whose outcome was left undecided.
         undecided: u64,
     },
-    /// A probability in 12 digits, which are above what rounding can do on any platform.
+    /// A probability in 12 digits, few enough that rounding gives the same ones on every platform.
     Share {
         /// P(heads).
         probability: String,
@@ -47,7 +48,8 @@ const METHODS: [(&str, Plan); 4] = [
     ("exact-speed", Plan::ExactSpeed(Rest::Grid)),
 ];
 
-/// Every named space by every method, with the exact motion: the estimates, and what a table says of them.
+/// Estimates every named space by every method with the exact motion, and returns each line of the table with its
+/// estimate.
 ///
 /// # Errors
 /// Never for the named spaces.
@@ -73,19 +75,19 @@ pub fn tables() -> anyhow::Result<Vec<(TableLine, Estimate)>> {
 pub struct Probability {
     /// Name of the space.
     pub space: &'static str,
-    /// How it was sampled.
+    /// The sampling method.
     pub method: &'static str,
-    /// Launches.
+    /// Number of launches.
     pub points: u64,
     /// P(heads).
     pub probability: f64,
     /// Ends of the interval, if the method has one.
     pub interval: Option<[f64; 2]>,
-    /// What the interval is.
+    /// The kind of interval, in words.
     pub interval_kind: String,
 }
 
-/// The tables, for the reports.
+/// The estimates of [`tables`] in the form that the reports use.
 ///
 /// # Errors
 /// As [`tables`].
@@ -101,7 +103,7 @@ pub fn probabilities() -> anyhow::Result<Vec<Probability>> {
     Ok(tables()?.into_iter().map(line).collect())
 }
 
-/// The running shares of Fig. 4's space, for its check and its chart.
+/// The running shares of heads in Fig. 4's space, for a check and a chart.
 ///
 /// # Errors
 /// Never for the named space.

@@ -1,4 +1,5 @@
-//! Every operation in every lane at every SIMD level, against f64.
+//! Tests that compare every operation, in every lane and at every SIMD level, with the same operation on f64. Equal
+//! bits are required, because results must not depend on the machine.
 
 use super::*;
 use crate::lanes::{SimdLevel, WithSimd};
@@ -6,7 +7,7 @@ use crate::lanes::{SimdLevel, WithSimd};
 /// Three numbers for each lane of the widest SIMD level.
 struct Numbers([[f64; 8]; 3]);
 
-/// Names of operations, each with what it makes of the numbers in each lane.
+/// For each operation, its name and its result in each lane.
 type Found = Vec<(&'static str, Vec<f64>)>;
 
 impl WithSimd for Numbers {
@@ -44,7 +45,7 @@ impl WithSimd for Numbers {
     }
 }
 
-/// The same in f64.
+/// The result of the operation called `name` for one lane, in f64.
 fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
     match name {
         "a + b" | "sum" => a + b,
@@ -55,7 +56,7 @@ fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
         "√|a|" => a.abs().sqrt(),
         "a b + c" => a.mul_add(b, c),
         "error of the product" => a.mul_add(b, -(a * b)),
-        // Exact for |a| ≥ |b|, and one of them is.
+        // This formula is exact for |a| ≥ |b|, the next one for |a| < |b|.
         "error of the sum" if a.abs() >= b.abs() => b - ((a + b) - a),
         "error of the sum" => a - ((a + b) - b),
         "a with the sign of b" => a * b.signum(),
@@ -83,10 +84,10 @@ fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
 }
 
 #[test]
-fn operations_are_those_of_f64_in_each_lane() {
+fn each_lane_has_the_bits_of_the_same_operation_on_f64() {
     let part = |index: usize, square: f64| 4.0 * ((index + 1) as f64 * square.sqrt()).fract() - 2.0;
     let mut numbers = [2.0, 3.0, 5.0].map(|square| std::array::from_fn(|index| part(index, square)));
-    // Equal ones in some lane.
+    // Two lanes hold equal numbers, to test the comparisons.
     numbers[1][0] = numbers[0][0];
     numbers[1][5] = numbers[0][5];
     for level in SimdLevel::all() {
@@ -104,7 +105,8 @@ fn operations_are_those_of_f64_in_each_lane() {
     }
 }
 
-/// The total, whether all numbers are below the bound, and the first of them.
+/// Numbers, a bound for them, and a slice to store the first of them in. The output is the number of lanes, the total
+/// of the lanes, and whether all are below the bound.
 struct Reduced<'a>(&'a [f64; 8], f64, &'a mut [f64]);
 
 impl WithSimd for Reduced<'_> {
@@ -118,7 +120,7 @@ impl WithSimd for Reduced<'_> {
 }
 
 #[test]
-fn lanes_are_added_compared_and_stored_as_far_as_there_is_room() {
+fn lanes_are_added_and_compared_and_fill_no_more_than_the_slice() {
     let numbers = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
     for level in SimdLevel::all() {
         for room in 0..=8 {
@@ -128,7 +130,7 @@ fn lanes_are_added_compared_and_stored_as_far_as_there_is_room() {
             let filled = room.min(lanes);
             assert_eq!(stored[..filled], numbers[..filled], "{}", level.name());
             assert!(stored[filled..].iter().all(|number| number.is_nan()));
-            // The last lane alone, and none.
+            // The first bound excludes the last lane alone, the second one every lane.
             for bound in [numbers[lanes - 1], 0.5] {
                 assert!(!level.run(Reduced(&numbers, bound, &mut [])).2, "{}", level.name());
             }

@@ -1,23 +1,24 @@
-//! What the launch itself leaves open: an error that one rounding of the inputs explains is not the method's.
+//! The conditioning of a toss says how far its landing moves when its launch changes a little. An error that one
+//! rounding of the inputs would cause is not a fault of the method, so both are reported together.
 
 use anyhow::ensure;
 use faer::Mat;
 use serde::Serialize;
 use toss::{Sensitivity, Toss};
 
-/// The derivative of a landing by relative changes of the launch: by ω in units of |ω|, by the time of flight in units of
-/// itself.
+/// Sizes of the derivative of a landing by relative changes of the launch: changes of ω are relative to |ω|, changes of
+/// the time of flight to that time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Conditioning {
-    /// Singular values of the attitude's derivative (rad), from the largest down: how far a change of the launch by a part
-    /// ε turns the landed coin, in parts of ε.
+    /// Singular values of the attitude's derivative (rad), from the largest down. A relative change ε of the launch
+    /// turns the landed coin by up to ε times the first one.
     pub attitude: [f64; 3],
-    /// Norm of the derivative of cos θ.
+    /// Norm of the derivative of cos θ, by the same relative changes.
     pub cos_tilt: f64,
 }
 
 impl Conditioning {
-    /// At the landing of `toss`; `None` where the phase is too large to have one.
+    /// The conditioning of `toss`; `None` if its phase is so large that it cannot be solved.
     ///
     /// # Errors
     /// If the singular values can't be found, which finite numbers never cause.
@@ -36,7 +37,7 @@ impl Conditioning {
         Ok(Some(Self { attitude: [values[0], values[1], values[2]], cos_tilt }))
     }
 
-    /// What one rounding of the launch does to the attitude (rad).
+    /// The angle (rad) by which one rounding of the launch can turn the landed coin.
     pub fn rounding(&self) -> f64 {
         f64::EPSILON * self.attitude[0]
     }
@@ -49,8 +50,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spin_about_its_axis_is_as_sensitive_as_its_angle() {
-        // ω = (0, 0, 2) rad/s for 3 s turns by 6 rad; ωz and the time count alike, ωx and ωy by what they tip over.
+    fn a_pure_spin_is_as_sensitive_as_its_angle_is_large() {
+        // ω = (0, 0, 2) rad/s for 3 s turns by 6 rad. Relative changes of ωz and of the time have the same effect;
+        // changes of ωx and ωy tip the coin over, by 6 |sin 3 / 3| rad per unit.
         let launch = Launch::new(Vector3::new(0.0, 0.0, 2.0), TimeOfFlight::Given(3.0)).unwrap();
         let sphere = Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
         let found = Conditioning::new(&sphere).unwrap().unwrap();
@@ -58,6 +60,6 @@ mod tests {
         for (value, expected) in found.attitude.into_iter().zip([6.0 * 2f64.sqrt(), tipped, tipped]) {
             assert!((value - expected).abs() < 1e-14, "{found:?}");
         }
-        assert!(found.cos_tilt < 1e-15, "its tilt stays whatever changes");
+        assert!(found.cos_tilt < 1e-15, "no first-order change tilts a coin that spins about the vertical");
     }
 }

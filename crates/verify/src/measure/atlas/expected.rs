@@ -1,4 +1,5 @@
-//! Reads `validation/atlas.toml`: what every contestant is known to do at every hazard.
+//! This file reads `validation/atlas.toml`, the table of what every contestant is known to do at every hazard. The
+//! check `atlas-answers` compares it with what contestants really do, so a change for the worse or the better shows.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,7 +9,7 @@ use serde::Deserialize;
 use crate::files;
 use crate::measure::run::Answer;
 
-/// What the worst answer may be.
+/// What the worst answer over all distances from a hazard must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Expectation {
@@ -18,7 +19,8 @@ pub enum Expectation {
     TypedError,
     /// It is wrong without an error.
     SilentlyWrong,
-    /// It is right or an error: which of them depends on roundings next to a singular point, which differ by platform.
+    /// It is right or an error. Which one depends on rounding next to a singular point, which differs between
+    /// platforms.
     RightOrTypedError,
 }
 
@@ -34,7 +36,7 @@ impl Expectation {
     }
 }
 
-/// The worst answer, by contestant and hazard.
+/// The expected worst answers, by contestant and hazard.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]
 pub struct Expected(BTreeMap<String, BTreeMap<String, Expectation>>);
@@ -43,17 +45,17 @@ impl Expected {
     /// Reads the table at `path`.
     ///
     /// # Errors
-    /// If it can't be read.
+    /// If the file can't be read or holds something else.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         files::read_toml(path)
     }
 
-    /// What `subject` is known to do at `hazard`.
+    /// The expectation for `subject` at `hazard`, if the table has one.
     pub fn get(&self, subject: &str, hazard: &str) -> Option<Expectation> {
         self.0.get(subject)?.get(hazard).copied()
     }
 
-    /// Whether it is known what `subject` does.
+    /// Whether the table lists `subject`.
     pub fn knows(&self, subject: &str) -> bool {
         self.0.contains_key(subject)
     }

@@ -1,7 +1,9 @@
-//! Where methods fail, as tosses at a distance from the failure.
+//! A hazard is a place in the space of tosses where some method fails, given as a series of tosses that come nearer and
+//! nearer to it. Apart from its hazard each toss is regular, so a failure has one cause: a flight that tests α' = 0,
+//! for example, keeps away from sin β = 0 and cos β = 0.
 //!
-//! But for the hazard itself each toss is regular: a flight that tests α' = 0 keeps away from sin β = 0 and cos β = 0, so
-//! that a failure has one cause.
+//! α, β and γ are the Euler angles (precession, nutation, spin), α' the rate of α, n the coin's normal, θ its angle to
+//! the vertical, ω the body rate and Ω = √(ωx² + ωy²).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,13 +13,13 @@ use crate::measure::case::Case;
 
 /// A place where some method fails.
 pub struct Hazard {
-    /// `F1` to `F8`.
+    /// Its id, `F1` to `F8`.
     pub id: &'static str,
-    /// What happens there.
+    /// What happens there, in words.
     pub name: &'static str,
-    /// What the distance is.
+    /// What the distance is and its unit.
     pub distance: &'static str,
-    /// The toss at a distance; 0 is the failure itself.
+    /// The toss at a distance; 0 is the place of the failure itself.
     pub case: fn(f64) -> Result<Case, InputError>,
     /// The distances, from far to near.
     pub distances: &'static [f64],
@@ -71,7 +73,8 @@ pub const HAZARDS: &[Hazard] = &[
             let rate = ExactMotion::new(&regular(1.0)?.toss).precession_rate();
             regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
         },
-        // Between 1e-6 and 1e-15 an integrator takes its largest number of steps, at a second a flight.
+        // Distances between 1e-6 and 1e-16 are left out: there an integrator only reaches its largest number of steps,
+        // which takes a second.
         distances: &[1e0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-16, 0.0],
     },
     Hazard {
@@ -100,7 +103,7 @@ fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
     Ok(Case { toss: Toss { coin: Coin::PAPER, launch }, tilt })
 }
 
-/// A flight on which β stays between 29° and 74°.
+/// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.
 fn regular(time: f64) -> Result<Case, InputError> {
     case([0.0, 4.0, 6.5], 0.5, time)
 }
@@ -109,10 +112,11 @@ fn regular(time: f64) -> Result<Case, InputError> {
 mod tests {
     use super::*;
 
-    /// n passes the vertical where the cone's angle is that of its axis, α' = 0 where the cone does not enclose the
-    /// vertical, and cos β = 0 where the two angles exceed 90° together.
+    /// n moves on a cone about S. It passes the vertical where the cone's angle is that of S to the vertical; α'
+    /// vanishes on the way if the cone does not enclose the vertical, and cos β if the two angles add up to more than
+    /// 90°.
     #[test]
-    fn each_failure_has_one_cause() {
+    fn each_hazard_has_a_single_cause_of_failure() {
         for hazard in HAZARDS {
             for &distance in hazard.distances {
                 let toss = (hazard.case)(distance).unwrap().toss;
@@ -124,7 +128,7 @@ mod tests {
                     "F1" => assert!((cone - axis).abs() <= distance + 1e-15),
                     "F2" => assert!(!passes_the_vertical && stops && !levels),
                     "F3" | "F7" => assert!(!passes_the_vertical && !stops && levels),
-                    // From horizontal, but not back there before it lands.
+                    // It starts horizontal, but lands before it is horizontal again.
                     "F4" => assert!(motion.phase(toss.launch.flight_time()).unwrap() < 3.0),
                     "F5" => assert!(cone <= 2.0 * distance),
                     _ => assert!(!passes_the_vertical && !stops && !levels),

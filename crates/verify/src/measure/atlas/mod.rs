@@ -1,7 +1,9 @@
-//! The atlas of failures: every contestant at every distance from every [hazard](hazards).
+//! The atlas of failures records what every contestant does at every distance from every [hazard](hazards), a place
+//! where some method fails. It shows which methods fail where, and that the default ones are right or return an error
+//! there.
 //!
-//! A contestant is a solver × scheme × formulation at the settings a user gets without asking. The raw formulations are
-//! there to fail.
+//! A contestant is a solver with a scheme and a formulation, at the library's default tolerance or step. The raw
+//! formulations are the paper's equations as printed and are expected to fail.
 
 pub mod conditioning;
 pub mod expected;
@@ -25,23 +27,23 @@ pub struct Spot {
     pub hazard: &'static str,
     /// The distance from it.
     pub distance: f64,
-    /// What a relative change of the launch does to the landing; null where the phase is too large.
+    /// How sensitive the landing is to a relative change of the launch; null where the phase is too large.
     pub conditioning: Option<Conditioning>,
-    /// What the contestant made of it.
+    /// The contestant's answer with its errors.
     #[serde(flatten)]
     pub run: Run,
 }
 
-/// All spots.
+/// The whole atlas.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Atlas {
-    /// By hazard, distance and contestant, in this order.
+    /// All spots, ordered by hazard, then distance, then contestant.
     pub spots: Vec<Spot>,
 }
 
 impl Atlas {
-    /// Flies every contestant of `registry`.
+    /// Solves every hazard at every distance with every contestant of `registry`.
     ///
     /// # Errors
     /// Never for the library's own solvers and hazards.
@@ -56,17 +58,17 @@ impl Atlas {
         Ok(Self { spots })
     }
 
-    /// The spots of one contestant under one hazard, from far to near.
+    /// The spots of one contestant at one hazard, from far to near.
     pub fn series<'a>(&'a self, hazard: &'a str, subject: &'a str) -> impl Iterator<Item = &'a Spot> {
         self.spots.iter().filter(move |spot| spot.hazard == hazard && spot.run.subject == subject)
     }
 
-    /// The worst answer of one contestant under one hazard.
+    /// The worst answer of one contestant at one hazard, over all distances.
     pub fn worst(&self, hazard: &str, subject: &str) -> Option<Answer> {
         self.series(hazard, subject).map(|spot| spot.run.answer).max()
     }
 
-    /// The contestants, in their order.
+    /// The names of the contestants, in their order.
     pub fn subjects(&self) -> Vec<&str> {
         let Some(first) = self.spots.first() else { return Vec::new() };
         let same = |spot: &&Spot| spot.hazard == first.hazard && spot.distance == first.distance;
@@ -74,7 +76,7 @@ impl Atlas {
     }
 }
 
-/// One toss by every contestant.
+/// Solves one toss with every contestant.
 ///
 /// # Errors
 /// Never for the library's own solvers.
@@ -83,7 +85,7 @@ pub fn replay(registry: &[SolverEntry], case: &Case) -> Result<Vec<Run>, InputEr
     Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, case, &reference)).collect())
 }
 
-/// The names of the contestants, in their order; none is flown.
+/// The names of the contestants, in their order, without solving anything.
 ///
 /// # Errors
 /// Never for the library's own solvers.
@@ -91,7 +93,7 @@ pub fn names(registry: &[SolverEntry]) -> Result<Vec<String>, InputError> {
     Ok(contestants(registry)?.into_iter().map(|subject| subject.name).collect())
 }
 
-/// Every solver of `registry`, each integrator by every scheme in every formulation that differs for it.
+/// Every solver of `registry`, each integrator with every scheme in every formulation that it offers.
 fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();
     for entry in registry {
@@ -114,6 +116,7 @@ fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Resul
         conditioning,
         run: Run::new(subject, &case, &reference),
     };
-    // One at a time: some stall, and would hold up their neighbours.
+    // Each contestant is a task of its own for the threads, because a few take a second and would delay those after
+    // them.
     Ok(contestants.par_iter().with_max_len(1).map(spot).collect())
 }

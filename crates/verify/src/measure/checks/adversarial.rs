@@ -1,4 +1,5 @@
-//! A search for answers that are wrong without an error, by launches that an adversary would pick.
+//! These checks count the wrong answers and the refusals of each solver on launches that are chosen to break solvers. A
+//! wrong answer that comes without an error is the worst that a solver can do, and random launches rarely provoke one.
 
 use crate::measure::check::{Basis, Check};
 use crate::measure::context::Context;
@@ -7,7 +8,8 @@ use crate::measure::search::Findings;
 
 pub(super) const SILENTLY_WRONG: Check = Check {
     id: "adversarial-silence",
-    claim: "no adversarial launch is answered wrongly without an error, at five tolerances or two steps (measured: how many are)",
+    claim: "On launches chosen to break solvers, each at one of five tolerances or of two steps, no answer is wrong \
+            without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
     basis: Basis::ClosedForm,
     unit: "launches",
     measure: |context| {
@@ -26,7 +28,8 @@ pub(super) const SILENTLY_WRONG: Check = Check {
 
 pub(super) const REFUSED: Check = Check {
     id: "adversarial-refusals",
-    claim: "few adversarial launches are refused with an error (measured: the share)",
+    claim: "Of the launches chosen to break solvers, the fraction that a solver refuses with an error is at most the \
+            bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| {
@@ -34,7 +37,7 @@ pub(super) const REFUSED: Check = Check {
             subject: findings.subject.clone(),
             measured: findings.refused as f64 / findings.launches as f64,
             cases: findings.launches,
-            // The refusal is an answer of the subject, not a failure of the row.
+            // A refusal is what this row counts, so it is not reported as a failure of the measurement.
             worst: findings.first_refused.clone().map(|worst| Worst { failure: None, ..worst }),
             claim: Claim::Silent,
         })

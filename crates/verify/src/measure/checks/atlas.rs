@@ -1,4 +1,7 @@
-//! The atlas of failures: what every contestant does at every hazard, and what a return to sin β = 0 costs.
+//! These checks compare what every contestant does near the places where methods fail with what is known of it, and
+//! count what such a place costs. A contestant is a solver with a scheme and a formulation; a hazard is a place where
+//! some method fails. The raw equations of the paper are meant to fail there, so doing better than known fails the
+//! check too.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,8 +19,9 @@ use crate::measure::subject::Subject;
 
 pub(super) const ANSWERS: Check = Check {
     id: "atlas-answers",
-    claim: "at every distance from every hazard each contestant does what validation/atlas.toml says: the cured are right \
-            or refuse, the raw fail as they are known to (measured: hazards at which it does not)",
+    claim: "Near every place where some method fails, each solver, scheme and formulation does what \
+            validation/atlas.toml records: it is right, returns an error, or is wrong as it is known to be. Measured: \
+            the number of places where it does anything else; one is enough to fail.",
     basis: Basis::ClosedForm,
     unit: "hazards",
     measure: answers,
@@ -25,7 +29,8 @@ pub(super) const ANSWERS: Check = Check {
 
 pub(super) const TILT_WORK: Check = Check {
     id: "work-by-tilt",
-    claim: "the work does not depend on how near to the vertical n starts (measured: most calls over fewest, less 1)",
+    claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
+            tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
     basis: Basis::Invariant,
     unit: "1",
     measure: tilt_work,
@@ -33,8 +38,9 @@ pub(super) const TILT_WORK: Check = Check {
 
 pub(super) const RETURN_WORK: Check = Check {
     id: "work-through-returns",
-    claim: "horizontal launches cost no more calls, through all their returns to the vertical, than the same flights seen \
-            from a frame far from it (measured: the largest ratio)",
+    claim: "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default \
+            no more calls of the right-hand side than the same flight in the vertical formulation, tilted so that the \
+            normal stays away from the vertical. Measured: the largest ratio of calls; it fails above the bound.",
     basis: Basis::CrossMethod,
     unit: "1",
     measure: return_work,
@@ -61,17 +67,18 @@ fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(atlas.subjects().into_iter().map(row).collect())
 }
 
-/// What is known of `subject`; of one that nothing is known of, that it is never wrong without an error.
+/// What `subject` is known to do at `hazard`. A subject that the table does not list may be right or return a typed
+/// error.
 fn expected(context: &Context, subject: &str, hazard: &str) -> Option<Expectation> {
     let known = context.expected.knows(subject);
     if known { context.expected.get(subject, hazard) } else { Some(Expectation::RightOrTypedError) }
 }
 
-/// Calls over the distances of F1, of the solvers as they are by default.
+/// The calls of each default solver over the distances of hazard F1, which are the tilts at launch.
 fn tilt_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let atlas = context.atlas()?;
     let row = |subject: &Subject| {
-        // A flight that fails has no calls, and takes the whole row with it.
+        // A flight that fails has no count, and then the spread of the whole row is not a number.
         let calls: Option<Vec<u64>> = atlas.series("F1", &subject.name).map(|spot| spot.run.rhs_calls).collect();
         let calls = calls.unwrap_or_default();
         let (fewest, most) = (calls.iter().min(), calls.iter().max());
@@ -106,8 +113,8 @@ fn calls(solver: &dyn Solver, toss: &Toss) -> Result<f64, SolveError> {
     Ok(solver.propagate(toss)?.work.rhs_calls as f64)
 }
 
-/// The same flight with S tilted from the vertical by half of what would bring n there or to its opposite; `None` where
-/// the cone leaves no room for it.
+/// The same flight, turned so that the angular momentum S is tilted from the vertical by half of the tilt that would
+/// let n pass through the vertical or its opposite; `None` where the cone of n about S leaves too little room for that.
 fn far_from_the_vertical(toss: &Toss) -> Option<Toss> {
     const ROOM: f64 = 0.3;
     let cone = ExactMotion::new(toss).cone_angle();
@@ -116,7 +123,7 @@ fn far_from_the_vertical(toss: &Toss) -> Option<Toss> {
         return None;
     }
     let rate = toss.launch.rate();
-    // Turned about n until S is over -y, then about x until it is upright, and on.
+    // The turn about n brings S over -y; the turn about x then brings S upright and beyond by half the room.
     let attitude = Attitude::about_x(0.5 * room - cone) * Attitude::about_z(-FRAC_PI_2 - rate.y.atan2(rate.x));
     let launch = Launch::new(rate, toss.launch.time_of_flight()).ok()?.with_attitude(attitude);
     Some(Toss { launch, ..*toss })

@@ -1,4 +1,5 @@
-//! The batch kernels against 256 bits, and their SIMD levels against each other.
+//! These checks compare the batch kernels with the 256-bit reference, and their SIMD levels with each other. The
+//! kernels are written separately from the solver of one toss, so checks of that solver say nothing about them.
 
 use rayon::prelude::*;
 use toss::{Attitude, Batch, Error, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};
@@ -12,7 +13,8 @@ use crate::measure::reference::Reference;
 
 pub(super) const COS_TILT: Check = Check {
     id: "batch-cos-tilt",
-    claim: "cos θ of a batch is right to its last bits, whatever the phase",
+    claim: "cos θ at landing from a batch differs from the 256-bit reference by at most the bound, for phases up to \
+            1e9 rad, near changes of the outcome and at the corners of the model.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| errors(context, |toss, reference| Ok(reference.cos_tilt_error(solve(toss, cos_tilt)?))),
@@ -20,7 +22,8 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "batch-attitude",
-    claim: "the attitude of a batch is right to its last bits, whatever the phase",
+    claim: "The attitude at landing from a batch differs from the 256-bit reference by at most the bound, for phases \
+            up to 1e9 rad, near changes of the outcome and at the corners of the model.",
     basis: Basis::ClosedForm,
     unit: "rad",
     measure: |context| errors(context, |toss, reference| Ok(reference.attitude_error(&solve(toss, attitude)?))),
@@ -28,7 +31,8 @@ pub(super) const ATTITUDE: Check = Check {
 
 pub(super) const OUTCOMES: Check = Check {
     id: "batch-outcomes",
-    claim: "outcomes of a batch are those of 256 bits, also within 3 ulp of the edge (measured: that differ)",
+    claim: "The outcomes of a batch are those of the 256-bit reference, also within 3 ulp of the speed at which the \
+            outcome changes. Measured: the number of tosses that differ; one is enough to fail.",
     basis: Basis::ClosedForm,
     unit: "tosses",
     measure: |context| {
@@ -40,7 +44,8 @@ pub(super) const OUTCOMES: Check = Check {
 
 pub(super) const SIMD_LEVELS: Check = Check {
     id: "batch-paths",
-    claim: "every instruction set gives the same bits (measured: tosses of which one differs)",
+    claim: "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. \
+            Measured: the number of tosses with a difference; one is enough to fail.",
     basis: Basis::CrossMethod,
     unit: "tosses",
     measure: |context| {
@@ -58,10 +63,10 @@ pub(super) const SIMD_LEVELS: Check = Check {
     },
 };
 
-/// What `kernel` makes of a batch of one toss.
+/// The result of `kernel` for a batch that holds only `toss`.
 fn solve<T>(toss: &Toss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
     let rate = toss.launch.rate();
-    // Under 2 m/s² a speed is a time of flight.
+    // A batch takes speeds, not times: with a gravity of 2 m/s² the time 2 v0/g has the number of the speed.
     let (speed, gravity) = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity),
         other => (other.seconds(), 2.0),
@@ -106,7 +111,7 @@ fn errors(
     Ok(largest_errors(&sets, error))
 }
 
-/// How many tosses of each set are what `is` says.
+/// The number of tosses of each set for which `is` returns true.
 fn count(sets: &[(&str, Vec<Case>)], is: impl Fn(&Toss) -> Result<bool, SolveError> + Sync) -> Vec<Measurement> {
     let measure = |(name, cases): &(&str, Vec<Case>)| {
         let found: Vec<_> = cases.par_iter().map(|case| is(&case.toss)).collect();

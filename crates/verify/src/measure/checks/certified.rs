@@ -1,4 +1,10 @@
-//! The exact motion to its last bit, and outcomes that are proven, against 256 bits.
+//! These checks compare the exact motion (the closed form in double-double arithmetic) and the outcomes that it proves
+//! with the 256-bit reference. Its last bits and its proofs depend on rounding, so the launches include those where
+//! rounding is hardest: large phases, corners of the model, and tosses that land within a few ulp of a change of the
+//! outcome.
+//!
+//! An ulp is the distance from an f64 to the next; the phase (rad) is the angle by which a motion turns, and ψ the cone
+//! angle between the coin's normal n and its angular momentum S.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -18,7 +24,8 @@ use crate::measure::reference::Reference;
 
 pub(super) const COS_TILT: Check = Check {
     id: "last-bit-cos-tilt",
-    claim: "cos θ of the exact motion is right to its last bit, whatever the phase",
+    claim: "cos θ at landing from the exact motion differs from the 256-bit reference by at most the bound, about an \
+            ulp of 1, for phases up to 1e9 rad and at the corners of the model.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| last_bit(context, |toss, reference| Ok(reference.cos_tilt_error(exact_cos_tilt(toss)?))),
@@ -26,7 +33,8 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "last-bit-attitude",
-    claim: "the attitude of the exact motion is right to its last bits, whatever the phase",
+    claim: "The attitude at landing from the exact motion differs from the 256-bit reference by at most the bound, a \
+            few ulp, for phases up to 1e9 rad and at the corners of the model.",
     basis: Basis::ClosedForm,
     unit: "rad",
     measure: |context| {
@@ -39,7 +47,8 @@ pub(super) const ATTITUDE: Check = Check {
 
 pub(super) const EULER_ANGLES: Check = Check {
     id: "last-bit-euler-angles",
-    claim: "the Euler angles of the exact motion give its attitude to the last bits of the angles (measured: in ulp of 1 + |angle|)",
+    claim: "The attitude that the exact motion's Euler angles at landing give differs from the 256-bit reference by \
+            at most the bound, in ulp of 1 plus the largest angle.",
     basis: Basis::ClosedForm,
     unit: "ulp",
     measure: |context| {
@@ -53,7 +62,9 @@ pub(super) const EULER_ANGLES: Check = Check {
 
 pub(super) const OUTCOMES: Check = Check {
     id: "certified-outcomes",
-    claim: "certified outcomes are those of 256 bits, also within 3 ulp of the edge (measured: that differ, or are undecided)",
+    claim: "Certified outcomes are those of the 256-bit reference, also within 3 ulp of the speed at which the \
+            outcome changes. Measured: the number of tosses that differ, also by being undecided; one is enough to \
+            fail.",
     basis: Basis::ClosedForm,
     unit: "tosses",
     measure: outcomes,
@@ -61,7 +72,9 @@ pub(super) const OUTCOMES: Check = Check {
 
 pub(super) const BOUNDS: Check = Check {
     id: "certified-bounds",
-    claim: "the error of each stage is within the bound that it proves by (measured: largest error over bound)",
+    claim: "The error of cos θ in the proof stages f64 and double-double is within the error bound by which the stage \
+            proves an outcome. Measured: the largest error divided by that error bound; it fails above the bound of \
+            this check.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: bounds,
@@ -71,7 +84,7 @@ fn exact_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
     ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
 }
 
-/// Tosses in a set; a check has three sets or so.
+/// The number of tosses from which a check derives the sizes of its sets.
 pub(super) fn tries(context: &Context) -> u64 {
     match context.effort {
         Effort::Quick => 1000,
@@ -80,7 +93,8 @@ pub(super) fn tries(context: &Context) -> u64 {
     }
 }
 
-/// Tosses of five coins, half of them tilted, whose phases go up to `phase` (rad).
+/// `number` random tosses, of five coins in turn and every second one tilted, whose rates and times of up to 1 s give
+/// phases of up to about `phase` (rad).
 pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
     let fastest = format!("{0:?}:{1:?}", -phase / 2.0, phase / 2.0);
     let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
@@ -94,7 +108,8 @@ pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<C
     random_tosses(&space, seed, 0..number).into_iter().enumerate().map(case).collect()
 }
 
-/// Pure spin, no spin, spheres, rods, discs, slow and subnormal rates, all at several tilts and for short and long times.
+/// Tosses at the corners of the model: pure spin, no spin, spheres, rods, discs, slow and subnormal rates, each
+/// combined with several tilts and with short and long times.
 pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
     let rates = [
         [0.0, 0.0, 0.0],
@@ -123,15 +138,16 @@ pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
     Ok(cases)
 }
 
-/// Tosses that land within 3 ulp of the speed at which the outcome changes: of random launches, of launches within 3 ulp
-/// of ψ = 45° at half a turn, and of tilted ones whose cone touches the horizontal.
+/// Tosses that land within 3 ulp of the speed at which the outcome changes. Of each three, one is a random launch, one
+/// is horizontal with ψ within 3 ulp of 45°, where cos θ touches 0 at half a turn, and one is tilted so that n only
+/// touches the horizontal plane.
 pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
     const GRAVITY: f64 = 9.81;
     let mut cases = Vec::new();
     for (index, case) in random(number, 100.0, 77)?.into_iter().enumerate() {
         let rate = case.toss.launch.rate();
         let (rate, tilt) = match index % 3 {
-            // ωz for which Ω = k ωz: ψ = 45°.
+            // ψ = 45° where Ω = k ωz, with Ω = √(ωx² + ωy²).
             1 => (
                 Vector3::new(rate.x, rate.y, ulps(rate.x.hypot(rate.y) / case.toss.coin.inertia_ratio(), index / 3)),
                 0.0,
@@ -147,7 +163,7 @@ pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
         };
         let motion = ExactMotion::new(&toss(TimeOfFlight::Given(0.0))?);
         let heads = motion.heads();
-        // From the trough of cos θ where it has no edge: there it comes nearest to 0.
+        // Where cos θ never changes its sign the two edges coincide at its trough, where it comes nearest to 0.
         let turns = std::f64::consts::TAU * (index % 7) as f64;
         for edge in [heads.crest + heads.half_width, heads.crest - heads.half_width] {
             let phase = edge.rem_euclid(std::f64::consts::TAU) + turns;
@@ -160,16 +176,17 @@ pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
     Ok(cases)
 }
 
-/// `value` and its neighbours up to 3 ulp away, in turn.
+/// A number within 3 ulp of `value`; which of the seven is chosen by `turn` modulo 7.
 fn ulps(value: f64, turn: usize) -> f64 {
     let offset = i64::try_from(turn % 7).unwrap_or(0) - 3;
     f64::from_bits(value.to_bits().wrapping_add_signed(offset))
 }
 
-/// The tilt for which φ + ψ = 90°, with ulps of disturbance: cos θ only touches 0.
+/// A tilt within 3 ulp of the one for which φ + ψ = 90°, where φ is the angle of S to the vertical: there cos θ only
+/// touches 0.
 fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
-    // A turn by β about the lab's x axis takes S from the polar angle ψ in the plane of x to where its height is
-    // sin β Sy + cos β Sz = sin ψ.
+    // A turn by β about the laboratory's x axis gives S the height sin β Sy + cos β Sz. For φ + ψ = 90° this must be
+    // |S| cos φ = |S| sin ψ = I1 Ω, with Ω = √(ωx² + ωy²). No tilt reaches it if Sy and Sz are too small.
     let rate = toss.launch.rate();
     let spin = toss.coin.inertia_ratio() * rate.z;
     let reach = rate.y.hypot(spin);
@@ -190,7 +207,7 @@ fn last_bit(
     Ok(largest_errors(&sets, error))
 }
 
-/// The largest error in each set, against 256 bits.
+/// The largest error in each set, against the 256-bit reference.
 pub(super) fn largest_errors(
     sets: &[(&str, Vec<Case>)],
     error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
@@ -204,7 +221,7 @@ pub(super) fn largest_errors(
     sets.iter().map(measure).collect()
 }
 
-/// A phase above 2^53 is refused; another check tries that.
+/// Whether the toss was solved: phases above 2^53 rad are refused, which the check `atlas-answers` tests (F6).
 fn is_in_range(result: &Deviation) -> bool {
     !matches!(result, Err(SolveError::PhaseTooLarge { .. }))
 }
@@ -223,7 +240,11 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let differs = judged.into_iter().map(|judged| judged.map(|(found, right)| found.outcome() != right));
             let mut counted = Measurement::count_of_set(name, &differs.collect::<Vec<_>>(), |index| cases[index]);
             if let Some(worst) = &mut counted.worst {
-                worst.input = format!("decided by Keller's cosine, without the motion, by f64, double-double, more digits: {stages:?}; {}", worst.input);
+                worst.input = format!(
+                    "decided by Keller's cosine, without the motion, by f64, double-double, more digits: \
+                     {stages:?}; {}",
+                    worst.input
+                );
             }
             Ok(counted)
         })
@@ -243,7 +264,7 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(vec![largest("f64", of_f64), largest("double-double", of_double_double)])
 }
 
-/// Error of the f64 stage over its bound.
+/// Error of cos θ in the f64 stage, divided by the stage's error bound.
 fn of_f64(toss: &Toss) -> Result<f64, SolveError> {
     let terms = TiltTerms::new(toss);
     let [phase, _] = terms.phases(toss.launch.flight_time());
@@ -251,7 +272,7 @@ fn of_f64(toss: &Toss) -> Result<f64, SolveError> {
     Ok(error / f64_bound(phase))
 }
 
-/// Error of the double-double stage over its bound.
+/// Error of cos θ in the double-double stage, divided by the stage's error bound.
 fn of_double_double(toss: &Toss) -> Result<f64, SolveError> {
     let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
     Ok(Reference::new(toss).cos_tilt_error(cos_tilt.hi()) / double_double_bound(phase))

@@ -1,4 +1,5 @@
-//! DETEST B5, an asymmetric rigid body: the stepping itself, on equations that no solver of a coin contains.
+//! This check integrates DETEST B5, the published test problem of an asymmetric rigid body, by each Runge-Kutta scheme.
+//! No solver of a coin contains these equations, so this check tests the stepping alone, without any kinematics.
 
 use dynamics::integrate::{OdeSystem, integrate};
 use nalgebra::SVector;
@@ -10,7 +11,8 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const STATE: Check = Check {
     id: "detest-b5",
-    claim: "DETEST B5 at t = 20 is (sn, cn, dn)(20 | 0.51)",
+    claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
+            the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,

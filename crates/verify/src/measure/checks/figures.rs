@@ -1,4 +1,9 @@
-//! Probabilities in closed form: shares over the speed, and averages of them that are known in many digits.
+//! These checks compare probabilities of heads by the method `exact-speed`, which integrates over the speed in closed
+//! form, with reference numbers of many digits. They test the probabilities themselves, where a sampled estimate would
+//! hide small errors in its noise.
+//!
+//! ψ is the cone angle between the coin's normal and its angular momentum S, k = I3/I1 the inertia ratio, and p(ψ) the
+//! probability of heads of long flights.
 
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Coordinate, Found, Plan, Rest, Sampler, Scrambled, Space, long_flight_probability};
@@ -11,7 +16,8 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const SHARES: Check = Check {
     id: "exact-speed-share",
-    claim: "with all but the speed fixed, exact-speed gives P(heads) in the reference digits",
+    claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
+            most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| worst_share(context, SHARES.id, |error, _| error),
@@ -19,7 +25,9 @@ pub(super) const SHARES: Check = Check {
 
 pub(super) const SHARE_BOUNDS: Check = Check {
     id: "exact-speed-error-bound",
-    claim: "the error of exact-speed is within the bound that it gives itself (measured: error over bound)",
+    claim: "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
+            the method states. Measured: the largest error divided by that error bound; it fails above the bound of \
+            this check.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound),
@@ -27,7 +35,8 @@ pub(super) const SHARE_BOUNDS: Check = Check {
 
 pub(super) const ISOTROPIC: Check = Check {
     id: "isotropic-long-flights",
-    claim: "the mean of p(ψ) over all directions of S is 1/√2, and over all directions of ω what quadrature gives",
+    claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
+            1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: isotropic,
@@ -35,7 +44,7 @@ pub(super) const ISOTROPIC: Check = Check {
 
 pub(super) const FIGURES: Check = Check {
     id: "probability-figures",
-    claim: "exact-speed with Sobol points reproduces the known probabilities (measured: error)",
+    claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: figures,
@@ -45,7 +54,9 @@ fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> 
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
         let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
-        let Found::Shares { rounding_error } = found.found else { anyhow::bail!("exact-speed has no counts") };
+        let Found::Shares { rounding_error } = found.found else {
+            anyhow::bail!("exact-speed gave counts instead of a share")
+        };
         let measured = measure((found.probability - reference.probability).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());
@@ -55,8 +66,9 @@ fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> 
     Ok(vec![Measurement::figure(check, "exact", worst.0, cases, worst.1)])
 }
 
-/// Directions uniform on the sphere have a uniform cosine of the polar angle; both halves are alike. For S the polar angle
-/// is ψ, for ω it is tan ψ = tan(polar)/k.
+/// Compares means of p(ψ) over isotropic directions with the reference, by the midpoint rule. Directions that are
+/// uniform on the sphere have a uniform cosine of the polar angle, and both hemispheres have the same mean, so one
+/// is enough. The polar angle of S is ψ; that of ω gives tan ψ = tan(polar)/k.
 fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PARTS: u32 = 1_000_000;
     let mean = |k: f64| {
@@ -83,19 +95,20 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     .collect()
 }
 
-/// A known probability, and the space it belongs to.
+/// The name of a reference probability, and the space of launches that it belongs to.
 struct Figure {
     name: &'static str,
     coin: Coin,
     axes: [(Coordinate, String); 4],
 }
 
-/// Speeds that make the flight long: some 10^8 turns.
+/// Range of speeds (m/s) whose flights last some 10^8 turns, so the long-flight limit holds.
 const LONG: &str = "0:1e9";
 
 fn known() -> anyhow::Result<Vec<Figure>> {
     let coin = |k: f64| Coin::from_moments(1.0, k);
-    // Three independent normal components of the same deviation have an isotropic direction; S = (I1 ωx, I1 ωy, I3 ωz).
+    // Three independent normal components of equal deviation have an isotropic direction. S = (I1 ωx, I1 ωy, I3 ωz), so
+    // with k = 0.5 an isotropic S needs twice the deviation in ωz.
     let isotropic = |deviation_z: f64| {
         let [x, z] = [1.0, deviation_z].map(|deviation| format!("normal:0:{deviation}"));
         [(RateX, x.clone()), (RateY, x), (RateZ, z), (Speed, LONG.to_owned())]
@@ -121,7 +134,7 @@ fn known() -> anyhow::Result<Vec<Figure>> {
     ])
 }
 
-/// Flights too short for the limit, with ωL from 2 to 20 rad/s.
+/// Flights too short for the long-flight limit, with precession rates ωL from 2 to 20 rad/s.
 fn finite_flights() -> anyhow::Result<Vec<Figure>> {
     let figure = |(name, degrees): (&'static str, f64)| {
         // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ.

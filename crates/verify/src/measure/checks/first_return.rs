@@ -1,5 +1,6 @@
-//! The paper's own way: Euler angles and the γ-ODE in the vertical frame, from exactly horizontal, where both are
-//! singular, to just before n first comes back.
+//! This check solves horizontal launches as the paper does: Euler angles and the γ-ODE in the vertical frame, from
+//! launch to just before the coin's normal n first returns to the vertical. The default solvers use another frame; in
+//! this one both systems are singular at launch, sin β = 0, and must leave it with the right attitude.
 
 use std::f64::consts::TAU;
 
@@ -16,17 +17,18 @@ use crate::measure::subject::{Subject, tight};
 
 pub(super) const ATTITUDE: Check = Check {
     id: "vertical-frame-to-first-return",
-    claim: "in the paper's vertical frame, from sin β = 0 at launch to 0.1 rad before the first return: the exact attitude",
+    claim: "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return \
+            there, the attitude differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "rad",
     measure,
 };
 
-/// Distance to the return, in phase (rad).
+/// Phase (rad) before the first return at which each flight ends.
 const DISTANCE: f64 = 0.1;
 
-/// The vertical frame's solvers divide by sin β: spin and cone keep this distance (rad) from the flights on which
-/// n stays near the vertical (ψ = 0) or turns end over end (ψ = π/2).
+/// Distance (rad) that the cone angle ψ keeps from 0 and π, where n stays near the vertical, and from π/2, where the
+/// coin turns end over end. The vertical frame's solvers divide by sin β, and such flights come too near to sin β = 0.
 const CLEARANCE: f64 = 0.1;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -48,7 +50,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(measurements)
 }
 
-/// The horizontal launches of the survey, each cut short before its first return.
+/// The horizontal launches of the survey, each ending just before its first return.
 fn returning_flights(context: &Context) -> anyhow::Result<Vec<Case>> {
     let mut cases = Vec::new();
     for case in context.survey()?.cases.iter().filter(|case| case.tilt == 0.0) {

@@ -1,5 +1,6 @@
-//! What a free coin conserves, from launch to landing of the random launches, computed from the integrated state: (a) |S|,
-//! (b) the kinetic energy and (c) n·S are the paper's checks.
+//! These checks compare quantities that a free coin conserves, computed from the state at landing, with their values at
+//! launch. They need no reference solution, and (a) to (c) are the checks that the paper itself applies: the length of
+//! the angular momentum S, the kinetic energy, and n·S, where n is the coin's normal.
 
 use toss::{Propagation, SolveError, State, Toss};
 
@@ -12,7 +13,8 @@ use crate::measure::subject::Subject;
 
 pub(super) const MOMENTUM: Check = Check {
     id: "invariant-momentum",
-    claim: "(a) |S| at landing is |S| at launch, relative",
+    claim: "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
+            bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::momentum),
@@ -20,7 +22,8 @@ pub(super) const MOMENTUM: Check = Check {
 
 pub(super) const ENERGY: Check = Check {
     id: "invariant-energy",
-    claim: "(b) the kinetic energy at landing is that at launch, relative",
+    claim: "(b) The kinetic energy differs at landing from its value at launch by at most the bound, relative to that \
+            value.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::energy),
@@ -28,7 +31,8 @@ pub(super) const ENERGY: Check = Check {
 
 pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
     id: "invariant-normal-momentum-body",
-    claim: "(c) n·S in the body frame is what it was at launch, relative to |S|",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
+            at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum_body),
@@ -36,7 +40,8 @@ pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
 
 pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
     id: "invariant-normal-momentum-transport",
-    claim: "(c) n·S in the transport frame is what it was at launch, relative to |S|",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
+            attitude at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum),
@@ -44,7 +49,8 @@ pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
 
 pub(super) const MOMENTUM_VECTOR: Check = Check {
     id: "invariant-momentum-vector",
-    claim: "S in the transport frame, from rate and attitude at landing, is S at launch, relative",
+    claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
+            differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, drift::momentum_vector),
@@ -52,7 +58,8 @@ pub(super) const MOMENTUM_VECTOR: Check = Check {
 
 pub(super) const PROJECTION: Check = Check {
     id: "invariant-projection",
-    claim: "cos θ of a landing is that of its attitude, which has unit norm",
+    claim: "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
+            each to within the bound.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| {

@@ -1,4 +1,5 @@
-//! Flights of up to 10⁴ s: the error keeps within a solver's error estimate, and S stays where it is.
+//! These checks follow flights of up to 10⁴ s, far longer than any toss. Errors of an integrator grow with the time of
+//! flight, so an error estimate that holds for short flights may fail for long ones.
 
 use crate::measure::check::{Basis, Check};
 use crate::measure::context::Context;
@@ -7,8 +8,9 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const ERROR: Check = Check {
     id: "long-flight-error",
-    claim: "up to 10⁴ s the attitude is within the solver's error estimate, or there is an error (measured: largest error, divided by \
-            what the estimate allows)",
+    claim: "On flights of up to 10⁴ s the error of the attitude is within the solver's error estimate, or the solver \
+            returns an error. Measured: the largest error divided by what the estimate allows; it fails above the \
+            bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| {
@@ -19,13 +21,15 @@ pub(super) const ERROR: Check = Check {
 
 pub(super) const DRIFT: Check = Check {
     id: "long-flight-drift",
-    claim: "up to 10⁴ s S in the transport frame is what it was at launch, relative",
+    claim: "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value \
+            at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
     unit: "1",
     measure: |context| largest(context, DRIFT.id, |drift| drift.momentum_vector, |drift| drift.allowed),
 };
 
-/// The largest `part` of each subject, over the flights that were solved, and what its error estimate allows of it.
+/// The largest `part` of each subject over the flights that it solved, with what its error estimate allows for that
+/// part.
 fn largest(
     context: &Context,
     check: &str,

@@ -1,4 +1,6 @@
-//! What the methods of sampling are worth: their errors, and whether their intervals mean what they say.
+//! These checks measure how accurate the methods of sampling launches are, and how often their confidence intervals
+//! contain the true probability. The space has four free coordinates and a reference probability, so errors are
+//! known, not estimated.
 
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{ESTIMATORS, Estimate, Found, Plan, Rest, Sampler, Scrambled, Space, clopper_pearson, rms_error};
@@ -11,7 +13,8 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const ERRORS: Check = Check {
     id: "sampling-errors",
-    claim: "on a box of all four coordinates the methods' root mean square errors are small (measured: that error)",
+    claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
+            reference number, is at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: errors,
@@ -19,7 +22,8 @@ pub(super) const ERRORS: Check = Check {
 
 pub(super) const COVERAGE: Check = Check {
     id: "interval-coverage",
-    claim: "95 % intervals hold the probability in 95 % of 10 000 replicates (measured: distance from 0.95)",
+    claim: "Of 10 000 intervals for P(heads) at the 95 % level, 95 % contain the reference number. Measured: the \
+            distance of that fraction from 0.95; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: coverage,
@@ -27,13 +31,15 @@ pub(super) const COVERAGE: Check = Check {
 
 pub(super) const EXACT_COVERAGE: Check = Check {
     id: "clopper-pearson-coverage",
-    claim: "Clopper and Pearson's 95 % intervals hold the probability in no fewer (measured: shortfall)",
+    claim: "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
+            reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: exact_coverage,
 };
 
-/// Rates from 1 to 60 rad/s on each axis, speeds from 3 to 5 m/s, the paper's coin; its probability is a reference.
+/// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s, whose P(heads)
+/// is among the reference numbers.
 fn four_coordinates() -> anyhow::Result<Space> {
     let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
     Ok(Space::parse(Coin::PAPER, &axes)?)
@@ -65,7 +71,7 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 const REPLICATES: u64 = 10_000;
 
-/// The share of the replicates whose interval holds the probability.
+/// The fraction of the replicates for which `holds`, called with a seed and the probability, is true.
 fn covered(context: &Context, holds: impl Fn(u64, f64) -> anyhow::Result<bool>) -> anyhow::Result<f64> {
     let probability = probability(context)?;
     let mut covered = 0;
@@ -99,7 +105,7 @@ fn exact_coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let space = four_coordinates()?;
     let share = covered(context, |seed, probability| {
         let Estimate { found, .. } = Sampler::exact().estimate(&space, Plan::Random { points: 1000, seed })?;
-        let Found::Counts(counts) = found else { anyhow::bail!("random launches are counted") };
+        let Found::Counts(counts) = found else { anyhow::bail!("random launches gave a share instead of counts") };
         Ok(clopper_pearson(counts.heads(), counts.points(), 0.95).contains(probability))
     })?;
     let input = format!("{share} of the intervals from 1000 launches");

@@ -1,4 +1,6 @@
-//! The checks, one line each; one file per kind of claim.
+//! The list of all checks of the suite. A check is one claim about the solvers, the kernels or the sampling methods,
+//! and how it is measured; each file of this folder holds the checks of one kind, so a new check is a constant and
+//! one line below.
 
 mod adversarial;
 mod atlas;

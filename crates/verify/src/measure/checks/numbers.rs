@@ -1,4 +1,6 @@
-//! The reference numbers: the paper's tosses, Kane's body, and flights at the corners of the model.
+//! These checks compare every solver with the landings in `validation/reference`: the paper's tosses, Kane's body, and
+//! flights at the corners of the model. These numbers come from outside the workspace, so an error which all our
+//! code shares shows.
 
 use toss::{SolveError, Solver};
 
@@ -11,7 +13,7 @@ use crate::measure::subject::Subject;
 
 pub(super) const COS_TILT: Check = Check {
     id: "reference-cos-tilt",
-    claim: "cos θ at landing has the reference digits",
+    claim: "On every reference flight, cos θ at landing differs from the reference number by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: cos_tilt,
@@ -19,7 +21,8 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "reference-attitude",
-    claim: "the attitude at landing has the reference digits",
+    claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
+            bound.",
     basis: Basis::ClosedForm,
     unit: "rad",
     measure: attitude,

@@ -1,4 +1,5 @@
-//! Order of convergence.
+//! This check compares the observed order of convergence of every scheme with the order that theory gives it. A mistake
+//! in a scheme's coefficients or in the equations often leaves the error small, but lowers the order.
 
 use crate::measure::check::{Basis, Check};
 use crate::measure::context::Context;
@@ -7,7 +8,8 @@ use crate::measure::measurement::Measurement;
 
 pub(super) const ORDER: Check = Check {
     id: "convergence-order",
-    claim: "the error falls with the power of a fixed step that theory gives the scheme (measured: distance from it)",
+    claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
+            distance of the fitted power from that order; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,

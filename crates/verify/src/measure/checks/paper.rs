@@ -1,8 +1,10 @@
-//! The paper's own tosses: the cheated one lands heads, the other tails.
+//! These checks solve the paper's two tosses: the cheated one, which must land heads, and the one of its Fig. 3, which
+//! must land tails. They are the paper's own examples, and every solver must reproduce them.
 //!
-//! "Heads with certainty" has two meanings. With the paper's moments ψ = 48.5°, and the cheated toss is heads only for
-//! flights up to its first flip at 1.3073 s, which covers the paper's speeds of 3 to 5 m/s. As a disc ψ = 15.8° ≤ 45°, and
-//! it is heads forever. Both are checked.
+//! "Heads with certainty" has two meanings, and both are checked. With the paper's moments the cone angle ψ between
+//! normal and angular momentum is 48.5°, and the cheated toss shows heads up to its first flip at 1.3073 s, longer than
+//! any flight at the paper's speeds of 3 to 5 m/s. As a disc the coin has ψ = 15.8°, below 45°, and shows heads
+//! forever.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Coin, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Toss, Vector3};
@@ -17,7 +19,8 @@ use crate::measure::subject::Subject;
 
 pub(super) const CHEATED_IN_FLIGHT: Check = Check {
     id: "cheated-heads-in-flight",
-    claim: "(d) the cheated toss (1, 1, 2.5) lands heads at every speed of 3 to 5 m/s (measured: launches that don't)",
+    claim: "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
+            number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
     unit: "launches",
     measure: |context| at_every_speed(context, Vector3::new(1.0, 1.0, 2.5), Outcome::Heads),
@@ -25,7 +28,8 @@ pub(super) const CHEATED_IN_FLIGHT: Check = Check {
 
 pub(super) const TAILS_IN_FLIGHT: Check = Check {
     id: "tails-in-flight",
-    claim: "the toss (2, 2, 0.5) of Fig. 3 lands tails at every speed of 3 to 5 m/s (measured: launches that don't)",
+    claim: "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
+            number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
     unit: "launches",
     measure: |context| at_every_speed(context, Vector3::new(2.0, 2.0, 0.5), Outcome::Tails),
@@ -33,7 +37,8 @@ pub(super) const TAILS_IN_FLIGHT: Check = Check {
 
 pub(super) const CHEATED_FOREVER: Check = Check {
     id: "cheated-heads-forever",
-    claim: "(d) as a disc the cheated toss is heads at all times, to 10 000 s by the exact motion, 30 s by the others",
+    claim: "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up \
+            to 30 s by integrators. Measured: the number of launches that do not; one is enough to fail.",
     basis: Basis::ClosedForm,
     unit: "launches",
     measure: forever,
@@ -41,7 +46,8 @@ pub(super) const CHEATED_FOREVER: Check = Check {
 
 pub(super) const FIRST_FLIP: Check = Check {
     id: "first-flip",
-    claim: "the outcomes of the cheated toss and of the tails toss change first at 1.3073 s and 0.5560 s",
+    claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
+            the largest distance from the reference time; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "s",
     measure: first_flip,
@@ -69,7 +75,8 @@ fn cases(coin: Coin, rate: Vector3<f64>, flights: impl Iterator<Item = TimeOfFli
     flights.map(|flight| Ok(Case { toss: Toss { coin, launch: Launch::new(rate, flight)? }, tilt: 0.0 })).collect()
 }
 
-/// How many of `cases` do not land as `expected`. By its own claim a solver may leave an outcome undecided.
+/// The number of `cases` that do not land as `expected`. Against a bound an undecided outcome counts; against the
+/// solver's own claim only a wrong one does, because an error estimate may leave an outcome undecided.
 fn misses(subject: &Subject, cases: &[Case], expected: Outcome) -> Measurement {
     let outcomes: Vec<_> = cases.iter().map(|case| subject.solver.outcome(&case.toss)).collect();
     let count = |is: &dyn Fn(Outcome) -> bool| {
@@ -95,8 +102,8 @@ fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     context.subjects.iter().map(measure).collect()
 }
 
-/// How far off (s) the flip at the landing of `case` may be: the error of cos θ over the rate at which it changes, twice
-/// because it does not change evenly, and the rounding of the time.
+/// The error (s) that the solver's estimate allows for a flip at the landing of `case`: the allowed error of cos θ
+/// divided by its rate of change, doubled because that rate is not constant, plus the rounding of the time.
 fn flip_allowance(subject: &Subject, case: &Case) -> Result<Option<f64>, SolveError> {
     let rate = Sensitivity::new(&case.toss)?.cos_tilt[3].abs();
     let rounding = 4.0 * f64::EPSILON * case.toss.launch.flight_time();
@@ -108,7 +115,7 @@ fn flight(flip: &FirstFlip, time: f64) -> anyhow::Result<Case> {
     Ok(Case { toss: Toss { coin: flip.coin, launch }, tilt: 0.0 })
 }
 
-/// The sign change of cos θ between launch and 1.5 times the expected time, by bisection.
+/// The time (s) of the sign change of cos θ between launch and 1.5 times the expected time, by bisection.
 fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64, SolveError>> {
     let (mut heads, mut tails) = (0.0, 1.5 * flip.time);
     for _ in 0..60 {

@@ -1,4 +1,6 @@
-//! Planner accuracy and cost.
+//! These checks measure how accurate and how costly the planner's choices are on random scenes (questions with an
+//! accuracy). The planner chooses by a table of measured errors and costs, so only solving scenes shows whether its
+//! choices are right.
 
 use std::cmp::Ordering;
 
@@ -10,7 +12,8 @@ use crate::measure::planner::trial::Outcome;
 
 pub(super) const DELIVERS: Check = Check {
     id: "plan-delivers",
-    claim: "a scene solved as planned is as accurate as was asked (measured: the largest error, divided by the accuracy)",
+    claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
+            largest error divided by that accuracy; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| largest(context, DELIVERS.id, Outcome::error_by_accuracy),
@@ -18,8 +21,9 @@ pub(super) const DELIVERS: Check = Check {
 
 pub(super) const EXPECTS: Check = Check {
     id: "plan-expects",
-    claim: "no error is larger than the plan expects (measured: the largest error, divided by the expected one, on similar \
-            tosses too)",
+    claim: "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
+            the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
+            the expected error; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| largest(context, EXPECTS.id, Outcome::error_by_expected),
@@ -27,7 +31,8 @@ pub(super) const EXPECTS: Check = Check {
 
 pub(super) const TIGHT: Check = Check {
     id: "plan-tight",
-    claim: "the plan expects at most 30 times the error that there is (measured: share of scenes where it expects more)",
+    claim: "The error that a plan expects is at most 30 times the actual error. Measured: the fraction of scenes \
+            where it is more; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| {
@@ -41,17 +46,18 @@ pub(super) const TIGHT: Check = Check {
 
 pub(super) const COST_RATIO: Check = Check {
     id: "plan-regret",
-    claim: "by recorded cost the chosen model costs at most 1.2 times the cheapest that serves, of all that were tried (measured: \
-            fraction of scenes where it costs more; the ratios by measured cost are in the report)",
+    claim: "By recorded cost the chosen model costs at most 1.2 times as much as the cheapest model that was accurate \
+            enough when tried. Measured: the fraction of scenes where it costs more; it fails above the bound. (The \
+            report has the ratios by measured cost.)",
     basis: Basis::CrossMethod,
     unit: "1",
     measure: |context| share(context, COST_RATIO.id, &[("all", |line| line.economical)]),
 };
 
-/// A share of the scenes, from 0 to 1.
+/// Reads from a line of the summary a fraction of its scenes, from 0 to 1.
 type Share = fn(&Line) -> f64;
 
-/// The largest `part` of each kind of scenes.
+/// The largest `part` over the solved scenes of each kind.
 fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let trial = context.trial()?;
     let row = |kind: &'static str| {
@@ -65,7 +71,7 @@ fn largest(context: &Context, check: &str, part: fn(&Outcome) -> f64) -> anyhow:
     Ok(trial.kinds().into_iter().map(row).collect())
 }
 
-/// What is missing to 1 in shares of all scenes.
+/// 1 less each of the `shares` of all scenes, so a smaller number is better.
 fn share(context: &Context, check: &str, shares: &[(&str, Share)]) -> anyhow::Result<Vec<Measurement>> {
     let lines = context.trial()?.lines();
     let all = lines.last().expect("there is a line for all scenes");

@@ -1,4 +1,5 @@
-//! Probabilities: the long-flight limit, and the tables of the named spaces by every method.
+//! These checks test probabilities of heads: the limit of long flights, and the named spaces by every sampling method
+//! and solver. Each is compared with the paper's number, with the exact motion, or with another method.
 
 use anyhow::Context as _;
 use sampling::{
@@ -16,7 +17,8 @@ use crate::measure::tables::Probability;
 
 pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
-    claim: "p(ψ) = ½ + asin(cot²ψ)/π has the reference digits at 45° to 90°",
+    claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
+            most the bound, for cone angles ψ from 45° to 90°.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: long_flight,
@@ -24,7 +26,8 @@ pub(super) const LONG_FLIGHT: Check = Check {
 
 pub(super) const LONG_FLIGHT_SHARE: Check = Check {
     id: "long-flight-share",
-    claim: "the share of heads over a million phases of one turn of the exact motion is p(ψ)",
+    claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
+            the long-flight probability p(ψ) by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: long_flight_share,
@@ -32,7 +35,8 @@ pub(super) const LONG_FLIGHT_SHARE: Check = Check {
 
 pub(super) const TABLES: Check = Check {
     id: "probability-tables",
-    claim: "P(heads) by every method is the paper's: 0.66 (Fig. 4), 1 (cheated), 0 (tails)",
+    claim: "P(heads) by every sampling method differs from the paper's by at most the bound: 0.66 in Fig. 4, 1 for \
+            the cheated toss, 0 for the tails toss.",
     basis: Basis::PublishedFigure,
     unit: "1",
     measure: published,
@@ -40,7 +44,9 @@ pub(super) const TABLES: Check = Check {
 
 pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
     id: "fig4-grid-in-random",
-    claim: "method A lies in the exact interval of method B at a false-alarm rate of 1e-6 (measured: distance from it)",
+    claim: "In Fig. 4's space P(heads) by a grid (the paper's method A) lies in the Clopper-Pearson interval of \
+            random launches (its method B), which misses the probability at most once in a million. Measured: the \
+            distance from the interval; any distance fails.",
     basis: Basis::CrossMethod,
     unit: "1",
     measure: grid_in_random,
@@ -48,7 +54,8 @@ pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
 
 pub(super) const FIG4_SAME_COUNTS: Check = Check {
     id: "fig4-same-counts",
-    claim: "every solver counts the heads of the exact motion in Fig. 4's space (measured: difference)",
+    claim: "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact \
+            motion. Measured: the sum of the two differences; one launch is enough to fail.",
     basis: Basis::CrossMethod,
     unit: "launches",
     measure: same_counts,
@@ -69,7 +76,7 @@ fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("a series has its end")?;
+    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("the series is empty")?;
     let heads = (random * launches as f64).round() as u64;
     let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
@@ -80,7 +87,7 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn counts(space: &Space, sampler: &Sampler<'_>) -> anyhow::Result<Counts> {
     match sampler.estimate(space, Plan::Grid)?.found {
         Found::Counts(counts) => Ok(counts),
-        Found::Shares { .. } => anyhow::bail!("a grid is counted"),
+        Found::Shares { .. } => anyhow::bail!("a grid gave a share instead of counts"),
     }
 }
 
@@ -104,7 +111,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         };
         let is_unclaimed = matches!(subject.solver.error_estimate(&one), Ok(None));
         let found = Measurement::figure(FIG4_SAME_COUNTS.id, entry.name(), difference, exact.points(), input);
-        // By its own claim a solver may leave launches undecided.
+        // A solver's error estimate may leave launches undecided, which then are neither heads nor tails.
         Ok(found.claiming((!is_unclaimed).then_some(undecided)))
     };
     context.registry.iter().filter(|entry| entry.name() != ExactSolver::NAME).map(measure).collect()
@@ -115,7 +122,7 @@ fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     worst_cone(LONG_FLIGHT.id, &context.data.long_flights, 1, deviation)
 }
 
-/// Over one turn, at the middles of a million equal parts, from a horizontal launch with the cone angle ψ.
+/// Counts heads at the midpoints of a million equal parts of one turn, for horizontal launches with each cone angle ψ.
 fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PHASES: u32 = 1_000_000;
     let deviation = |&(cone, _): &(f64, f64)| {

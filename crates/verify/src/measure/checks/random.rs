@@ -1,4 +1,5 @@
-//! Random launches: every subject against the exact motion in 256 bits, and the solvers against each other.
+//! These checks compare every subject (a solver with its settings) on random launches with the 256-bit reference, and
+//! the solvers with each other. Random launches show errors between the special cases that the other checks choose.
 
 use toss::{Propagation, SolveError};
 
@@ -12,7 +13,7 @@ use crate::measure::survey::Survey;
 
 pub(super) const COS_TILT: Check = Check {
     id: "random-cos-tilt",
-    claim: "cos θ at landing is the exact motion's, from random launches",
+    claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure: |context| {
@@ -23,7 +24,7 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "random-attitude",
-    claim: "the attitude at landing is the exact motion's, from random launches",
+    claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
     unit: "rad",
     measure: |context| {
@@ -34,7 +35,8 @@ pub(super) const ATTITUDE: Check = Check {
 
 pub(super) const CROSS_METHOD: Check = Check {
     id: "cross-method-attitude",
-    claim: "each two solvers land in the same attitude, by the same scheme, from random launches",
+    claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
+            and any other, differ by at most the bound.",
     basis: Basis::CrossMethod,
     unit: "rad",
     measure: cross_method,
@@ -74,7 +76,7 @@ fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): 
         (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
     });
-    // Both may be off by what they allow themselves.
+    // The two errors may add up, so the difference may be as large as the sum of both allowances.
     let allowed = |case: usize| -> Result<Option<f64>, SolveError> {
         let allowance = |subject| Allowance::new(subject, &survey.cases[case].toss);
         Ok(allowance(one)?.zip(allowance(other)?).map(|(one, other)| one.attitude + other.attitude))

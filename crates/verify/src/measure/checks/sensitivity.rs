@@ -1,5 +1,5 @@
-//! The derivatives of the landing against central differences of the exact motion in 256 bits, whose steps are so small
-//! that only the rounding of the derivatives is left.
+//! This check compares the derivatives of the landing by the launch with central differences of the exact motion. The
+//! differences are taken in 256 bits with steps so small that only the rounding of the derivatives is left.
 
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use rayon::prelude::*;
@@ -13,13 +13,15 @@ use crate::measure::reference::Reference;
 
 pub(super) const DERIVATIVES: Check = Check {
     id: "sensitivity",
-    claim: "the derivatives of attitude and cos θ by relative changes of ω and time, in parts of the attitude's norm",
+    claim: "The derivatives of attitude and cos θ at landing by relative changes of ω and of the time of flight \
+            differ from central differences in 256 bits by at most the bound, relative to the norm of the attitude's \
+            derivative.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,
 };
 
-/// Launches of the survey that are tried.
+/// Number of launches that are taken from the survey.
 const LAUNCHES: usize = 500;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -34,7 +36,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(["attitude", "cos θ"].into_iter().enumerate().map(row).collect())
 }
 
-/// Of the attitude's derivatives and those of cos θ.
+/// The relative errors of the derivatives of the attitude and of cos θ.
 fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
     let found = Sensitivity::new(toss)?;
     let (attitude, cos_tilt) = differences(toss);
@@ -45,7 +47,8 @@ fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
     Ok([attitude / size, (relative * (found.cos_tilt - cos_tilt)).norm() / size])
 }
 
-/// Central differences in 256 bits, over steps of 2^-37 of the inputs: what they neglect is below 1e-18.
+/// Central differences of attitude and cos θ by ω and time, in 256 bits over relative steps of 2^-37. Their truncation
+/// error is below 1e-18.
 fn differences(toss: &Toss) -> (Matrix3x4<f64>, Vector4<f64>) {
     let (mut attitude, mut cos_tilt) = (Matrix3x4::zeros(), Vector4::zeros());
     let (rate, time) = (toss.launch.rate(), toss.launch.flight_time());

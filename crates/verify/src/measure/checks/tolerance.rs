@@ -1,4 +1,5 @@
-//! What a tolerance means: the error is proportional to it.
+//! This check measures how the error of each adaptive scheme depends on its tolerance. It must be proportional to it,
+//! so that a tolerance ten times smaller gives ten times the accuracy, whatever the scheme.
 
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
@@ -15,20 +16,20 @@ use crate::measure::subject::{Subject, usual};
 
 pub(super) const PROPORTION: Check = Check {
     id: "tolerance-proportion",
-    claim: "the error is proportional to the tolerance, from 1e-3 down to 1e-11, whatever the order of the steps (measured: \
-            distance of the logarithms' slope from 1)",
+    claim: "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
+            Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,
 };
 
-/// Flights whose errors are added up: where the last step ends is chance, and moves the error of each.
+/// Number of flights whose errors are added up. The error of one flight depends on where its last step happens to end.
 const FLIGHTS: u64 = 100;
 
-/// Errors below it are rounding (rad, summed over the flights).
+/// Errors below this are rounding and are left out (rad, summed over the flights).
 const ROUNDING: f64 = 3e-12;
 
-/// Tolerances in a decade.
+/// Number of tolerances in each decade.
 const PER_DECADE: i32 = 4;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -42,7 +43,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
                 let tolerance = 10f64.powf(-3.0 - f64::from(part) / f64::from(PER_DECADE));
                 let stepping = Stepping::adaptive(*scheme, tolerance)?;
                 let solver = Subject::new(entry, Some(stepping), Formulation::default()).solver;
-                // A solver that fails has no error; one that always does has no slope.
+                // A tolerance at which a flight fails gives no point; without any point the slope is not a number.
                 let found = error(solver.as_ref(), &flights).ok().filter(|error| *error > ROUNDING);
                 Ok(found.map(|error| [tolerance.ln(), error.ln()]))
             };

@@ -1,4 +1,5 @@
-//! Errors over the whole range of tolerances and steps.
+//! This check compares errors with the solvers' error estimates over the whole range of tolerances and steps, on every
+//! problem. Most other checks use one setting, but an error estimate must hold at any setting that you choose.
 
 use crate::measure::check::{Basis, Check};
 use crate::measure::context::Context;
@@ -8,8 +9,9 @@ use crate::measure::work_precision::Sample;
 
 pub(super) const WITHIN_ESTIMATE: Check = Check {
     id: "work-precision",
-    claim: "at every tolerance from 1e-3 to 1e-14, or step from 1/|ω| down, the attitude is within the solver's error \
-            estimate, on every problem (measured: largest error, divided by what the estimate allows)",
+    claim: "On every problem, at every tolerance from 1e-3 to 1e-14 or step from 1/|ω| down, the error of the \
+            attitude is within the solver's error estimate. Measured: the largest error divided by what the estimate \
+            allows; it fails above the bound.",
     basis: Basis::ClosedForm,
     unit: "1",
     measure,

@@ -1,4 +1,5 @@
-//! How far an answer is off.
+//! This file measures the error of an answer to a scene, against the 256-bit reference or, for a probability, against
+//! another method. The errors that the planner expects are judged by these.
 
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use toss::{
@@ -7,20 +8,21 @@ use toss::{
 
 use crate::measure::reference::Reference;
 
-/// The exact answer to a scene about a toss.
+/// The exact answer to every scene about one toss.
 pub struct Truth {
     landing: Reference,
     toss: Toss,
 }
 
 impl Truth {
-    /// Solves `toss` in 256 bits.
+    /// Solves `toss` with the 256-bit reference.
     pub fn new(toss: &Toss) -> Self {
         Self { landing: Reference::new(toss), toss: *toss }
     }
 
-    /// The error of an answer to a scene: of cos θ, or the angle between attitudes (rad). An outcome has none or is wrong
-    /// altogether; it may be undecided where cos θ is within the accuracy of the integrator that was asked for.
+    /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
+    /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
+    /// most twice the scene's accuracy.
     ///
     /// # Errors
     /// Never: the times of a trace are valid.
@@ -50,8 +52,9 @@ impl Truth {
     }
 }
 
-/// The probability of heads in `space`, by other means than the planned ones: the lengths of the intervals of speeds where
-/// nothing else is free, else many more launches of other points.
+/// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the
+/// intervals of speeds that land heads if only the speed is free, otherwise by `points` launches with another seed,
+/// many more than the models use.
 ///
 /// # Errors
 /// Never for the spaces of [`scenes`](super::scenes).

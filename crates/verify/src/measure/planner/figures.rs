@@ -1,15 +1,16 @@
-//! What the parts of the planner's table share: the seed, the factor of safety, a model and the digits of its figures.
+//! This file holds what the parts of the planner's table have in common: the seed, the safety factor, the name of a
+//! model, and the number of digits. They are here so that the files that measure the parts do not depend on each other.
 
-/// Seed of the tosses and spaces that the table is fitted to; the scenes that it is tried on have another.
+/// Seed of the tosses and spaces to which the table is fitted. The scenes that test it have another seed.
 pub(super) const SEED: u64 = 11;
 
-/// Expected errors are the largest that were met, times this.
+/// Safety factor: an expected error is the largest error that was met, times this.
 pub(super) const SAFETY: f64 = 2.0;
 
-/// The model of shares over the speed, whose error is that of rounding.
+/// Name of the model that integrates over the speed in closed form. Its error is rounding alone.
 pub(super) const SHARE: &str = "share";
 
-/// Three digits are all that a measurement of this kind is good for.
+/// `value` rounded to three digits; more would suggest a precision that these measurements do not have.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

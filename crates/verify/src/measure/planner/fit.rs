@@ -1,4 +1,5 @@
-//! The planner's table: what models cost and how far they are off, measured on random tosses and spaces.
+//! This file measures the planner's table: what each model costs and how large its errors are, on random tosses and
+//! spaces. The library is built with the result, so planning itself measures nothing.
 
 use toss::fitted::{ClosedFit, Fitted};
 use toss::{Answer, How, MODELS, Model, Registry, Scene, Want};
@@ -10,10 +11,10 @@ use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
 use super::fit_sampling::sampling;
 use super::scenes::{self, served};
 
-/// Where the library is built with the table, from the root of the workspace.
+/// The file with which the library is built, relative to the root of the workspace.
 pub const FILE: &str = "crates/toss/data/fitted.toml";
 
-/// Measures the whole table; `measured` says when and where.
+/// Measures the whole table; `measured` says when and on which machine, and is written into it.
 ///
 /// # Errors
 /// Never for the library's own models.
@@ -37,18 +38,19 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
     })
 }
 
-/// The table as the library reads it.
+/// The table as TOML, which the library reads.
 ///
 /// # Errors
 /// Never for plain data.
 pub fn text(fitted: &Fitted) -> anyhow::Result<String> {
-    let head = "# What models cost and how far they are off: what the planner knows. Measured by `cargo xtask verify --bless`, or\n\
-                # `--fit` alone; not to be edited. Costs in ns of one core, errors are the largest met times a factor of safety.\n\n";
+    let head = "# The planner's table: what each model costs and how large its error is. Measured by\n\
+                # `cargo xtask verify --bless`, or `--fit` alone; do not edit it. Costs are in ns of one core; errors\n\
+                # are the largest met, times a safety factor.\n\n";
     let table = toml::to_string(fitted)?;
     Ok(format!("{head}{}", table.split_inclusive(&[' ', ',', '[', ']', '\n']).map(briefly).collect::<String>()))
 }
 
-/// A number of many zeros as a power of ten, which TOML reads too.
+/// `piece` with its number, if it is a long one, written with an exponent, which TOML reads too.
 fn briefly(piece: &str) -> String {
     let end = piece.find([' ', ',', '[', ']', '\n']).unwrap_or(piece.len());
     match piece[..end].parse::<f64>() {
@@ -57,7 +59,7 @@ fn briefly(piece: &str) -> String {
     }
 }
 
-/// A run of a model in closed form.
+/// One answer of a model in closed form, with its error and cost.
 struct Flown {
     model: &'static Model,
     error: f64,
@@ -71,7 +73,7 @@ fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
         let toss = scenes::toss(SEED, index)?.toss;
         let truth = Truth::new(&toss);
         for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 5 }] {
-            // So rough that every model serves that can.
+            // With such a rough accuracy every model that can answer the scene also serves it.
             let scene = Scene::new(want, f64::MAX);
             for choice in served(&scene)?.into_iter().filter(|choice| matches!(choice.how, How::ClosedForm)) {
                 let error = truth.error(&scene, &choice.run(&scene)?)?;

@@ -1,4 +1,9 @@
-//! How far integrators are off and what they cost, by spin, phase and tolerance.
+//! This file measures the errors and costs of integrators by bins of spin, phase and tolerance. The error of an
+//! integrator depends on how far the coin turns and spins, so one number for each tolerance would be far too large
+//! for most tosses.
+//!
+//! The phase (rad) is the angle by which a motion turns, the larger of precession (about the angular momentum) and spin
+//! (about the coin's normal).
 
 use rayon::prelude::*;
 use toss::fitted::IntegratorFit;
@@ -9,14 +14,15 @@ use super::figures::{SAFETY, SEED, rounded};
 use super::scenes;
 use crate::measure::reference::Reference;
 
-/// Upper ends of the bins of the integrators: of spin over precession, and of phases (rad).
+/// Upper ends of the bins of spin divided by precession.
 pub(super) const SPINS: [f64; 9] = [0.0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, f64::MAX];
+/// Upper ends of the bins of phases (rad).
 pub(super) const PHASES: [f64; 11] = [0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 100.0, 300.0, 1000.0];
 
-/// A toss for the integrators, its phase (rad) and its exact landing.
+/// A toss, its phase at landing (rad) and its exact landing.
 pub(super) type Flight = (Toss, f64, Reference);
 
-/// Tosses of each bin of spins and of phases.
+/// Random tosses for each bin of spins and, within it, for each bin of phases.
 pub(super) fn tosses_by_turn() -> anyhow::Result<Vec<Vec<Vec<Flight>>>> {
     let mut bins: Vec<Vec<Vec<Flight>>> = Vec::new();
     let mut tosses = Vec::new();
@@ -35,7 +41,8 @@ pub(super) fn tosses_by_turn() -> anyhow::Result<Vec<Vec<Vec<Flight>>>> {
     Ok(bins)
 }
 
-/// Some of `tosses`, whose phases in a second are known, with times that spread their phases over a bin and up to its end.
+/// Flights for one bin of phases. Each takes one of `tosses`, which come with their phase in a second, and a time of
+/// flight that puts its phase into the bin; the phases are spread evenly on a logarithmic scale up to the bin's end.
 fn flights(bin: usize, tosses: &[&(Toss, f64, f64)]) -> anyhow::Result<Vec<Flight>> {
     let number = if PHASES[bin] > 100.0 { 96 } else { 640 };
     let [from, to] = [if bin == 0 { 0.01 } else { PHASES[bin - 1] }, PHASES[bin]];
@@ -50,6 +57,7 @@ fn flights(bin: usize, tosses: &[&(Toss, f64, f64)]) -> anyhow::Result<Vec<Fligh
     (0..number).into_par_iter().map(flight).collect()
 }
 
+/// Measures one solver with one scheme at all `tolerances`, over all bins.
 pub(super) fn integrator(
     entry: &SolverEntry,
     scheme: Scheme,
@@ -78,8 +86,8 @@ pub(super) fn integrator(
     })
 }
 
-/// The largest errors of cos θ and of the attitude (rad) with their factor of safety, and the mean calls over 1 + phase. A flight
-/// that is refused counts for neither: it ends in a typed error.
+/// The largest errors of cos θ and of the attitude (rad) with a safety factor, and the mean of the calls divided by 1 +
+/// phase. Refused flights are left out, because a user gets a typed error for them and not a wrong answer.
 fn cell(solver: &dyn Solver, flights: &[Flight]) -> [f64; 3] {
     let flown: Vec<[f64; 3]> = flights
         .par_iter()
@@ -97,14 +105,16 @@ fn cell(solver: &dyn Solver, flights: &[Flight]) -> [f64; 3] {
     [largest(0), largest(1), mean]
 }
 
-/// The largest of `errors` with a factor of safety that grows with how far it stands out: the next one may do so as much again.
+/// The largest of `errors` times a safety factor. The factor grows with the ratio of the largest error to the one that
+/// nine tenths stay below, because where errors scatter widely another toss may exceed the largest one.
 fn safely(mut errors: Vec<f64>) -> f64 {
     errors.sort_unstable_by(f64::total_cmp);
     let (Some(largest), Some(ninth)) = (errors.last(), errors.get(errors.len() * 9 / 10)) else { return f64::EPSILON };
     1.5 * SAFETY * largest * (largest / ninth).sqrt().min(100.0)
 }
 
-/// Costs (ns) of a flight and of each of its calls, on one core, from short and long flights.
+/// The fixed cost of a flight and the cost of each call of the right-hand side (ns of one core), from the times of
+/// short and long flights.
 fn cost(solver: &dyn Solver, bins: [&[Flight]; 2]) -> [f64; 2] {
     let [short, long] = bins.map(|flights| {
         let flown = flights.iter().take(32).filter_map(|(toss, ..)| {

@@ -1,4 +1,5 @@
-//! How far ways to sample a space are off and what they cost, by the number of launches.
+//! This file measures the errors and costs of the sampling models by the number of launches N, as an error C N^-p and a
+//! cost per launch. From these the planner finds how many launches an accuracy needs.
 
 use anyhow::Context;
 use rayon::ThreadPool;
@@ -12,10 +13,10 @@ use super::figures::{SAFETY, SEED, SHARE, rounded};
 use super::scenes::{self, served};
 use crate::measure::slope::slope;
 
-/// The model of shares over the speed at Sobol points of the rest.
+/// Name of the model that integrates over the speed in closed form and takes Sobol points for everything else.
 const SHARE_SOBOL: &str = "share-sobol";
 
-/// The models whose error falls with the number of launches.
+/// Names of the models whose error falls with the number of launches.
 const SAMPLES: [&str; 3] = [SHARE_SOBOL, "sobol", "random"];
 
 pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
@@ -29,7 +30,7 @@ pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
         let with_shares = samples.iter().any(|choice| choice.model.name == SHARE_SOBOL);
         spaces.push((space, with_shares, true_probability(&space, 1 << 19)?));
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().context("one thread")?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().context("cannot start a thread")?;
     let fit = |name: &str| {
         let model = Model::named(name).with_context(|| format!("no model {name}"))?;
         let spaces = spaces.iter().filter(|(_, with_shares, _)| *with_shares || name != SHARE_SOBOL);
@@ -38,7 +39,7 @@ pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
     SAMPLES.into_iter().map(fit).collect()
 }
 
-/// A model that samples, and spaces with their probabilities.
+/// A sampling model, and the spaces on which it is measured with their probabilities of heads.
 struct Sample {
     model: &'static Model,
     spaces: Vec<(Space, f64)>,
@@ -46,7 +47,7 @@ struct Sample {
 
 impl Sample {
     fn plan(&self, points: u64) -> anyhow::Result<Plan> {
-        self.model.plan(points, SEED).with_context(|| format!("{} samples nothing", self.model.name))
+        self.model.plan(points, SEED).with_context(|| format!("{} is no sampling model", self.model.name))
     }
 
     fn fit(&self, pool: &ThreadPool) -> anyhow::Result<SamplingFit> {
@@ -58,8 +59,8 @@ impl Sample {
         Ok(SamplingFit { model: self.model.name.to_owned(), cost_ns, launch_ns, error, power })
     }
 
-    /// C and p of the error C N^-p: p by least squares through the root mean squares over the spaces, C so that every error
-    /// is below.
+    /// C and p of the error C N^-p. For independent launches p is ½; otherwise it is fitted by least squares to the
+    /// root mean square errors over the spaces. C is the smallest with which no measured error is above C N^-p.
     #[expect(clippy::cast_precision_loss, reason = "dozens of spaces, thousands of launches")]
     fn error(&self) -> anyhow::Result<[f64; 2]> {
         let mut points = Vec::new();
@@ -79,7 +80,7 @@ impl Sample {
         Ok([error, power])
     }
 
-    /// What an estimate by so many launches costs (ns).
+    /// The median cost (ns) of an estimate by `launches` launches.
     fn cost_ns(&self, launches: u64, pool: &ThreadPool) -> anyhow::Result<f64> {
         let plan = self.plan(launches)?;
         let cost = |(space, _): &(Space, f64)| pool.install(|| nanoseconds(|| Sampler::exact().estimate(space, plan)));

@@ -1,4 +1,5 @@
-//! Random scenes: tosses as hands and machines make them, and spaces of such tosses.
+//! This file makes random scenes for the planner: questions about tosses as hands and machines make them, and about
+//! spaces of such tosses. Each follows from a seed and an index alone, so a failing scene can be made again.
 
 use std::f64::consts::PI;
 
@@ -14,7 +15,7 @@ use crate::measure::case::Case;
 /// A scene about a toss.
 #[derive(Debug, Clone)]
 pub struct TossScene {
-    /// Its kind: what is wanted, or `integrator` if one was asked for.
+    /// Its kind: what is wanted, or `integrator` if the scene asks for one.
     pub kind: &'static str,
     /// The scene.
     pub scene: Scene,
@@ -22,18 +23,19 @@ pub struct TossScene {
     pub case: Case,
 }
 
+/// The random numbers for the item `index` of the sequence that `seed` starts.
 fn stream(seed: u64, index: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(index);
     rng
 }
 
-/// 10 to a power that is uniform.
+/// 10 to a power that is uniform between `low` and `high`.
 fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// Toss `index` of the sequence of `seed`.
+/// Toss number `index` of the sequence that `seed` starts.
 ///
 /// # Errors
 /// Never: every toss is valid.
@@ -41,8 +43,9 @@ pub fn toss(seed: u64, index: u64) -> Result<Case, InputError> {
     random_toss(&mut stream(seed, index))
 }
 
-/// A coin of the catalogue or any other; rates of up to 60 rad/s, or of any size from 0.1 to 1000 rad/s, sometimes without
-/// spin or nearly without wobble; half of the launches from horizontal; caught, one in six at another height.
+/// A random toss. The coin is from the catalogue or any other; the rates are up to 60 rad/s or, in a third of the
+/// tosses, up to a limit between 0.1 and 1000 rad/s, some without spin and some with little wobble. Half of the
+/// launches start horizontal. One in six lands at another height, one in six has a given time of flight.
 fn random_toss(rng: &mut ChaCha8Rng) -> Result<Case, InputError> {
     let coin = match rng.random_range(0..3) {
         0 => CATALOGUE[rng.random_range(0..CATALOGUE.len())].coin()?,
@@ -66,7 +69,8 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<Case, InputError> {
     Ok(Case { toss: Toss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? }, tilt })
 }
 
-/// A toss much like `case`, whose errors are as large in the mean but not the same.
+/// A toss that differs from `case` by up to 1 % in each rate and in time. Its errors are of the same size on average,
+/// but not the same.
 ///
 /// # Errors
 /// Never: every toss is valid.
@@ -78,8 +82,9 @@ pub fn neighbour(case: &Case, seed: u64, index: u64) -> Result<Toss, InputError>
     Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..case.toss })
 }
 
-/// Scene `index` of the sequence of `seed`: of ten scenes three want an outcome, three cos θ, two an attitude and one a trace,
-/// with accuracies from 1e-2 to 2e-15; one asks for an integrator, with accuracies down to 1e-11.
+/// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
+/// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
+/// 1e-2 to 1e-11.
 ///
 /// # Errors
 /// Never: every scene is valid.
@@ -97,7 +102,7 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
         _ => Want::Trace { toss: case.toss, points: rng.random_range(2..8) },
     };
     let scene = if kind == "integrator" {
-        // The planner passes over what nobody has measured, so that no scene asks for it.
+        // The planner does not choose integrators that are not in its table, so no scene asks for one.
         let measured = |entry: &&SolverEntry| FITTED.integrators.iter().any(|fit| fit.solver == entry.name());
         let entries: Vec<_> = Registry::standard().entries().iter().filter(measured).collect();
         let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
@@ -109,12 +114,13 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     Ok(TossScene { kind, scene, case })
 }
 
-/// What serves a scene.
+/// The choices that serve a scene, by the planner's expectations.
 pub(super) fn served(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
     Ok(scene.candidates()?.into_iter().filter_map(|(_, verdict)| verdict.ok()).collect())
 }
 
-/// Space `index` of the sequence of `seed`: rates and a tilt that are fixed or vary, a range of speeds in four of five.
+/// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
+/// of five have a range of speeds.
 ///
 /// # Errors
 /// Never: every space is valid.
@@ -140,7 +146,7 @@ pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     Space::parse(coin, &texts)
 }
 
-/// The accuracy that is asked of a probability: from 1e-1 to 1e-3.
+/// The accuracy that scene number `index` asks of a probability, from 1e-1 to 1e-3.
 pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
     decades(&mut stream(seed, index), -3.0, -1.0)
 }

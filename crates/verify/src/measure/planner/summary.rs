@@ -1,14 +1,16 @@
-//! Planner accuracy and cost: one line per kind of scene, and what each model cost.
+//! This file sums up a trial of the planner for the report: accuracy and cost in one line per kind of scene, and the
+//! measured cost of each model. The checks read their fractions from these lines.
 
 use serde::Serialize;
 use toss::Model;
 
 use super::trial::{Outcome, Trial};
 
-/// A choice that costs at most this many times the cheapest model that serves is economical.
+/// A choice is economical if it costs at most this many times as much as the cheapest model that serves.
 const ECONOMICAL: f64 = 1.2;
 
-/// Planner accuracy and cost, for the reports. Fields of measured times begin with `t_`.
+/// Accuracy and cost of the planner's choices. Fields that come from measured times begin with `t_`, because they
+/// differ from run to run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlannerSummary {
     /// One line per kind of scene, and one for all.
@@ -17,37 +19,38 @@ pub struct PlannerSummary {
     pub t_costs_ns: Vec<Cost>,
 }
 
-/// What a model cost over the scenes where it was tried (ns); a trace, each point.
+/// The measured cost of a model over the scenes where it was tried (ns); for a trace, the cost of each point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cost {
-    /// The model.
+    /// The model's name.
     pub model: &'static str,
-    /// 5 % cost less.
+    /// 5 % of the scenes cost less.
     pub low: f64,
-    /// Half of them cost less.
+    /// The median.
     pub median: f64,
-    /// 5 % cost more.
+    /// 5 % of the scenes cost more.
     pub high: f64,
 }
 
-/// A kind of scenes.
+/// Accuracy and cost over the scenes of one kind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Line {
-    /// The kind.
+    /// The kind, or `all`.
     pub kind: String,
     /// Number of scenes.
     pub scenes: usize,
-    /// Scenes that were refused, because no setting is accurate enough.
+    /// Number of scenes that were refused because no setting is accurate enough.
     pub refused: usize,
-    /// Largest error, divided by the accuracy that was asked for.
+    /// Largest error divided by the accuracy that was asked for.
     pub largest_error_by_accuracy: f64,
-    /// Largest error, divided by the expected one.
+    /// Largest error divided by the expected one.
     pub largest_error_by_expected: f64,
-    /// Fraction of scenes whose expected error is at most 30 times the largest of their families.
+    /// Fraction of scenes whose expected error is at most 30 times the largest error on the scene's toss and similar
+    /// ones.
     pub within_30: f64,
-    /// Fraction of scenes whose expected error is at most 30 times the error of the one toss.
+    /// Fraction of scenes whose expected error is at most 30 times the error on the scene's toss alone.
     pub within_30_of_one: f64,
-    /// Scenes that were solved by every model.
+    /// Number of scenes that were solved by every model.
     pub tried: usize,
     /// Fraction of them whose choice costs at most 1.2 times the cheapest model that serves, by recorded cost.
     pub economical: f64,
@@ -60,7 +63,7 @@ pub struct Line {
 }
 
 impl Trial {
-    /// The kinds of scenes, in the order of their first.
+    /// The kinds of scenes, in the order in which they first appear.
     pub fn kinds(&self) -> Vec<&'static str> {
         let mut kinds: Vec<&str> = Vec::new();
         for outcome in &self.outcomes {
@@ -77,7 +80,7 @@ impl Trial {
         self.kinds().into_iter().map(of).chain([self.line("all", |_| true)]).collect()
     }
 
-    /// Accuracy and cost, for the reports.
+    /// Accuracy by kind of scene and cost by model, for the report.
     pub fn summary(&self) -> PlannerSummary {
         let cost =
             |(model, [low, median, high]): (&'static Model, [f64; 3])| Cost { model: model.name, low, median, high };

@@ -1,5 +1,5 @@
-//! Scenes solved as planned, and by every other model: was the answer accurate enough, was its error expected, was it the
-//! cheapest?
+//! A trial solves random scenes as planned, and some of them by every other model as well. It shows whether the planned
+//! answers are accurate enough, whether their errors were expected, and whether another model would have been cheaper.
 
 use anyhow::ensure;
 use rayon::prelude::*;
@@ -10,30 +10,30 @@ use super::delivered::{Truth, true_probability};
 use super::scenes::{self, TossScene, served};
 use crate::measure::effort::Effort;
 
-/// Seed of the scenes.
+/// Seed of the scenes, another one than that of the table.
 const SEED: u64 = 12;
 
-/// Smaller errors than this are not told apart: a result is an f64 near 1.
+/// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
 pub const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// What became of one scene.
+/// The result of one scene.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The scene's kind.
     pub kind: &'static str,
-    /// The accuracy that was asked.
+    /// The accuracy that was asked for.
     pub accuracy: f64,
-    /// The model that was chosen; `None` where no setting is accurate enough, which is a typed error.
+    /// The model that was chosen; `None` if the planner refused the scene because no setting is accurate enough.
     pub model: Option<&'static Model>,
     /// The error of its answer.
     pub error: f64,
-    /// The largest error of it on the scene's family: this toss and, where that tells more, some that are much the same. One
-    /// toss may be solved without an error by luck.
+    /// The largest error of that model on the scene's family: its toss and, if the error there is far below the
+    /// expected one, some similar tosses. The error on a single toss may be small by luck.
     pub error_of_family: f64,
-    /// What was expected of it.
+    /// The error that the plan expected.
     pub expected: f64,
-    /// Cost of the choice, divided by that of the cheapest model that serves the scene, by recorded cost; of the scenes where
-    /// all were tried.
+    /// Cost of the choice divided by that of the cheapest model that serves the scene, by recorded cost; `None` if not
+    /// all models were tried.
     pub cost_ratio: Option<f64>,
     /// As above, by measured instead of recorded cost.
     pub cost_ratio_by_clock: Option<f64>,
@@ -44,17 +44,17 @@ pub struct Outcome {
 /// All scenes of a run.
 #[derive(Debug, Clone)]
 pub struct Trial {
-    /// Their outcomes.
+    /// The results of the scenes.
     pub outcomes: Vec<Outcome>,
-    /// What each model cost where it was tried (ns), in the order of the hierarchy.
+    /// The measured costs of each model where it was tried (ns), in the order of the hierarchy.
     pub costs: Vec<(&'static Model, Vec<f64>)>,
 }
 
 impl Trial {
-    /// Solves as many scenes as `effort` asks for.
+    /// Solves a number of scenes that depends on `effort`.
     ///
     /// # Errors
-    /// If a scene is not served.
+    /// If a scene cannot be solved, except because its accuracy is out of reach.
     pub fn new(effort: Effort) -> anyhow::Result<Self> {
         let (solved, tried, spaces) = match effort {
             Effort::Quick => (1000, 100, 6),
@@ -66,7 +66,7 @@ impl Trial {
             .map(|index| solve(&scenes::toss_scene(SEED, index)?))
             .collect::<anyhow::Result<_>>()?;
         let mut trial = Self { outcomes: tosses, costs: Vec::new() };
-        // One thread, so that no clock is disturbed by the others.
+        // These are timed, so they run on one thread, where no other thread disturbs the clock.
         for index in 0..tried {
             trial.try_all(usize::try_from(index)?, &scenes::toss_scene(SEED, index)?)?;
         }
@@ -79,23 +79,24 @@ impl Trial {
 }
 
 impl Outcome {
-    /// The error, divided by the accuracy that was asked for.
+    /// The error divided by the accuracy that was asked for.
     pub fn error_by_accuracy(&self) -> f64 {
         self.error / self.accuracy
     }
 
-    /// The error, divided by the expected one; smaller errors than [`ROUNDING`] count as that. 0 for what is proven.
+    /// The largest error on the scene's family divided by the expected one, which counts as at least [`ROUNDING`]; 0 if
+    /// there is no error.
     pub fn error_by_expected(&self) -> f64 {
         if self.error_of_family == 0.0 { 0.0 } else { self.error_of_family / self.expected.max(ROUNDING) }
     }
 
-    /// Whether no more than 30 times `error` was expected.
+    /// Whether the expected error is at most 30 times `error`, which counts as at least [`ROUNDING`].
     pub(super) fn is_within_30(&self, error: f64) -> bool {
         self.expected <= 30.0 * error.max(ROUNDING)
     }
 }
 
-/// The scene as planned.
+/// Solves the scene as planned.
 fn solve(scene: &TossScene) -> anyhow::Result<Outcome> {
     let mut outcome = Outcome {
         kind: scene.kind,
@@ -125,6 +126,7 @@ fn solve(scene: &TossScene) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
+/// The scene in words; `of` names its toss or space.
 fn input(scene: &Scene, of: &str) -> String {
     let wanted = scene.want.kind().name();
     let by = scene.by.as_ref().map(|by| format!(" by {}", by.solver)).unwrap_or_default();
@@ -170,7 +172,7 @@ impl Trial {
         }
     }
 
-    /// A space by every way to sample it, and as planned.
+    /// Samples a space by every model that serves its scene, and notes the one that was planned.
     fn solve_space(&mut self, index: u64) -> anyhow::Result<()> {
         const POINTS: u64 = 1 << 20;
         let space = scenes::space(SEED, index)?;
@@ -180,7 +182,7 @@ impl Trial {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
         let mut serving: Vec<Costs> = Vec::new();
         let (mut error, mut chosen) = (f64::INFINITY, None);
-        // What is expected to cost far more is not the cheapest, and would take minutes.
+        // Models that are expected to cost far more cannot be the cheapest, and would take minutes.
         let most_ns = 30.0 * planned.expected_cost_ns;
         for choice in served(&scene)?.into_iter().filter(|choice| choice.expected_cost_ns <= most_ns) {
             let Answer::Probability(estimate) = choice.run(&scene)? else { continue };
@@ -210,16 +212,17 @@ impl Trial {
     }
 }
 
-/// Recorded and measured cost of an answer (ns).
+/// Recorded and measured cost of an answer (ns), in this order.
 type Costs = [f64; 2];
 
-/// The costs of the choice, divided by those of the cheapest that serve.
+/// The recorded and the measured cost of the choice, each divided by that of the cheapest answer in `serving`.
 fn cost_ratios(chosen: Option<Costs>, serving: &[Costs]) -> [f64; 2] {
     let cheapest = |of: usize| serving.iter().map(|costs| costs[of]).fold(f64::INFINITY, f64::min);
     let chosen = chosen.unwrap_or([f64::INFINITY; 2]);
     [chosen[0] / cheapest(0), chosen[1] / cheapest(1)]
 }
 
+/// Whether two choices are the same model and, for integrators, the same solver and scheme.
 fn same(a: &Choice, b: &Choice) -> bool {
     match (&a.how, &b.how) {
         (How::Integrator(entry, stepping), How::Integrator(other, others)) => {
@@ -229,8 +232,8 @@ fn same(a: &Choice, b: &Choice) -> bool {
     }
 }
 
-/// Every model that can answer the scene, also where the planner takes it for too rough; if an integrator was asked for, its
-/// schemes alone.
+/// Every model that can answer the scene, closed forms even if the planner expects too large an error of them. If the
+/// scene asks for an integrator, its schemes alone.
 fn contestants(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
     if let Some(by) = &scene.by {
         let serves = |choice: &Choice| match &choice.how {
@@ -247,7 +250,8 @@ fn contestants(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
     Ok(in_closed_form.chain(others).collect())
 }
 
-/// Whether a choice is accurate enough on the scene's neighbours too. An outcome is proven, or it is none.
+/// Whether a choice is accurate enough on tosses that are similar to the scene's. Outcomes need no such test, because
+/// they are proven.
 fn serves_family(choice: &Choice, scene: &TossScene) -> anyhow::Result<bool> {
     if matches!(scene.scene.want, Want::Outcome(_)) {
         return Ok(true);
@@ -255,8 +259,8 @@ fn serves_family(choice: &Choice, scene: &TossScene) -> anyhow::Result<bool> {
     Ok(largest_of_neighbours(choice, scene)?.is_some_and(|error| error <= scene.scene.accuracy))
 }
 
-/// The largest error of a choice on tosses that are much the same as the scene's: what serves one scene by luck is no cheaper way
-/// to serve it. `None` if it fails there.
+/// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one. A model that is
+/// accurate enough on one toss by luck must not count as a cheaper way to serve the scene.
 fn largest_of_neighbours(choice: &Choice, scene: &TossScene) -> anyhow::Result<Option<f64>> {
     const NEIGHBOURS: u64 = 8;
     let mut largest = 0.0_f64;

@@ -1,9 +1,11 @@
-//! The exact motion in 256 bits: what every error is measured against.
+//! This module solves a toss in 256-bit arithmetic; every error in the suite is measured against it. It shares no code
+//! with the solvers, so a mistake in their formulas cannot hide in the reference.
 //!
 //! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
-//! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is some 2^-250 for the
-//! phases of a toss. It shares no code with the solvers, and its tests hold it against numbers from outside, which
-//! [`motions`] and [`probabilities`] read.
+//! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
+//! k the inertia ratio, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
+//! the attitude. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`]
+//! read.
 
 pub mod motions;
 pub mod probabilities;
@@ -14,7 +16,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use toss::{Angle, AngleUnit, Attitude, Coin, Launch, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
 
-/// Binary digits.
+/// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
 
 type Big = FBig<HalfEven>;
@@ -23,7 +25,7 @@ fn big(value: f64) -> Big {
     Big::try_from(value).expect("a validated toss is finite").with_precision(PRECISION).value()
 }
 
-/// The exact landing of a toss.
+/// The landing of a toss in 256 bits.
 pub struct Reference {
     attitude: [Big; 4],
     rate: [Big; 3],
@@ -47,7 +49,7 @@ impl Reference {
         };
         let half_time = time / big(2.0);
         let (sin, cos) = (&precession * &half_time).sin_cos();
-        // Without angular momentum there is no precession, and no direction to turn about.
+        // Without angular momentum there is no direction to turn about, and no turn.
         let still = precession == big(0.0);
         let along = |part: Big| if still { big(0.0) } else { part / &precession * &sin };
         let turn = [cos, along(x.clone()), along(y.clone()), along(momentum_z)];
@@ -60,12 +62,12 @@ impl Reference {
         Self { attitude: product(&product(&launch, &turn), &spin), rate }
     }
 
-    /// |Δ cos θ| of a computed value.
+    /// Absolute error of a computed cos θ.
     pub fn cos_tilt_error(&self, cos_tilt: f64) -> f64 {
         to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
     }
 
-    /// The outcome; undecided for cos θ = 0 in all digits.
+    /// The outcome; undecided only if cos θ is 0 in all digits.
     pub fn outcome(&self) -> Outcome {
         match self.cos_tilt().partial_cmp(&big(0.0)) {
             Some(Ordering::Greater) => Outcome::Heads,
@@ -81,18 +83,19 @@ impl Reference {
         2.0 * sine.atan2(to_f64(&w).abs())
     }
 
-    /// The small turn from this landing to `other`: its axis in BF times its angle (rad), to third order in it.
+    /// The small turn from this landing to `other`, as its axis in BF times its angle (rad). Correct up to the third
+    /// power of the angle.
     pub fn turn_to(&self, other: &Self) -> Vector3<f64> {
         let [w, x, y, z] = turn(&self.attitude, &other.attitude);
         Vector3::from([x, y, z].map(|part| 2.0 * to_f64(&(part / &w))))
     }
 
-    /// cos θ of `other` less that of this landing.
+    /// cos θ of `other` minus that of this landing.
     pub fn cos_tilt_to(&self, other: &Self) -> f64 {
         to_f64(&(other.cos_tilt() - self.cos_tilt()))
     }
 
-    /// Largest |Δω| of a computed body rate (rad/s).
+    /// Largest absolute error of a component of a computed body rate (rad/s).
     pub fn rate_error(&self, rate: &Vector3<f64>) -> f64 {
         self.rate.iter().zip(rate).map(|(exact, found)| to_f64(&(exact - big(*found))).abs()).fold(0.0, f64::max)
     }
@@ -138,7 +141,7 @@ fn to_f64(value: &Big) -> f64 {
     value.to_f64().value()
 }
 
-/// The turn that leads from one attitude to another, seen in BF.
+/// The turn from one attitude to another, with its axis in BF.
 fn turn(from: &[Big; 4], to: &[Big; 4]) -> [Big; 4] {
     let [w, x, y, z] = from.clone();
     product(&[w, -x, -y, -z], to)
@@ -173,10 +176,10 @@ mod tests {
         value.with_base_and_precision::<2>(PRECISION).value().with_rounding()
     }
 
-    /// Flights whose inputs are exact in f64 agree with the numbers from outside in every printed digit; the others
+    /// Flights whose inputs are exact in f64 agree with the reference numbers in every printed digit, the others to
     /// within the rounding of their inputs.
     #[test]
-    fn it_agrees_with_the_numbers_from_outside() {
+    fn the_256_bit_motion_agrees_with_the_independent_numbers() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/reference/motion.toml");
         let mut exact_inputs = 0;
         for flight in ReferenceData::read(&folder).unwrap().flights {

@@ -1,4 +1,5 @@
-//! Reads `validation/reference/motion.toml`, the numbers from outside.
+//! This file reads `validation/reference/motion.toml`: motions that were computed outside this workspace, in more
+//! digits than f64 has. They test the solvers and the 256-bit reference independently of all our code.
 
 use std::path::Path;
 
@@ -9,19 +10,19 @@ use toss::{Attitude, Coin, Launch, TimeOfFlight, Toss, Vector3};
 use crate::files;
 use crate::measure::case::Case;
 
-/// The numbers from outside.
+/// All reference numbers of motions.
 pub struct ReferenceData {
-    /// Landings of flights.
+    /// Flights with their landings.
     pub flights: Vec<ReferenceFlight>,
-    /// First changes of the outcome.
+    /// Tosses with the time at which their outcome first changes.
     pub first_flips: Vec<FirstFlip>,
-    /// p(ψ): the cone angle ψ (rad) and the long-flight probability of heads.
+    /// Cone angles ψ (rad) with the long-flight probability of heads p(ψ).
     pub long_flights: Vec<(f64, f64)>,
-    /// DETEST B5: time, and the state then.
+    /// The problem DETEST B5: a time, and the state at that time.
     pub detest_b5: (f64, [f64; 3]),
 }
 
-/// A flight and its landing.
+/// A flight with its landing.
 pub struct ReferenceFlight {
     /// Its name.
     pub name: String,
@@ -29,13 +30,13 @@ pub struct ReferenceFlight {
     pub case: Case,
     /// cos θ at landing.
     pub cos_tilt: f64,
-    /// cos θ in all printed digits.
+    /// cos θ at landing as printed, with all digits.
     pub cos_tilt_digits: String,
     /// Attitude at landing.
     pub attitude: Attitude,
 }
 
-/// The first change of the outcome of a toss.
+/// A toss with the time at which its outcome first changes.
 pub struct FirstFlip {
     /// Its name.
     pub name: String,
@@ -43,7 +44,7 @@ pub struct FirstFlip {
     pub coin: Coin,
     /// ω at launch (rad/s).
     pub rate: Vector3<f64>,
-    /// Time of the change (s).
+    /// Time of flight (s) at which the outcome first changes.
     pub time: f64,
 }
 
@@ -99,7 +100,7 @@ impl ReferenceData {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If it can't be read or holds something else.
+    /// If the file can't be read or holds something else.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let file: File = files::read_toml(path)?;
         Ok(Self {

@@ -1,4 +1,5 @@
-//! Reads `validation/reference/probability.toml`, the probabilities from outside.
+//! This file reads `validation/reference/probability.toml`: probabilities of heads that were computed outside this
+//! workspace. They test the sampling methods independently of all our code.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,11 +12,11 @@ use toss::Coin;
 
 use crate::files;
 
-/// The probabilities from outside.
+/// All reference probabilities.
 pub struct ReferenceProbabilities {
-    /// Shares of heads over a range of speeds, all else fixed.
+    /// Shares of heads over a range of speeds, with all other inputs fixed.
     pub shares: Vec<ReferenceShare>,
-    /// Averages over more than the speed, by name.
+    /// Probabilities over more inputs than the speed, by name.
     pub figures: BTreeMap<String, f64>,
 }
 
@@ -59,7 +60,7 @@ impl ReferenceProbabilities {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// If it can't be read or holds something else.
+    /// If the file can't be read or holds something else.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let file: File = files::read_toml(path)?;
         Ok(Self {
@@ -72,7 +73,7 @@ impl ReferenceProbabilities {
         })
     }
 
-    /// The figure called `name`.
+    /// The probability called `name`.
     ///
     /// # Errors
     /// If there is none.

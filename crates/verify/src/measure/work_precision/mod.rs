@@ -1,7 +1,8 @@
-//! Speed against accuracy: every solver and scheme over a range of tolerances or steps, on every problem.
+//! This module compares speed with accuracy: it solves every problem with every solver and scheme over a range of
+//! tolerances or steps. A single setting would not show which method is cheapest at the accuracy that you need.
 //!
-//! Errors are against the exact motion in 256 bits. Work is counted in calls of the right-hand side, which repeat exactly;
-//! times stand beside it and are never judged.
+//! Errors are against the 256-bit reference. Work is counted in calls of the right-hand side, which are the same in
+//! every run; times are recorded beside them but never judged, because they depend on the machine.
 
 pub mod problems;
 
@@ -20,67 +21,68 @@ use crate::measure::run::{Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
 
-/// One subject at one setting on one problem. Errors are the largest over its launches, counts and times their sums.
+/// One subject at one setting on one problem. Errors are the largest over the problem's launches, counts and times
+/// their sums.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// The problem's name.
     pub problem: String,
     /// The solver's name.
     pub solver: String,
-    /// The scheme's name; null for a closed form. Records call it the method.
+    /// The scheme's name; null for a closed form. The field is called `method` in records.
     #[serde(rename = "method")]
     pub scheme: Option<String>,
     /// The scheme's order; null if it is variable.
     pub order: Option<u32>,
-    /// The tolerance, if it has one.
+    /// The tolerance of an adaptive scheme.
     pub tol: Option<f64>,
-    /// The step (s), if it is fixed.
+    /// The step (s) of a scheme with fixed steps.
     pub step: Option<f64>,
     /// The toss as hex floats, or the number of launches.
     pub inputs: String,
-    /// The worst answer.
+    /// The worst answer over the launches.
     pub status: Answer,
-    /// The first error that was returned.
+    /// The first error that the solver returned.
     pub failure: Option<String>,
-    /// |Δ cos θ| at landing; null if a launch failed, as are the next four.
+    /// Error of cos θ at landing; null if a launch failed, like the next four fields.
     pub err_cos_theta: Option<f64>,
-    /// Angle to the exact attitude (rad).
+    /// Angle to the exact attitude at landing (rad).
     pub err_attitude_rad: Option<f64>,
-    /// Drift of S in TF, relative.
+    /// Relative drift of the angular momentum S in the transport frame (TF).
     pub err_invariants: Option<f64>,
     /// The attitude's error, divided by what the solver's error estimate allows.
     pub err_by_allowance: Option<f64>,
     /// Whether no stated outcome is wrong.
     pub outcome_ok: Option<bool>,
-    /// What the reference is.
+    /// The name of the reference.
     pub ref_kind: String,
-    /// A bound of the reference's own error.
+    /// A bound on the reference's own error.
     pub ref_err_bound: f64,
     /// Calls of the right-hand side.
     pub n_rhs: u64,
-    /// Steps that were kept.
+    /// Steps that the step control accepted.
     pub n_accepted: u64,
-    /// Steps that were thrown away.
+    /// Steps that the step control rejected.
     pub n_rejected: u64,
     /// The shortest time (ns).
     pub t_min_ns: u64,
     /// The median time (ns).
     pub t_median_ns: u64,
-    /// How often it was timed.
+    /// Number of times that it was timed.
     pub n_runs: u32,
 }
 
-/// The whole sweep, in the order of problems, subjects and settings.
+/// All samples of a run, in the order of problems, subjects and settings.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sweep {
-    /// Name, what it stresses and the number of launches of each problem.
+    /// Of each problem: its name, what it stresses, and its number of launches.
     pub problems: Vec<(String, String, usize)>,
     /// The samples.
     pub samples: Vec<Sample>,
 }
 
 impl Sweep {
-    /// Every solver of `registry` on every problem.
+    /// Samples every solver of `registry` on every problem.
     ///
     /// # Errors
     /// Never for the library's own solvers.
@@ -99,18 +101,18 @@ impl Sweep {
         Ok(Self::of(problems, samples))
     }
 
-    /// What was sampled of `problems`.
+    /// A sweep of `problems` from samples that were already taken.
     pub fn of(problems: &[Problem], samples: Vec<Sample>) -> Self {
         let problem = |problem: &Problem| (problem.name.clone(), problem.stresses.clone(), problem.cases.len());
         Self { problems: problems.iter().map(problem).collect(), samples }
     }
 
-    /// The samples of one subject on one problem, from rough to fine; the subject is named `solver` or `solver/scheme`.
+    /// The samples of one subject (`solver` or `solver/scheme`) on one problem, from rough to fine.
     pub fn series<'a>(&'a self, problem: &'a str, subject: &'a str) -> impl Iterator<Item = &'a Sample> {
         self.samples.iter().filter(move |sample| sample.problem == problem && sample.subject() == subject)
     }
 
-    /// The subjects, in their order.
+    /// The names of the subjects, in their order.
     pub fn subjects(&self) -> Vec<String> {
         let mut subjects: Vec<String> = Vec::new();
         for sample in &self.samples {
@@ -124,19 +126,20 @@ impl Sweep {
 }
 
 impl Sample {
-    /// `solver` or `solver/scheme`.
+    /// The name of the subject: `solver` or `solver/scheme`.
     pub fn subject(&self) -> String {
         self.scheme.as_ref().map_or_else(|| self.solver.clone(), |scheme| format!("{}/{scheme}", self.solver))
     }
 }
 
-/// One sample to be taken.
+/// A sample that is to be taken.
 struct Job {
     problem: usize,
     subject: Subject,
 }
 
-/// Tolerances go down by decades, steps (from 1/|ω|) by octaves; a quick sweep takes every third, down to 1e-12 and 1/64.
+/// All samples that are to be taken. Tolerances go from 1e-3 down by factors of 10, steps from 1/|ω| by factors of 2. A
+/// quick sweep takes every third of them, down to 1e-12 and 1/64.
 fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Vec<Job>, InputError> {
     let (stride, decades, octaves) = if effort == Effort::Quick { (3, 12, 7) } else { (1, 12, 10) };
     let mut jobs = Vec::new();
@@ -204,8 +207,9 @@ impl Job {
     }
 }
 
-/// Shortest and median time (ns) and the number of runs, by job. One thread, in an order that is shuffled but always the
-/// same, so that a machine that slows down does not affect some jobs alone.
+/// Shortest and median time (ns) and number of runs of each job. The jobs run on one thread in a shuffled order that is
+/// always the same: if the machine slows down for a while, jobs of all kinds are affected, not those of one solver
+/// alone.
 fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64, u64, u32))> {
     let budget = Duration::from_millis(if effort == Effort::Quick { 1 } else { 4 });
     let mut order: Vec<usize> = (0..jobs.len()).collect();
@@ -214,7 +218,7 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
         let job = &jobs[index];
         let fly = || {
             for case in &problems[job.problem].cases {
-                // A failed flight takes its time too.
+                // Failed flights are timed too, because they also take time.
                 let _ = std::hint::black_box(job.subject.solver.propagate(std::hint::black_box(&case.toss)));
             }
         };
@@ -223,7 +227,8 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
     order.into_iter().map(time).collect()
 }
 
-/// Runs `work` up to 25 times while `budget` lasts, and at least three times unless that takes long.
+/// Times `work` up to 25 times while `budget` lasts, and at least three times unless that takes too long. Returns the
+/// shortest and the median time (ns) and the number of runs.
 fn repeat(work: impl Fn(), budget: Duration) -> (u64, u64, u32) {
     const LONG: Duration = Duration::from_millis(300);
     let mut times: Vec<u64> = Vec::new();

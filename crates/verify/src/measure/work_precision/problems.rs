@@ -1,4 +1,5 @@
-//! Reads `validation/problems.toml`: the flights over which speed is compared with accuracy.
+//! This file reads `validation/problems.toml`, the problems on which speed is compared with accuracy. Each problem is
+//! one flight or an ensemble of random ones, and stresses something that some method is bad at.
 
 use std::path::Path;
 
@@ -13,24 +14,24 @@ use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
 use crate::files;
 use crate::measure::case::Case;
 
-/// A flight, or an ensemble of them.
+/// One flight, or an ensemble of random flights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// Its name.
     pub name: String,
-    /// What it is hard on.
+    /// What it stresses, in words.
     pub stresses: String,
-    /// Its launches.
+    /// Its tosses.
     pub cases: Vec<Case>,
 }
 
 impl Problem {
-    /// The largest |ω| of its launches (rad/s).
+    /// The largest |ω| at launch of its tosses (rad/s).
     pub fn fastest(&self) -> f64 {
         self.cases.iter().map(|case| case.toss.launch.turn_rate()).fold(0.0, f64::max)
     }
 
-    /// Its input: hex floats, or how many launches.
+    /// The toss as hex floats, or the number of launches.
     pub fn inputs(&self) -> String {
         if let [case] = self.cases.as_slice() { case.hex() } else { format!("{} launches", self.cases.len()) }
     }
@@ -59,10 +60,10 @@ struct Entry {
     tilt_range: Option<[f64; 2]>,
 }
 
-/// The problems in the file at `path`.
+/// Reads the problems from the file at `path`.
 ///
 /// # Errors
-/// If it can't be read, or describes no toss.
+/// If the file can't be read, or a problem in it is not valid.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Problem>> {
     let file: File = files::read_toml(path)?;
     file.problem.into_iter().map(|entry| entry.problem().with_context(|| path.display().to_string())).collect()
@@ -99,7 +100,7 @@ impl Entry {
         let axes = [(RateX, &*rates), (RateY, &rates), (RateZ, &rates), (Speed, &speeds), (Tilt, &tilts)];
         let space = Space::parse(coin, &axes)?;
         let tosses = random_tosses(&space, 1, 0..self.launches.unwrap_or(0));
-        // The tilt of a turn about x, from its half-angle.
+        // The attitude at launch is a turn about x, whose quaternion has the sine of half the tilt as its x component.
         let tilt = |toss: &Toss| 2.0 * toss.launch.attitude().components()[1].asin();
         Ok(tosses.into_iter().map(|toss| Case { tilt: tilt(&toss), toss }).collect())
     }
