@@ -40,7 +40,7 @@ enum Command {
     Run(run::Run),
     /// List the checks
     List,
-    Replay(replay::Replay),
+    Replay(Box<replay::Replay>),
     Bench(bench::Bench),
     Work(work::Work),
     /// Measure the planner's table of costs and errors, and write it
@@ -59,7 +59,7 @@ impl Program {
         let folders = &self.folders;
         match &self.command {
             Command::Run(command) => command.run(folders),
-            Command::List => Ok(list::list()),
+            Command::List => list::list(),
             Command::Replay(command) => replay::replay(&command.input),
             Command::Bench(command) => command.run(folders),
             Command::Work(command) => command.run(),
