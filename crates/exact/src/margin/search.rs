@@ -1,0 +1,146 @@
+//! The search for the nearest flip along a line of turns, which passes none over.
+//!
+//! From a launch that lands with f > 0 (its own outcome), the search walks away in steps that are proven free of flips. With
+//! |f''| ≤ M ahead and h the distance from where f and f' are known,
+//!
+//! ```text
+//! f + f' h - ½ M h² ≤ f(h) ≤ f + f' h + ½ M h²
+//! ```
+//!
+//! so there is no flip before the root of the left side, and one before the root of the right side if it has one. The left
+//! root is the step; it is Newton's near a flip, from this side of it. When both roots agree to [`RESOLUTION`], the flip lies
+//! between them. Errors of f and f' are added to the side that they may harm, and where they matter f is found again in more
+//! digits. Both directions advance in turn, the nearer one first, so that the first flip found is the nearest.
+
+use super::height::Height;
+use super::line::Line;
+
+/// Width of the interval that a flip is known to lie in, in parts of its distance. Also the shortest step: where f dips
+/// towards 0 and comes back within this, it touches and does not flip.
+const RESOLUTION: f64 = 5e-13;
+
+/// The walk in one direction.
+pub(super) struct Walk<'a> {
+    line: &'a Line<'a>,
+    /// 1 for heads, -1 for tails.
+    outcome: f64,
+    /// 1 or -1.
+    sense: f64,
+    /// How far it has come (rad), and how far it has to go.
+    distance: f64,
+    limit: f64,
+    state: State,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum State {
+    /// No flip up to the distance.
+    Under,
+    /// One flip, at the distance.
+    Flip,
+    /// No flip up to the limit.
+    Over,
+}
+
+impl<'a> Walk<'a> {
+    /// From the launch, whose `outcome` is 1 for heads and -1 for tails, in the direction of `sense`.
+    pub(super) fn new(line: &'a Line<'a>, outcome: f64, sense: f64, limit: f64) -> Self {
+        // A limit that is not positive leaves nothing to search.
+        let state = if limit > 0.0 { State::Under } else { State::Over };
+        Self { line, outcome, sense, distance: 0.0, limit, state }
+    }
+
+    /// The first flip (rad, with the sign of its direction), if there is one up to the limit.
+    pub(super) fn first(mut self) -> Option<f64> {
+        while self.state == State::Under {
+            self.advance();
+        }
+        self.flip()
+    }
+
+    /// The nearer flip of two directions.
+    pub(super) fn nearer(mut walks: [Self; 2]) -> Option<f64> {
+        loop {
+            let distances = walks.each_ref().map(|walk| if walk.state == State::Over { f64::INFINITY } else { walk.distance });
+            let walk = &mut walks[usize::from(distances[1] < distances[0])];
+            if walk.state != State::Under {
+                return walk.flip();
+            }
+            walk.advance();
+        }
+    }
+
+    fn flip(&self) -> Option<f64> {
+        (self.state == State::Flip).then_some(self.sense * self.distance)
+    }
+
+    /// One step.
+    fn advance(&mut self) {
+        let change = self.sense * self.distance;
+        let mut here = self.oriented(self.line.height(change));
+        let mut flip = self.enclosed(&here);
+        for finer in [Line::fine_height, Line::exact_height] {
+            if flip.is_none() && here.value < 4.0 * here.error {
+                here = self.oriented(finer(self.line, change));
+                flip = self.enclosed(&here);
+            }
+        }
+        // Only a shortest step can have passed a flip.
+        if here.value < -here.error {
+            flip = Some(0.0);
+        }
+        if let Some(further) = flip {
+            return self.arrive(further, State::Flip);
+        }
+        let step = self.free_length(&here).max(self.line.closed_length(change, self.sense));
+        let shortest = RESOLUTION * self.distance;
+        if step.max(shortest) > 0.0 {
+            self.arrive(step.max(shortest), State::Under);
+        } else {
+            // The flip is nearer than the smallest f64.
+            self.arrive(0.0, State::Flip);
+        }
+    }
+
+    /// Goes on by `further` (rad).
+    fn arrive(&mut self, further: f64, state: State) {
+        self.distance += further;
+        self.state = if self.distance < self.limit { state } else { State::Over };
+    }
+
+    /// The height above the edge as seen by this walk.
+    fn oriented(&self, height: Height) -> Height {
+        Height { value: self.outcome * height.value, slope: self.outcome * self.sense * height.slope, ..height }
+    }
+
+    /// How much further the first flip is, if it is known to the resolution.
+    fn enclosed(&self, here: &Height) -> Option<f64> {
+        let [value, fall] = [here.value + here.error, -(here.slope + here.slope_error)];
+        let discriminant = fall * fall - 2.0 * value;
+        if fall <= 0.0 || discriminant <= 0.0 || value < 0.0 {
+            return None;
+        }
+        let most = 2.0 * value / (fall + discriminant.sqrt());
+        let least = free(here, 1.0);
+        (most - least <= RESOLUTION * (self.distance + least)).then_some(0.5 * (least + most))
+    }
+
+    /// A length without a flip.
+    fn free_length(&self, here: &Height) -> f64 {
+        let change = self.sense * self.distance;
+        let curvature = |length| self.line.curvature(change, self.sense, length);
+        let far = free(here, curvature(0.0));
+        free(here, 1.0).max(far.min(free(here, curvature(far))))
+    }
+}
+
+/// The length over which f stays positive if its second derivative is at least -`curvature`.
+fn free(here: &Height, curvature: f64) -> f64 {
+    let [value, slope] = [here.value - here.error, here.slope - here.slope_error];
+    if value <= 0.0 {
+        return 0.0;
+    }
+    // The factor is for the roundings of this length.
+    let root = (slope * slope + 2.0 * curvature * value).sqrt();
+    (1.0 - 1e-15) * if slope > 0.0 { (slope + root) / curvature } else { 2.0 * value / (root - slope) }
+}
