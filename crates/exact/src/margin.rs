@@ -7,7 +7,7 @@
 //!
 //! | input | line of turns | searched |
 //! |---|---|---|
-//! | ωx, ωy, ωz | parallel to an axis | the rates up to [`Margin::rate_range`] |
+//! | ωx, ωy, ωz | parallel to an axis | changes up to [`Margin::rate_range`] |
 //! | time of flight | through Φ = 0 | one turn of S each way, after which the outcomes repeat |
 //! | speed, gravity | the same: each time of flight has one of each | all |
 //! | tilt | none: f(δ) = f cos δ + f(90°) sin δ | all |
@@ -26,9 +26,8 @@ use dynamics::time_of_flight::ExactTime;
 use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
-use self::height::Height;
 use self::line::Line;
-use self::search::Walk;
+use self::search::{MOST_WORK, Walk};
 use crate::certified::certify;
 use crate::heads::HeadsPhases;
 use crate::motion::ExactMotion;
@@ -51,13 +50,17 @@ pub struct Margin {
     pub tilt: Option<f64>,
     /// Of ωx, ωy, ωz (rad/s).
     pub rate: [Option<f64>; 3],
-    /// The rates were searched from minus this to this (rad/s), as far as their phases are small enough to have outcomes:
-    /// up to 1000 rad/s, or ten times the largest rate of the launch if that is more.
-    pub rate_range: f64,
+    /// The largest changes of ωx, ωy, ωz that were searched (rad/s): 1000, or ten times the largest rate of the launch if
+    /// that is more, but no further turn than 2000 rad and no phase that is too large to have an outcome. Less where the
+    /// motion touches the edge so often that the search was ended.
+    pub rate_range: [f64; 3],
 }
 
-/// The rates that are searched at least (rad/s): 160 turns a second, four times as many as a hand gives a coin.
-const RATES: f64 = 1000.0;
+/// Changes of a rate that are searched (rad/s): 160 turns a second, four times what a hand gives a coin.
+const RATE_RANGE: f64 = 1000.0;
+
+/// Changes of the turn that are searched (rad), which bounds the work. Flips further away than some turns are rare.
+const TURN_RANGE: f64 = 2000.0;
 
 /// The margin of a toss.
 ///
@@ -69,16 +72,16 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
         Outcome::Tails => -1.0,
         Outcome::Undecided => return Ok(on_edge(toss)),
     };
-    let rate_range = rate_range(toss);
     let turn = line::turn(toss);
     let [time, speed, gravity] = of_flight(toss, outcome)?;
-    let rate = [0, 1, 2].map(|axis| of_rate(toss, axis, turn, outcome, rate_range));
+    let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, turn, outcome));
+    let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
     Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range })
 }
 
-/// Up to which rates are searched (rad/s).
+/// The largest change of a rate that is searched (rad/s).
 fn rate_range(toss: &Toss) -> f64 {
-    (10.0 * toss.launch.rate().amax()).clamp(RATES, f64::MAX)
+    (10.0 * toss.launch.rate().amax()).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX)
 }
 
 /// The margin of an undecided toss.
@@ -91,7 +94,7 @@ fn on_edge(toss: &Toss) -> Margin {
         gravity: thrown,
         tilt: zero,
         rate: [zero; 3],
-        rate_range: rate_range(toss),
+        rate_range: [rate_range(toss); 3],
     }
 }
 
@@ -111,10 +114,11 @@ fn of_flight(toss: &Toss, outcome: f64) -> Result<[Option<f64>; 3], SolveError> 
     let line = Line::of_time(toss, phase);
     let limits = [TURN.min(LARGEST_PHASE - phase.hi()), TURN.min(phase.hi())];
     let [later, earlier] = [(1.0, limits[0]), (-1.0, limits[1])].map(|(sense, limit)| {
-        let change = motion.time_of(Walk::new(&line, outcome, sense, limit).first()?);
+        let change = motion.time_of(Walk::new(&line, outcome, sense, limit, f64::INFINITY).first()?);
         change.is_finite().then_some(change)
     });
-    let thrown = [later, earlier].map(|change| change.map_or([None; 2], |change| flight::speed_and_gravity(flight, change)));
+    let thrown =
+        [later, earlier].map(|change| change.map_or([None; 2], |change| flight::speed_and_gravity(flight, change)));
     let [later_thrown, earlier_thrown] = thrown;
     Ok([
         smaller(later, earlier),
@@ -128,50 +132,49 @@ fn smaller(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     [a, b].into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
-/// Of a rate, with the `turn` Φ of the landing.
-fn of_rate(toss: &Toss, axis: usize, turn: [DoubleDouble; 3], outcome: f64, range: f64) -> Option<f64> {
-    let time = ExactTime::from(toss.launch.time_of_flight());
+/// Of a rate, with the `turn` Φ of the landing; and the largest change that was searched.
+fn of_rate(toss: &Toss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
+    let flight = toss.launch.time_of_flight();
+    let (time, range) = (ExactTime::from(flight), rate_range(toss));
     let k = toss.coin.exact_inertia_ratio();
     // Of Φz, by which the phase of the spin stays below its limit.
     let (ratio, spin_limit) = match axis {
         2 => (k, LARGEST_PHASE * k.hi() / (k.hi() - 1.0).abs()),
         _ => (1.0.into(), LARGEST_PHASE),
     };
-    if ratio.hi() == 0.0 || !toss.launch.time_of_flight().is_positive() {
-        return None;
+    if ratio.hi() == 0.0 || !flight.is_positive() {
+        return (None, range);
     }
     let line = Line::of_rate(toss, axis, turn);
     let across = line.across();
     let phase_limit = ((LARGEST_PHASE - across) * (LARGEST_PHASE + across)).max(0.0).sqrt();
-    let farthest = (range * ratio.hi() * toss.launch.flight_time()).min(phase_limit).min(spin_limit);
-    let walk = |sense: f64| Walk::new(&line, outcome, sense, farthest - sense * line.along().hi());
-    let change = Walk::nearer([walk(1.0), walk(-1.0)])?;
-    let change = (DoubleDouble::from(change) / time.mantissa() / ratio).times_power_of_two(-time.exponent()).hi();
-    change.is_finite().then_some(change)
+    let farthest = phase_limit.min(spin_limit);
+    let reach = range * ratio.hi() * toss.launch.flight_time();
+    let walk = |sense: f64| {
+        let limit = reach.min(farthest - sense * line.along().hi());
+        Walk::new(&line, outcome, sense, limit, MOST_WORK)
+    };
+    let rate_of =
+        |turn: f64| (DoubleDouble::from(turn) / time.mantissa() / ratio).times_power_of_two(-time.exponent()).hi();
+    match Walk::nearer([walk(1.0), walk(-1.0)]) {
+        Ok(change) => (change.map(rate_of).filter(|change| change.is_finite()), range),
+        Err(distance) => (None, rate_of(distance)),
+    }
 }
 
 /// Of the tilt.
 fn of_tilt(toss: &Toss, turn: [DoubleDouble; 3]) -> Option<f64> {
-    let stages: [&dyn Fn() -> [Height; 2]; 3] = [
-        &|| line::tilted_heights(toss, turn, false),
-        &|| line::tilted_heights(toss, turn, true),
-        &|| digits::tilted_heights(toss),
-    ];
-    let changes = stages.into_iter().map(|heights| {
-        let [height, turned] = heights();
-        let change = -(height.value / turned.value).atan();
+    let mut change = f64::NAN;
+    for stage in 0..3 {
+        let [height, turned] =
+            if stage < 2 { line::tilted_heights(toss, turn, stage) } else { digits::tilted_heights(toss) };
+        change = -(height.value / turned.value).atan();
         let size = height.value.abs().max(turned.value.abs());
-        (change, (height.error + turned.error) / size)
-    });
-    // The last stage has no limit of digits to speak of.
-    let mut last = None;
-    for (change, error) in changes {
-        last = Some(change).filter(|change| change.is_finite());
-        if error < 4e-13 * change.abs() {
+        if height.error + turned.error < 4e-13 * size * change.abs() {
             break;
         }
     }
-    last
+    Some(change).filter(|change| change.is_finite())
 }
 
 /// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if it was not thrown

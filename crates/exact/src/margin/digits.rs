@@ -42,12 +42,7 @@ fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
         if size > threshold || digits >= MOST_DIGITS {
             let [value, slope, bound] = [value, slope, bound].map(|number| number.to_f64().value());
             let rounding = |value: f64| 2.0 * UNIT_ROUNDOFF * value.abs();
-            return Height {
-                value,
-                slope,
-                error: bound + rounding(value),
-                slope_error: 2.0 * bound + rounding(slope),
-            };
+            return Height { value, slope, error: bound + rounding(value), slope_error: 2.0 * bound + rounding(slope) };
         }
         digits *= 2;
     }
@@ -82,8 +77,7 @@ fn landing(toss: &Toss, input: Input, change: f64, vertical: [Big; 3], digits: u
 fn height_and_slope(landing: Landing<Big>, digits: usize) -> [Big; 2] {
     let [x, y, z] = &landing.turn;
     let phase = (x * x + y * y + z * z).sqrt();
-    let functions =
-        functions_of_phase(&phase, phase.sin_cos(), |value| exactly(value).with_precision(digits).value());
+    let functions = functions_of_phase(&phase, phase.sin_cos(), |value| exactly(value).with_precision(digits).value());
     landing.height_and_slope(functions)
 }
 

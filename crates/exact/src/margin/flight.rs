@@ -29,10 +29,7 @@ pub(super) fn speed_and_gravity(flight: TimeOfFlight, change: f64) -> [Option<f6
     let by_speed = change * sum(0.5 * gravity, drop, |fall| fall / now / then);
     let by_gravity = -2.0 * (change / now.hi()) / then.hi() * sum(speed, drop, |fall| fall / now + fall / then);
     let exists = |value: f64, exists: bool| Some(value).filter(|value| exists && value.is_finite());
-    [
-        exists(by_speed, then.hi() >= least_by_speed),
-        exists(by_gravity, now.hi() > 0.0 && then.hi() > least_by_gravity),
-    ]
+    [exists(by_speed, then.hi() >= least_by_speed), exists(by_gravity, now.hi() > 0.0 && then.hi() > least_by_gravity)]
 }
 
 /// `constant` and what `fall` makes of the `drop`, in double-double: caught above the launch, they nearly cancel.

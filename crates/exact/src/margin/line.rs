@@ -1,16 +1,20 @@
 //! The line of turns that one input of a toss moves along, in f64: where it is sampled, and how far no flip can be.
 //!
-//! Three bounds let the search skip parts of the line, each proven here or in [`height`](super::height):
+//! These bounds let the search skip parts of the line, each proven here or in [`height`](super::height):
 //!
 //! ```text
 //! |f''| ≤ 1                                            everywhere
 //! |f''| ≤ σ² + (1 + 4.5 σ)/φ + 10/φ²                   σ = |Φ·e|/φ and φ where each is worst on the part skipped
+//! |f''| ≤ |mz| + |a|/3 + |a'| + |b|/12 + |b'|/3 + |b''|/2
+//! |f''| ≤ |B| + |C|                                    along Φ itself, as for the time of flight
 //! (m·Φ)² + Φz² > |Φ|²                                  no flip: the cone of n does not reach the horizontal
 //! ```
 //!
 //! The second follows from cos θ = F(s, φ) = (m·s)(ẑ·s)(1 - cos φ) + mz cos φ + sin φ (m × s)z with s = Φ/φ:
 //! φ' = σ and φ'' ≤ 1/φ; |s'| ≤ 1/φ and |s''| ≤ 1.16/φ²; the derivatives of F are at most 1 (twice by φ, or once), √5 (by s
-//! and φ), 5 (by s) and 4 (twice by s). The third says |A| > √(B² + C²) for cos θ = A + B cos φ + C sin φ.
+//! and φ), 5 (by s) and 4 (twice by s). The third is for coins that stay near the edge all the time; there S = ∫ cos(t φ) dt
+//! and V = ∫ (1 - t) cos(t φ) dt over t from 0 to 1, and the n-th derivative of cos(t φ) is at most tⁿ. The fourth and the last
+//! are those of cos θ = A + B cos φ + C sin φ; the last says |A| > √(B² + C²).
 //!
 //! Errors of f in units of u = 2^-53, in the notation of [`height`](super::height):
 //!
@@ -35,6 +39,7 @@ use super::digits::height_in_digits;
 use super::height::{Height, Landing, functions_of_phase};
 use super::sine::sine_and_cosine;
 use crate::motion::momentum_direction;
+use crate::tilt_terms::terms;
 
 /// An input that moves the turn along a straight line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,38 +121,71 @@ impl<'a> Line<'a> {
         Landing { vertical, turn: [part(0), part(1), part(2)], direction, along }
     }
 
-    /// f and f' at a `change` (rad), in f64.
-    pub(super) fn height(&self, change: f64) -> Height {
+    /// f and f' at a `change` (rad): in f64, in double-double, and in as many digits as tell f from 0.
+    pub(super) fn height(&self, stage: usize, change: f64) -> Height {
+        match stage {
+            0 => self.rough_height(change),
+            1 => self.fine_height(change),
+            _ => height_in_digits(self.toss, self.input, change),
+        }
+    }
+
+    fn rough_height(&self, change: f64) -> Height {
         let [along, phase] = self.along_and_phase(change);
         height_of(self.landing(along.hi()), phase)
     }
 
-    /// f and f' at a `change` (rad), in double-double.
     #[cold]
-    pub(super) fn fine_height(&self, change: f64) -> Height {
+    fn fine_height(&self, change: f64) -> Height {
         let [along, phase] = self.along_and_phase(change);
         let part = |index: usize| self.across[index] + self.direction[index] * along;
         let turn = [part(0), part(1), part(2)];
         fine_height_of(Landing { vertical: self.vertical, turn, direction: self.direction, along }, phase)
     }
 
-    /// f and f' at a `change` (rad), in as many digits as tell f from 0.
-    #[cold]
-    pub(super) fn exact_height(&self, change: f64) -> Height {
-        height_in_digits(self.toss, self.input, change)
-    }
-
     /// A bound of |f''| over a `length` ≥ 0 (rad) from `change` in the direction of `sense`, 1 or -1.
     pub(super) fn curvature(&self, change: f64, sense: f64, length: f64) -> f64 {
+        let from = self.along.hi() + change;
+        let ends = [from, from + sense * length];
+        let bound = if self.across_squared.hi() > 0.0 {
+            self.curvature_far_out(ends).min(self.curvature_by_size(ends))
+        } else {
+            self.amplitude()
+        };
+        // The factor is for the roundings of the bound.
+        (1.000_001 * bound).min(1.0)
+    }
+
+    /// The bound by the change of the phase, between two values of Φ·e.
+    fn curvature_far_out(&self, ends: [f64; 2]) -> f64 {
         let across = self.across_squared.hi();
-        let ends = [0.0, sense * length].map(|further| (self.along.hi() + change) + further);
         let far = ends[0].abs().max(ends[1].abs());
         let near = if ends[0] * ends[1] > 0.0 { ends[0].abs().min(ends[1].abs()) } else { 0.0 };
         let sine = far / (across + far * far).sqrt();
         let inverse = 1.0 / (across + near * near).sqrt();
-        // Also for what is not a number, where all are 0. The factor is for the roundings of this bound.
-        let bound = 1.000_001 * (sine * sine + inverse * (1.0 + 4.5 * sine + 10.0 * inverse));
+        let bound = sine * sine + inverse * (1.0 + 4.5 * sine + 10.0 * inverse);
+        // Not a number where all are 0.
         if bound < 1.0 { bound } else { 1.0 }
+    }
+
+    /// The bound by the sizes of mz, a and b, between two values of Φ·e. It is convex, so that an end has the most.
+    fn curvature_by_size(&self, ends: [f64; 2]) -> f64 {
+        let far = if ends[0].abs() > ends[1].abs() { ends[0] } else { ends[1] };
+        let Landing { vertical, turn, direction, .. } = self.landing(far);
+        let [[m_x, m_y, m_z], [x, y, z], [e_x, e_y, e_z]] =
+            [vertical, turn, direction].map(|vector| vector.map(f64::abs));
+        let (level, level_slope) = (m_x * x + m_y * y + m_z * z, m_x * e_x + m_y * e_y + m_z * e_z);
+        let by_across = (m_x * y + m_y * x) / 3.0 + (m_x * e_y + m_y * e_x);
+        let by_tilted = z * level / 12.0 + (e_z * level + z * level_slope) / 3.0 + e_z * level_slope;
+        m_z + by_across + by_tilted
+    }
+
+    /// |B| + |C| of cos θ = A + B cos φ + C sin φ, along Φ itself.
+    fn amplitude(&self) -> f64 {
+        const ROUNDING: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+        let [x, y, _] = self.direction;
+        let [_, cosine, sine] = terms(self.vertical, self.direction, x * x + y * y);
+        cosine.hi().abs() + sine.hi().abs() + ROUNDING
     }
 
     /// A length from `change` on in the direction of `sense` over which the cone of n does not reach the horizontal: 0 if it
@@ -187,14 +225,14 @@ pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
 }
 
 /// cos θ of a toss with the turn Φ at landing, and what it becomes after a quarter of a turn of the launch about the lab's x
-/// axis; in f64 and, where asked for, in double-double.
-pub(super) fn tilted_heights(toss: &Toss, turn: [DoubleDouble; 3], fine: bool) -> [Height; 2] {
+/// axis; in f64 or, at `stage` 1, in double-double.
+pub(super) fn tilted_heights(toss: &Toss, turn: [DoubleDouble; 3], stage: usize) -> [Height; 2] {
     let components = toss.launch.attitude().components().map(DoubleDouble::from);
     let [w, x, y, z] = components;
     // The quarter turn is that of the quaternion (1, 1, 0, 0).
     [components, [w - x, w + x, y - z, y + z]].map(|components| {
         let line = Line { vertical: vertical(components), ..Line::of_rate(toss, 0, turn) };
-        if fine { line.fine_height(0.0) } else { line.height(0.0) }
+        line.height(stage, 0.0)
     })
 }
 
@@ -218,12 +256,7 @@ fn fine_height_of(landing: Landing<DoubleDouble>, phase: DoubleDouble) -> Height
     let [value, slope] = landing.height_and_slope(functions).map(DoubleDouble::hi);
     let error = fine_error(phase.hi());
     let rounding = UNIT_ROUNDOFF;
-    Height {
-        value,
-        slope,
-        error: error + rounding * value.abs(),
-        slope_error: 2.0 * error + rounding * slope.abs(),
-    }
+    Height { value, slope, error: error + rounding * value.abs(), slope_error: 2.0 * error + rounding * slope.abs() }
 }
 
 /// Bound of the error of f in f64 at a `phase` (rad).

@@ -30,7 +30,16 @@ pub(super) struct Walk<'a> {
     distance: f64,
     limit: f64,
     state: State,
+    /// What is left of the work that it may take.
+    work: f64,
 }
+
+/// Work of a height in f64, in double-double and in many digits, roughly in units of 50 ns.
+const WORK: [f64; 3] = [1.0, 20.0, 5000.0];
+
+/// The work that a search may take: some hundred milliseconds. Ordinary tosses take less than a ten-thousandth of it; it ends a search
+/// along hundreds of touches.
+pub(super) const MOST_WORK: f64 = 2e6;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum State {
@@ -40,14 +49,16 @@ enum State {
     Flip,
     /// No flip up to the limit.
     Over,
+    /// No flip up to the distance, and no work is left.
+    Spent,
 }
 
 impl<'a> Walk<'a> {
     /// From the launch, whose `outcome` is 1 for heads and -1 for tails, in the direction of `sense`.
-    pub(super) fn new(line: &'a Line<'a>, outcome: f64, sense: f64, limit: f64) -> Self {
+    pub(super) fn new(line: &'a Line<'a>, outcome: f64, sense: f64, limit: f64, work: f64) -> Self {
         // A limit that is not positive leaves nothing to search.
         let state = if limit > 0.0 { State::Under } else { State::Over };
-        Self { line, outcome, sense, distance: 0.0, limit, state }
+        Self { line, outcome, sense, distance: 0.0, limit, state, work }
     }
 
     /// The first flip (rad, with the sign of its direction), if there is one up to the limit.
@@ -58,15 +69,17 @@ impl<'a> Walk<'a> {
         self.flip()
     }
 
-    /// The nearer flip of two directions.
-    pub(super) fn nearer(mut walks: [Self; 2]) -> Option<f64> {
+    /// The nearer flip of two directions; the distance up to which there is none if the work ended before the limits.
+    pub(super) fn nearer(mut walks: [Self; 2]) -> Result<Option<f64>, f64> {
         loop {
-            let distances = walks.each_ref().map(|walk| if walk.state == State::Over { f64::INFINITY } else { walk.distance });
+            let distances =
+                walks.each_ref().map(|walk| if walk.state == State::Over { f64::INFINITY } else { walk.distance });
             let walk = &mut walks[usize::from(distances[1] < distances[0])];
-            if walk.state != State::Under {
-                return walk.flip();
+            match walk.state {
+                State::Under => walk.advance(),
+                State::Flip | State::Over => return Ok(walk.flip()),
+                State::Spent => return Err(walk.distance),
             }
-            walk.advance();
         }
     }
 
@@ -77,11 +90,13 @@ impl<'a> Walk<'a> {
     /// One step.
     fn advance(&mut self) {
         let change = self.sense * self.distance;
-        let mut here = self.oriented(self.line.height(change));
+        let mut here = self.oriented(self.line.height(0, change));
         let mut flip = self.enclosed(&here);
-        for finer in [Line::fine_height, Line::exact_height] {
+        self.work -= WORK[0];
+        for stage in 1..WORK.len() {
             if flip.is_none() && here.value < 4.0 * here.error {
-                here = self.oriented(finer(self.line, change));
+                self.work -= WORK[stage];
+                here = self.oriented(self.line.height(stage, change));
                 flip = self.enclosed(&here);
             }
         }
@@ -105,7 +120,11 @@ impl<'a> Walk<'a> {
     /// Goes on by `further` (rad).
     fn arrive(&mut self, further: f64, state: State) {
         self.distance += further;
-        self.state = if self.distance < self.limit { state } else { State::Over };
+        self.state = match state {
+            _ if self.distance >= self.limit => State::Over,
+            State::Under if self.work < 0.0 => State::Spent,
+            state => state,
+        };
     }
 
     /// The height above the edge as seen by this walk.
@@ -116,12 +135,17 @@ impl<'a> Walk<'a> {
     /// How much further the first flip is, if it is known to the resolution.
     fn enclosed(&self, here: &Height) -> Option<f64> {
         let [value, fall] = [here.value + here.error, -(here.slope + here.slope_error)];
-        let discriminant = fall * fall - 2.0 * value;
-        if fall <= 0.0 || discriminant <= 0.0 || value < 0.0 {
+        if fall <= 0.0 || value < 0.0 {
+            return None;
+        }
+        // It cannot be further than at twice Newton's distance.
+        let curvature = self.line.curvature(self.sense * self.distance, self.sense, 2.0 * value / fall);
+        let discriminant = fall * fall - 2.0 * curvature * value;
+        if discriminant <= 0.0 {
             return None;
         }
         let most = 2.0 * value / (fall + discriminant.sqrt());
-        let least = free(here, 1.0);
+        let least = free(here, curvature);
         (most - least <= RESOLUTION * (self.distance + least)).then_some(0.5 * (least + most))
     }
 
@@ -140,7 +164,7 @@ fn free(here: &Height, curvature: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
     }
-    // The factor is for the roundings of this length.
+    // The factor below is for the roundings of this length.
     let root = (slope * slope + 2.0 * curvature * value).sqrt();
     (1.0 - 1e-15) * if slope > 0.0 { (slope + root) / curvature } else { 2.0 * value / (root - slope) }
 }
