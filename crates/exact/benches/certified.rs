@@ -1,11 +1,11 @@
-//! What a proof costs: outcomes of random launches, certified and by the sign of the same f64 alone; and cos θ and the
-//! whole state to the last bit. Read the ratio of the first two.
+//! What a proof costs: outcomes of random launches, certified and by the sign of the same f64 alone; cos θ and the whole
+//! state to the last bit; and the margins by all inputs. Read the ratio of the first two.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{Coin, Launch, Outcome, Solver, TimeOfFlight, Toss, Vector3};
-use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify};
+use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify, margin};
 
 /// Rates of 1 to 60 rad/s on each axis, speeds of 3 to 5 m/s, by Weyl's sequence.
 fn tosses() -> Vec<Toss> {
@@ -41,6 +41,10 @@ fn outcomes(criterion: &mut Criterion) {
     group.bench_function("state to the last bits", |bencher| {
         let state = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.time_of_flight()).ok();
         bencher.iter(|| tosses.iter().filter_map(|toss| state(black_box(toss))).map(|state| state.rate.x).sum::<f64>());
+    });
+    group.bench_function("margins by all inputs", |bencher| {
+        let tilts = || tosses.iter().filter_map(|toss| margin(black_box(toss)).ok()?.tilt);
+        bencher.iter(|| tilts().sum::<f64>());
     });
     group.finish();
 }

@@ -3,7 +3,8 @@
 //! | what | file |
 //! |---|---|
 //! | the motion: rates, attitude, cos θ, Euler angles, to the last bits | [`motion`] |
-//! | cos θ as three terms in f64; the phases that show heads; how far the other outcome is | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
+//! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
 //! | derivatives of the landing by the launch | [`sensitivity`] |
 //! | cheaper forms: without trigonometry, of Keller's coin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
 //! | proven outcomes | [`certified`], [`certificate`] |

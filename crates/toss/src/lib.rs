@@ -12,7 +12,7 @@
 //!
 //! # A toss
 //! The paper's cheated toss, ω = (1, 1, 2.5) rad/s thrown up at 3 m/s: its outcome is proven, and the speed would have
-//! to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certify`],
+//! to grow by 3.4 m/s to flip it, or ωx by 1.5 rad/s. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certify`],
 //! [`margin()`].
 //!
 //! ```
@@ -22,7 +22,9 @@
 //! let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
 //! assert_eq!(certify(&toss)?.outcome().name(), "heads");
 //! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
-//! assert_eq!(margin(&toss)?.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
+//! let nearest = margin(&toss)?;
+//! assert_eq!(nearest.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
+//! assert_eq!(nearest.rate[0].map(|change| format!("{change:+.4} rad/s")).as_deref(), Some("+1.4587 rad/s"));
 //!
 //! // The same flight by an integrator that is chosen at run time.
 //! let gamma = Registry::standard().named("gamma")?.solver(&Settings::default())?;

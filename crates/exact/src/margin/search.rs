@@ -37,8 +37,8 @@ pub(super) struct Walk<'a> {
 /// Work of a height in f64, in double-double and in many digits, roughly in units of 50 ns.
 const WORK: [f64; 3] = [1.0, 20.0, 5000.0];
 
-/// The work that a search may take: some hundred milliseconds. Ordinary tosses take less than a ten-thousandth of it; it ends a search
-/// along hundreds of touches.
+/// The work that a search may take: some hundred milliseconds. Ordinary tosses take less than a ten-thousandth of it. It ends
+/// a search along hundreds of touches, as there are about a coin on edge.
 pub(super) const MOST_WORK: f64 = 2e6;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,9 +93,9 @@ impl<'a> Walk<'a> {
         let mut here = self.oriented(self.line.height(0, change));
         let mut flip = self.enclosed(&here);
         self.work -= WORK[0];
-        for stage in 1..WORK.len() {
+        for (stage, work) in (1..).zip(&WORK[1..]) {
             if flip.is_none() && here.value < 4.0 * here.error {
-                self.work -= WORK[stage];
+                self.work -= work;
                 here = self.oriented(self.line.height(stage, change));
                 flip = self.enclosed(&here);
             }

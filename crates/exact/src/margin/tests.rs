@@ -3,6 +3,7 @@
 use dynamics::{Attitude, Coin, Launch};
 use nalgebra::Vector3;
 
+use super::height::Height;
 use super::*;
 use crate::certified::certify;
 
@@ -213,4 +214,63 @@ fn a_scaled_toss_has_scaled_margins() {
         (found.rate.map(|change| change.unwrap() / scale), found.time.unwrap() * scale, found.tilt)
     };
     assert_eq!(scaled(1.0), scaled(f64::exp2(900.0)));
+}
+
+/// Lines of all inputs of tosses with small, large and vanishing parts, with a change on each.
+fn lines(mut test: impl FnMut(&Line, f64)) {
+    for (index, rate) in (1..).zip(RATES) {
+        for (tilt, speed) in TILTS.into_iter().flat_map(|tilt| [0.3, 3.0, 40.0].map(|speed| (tilt, speed))) {
+            let toss = toss(Vector3::from(rate) * 3.0, tilt, speed);
+            let turn = line::turn(&toss);
+            let (phase, _) = ExactMotion::new(&toss).phases(toss.launch.time_of_flight()).unwrap();
+            let lines = [0, 1, 2].map(|axis| Line::of_rate(&toss, axis, turn));
+            for line in lines.iter().chain((phase.hi() > 0.0).then_some(&Line::of_time(&toss, phase))) {
+                for part in 0..8 {
+                    test(line, 20.0 * (f64::from(part * 7 + index) * 2f64.sqrt()).fract() - 10.0);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_are_right_to_their_errors() {
+    lines(|line, change| {
+        let exact = line.height(2, change);
+        for Height { value, slope, error, slope_error } in [0, 1].map(|stage| line.height(stage, change)) {
+            assert!((value - exact.value).abs() <= error + exact.error, "{value:e}, not {exact:?}");
+            assert!((slope - exact.slope).abs() <= slope_error + exact.slope_error, "{slope:e}, not {exact:?}");
+        }
+    });
+}
+
+/// The slope changes by no more than the curvature allows, and does so by the slope of the height.
+#[test]
+fn slopes_and_curvatures_are_those_of_the_height() {
+    lines(|line, change| {
+        for (sense, length) in [(1.0, 1e-4), (-1.0, 1e-4), (1.0, 0.3), (-1.0, 3.0)] {
+            let [from, to] = [change, change + sense * length].map(|change| line.height(0, change));
+            let curvature = line.curvature(change, sense, length);
+            let fits = (to.value - from.value - sense * length * from.slope).abs();
+            assert!(fits <= 0.5 * curvature * length * length + 1e-14, "{fits:e} {curvature:e} {length}");
+            assert!((to.slope - from.slope).abs() <= curvature * length + 1e-14, "{curvature:e} {length}");
+            assert!(line.curvature(change, sense, 0.5 * length) <= curvature);
+        }
+    });
+}
+
+#[test]
+fn no_flip_is_where_the_cone_is_closed() {
+    let mut closed = 0;
+    lines(|line, change| {
+        for sense in [1.0, -1.0] {
+            let length = line.closed_length(change, sense).min(20.0);
+            closed += u32::from(length > 0.0);
+            let heads = line.height(0, change).value > 0.0;
+            let looks = (1..200).map(|look| change + sense * length * f64::from(look) / 200.0);
+            let same = |change| (line.height(0, change).value > 0.0) == heads;
+            assert!(length == 0.0 || looks.into_iter().all(same), "{change} {sense} {length}");
+        }
+    });
+    assert!(closed > 400, "{closed}");
 }

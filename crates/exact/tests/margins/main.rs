@@ -35,7 +35,7 @@ fn of(margin: &Margin, input: Input) -> Option<f64> {
 /// Values of an input (least, launch, most) that exist and are searched, and by how many radians one unit of it turns the coin.
 fn domain(toss: &Toss, input: Input, range: [f64; 3]) -> ([f64; 3], f64) {
     let time = toss.launch.flight_time();
-    let phase = ExactMotion::new(toss).phase(time).unwrap();
+    let phase = ExactMotion::new(toss).phase(time).expect("a small phase");
     let turn = 1.05 * std::f64::consts::TAU * time / phase.max(1e-300);
     let (speed, gravity, drop) = match toss.launch.time_of_flight() {
         TimeOfFlight::Given(_) => (f64::NAN, f64::NAN, 0.0),
@@ -124,7 +124,7 @@ fn flip_in_a_dip(end: f64, step: f64, height: &impl Fn(f64) -> numerics::Big, he
 fn check_all(tosses: impl Iterator<Item = Toss>, scan: &Scan) -> [u32; 2] {
     let mut counts = [0; 2];
     for toss in tosses {
-        let found = margin(&toss).unwrap();
+        let found = margin(&toss).expect("small phases");
         for input in INPUTS {
             counts[usize::from(of(&found, input).is_none())] += 1;
             if let Err(wrong) = check(&toss, input, &found, scan) {

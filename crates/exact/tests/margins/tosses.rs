@@ -17,13 +17,14 @@ pub(crate) fn random_tosses() -> impl Iterator<Item = Toss> {
             2 => TimeOfFlight::BallisticTo { speed, gravity, drop: -0.5 * speed * speed / gravity * part(17.0) },
             _ => TimeOfFlight::Ballistic { speed, gravity },
         };
-        let launch = Launch::new(rate, time_of_flight).unwrap();
+        let launch = Launch::new(rate, time_of_flight).expect("a valid toss");
         let launch = match index % 4 {
-            0 => launch.with_tilt(3.0 * signed(11.0)).unwrap(),
-            1 => launch.with_attitude(Attitude::from_components([19.0, 23.0, 29.0, 31.0].map(signed)).unwrap()),
+            0 => launch.with_tilt(3.0 * signed(11.0)).expect("a valid toss"),
+            1 => launch
+                .with_attitude(Attitude::from_components([19.0, 23.0, 29.0, 31.0].map(signed)).expect("a valid toss")),
             _ => launch,
         };
         let ratio = [0.5, 1.0, 1.98, 2.0, 0.03, 0.0, 2.0 * part(37.0)][index as usize % 11 % 7];
-        Toss { coin: Coin::from_moments(1.0, ratio).unwrap(), launch }
+        Toss { coin: Coin::from_moments(1.0, ratio).expect("a valid toss"), launch }
     })
 }
