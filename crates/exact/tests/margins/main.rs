@@ -4,7 +4,7 @@
 mod reference;
 mod tosses;
 
-use dynamics::{TimeOfFlight, Toss};
+use dynamics::{Coin, Launch, TimeOfFlight, Toss, Vector3};
 use exact::{ExactMotion, Margin, margin};
 
 use reference::{Input, big, cos_tilt};
@@ -139,6 +139,40 @@ fn check_all(tosses: impl Iterator<Item = Toss>, scan: &Scan) -> [u32; 2] {
 fn no_flip_is_nearer_than_the_margin() {
     let [flips, none] = check_all(random_tosses().take(100), &Scan { step: 0.3, least: 6.0, most: 150.0 });
     assert!(flips > 500 && none > 40, "{flips} {none}");
+}
+
+/// Where the margin of a rate jumps as the speed grows, cos θ touches 0 at the nearer value: it does with one speed, and does
+/// not with the next f64.
+#[test]
+fn on_both_sides_of_a_touch_no_flip_is_nearer() {
+    let thrown = |speed| {
+        let time_of_flight = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
+        let launch = Launch::new(Vector3::new(6.0, 5.0, 9.0), time_of_flight).and_then(|launch| launch.with_tilt(0.5));
+        Toss { coin: Coin::from_moments(1.0, 1.3).expect("a valid coin"), launch: launch.expect("a valid launch") }
+    };
+    let of_rate = |speed, axis: usize| margin(&thrown(speed)).expect("small phases").rate[axis].unwrap_or(1e300);
+    let jumps = |speeds: [f64; 2], axis| {
+        let [from, to] = speeds.map(|speed| of_rate(speed, axis));
+        from.signum() == to.signum() && (to - from).abs() > 0.1 * from.abs().min(to.abs())
+    };
+    let mut touches = 0;
+    for (axis, step) in (0..3).flat_map(|axis| (0..400).map(move |step| (axis, step))) {
+        let mut speeds = [0.0, 0.01].map(|more| 2.0 + 0.01 * f64::from(step) + more);
+        while jumps(speeds, axis) && speeds[0].next_up() < speeds[1] {
+            let middle = speeds[0] + 0.5 * (speeds[1] - speeds[0]);
+            let half = [speeds[0], middle];
+            speeds = if jumps(half, axis) { half } else { [middle, speeds[1]] };
+        }
+        if speeds[0].next_up() == speeds[1] && jumps(speeds, axis) {
+            touches += 1;
+            for toss in speeds.map(thrown) {
+                let found = margin(&toss).expect("small phases");
+                let scan = Scan { step: 0.1, least: 20.0, most: 300.0 };
+                check(&toss, Input::Rate(axis), &found, &scan).unwrap_or_else(|wrong| panic!("{wrong}"));
+            }
+        }
+    }
+    assert!(touches >= 2, "{touches}");
 }
 
 /// Takes minutes.
