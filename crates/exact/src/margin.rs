@@ -1,9 +1,9 @@
 //! How far a toss is from the other outcome: for each input alone, the nearest value that lands the other way.
 //!
-//! The search walks along the exact motion in steps that are proven free of flips (`margin/search.rs`), so that it passes none over.
-//! What it walks along is the turn of the coin, Φ = (ωx, ωy, k ωz) T, on which cos θ depends so smoothly (`margin/height.rs`) that
-//! one value and one slope exclude a flip for up to some radians, and a cone that does not reach the horizontal excludes one
-//! for good (`margin/line.rs`).
+//! The search walks along the exact motion in steps that are proven free of flips (`margin/search.rs`), so that it passes
+//! none over. What it walks along is the turn of the coin, Φ = (ωx, ωy, k ωz) T, on which cos θ depends so smoothly
+//! (`margin/height.rs`) that one value and one slope exclude a flip for up to some radians. A cone that does not reach the
+//! horizontal excludes one for good (`margin/line.rs`).
 //!
 //! | input | line of turns | searched |
 //! |---|---|---|
