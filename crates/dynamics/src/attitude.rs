@@ -148,6 +148,27 @@ impl Attitude {
         }
     }
 
+    /// As [`Attitude::exact_vertical`], after a quarter of a turn about the lab's x axis.
+    pub fn exact_quarter_turned_vertical(&self) -> [DoubleDouble; 3] {
+        let (vertical, norm) = match self.origin {
+            Origin::Tilt { sin_cos: [sin, cos], .. } => return [DoubleDouble::ZERO, cos, -sin],
+            Origin::Quaternion => vertical_in_body(quarter_turned(self.components().map(DoubleDouble::from))),
+            Origin::Components(given) => {
+                vertical_in_body(quarter_turned(in_a_power_of_two(given).map(DoubleDouble::from)))
+            }
+        };
+        vertical.map(|part| part / norm)
+    }
+
+    /// As [`Attitude::vertical_in_digits`], after a quarter of a turn about the lab's x axis.
+    pub fn quarter_turned_vertical_in_digits(&self, digits: usize) -> ([Big; 3], Big) {
+        if self.tilt().is_some() {
+            let ([zero, sin, cos], norm) = self.vertical_in_digits(digits);
+            return ([zero, cos, -sin], norm);
+        }
+        vertical_in_body(quarter_turned(self.given_components().map(exactly)))
+    }
+
     /// The coin's normal n (LF), the direction of BF's z axis.
     pub fn normal(&self) -> Vector3<f64> {
         self.body_to_lab(&Vector3::z())
@@ -180,6 +201,11 @@ impl Attitude {
         let turn = (self.inverse() * *other).quaternion;
         2.0 * turn.imag().norm().atan2(turn.w.abs())
     }
+}
+
+/// The quaternion (1, 1, 0, 0) q, of √2 times the norm of q: a quarter of a turn about the lab's x axis after q.
+fn quarter_turned<N: Number>([w, x, y, z]: [N; 4]) -> [N; 4] {
+    [w.clone() - x.clone(), w + x, y.clone() - z.clone(), y + z]
 }
 
 /// Components divided by a power of two near the largest of them, so that no square over- or underflows that counts.

@@ -95,9 +95,7 @@ fn is_tie(toss: &Toss) -> bool {
 fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let digits = digits.unsigned_abs();
     let round = |value: Big| value.with_precision(digits).value();
-    let big = |value: f64| round(exactly(value));
-    let (rate, unit) = toss.launch.given_rate();
-    let (x, y, z) = (big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z));
+    let [x, y, z] = given_momentum(toss, digits);
     let across = &x * &x + &y * &y;
     let squared = &across + &z * &z;
     let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
@@ -108,17 +106,30 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     }
     let momentum = squared.sqrt();
     // L is in the unit of the rates, whose size only the phase depends on.
-    let time = time_of_flight(toss.launch.time_of_flight(), digits);
-    let (sin, cos) = (&momentum * unit.in_digits(digits) * time).sin_cos();
+    let (_, unit) = toss.launch.given_rate();
+    let (sin, cos) = (&momentum * unit.in_digits(digits) * flight_time(toss, digits)).sin_cos();
     let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
     (mean + cosine * cos + sine * &momentum * sin) / (squared * norm)
 }
 
-/// T (s) in `digits` binary digits.
-fn time_of_flight(time: TimeOfFlight, digits: usize) -> Big {
+/// (ωx, ωy, k ωz) in `digits` binary digits, in the unit of the rates.
+fn given_momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let (rate, _) = toss.launch.given_rate();
+    [big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z)]
+}
+
+/// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
+pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+    let unit = toss.launch.given_rate().1.in_digits(digits);
+    given_momentum(toss, digits).map(|part| part * &unit)
+}
+
+/// T in `digits` binary digits (s).
+pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
     let round = |value: Big| value.with_precision(digits).value();
     let big = |value: f64| round(exactly(value));
-    match time {
+    match toss.launch.time_of_flight() {
         TimeOfFlight::Given(time) => big(time),
         TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
         TimeOfFlight::BallisticTo { speed, gravity, drop } => {
