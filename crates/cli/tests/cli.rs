@@ -6,7 +6,7 @@ mod common;
 use std::process::Command;
 
 use common::{assert_near, assert_refused, json, run, stdout};
-use serde_json::Value;
+use serde_json::{Value, json as value};
 use toss::{Registry, SolverEntry};
 
 #[test]
@@ -54,6 +54,29 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --scheme rk4", 0)["method"], "rk4");
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["method"], "taylor");
+}
+
+/// Both land some 1e-17 from the edge: on the other side of it for the rounded quaternion, or the rounded moments.
+#[test]
+fn an_outcome_is_proven_for_the_tilt_and_the_cylinder_as_typed() {
+    for (command, outcome, cos_tilt) in [
+        (
+            "toss --rate=-24.064598567199237,-26.566903895330363,49.56448355104628 --speed 2.4107905225673436 \
+             --tilt 2.5150841041292824",
+            "heads",
+            1.083_048_700_603_535_2e-17,
+        ),
+        (
+            "toss --cylinder=0.003,0.01874,0.00114 --rate=-3.2179007895838936,169.2146405840661,-44.3313807416256 \
+             --speed 2.050038069869439",
+            "heads",
+            5.367_562_989_044_33e-16,
+        ),
+    ] {
+        let answer = json(command, 0);
+        assert_eq!((answer["outcome"].as_str(), answer["certified"].as_bool()), (Some(outcome), Some(true)));
+        assert_near(&answer["cos_tilt"], cos_tilt, 1e-30);
+    }
 }
 
 #[test]
@@ -229,7 +252,17 @@ fn a_speed_changed_by_the_margin_flips_the_outcome() {
     assert_near(&answer["margin"]["time"], 2.0 * change / 9.81, 1e-15);
     let forever = json("toss --rate 1,1,2.5 --speed 3 --coin disc", 0);
     assert_eq!((&forever["margin"]["speed"], &forever["margin"]["time"]), (&Value::Null, &Value::Null));
-    assert!(stdout(&run("toss --rate 1,1,2.5 --speed 3 --coin disc")).contains("no speed changes the outcome"));
+    assert!(stdout(&run("toss --rate 1,1,2.5 --speed 3 --coin disc")).contains("none in v0, none in g, "));
+    let cheated = json("toss --rate 1,1,2.5 --speed 3", 0);
+    assert_eq!((&cheated["margin"]["rate"][2], &cheated["margin"]["rate_range"][2]), (&Value::Null, &value!(1000.0)));
+    for (option, input) in [("--gravity", "gravity"), ("--tilt", "tilt")] {
+        let start = if option == "--tilt" { 0.0 } else { 9.81 };
+        let change = cheated["margin"][input].as_f64().unwrap();
+        for (part, outcome) in [(0.999_999, "heads"), (1.000_001, "tails")] {
+            let command = format!("toss --rate 1,1,2.5 --speed 3 {option} {}", start + part * change);
+            assert_eq!(json(&command, 0)["outcome"], outcome, "{command}");
+        }
+    }
 }
 
 #[test]

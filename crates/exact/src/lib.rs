@@ -5,10 +5,11 @@
 //! | what | file |
 //! |---|---|
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
-//! | cos θ as three terms in f64; the phases that show heads; the change that flips the outcome | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
+//! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
-//! | outcomes with a proof, and the types that carry the proof | [`certified`], [`certificate`] |
+//! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
 //! | many tosses at once, in SIMD registers | [`batch`] |
 //! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
 //!
@@ -23,6 +24,7 @@ pub mod heads;
 mod keller;
 pub mod margin;
 pub mod motion;
+mod multiprecision;
 mod polar;
 pub mod sensitivity;
 pub mod solver;
