@@ -198,6 +198,10 @@ fn no_answer_has_a_negative_zero() {
         assert!(!answer.contains("-0.0,") && !answer.contains("-0.0]") && !answer.contains("-0.0}"), "{answer}");
         assert!(!answer.is_empty() && !answer.contains("\"error\""), "{answer}");
     }
+    for no_flight in ["--speed -0", "--time -0", "--speed -0 --drop -0"] {
+        let text = stdout(&run(&format!("toss --rate 2,1,3 {no_flight}")));
+        assert!(text.contains("\nflight time  0 s\n") && text.contains("none in ωx within ±1000 rad/s"), "{text}");
+    }
     let csv = stdout(&run("trace --rate -0,0,-3 --time 1 --points 5"));
     assert!(csv.split([',', '\n']).all(|cell| cell != "-0" && cell != "-0.0"), "{csv}");
 }

@@ -34,7 +34,8 @@ impl Launch {
         for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
             require(field, value, "finite", true)?;
         }
-        let flight_time = time_of_flight.validated_seconds()?;
+        // A speed or a time of -0 is valid, and is 0.
+        let flight_time = time_of_flight.validated_seconds()? + 0.0;
         Ok(Self { rate, given_rate: None, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
     }
 

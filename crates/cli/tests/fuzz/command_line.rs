@@ -43,7 +43,11 @@ impl Case {
         let source = &mut Source::new(number);
         let commands: Vec<&Command> =
             program.get_subcommands().filter(|command| command.get_name() != "help").collect();
-        let command = *source.pick(&commands);
+        let mut command = *source.pick(&commands);
+        // Those that have hardly an option are soon covered.
+        if command.get_arguments().count() < 4 && source.chance(75) {
+            command = *source.pick(&commands);
+        }
         let mut arguments = options(source, command);
         spoil(source, &mut arguments);
         let at = if source.careful || source.chance(98) { 0 } else { source.below(arguments.len() + 1) };
@@ -130,9 +134,9 @@ fn options(source: &mut Source, command: &Command) -> Vec<Vec<OsString>> {
         leave_out_idle(&mut arguments);
     }
     let gives = |option: &[OsString], name: &str| option[0].to_string_lossy().split('=').next() == Some(name);
-    // An integrator takes some 20 ms for each of these flights, which are long, and there are 25 for a point.
+    // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
     if command.get_name() == "limit" && arguments.iter().any(|option| gives(option, "--solver")) {
-        arguments.retain(|option| !gives(option, "--points"));
+        arguments.retain(|option| !["--points", "--formulation"].iter().any(|name| gives(option, name)));
         arguments.push(vec!["--points".into(), "1".into()]);
     }
     arguments

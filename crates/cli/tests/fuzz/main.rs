@@ -30,15 +30,6 @@ fn fuzz(runner: Runner, first: u64, number: u64) {
     for index in first..first + number {
         let case = Case::new(&program, index);
         let ran = runner(&case, folder.path());
-        if std::env::var_os("DBG").is_some() {
-            println!(
-                "DBG\t{:?}\t{:?}\t{}\t{}",
-                ran.wall,
-                ran.code,
-                pasted(&case),
-                String::from_utf8_lossy(&ran.err).lines().next().unwrap_or("")
-            );
-        }
         *codes.entry((case.command(), ran.code)).or_default() += 1;
         if !violations(&case, &ran).is_empty() {
             let case = shortened(runner, case, folder.path());
