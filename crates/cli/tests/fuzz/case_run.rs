@@ -35,6 +35,9 @@ pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
     std::env::set_current_dir(folder).unwrap();
     panic::set_hook(Box::new(|what| PANICS.lock().unwrap().push(what.to_string())));
     let arguments: Vec<OsString> = std::iter::once("unfair-toss".into()).chain(case.flat().cloned()).collect();
+    // For a case that ends the whole process, as a failed allocation does.
+    fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/fuzz-case"), pasted(case)).unwrap();
+    forget_peak_of_memory();
     let began = Instant::now();
     let (send, receive) = mpsc::channel();
     // A thread of its own, which can be given up.
@@ -52,19 +55,39 @@ pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
     let (code, out, err) = runs.join().unwrap();
     _ = panic::take_hook();
     let panics = std::mem::take(&mut *PANICS.lock().unwrap());
-    Ran { code, out, err, panics, wall, files: taken_files(folder) }
+    Ran { code, out, err, panics, wall, memory: peak_of_memory(), files: taken_files(folder) }
 }
 
 /// Runs the case by the program itself, with bounded memory.
 pub(crate) fn the_program(case: &Case, folder: &Path) -> Ran {
     write_files(case, folder);
     let began = Instant::now();
-    let limited = format!("ulimit -v {ADDRESS_SPACE} && exec \"$@\"");
+    let limited = format!("ulimit -v {ADDRESS_SPACE} && ulimit -t {} && exec \"$@\"", GIVEN_UP.as_secs());
     let mut program = Command::new("sh");
     program.args(["-c", &limited, "sh", env!("CARGO_BIN_EXE_unfair-toss")]).args(case.flat()).current_dir(folder);
     let output = program.stdin(Stdio::null()).output().unwrap();
     let (code, wall) = (output.status.code(), began.elapsed());
-    Ran { code, out: output.stdout, err: output.stderr, panics: Vec::new(), wall, files: taken_files(folder) }
+    Ran {
+        code,
+        out: output.stdout,
+        err: output.stderr,
+        panics: Vec::new(),
+        wall,
+        memory: 0,
+        files: taken_files(folder),
+    }
+}
+
+/// The largest memory of this process (KiB) since it was last forgotten; 0 where the system does not tell.
+fn peak_of_memory() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB")?.parse().ok());
+    peak.unwrap_or_default()
+}
+
+/// Makes the memory of now the largest. Where the system can't, the largest of all cases is compared, which is stricter.
+fn forget_peak_of_memory() {
+    _ = fs::write("/proc/self/clear_refs", "5");
 }
 
 fn write_files(case: &Case, folder: &Path) {
@@ -87,7 +110,6 @@ fn taken_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// The case without the arguments that are not needed for a violation.
 pub(crate) fn shortened(runner: Runner, case: Case, folder: &Path) -> Case {
-    // Without the number of points for example, any case may take long.
     if runner(&case, folder).is_slow() {
         return case;
     }
@@ -95,6 +117,10 @@ pub(crate) fn shortened(runner: Runner, case: Case, folder: &Path) -> Case {
     let mut at = best.arguments.len();
     while at > 1 {
         at -= 1;
+        // Without a number of points for example, a command may take long.
+        if best.arguments[at].last().is_some_and(|last| last.as_bytes().iter().all(u8::is_ascii_digit)) {
+            continue;
+        }
         let mut fewer = best.clone();
         fewer.arguments.remove(at);
         if !violations(&fewer, &runner(&fewer, folder)).is_empty() {

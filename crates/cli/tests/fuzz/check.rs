@@ -11,6 +11,9 @@ use crate::command_line::Case;
 /// A run may take this long. Most take some milliseconds; the commands of the cases ask for little.
 const LONGEST: Duration = Duration::from_secs(5);
 
+/// The memory of a process that runs any case (KiB).
+const MOST_MEMORY: u64 = 1 << 20;
+
 /// What a run has left.
 #[derive(Debug)]
 pub(crate) struct Ran {
@@ -21,6 +24,8 @@ pub(crate) struct Ran {
     /// The messages of panics, caught ones too.
     pub(crate) panics: Vec<String>,
     pub(crate) wall: Duration,
+    /// The largest memory of the process (KiB), where it is measured instead of limited.
+    pub(crate) memory: u64,
     /// The files in the working folder.
     pub(crate) files: BTreeMap<String, Vec<u8>>,
 }
@@ -38,6 +43,9 @@ pub(crate) fn violations(case: &Case, ran: &Ran) -> Vec<String> {
     found.extend(exit(ran));
     found.extend(standard_streams(case, ran));
     found.extend(files(case, ran));
+    if ran.memory > MOST_MEMORY {
+        found.push(format!("took {} KiB", ran.memory));
+    }
     if ran.is_slow() {
         found.push(format!("took {:?}", ran.wall));
     }

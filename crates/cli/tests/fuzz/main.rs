@@ -64,7 +64,7 @@ fn generated_input_in_process() {
 
 #[test]
 fn generated_input_by_the_program() {
-    fuzz(the_program, 0, 100);
+    fuzz(the_program, 1_000_000, 100);
 }
 
 #[test]
@@ -76,5 +76,5 @@ fn more_generated_input_in_process() {
 #[test]
 #[ignore = "takes minutes"]
 fn more_generated_input_by_the_program() {
-    fuzz(the_program, 100, 1_900);
+    fuzz(the_program, 1_000_100, 1_900);
 }
