@@ -68,13 +68,7 @@ const TURN_RATE: Row = (
 );
 const SPEED: Row = (
     "a speed in m/s, cm/s, km/h, ft/s or mph (m/s without a unit)",
-    &[
-        unit("m/s", 1, 1),
-        unit("cm/s", 1, 100),
-        unit("km/h", 5, 18),
-        unit("ft/s", 381, 1250),
-        unit("mph", 1397, 3125),
-    ],
+    &[unit("m/s", 1, 1), unit("cm/s", 1, 100), unit("km/h", 5, 18), unit("ft/s", 381, 1250), unit("mph", 1397, 3125)],
 );
 const TIME: Row =
     ("a time in s, ms or µs (s without a unit)", &[unit("s", 1, 1), unit("ms", 1, 1000), unit("µs", 1, 1_000_000)]);
@@ -181,7 +175,8 @@ impl Dimension {
             return Some(Read::Plain(value));
         }
         // The longest start of the text that is a number: `1e3` of `1e3m/s`.
-        let (value, name) = text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
+        let (value, name) =
+            text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
         let unit = self.units().iter().find(|unit| unit.is_called(name))?;
         Some(Read::Converted(unit.to_si(value)))
     }
@@ -273,11 +268,18 @@ mod tests {
 
     #[test]
     fn other_units_and_other_texts_are_refused_with_the_units_that_fit() {
-        for (dimension, text) in
-            [(Speed, "3deg"), (Angle, "15d"), (Angle, "deg"), (Length, ""), (Mass, "5..1g"), (Time, "3 s s"), (Speed, "3m")]
-        {
+        for (dimension, text) in [
+            (Speed, "3deg"),
+            (Angle, "15d"),
+            (Angle, "deg"),
+            (Length, ""),
+            (Mass, "5..1g"),
+            (Time, "3 s s"),
+            (Speed, "3m"),
+        ] {
             let error = dimension.read("x [u]", text).unwrap_err();
-            let expected = InputError::Malformed { field: "x [u]", value: text.to_owned(), expected: dimension.expected() };
+            let expected =
+                InputError::Malformed { field: "x [u]", value: text.to_owned(), expected: dimension.expected() };
             assert_eq!(error, expected);
         }
     }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use dynamics::{Coin, InputError};
+use dynamics::{Coin, Dimension, InputError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -39,6 +39,8 @@ pub(crate) fn paper() -> Coin {
 struct SpaceData {
     #[serde(default = "paper")]
     coin: Coin,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    drop: Option<Entry>,
     #[serde(flatten)]
     axes: BTreeMap<String, Entry>,
 }
@@ -62,14 +64,15 @@ impl TryFrom<SpaceData> for Space {
         let text = |(name, entry): (String, Entry)| Coordinate::named(&name).map(|of| (of, entry.text()));
         let texts = data.axes.into_iter().map(text).collect::<Result<Vec<_>, _>>()?;
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
-        Self::parse(data.coin, &texts)
+        let drop = data.drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
+        Self::parse(data.coin, &texts)?.with_drop(drop)
     }
 }
 
 impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
         let entry = |of: Coordinate| (of.name().to_owned(), Entry::Text(space.axis_or_tie(of).to_string()));
-        Self { coin: space.coin(), axes: Coordinate::ALL.map(entry).into() }
+        Self { coin: space.coin(), drop: space.drop().map(Entry::Number), axes: Coordinate::ALL.map(entry).into() }
     }
 }
 
@@ -83,6 +86,8 @@ mod tests {
         for (name, named) in named_spaces() {
             let text = toml::to_string(&named.space).unwrap();
             assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
+            let dropped = named.space.with_drop(Some(1.25)).unwrap();
+            assert_eq!(toml::from_str::<Space>(&toml::to_string(&dropped).unwrap()).unwrap(), dropped);
         }
     }
 
@@ -91,6 +96,7 @@ mod tests {
         for (text, message) in [
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1", "coordinate = 'spin' is unknown"),
+            ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 1\ndrop = '3s'", "drop [m] = '3s'"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),
         ] {
             let found = toml::from_str::<Space>(text).unwrap_err();

@@ -27,6 +27,8 @@ pub enum Reason {
     MoreIsFree,
     /// It tells no error.
     TellsNoError,
+    /// The coins land below or above their launch.
+    HasDrop,
 }
 
 impl fmt::Display for Reason {
@@ -40,6 +42,7 @@ impl fmt::Display for Reason {
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
             Self::TellsNoError => f.write_str("tells no error"),
+            Self::HasDrop => f.write_str("needs a landing at the height of the launch"),
         }
     }
 }
