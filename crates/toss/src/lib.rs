@@ -128,7 +128,7 @@ pub use model::{MODELS, Model};
 pub use plan::Solution;
 pub use reason::{Nanoseconds, Reason};
 pub use scene::{Integrator, Scene, Want, WantKind};
-pub use trace::{MOST_POINTS, TracePoint, trace};
+pub use trace::{MOST_POINTS, TracePoint, trace, trace_every};
 
 // What can go wrong.
 pub use dynamics::{Error, InputError, SolveError};
