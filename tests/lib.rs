@@ -1,4 +1,5 @@
-//! What the tests across crates share: tosses to try, and what a solver promises.
+//! Functions that the tests across crates share: random tosses, the solvers of the registry, and the errors that are
+//! allowed. Solvers and schemes come from the registry, so that a new solver is tested by every test.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -6,10 +7,10 @@ use toss::{
     Coin, ExactMotion, Launch, Registry, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3,
 };
 
-/// Tolerance of the adaptive methods under test.
+/// Tolerance of the adaptive schemes under test.
 pub const TOLERANCE: f64 = 1e-11;
 
-/// The same cases in every run; `PROPTEST_CASES` asks for more of them.
+/// The settings of the property tests: the same cases in every run, and more of them if `PROPTEST_CASES` says so.
 pub fn config() -> ProptestConfig {
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(96);
     ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() }
@@ -20,7 +21,7 @@ pub fn entries() -> &'static [SolverEntry] {
     Registry::standard().entries()
 }
 
-/// Those that step through time.
+/// The entries of the registry that step through time.
 pub fn integrators() -> impl Iterator<Item = &'static SolverEntry> {
     entries().iter().filter(|entry| entry.integrates())
 }
@@ -38,42 +39,44 @@ pub fn solvers() -> Vec<Box<dyn Solver>> {
     solvers
 }
 
-/// Name and scheme of a solver, for messages.
+/// Name and scheme of a solver, for the messages of failing tests.
 pub fn name(solver: &dyn Solver) -> String {
     format!("{} {:?}", solver.name(), solver.stepping().map(|by| by.scheme().name()))
 }
 
-/// Error of cos θ that a solver may make on `toss`: its own estimate, and what the rounding of the inputs of a related
-/// toss may change.
+/// The error of cos θ that is allowed on `toss`: the solver's own estimate, and what rounding the inputs of a related
+/// toss can change. θ is the angle between the coin's normal and the vertical.
 pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
     let estimate = solver.error_estimate(toss).expect("the tosses of the tests are short");
     estimate.expect("a solver of ours estimates its error") + 4.0 * f64::EPSILON * (2.0 + phase(toss))
 }
 
-/// Error of an attitude (rad): ten times that of cos θ, whose slope vanishes where the attitude's does not.
+/// The error of an attitude (rad) that is allowed: ten times that of cos θ, because an error of the attitude shows in
+/// cos θ only in part where cos θ is near ±1.
 pub fn attitude_error(solver: &dyn Solver, toss: &Toss) -> f64 {
     10.0 * tilt_error(solver, toss)
 }
 
-/// How far the motion turns (rad).
+/// The phase of a toss (rad): how far its motion turns.
 pub fn phase(toss: &Toss) -> f64 {
     ExactMotion::new(toss).phase(toss.launch.flight_time()).expect("the tosses of the tests are short")
 }
 
-/// A toss from its plain numbers.
+/// A toss from plain numbers: k = I3/I1, body rate (rad/s), tilt at launch (rad) and time of flight (s).
 pub fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
     let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.expect("valid") }
 }
 
-/// The same toss for another time (s).
+/// The same toss with another time of flight (s).
 pub fn lasting(toss: &Toss, time: f64) -> Toss {
     let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).expect("valid");
     Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }
 }
 
 prop_compose! {
-    /// Tosses of all bodies from rod to disc, from all tilts, with the corner values as likely as the rest together.
+    /// Tosses of all bodies from rod to disc and from all tilts. Special values (k of 0, 1/2, 1 and 2; tilts of
+    /// 0, π/2, π and tiny ones) are more likely than all other values together.
     pub fn tosses()(
         k in prop_oneof![Just(0.0), Just(0.5), Just(1.0), Just(2.0), 0.0..2.0],
         rate_x in rates(), rate_y in rates(), rate_z in rates(),
@@ -85,12 +88,12 @@ prop_compose! {
     }
 }
 
-/// Rates of up to 60 rad/s, zero and tiny ones among them.
+/// Components of the body rate of up to 60 rad/s; one in eight is zero and one in eight is tiny.
 pub fn rates() -> impl Strategy<Value = f64> {
     prop_oneof![1 => Just(0.0), 1 => Just(1e-9), 6 => -60.0..60.0]
 }
 
-/// The README's Rust is compiled and run.
+/// Compiles and runs the Rust code of README.md as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

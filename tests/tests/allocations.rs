@@ -1,5 +1,5 @@
-//! No integrator allocates memory per step: what it allocates grows with the logarithm of the number of steps. Batches and
-//! the exact motion allocate none.
+//! Counts memory allocations, because an allocation per step or per toss would dominate the cost. The exact motion and
+//! batches allocate nothing; an integrator allocates a number of times that grows with the logarithm of its steps.
 
 use allocation_counter::measure;
 use blackbox::integrators;
@@ -8,7 +8,8 @@ use toss::{
     Stepping, TAYLOR, Tosses,
 };
 
-/// The stages, and two vectors of results that double when full.
+/// The allowed number of allocations: 4 for the stages of the scheme, and those of two vectors of results that double
+/// their size when they are full.
 fn allowed(steps: u64) -> u64 {
     4 + 2 * u64::from(steps.next_power_of_two().ilog2())
 }
@@ -41,7 +42,7 @@ fn a_batch_allocates_nothing() {
 }
 
 #[test]
-fn taylor_series_allocate_nothing_but_their_results() {
+fn taylor_series_allocate_only_the_vector_of_results() {
     let tosses = [blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0); 20];
     let solver = QuaternionSolver::new(Stepping::adaptive(TAYLOR, 1e-12).unwrap(), Formulation::default());
     assert_eq!(measure(|| assert!(solver.propagate(&tosses[0]).is_ok())).count_total, 0);
@@ -49,7 +50,7 @@ fn taylor_series_allocate_nothing_but_their_results() {
 }
 
 #[test]
-fn integrators_allocate_with_the_logarithm_of_the_steps() {
+fn allocations_of_integrators_grow_with_the_logarithm_of_the_steps() {
     let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 20.0);
     let adaptive = [Scheme::DOP853, Scheme::DOPRI5].map(|scheme| Stepping::adaptive(scheme, 1e-12).unwrap());
     let all = [adaptive[0], adaptive[1], Stepping::fixed(Scheme::RK4, 1e-3).unwrap()];

@@ -1,4 +1,5 @@
-//! Bad and corner input through the library: right, or a typed error that names the field; never a panic or a NaN.
+//! Gives invalid and extreme input to the library. The answer has to be right, or a typed error that names the field;
+//! it must never be a panic or a NaN.
 
 use blackbox::{entries, integrators, name, solvers, tilt_error, toss};
 use toss::{
@@ -13,7 +14,7 @@ fn launch(rate: [f64; 3], time_of_flight: TimeOfFlight) -> Result<Launch, InputE
 }
 
 #[test]
-fn what_is_not_finite_is_refused_by_name() {
+fn input_that_is_not_finite_is_refused_with_the_name_of_the_field() {
     let thrown = |speed, gravity| TimeOfFlight::Ballistic { speed, gravity };
     for bad in NOT_FINITE {
         for (result, expected) in [
@@ -42,7 +43,7 @@ fn what_is_not_finite_is_refused_by_name() {
 }
 
 #[test]
-fn what_is_out_of_range_is_refused_with_the_range() {
+fn input_out_of_range_is_refused_with_the_valid_range() {
     let thrown = |speed, gravity| TimeOfFlight::Ballistic { speed, gravity };
     for (result, message) in [
         (Coin::from_cylinder(0.0, 0.01, 0.001).err(), "mass [kg] = 0.0 is outside its valid range: finite and > 0"),
@@ -74,7 +75,7 @@ fn what_is_out_of_range_is_refused_with_the_range() {
 }
 
 #[test]
-fn the_edges_of_the_model_are_accepted() {
+fn the_ends_of_the_valid_ranges_are_accepted() {
     for (i1, i3) in [(1.0, 2.0), (1.0, 0.0), (1.0, 1.0), (f64::MIN_POSITIVE, 0.0), (1e300, 2e300)] {
         assert!(Coin::from_moments(i1, i3).is_ok(), "{i1}, {i3}");
     }
@@ -82,7 +83,7 @@ fn the_edges_of_the_model_are_accepted() {
 }
 
 #[test]
-fn a_coin_that_does_not_move_shows_heads_by_every_solver() {
+fn a_coin_that_has_not_turned_lands_heads_by_every_solver() {
     for (rate, time) in [([1.0, 2.0, 3.0], 0.0), ([0.0; 3], 1.0), ([0.0; 3], 1e308), ([-0.0; 3], 0.0)] {
         for k in [0.0, 0.5, 1.0, 2.0] {
             for solver in solvers() {
@@ -93,7 +94,8 @@ fn a_coin_that_does_not_move_shows_heads_by_every_solver() {
     }
 }
 
-/// In both guarded formulations, the paper's vertical frame included, by every adaptive method; raw promises nothing.
+/// Every solver with every adaptive scheme in both guarded formulations, `momentum` and `vertical` (the paper's frame).
+/// The formulation `raw` is left out, because it may be wrong without an error.
 fn every_guarded_formulation() -> Vec<Box<dyn Solver>> {
     let guarded = [Formulation::MOMENTUM, Formulation::VERTICAL];
     let mut all = Vec::new();
@@ -108,7 +110,7 @@ fn every_guarded_formulation() -> Vec<Box<dyn Solver>> {
 }
 
 #[test]
-fn keller_pure_spin_and_every_tilt_are_right_or_a_typed_error() {
+fn every_guarded_formulation_is_right_or_a_typed_error_at_special_rates_and_tilts() {
     let rates =
         [[0.0, 9.0, 0.0], [4.0, -3.0, 0.0], [0.0, 0.0, 20.0], [0.0, 0.0, -7.0], [3.0, 1.0, 5.0], [0.3, 0.3, 5.0]];
     let tilts = [0.0, 1e-300, 1e-16, 1e-9, 1e-4, 1.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
@@ -132,12 +134,12 @@ fn keller_pure_spin_and_every_tilt_are_right_or_a_typed_error() {
 }
 
 #[test]
-fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
+fn errors_of_the_vertical_frame_name_the_singular_point_and_the_time() {
     let build = |solver: &str| {
         let settings = Settings { stepping: Stepping::DEFAULT, formulation: Formulation::VERTICAL };
         Registry::standard().named(solver).unwrap().solver(&settings).unwrap()
     };
-    // F1: from horizontal, n comes back to the vertical at 2π/ωL.
+    // F1 of the atlas of failures: launched from horizontal, the normal n is vertical again at 2π/ωL.
     let returning = toss(0.5, [9.0, 4.0, 3.0], 0.0, 1.0);
     let first_return = std::f64::consts::TAU / ExactMotion::new(&returning).precession_rate();
     match build("gamma").propagate(&returning) {
@@ -146,16 +148,17 @@ fn where_the_vertical_frame_cannot_go_on_the_error_says_where_and_when() {
         }
         other => panic!("{other:?}"),
     }
-    // F2: tilted, and the cone does not enclose the vertical: α' changes its sign.
+    // F2: a tilted launch whose cone does not enclose the vertical, so that α' (the rate of precession) changes its
+    // sign.
     let message = build("gamma").propagate(&toss(0.5, [0.3, 0.3, 5.0], 1.0, 5.0)).unwrap_err().to_string();
     assert!(message.contains("α' = 0") && message.contains("at t = "), "{message}");
-    // F4: Keller's coin has no precession at all.
+    // F4: Keller's coin (no spin) has no precession in this frame.
     let keller = build("gamma").propagate(&toss(1.98, [9.0, 0.0, 0.0], 0.0, 1.0));
     assert!(matches!(keller, Err(SolveError::Singular { time: 0.0, .. })), "{keller:?}");
 }
 
 #[test]
-fn rk4_never_lets_a_nan_escape() {
+fn rk4_returns_finite_states_or_errors() {
     for entry in entries() {
         for formulation in Formulation::ALL {
             for step in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 1e300] {
@@ -173,7 +176,7 @@ fn rk4_never_lets_a_nan_escape() {
 }
 
 #[test]
-fn huge_and_subnormal_rates_are_solved_or_refused() {
+fn huge_and_subnormal_rates_are_solved_and_huge_phases_refused() {
     let paper = ExactSolver.cos_tilt(&toss(0.5, [1.0, 1.0, 2.5], 0.0, 1.0)).unwrap();
     for solver in solvers() {
         let solver = solver.as_ref();
@@ -191,8 +194,9 @@ fn huge_and_subnormal_rates_are_solved_or_refused() {
 
 #[test]
 fn an_outcome_at_the_edge_is_never_misjudged() {
-    // ψ = 45° within two ulp. At half a turn, ωL = √2 k ωz, cos θ is 0 to rounding: up to 45° it stays above it (equal
-    // to it only at a phase of π, which no f64 has), and beyond it is below for some 1e-8 rad.
+    // ψ (the angle between the normal and the angular momentum) is 45° within two ulp, where ωL = √2 k ωz. After half a
+    // turn cos θ is 0 to rounding. For ψ ≤ 45° it is positive, because no f64 is a phase of exactly π. For ψ > 45° it
+    // is negative over some 1e-8 rad of phase.
     for ulps in -2..=2_i64 {
         let transverse = f64::from_bits(1.0_f64.to_bits().wrapping_add_signed(ulps));
         let half_turn = std::f64::consts::PI / 2f64.sqrt();
@@ -205,13 +209,13 @@ fn an_outcome_at_the_edge_is_never_misjudged() {
                 assert_eq!(solver.outcome(&edge), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
             }
         }
-        // A tenth of a turn away from it nothing is open.
+        // After 0.9 times half a turn the outcome is clear.
         assert_eq!(ExactSolver.outcome(&toss(2.0, [transverse, 0.0, 0.5], 0.0, 0.9 * half_turn)), Ok(Outcome::Heads));
     }
 }
 
 #[test]
-fn a_step_limit_is_an_error_and_no_partial_result() {
+fn reaching_the_step_limit_is_an_error() {
     let long = toss(1.98, [50.0, 0.0, 50.0], 0.0, 1e4);
     let stepping = Stepping::fixed(Scheme::RK4, 1e-3).unwrap();
     for entry in integrators() {
@@ -240,7 +244,7 @@ fn a_scheme_that_a_solver_does_not_offer_is_refused() {
 }
 
 #[test]
-fn unknown_names_are_answered_with_the_known_ones() {
+fn errors_for_unknown_names_list_the_known_ones() {
     for (error, known) in [
         (Registry::standard().named("newton").unwrap_err(), "exact, gamma, euler, quaternion"),
         (toss::catalogue::named_coin("doubloon").unwrap_err(), "paper, disc, us-cent"),

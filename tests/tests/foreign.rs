@@ -1,5 +1,6 @@
-//! Solvers from outside: whatever they answer and claim, nothing of it is a proof; and what no solver may answer is a typed
-//! error that names them, on every public path.
+//! Tests solvers that other crates bring, with wrong and broken ones. No answer of theirs may count as proven, and an
+//! impossible answer (a panic, a NaN, a negative error estimate) must become a typed error that names the solver,
+//! wherever solvers are used.
 
 use blackbox::toss;
 use toss::sampling::{Axis, Coordinate, Counts, Found, Plan, Rest, Sampler, Scrambled, Space};
@@ -8,7 +9,7 @@ use toss::{
     Stepping, Toss, Want, trace,
 };
 
-/// The exact motion with heads and tails exchanged, which claims to be right to the last bit.
+/// A wrong solver: the exact motion with heads and tails exchanged, and with an error estimate of 0.
 #[derive(Clone, Copy)]
 struct Liar;
 
@@ -37,12 +38,12 @@ fn registry() -> Registry {
     Registry::standard().with(entry).expect("a new name")
 }
 
-/// With its own scheme.
+/// Settings with the liar's own scheme.
 fn settings() -> Settings {
     Settings { stepping: Stepping::adaptive(OWN_SCHEME, 1e-9).expect("valid"), ..Settings::default() }
 }
 
-/// Rates and speeds that a batch holds, or a tilt that takes launches one by one.
+/// A space whose launches are solved in batches, and one in which the tilt varies, so that they are solved one by one.
 fn spaces() -> [Space; 2] {
     let rates = Axis::range(1.0..=40.0).with_points(12);
     let builder = Space::builder(Coin::PAPER).rate_x(rates).rate_y(2.0).rate_z(Axis::range(1.0..=9.0).with_points(4));
@@ -62,7 +63,7 @@ fn counts(sampler: &Sampler<'_>, space: &Space, plan: Plan) -> Counts {
 }
 
 #[test]
-fn a_wrong_solver_is_never_proven() {
+fn outcomes_of_a_wrong_solver_never_count_as_proven() {
     let backend = registry().backend(NAME, &settings()).unwrap();
     let one = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
     let verdict = backend.verdict(&one, backend.solver().cos_tilt(&one).unwrap()).unwrap();
@@ -81,26 +82,26 @@ fn a_wrong_solver_is_never_proven() {
 }
 
 #[test]
-fn exact_speed_does_not_pretend_to_ask_a_solver() {
+fn exact_speed_refuses_any_solver_but_the_exact_motion() {
     let error = Sampler::by(&Liar).estimate(&spaces()[0], Plan::ExactSpeed(Rest::Grid)).unwrap_err();
     assert_eq!((error.kind(), error.field()), ("input", Some("solver")));
     assert!(error.to_string().contains(NAME), "{error}");
 }
 
 #[test]
-fn a_plan_passes_over_what_nobody_has_measured_and_says_so() {
+fn a_plan_by_an_unmeasured_solver_is_an_error_that_says_so() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
     let scene = Scene::new(Want::Attitude(toss), 1e-6).by("quaternion", None);
     assert!(scene.plan_with(&registry()).is_ok());
     let error = Scene::new(Want::Outcome(toss), 1e-6).by(NAME, None).plan_with(&registry()).unwrap_err();
     assert_eq!(error.field(), Some("solver"));
     assert!(error.to_string().contains("'liar'") && error.to_string().contains("measured"), "{error}");
-    // A plan without an integrator does not depend on who else is in the registry.
+    // A plan without an integrator does not depend on the other solvers of the registry.
     let outcome = Scene::new(Want::Outcome(toss), 1e-6).plan_with(&registry()).unwrap();
     assert_eq!(outcome.choice.model.name, "outcome");
 }
 
-/// What a solver must not do.
+/// The ways in which a solver can break the contract of the trait.
 #[derive(Clone, Copy, Debug)]
 enum Misdeed {
     AnswersNan,
@@ -109,6 +110,7 @@ enum Misdeed {
     ClaimsLessThanNothing,
 }
 
+/// The exact motion with one misdeed.
 struct Broken(Misdeed);
 
 impl Solver for Broken {
@@ -143,7 +145,7 @@ fn assert_names_it<T>(result: Result<T, Error>, way: &str) {
 }
 
 #[test]
-fn what_no_solver_may_answer_is_an_error_that_names_it() {
+fn an_impossible_answer_is_an_error_that_names_the_solver() {
     let all = [Misdeed::AnswersNan, Misdeed::Panics, Misdeed::ClaimsNan, Misdeed::ClaimsLessThanNothing];
     let one = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
     for misdeed in all {
@@ -164,7 +166,7 @@ fn what_no_solver_may_answer_is_an_error_that_names_it() {
         assert_names_it(Sampler::by(&Broken(misdeed)).running_shares(&space, 3, 1), "running shares");
         let long = Sampler::by(&Broken(misdeed)).long_flight_shares(Coin::PAPER, &[1.0], (10, 1));
         assert_names_it(long, "long flights");
-        // A trace asks for states alone.
+        // A trace does not use the error estimate.
         if matches!(misdeed, Misdeed::AnswersNan | Misdeed::Panics) {
             assert_names_it(trace(&Broken(misdeed), &one, 3), "trace");
         }
@@ -178,7 +180,7 @@ fn a_solver_cannot_take_the_name_of_another() {
         let error = Registry::standard().with(entry).unwrap_err();
         assert!(error.to_string().starts_with(&format!("solver = '{name}'")), "{error}");
     }
-    // Nor call itself otherwise than its entry.
+    // A solver whose own name differs from that of its entry is refused as well.
     let entry = SolverEntry::new("honest", "lies about its name", |_| Box::new(Liar));
     let error = Registry::standard().with(entry).unwrap().backend("honest", &Settings::default()).err().unwrap();
     assert!(error.to_string().contains("'honest'"), "{error}");

@@ -1,11 +1,12 @@
-//! Models agree where they overlap, and a plan keeps their order.
+//! Compares the models of the planner with each other on random tosses, and checks which of them the planner chooses.
+//! Two models that answer the same question have to agree within the sum of their errors.
 
 use blackbox::{config, tosses};
 use proptest::prelude::*;
 use toss::{Answer, Choice, How, MODELS, Model, Outcome, Scene, Stage, Toss, Want};
 
-/// The answers of all models that serve a scene, with their bounds: the expected error, but of an integrator its error
-/// estimate, because its errors have a long tail.
+/// The answers of all models that serve a scene, each with a bound of its error: the expected error, or ten times the
+/// error estimate of an integrator, because the errors of integrators have a long tail.
 fn answers(want: Want) -> Vec<(&'static Model, Answer, f64)> {
     let toss = *want.toss().expect("a want of a toss");
     let scene = Scene::new(want, 1e-6);
@@ -14,7 +15,7 @@ fn answers(want: Want) -> Vec<(&'static Model, Answer, f64)> {
         _ => choice.expected_error,
     };
     let choices = scene.candidates().expect("a valid scene").into_iter().filter_map(|(_, verdict)| verdict.ok());
-    // An integrator may refuse; what it says otherwise has to agree.
+    // An integrator may refuse a toss; if it answers, its answer has to agree.
     choices.filter_map(|choice| Some((choice.model, choice.run(&scene).ok()?, bound(&choice)))).collect()
 }
 
@@ -22,7 +23,7 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn outcomes_are_identical(toss in tosses()) {
+    fn all_models_that_decide_an_outcome_decide_the_same(toss in tosses()) {
         let said: Vec<(&str, Outcome)> = answers(Want::Outcome(toss))
             .into_iter()
             .filter_map(|(model, answer, _)| match answer {
@@ -37,7 +38,7 @@ proptest! {
     }
 
     #[test]
-    fn cos_tilt_is_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+    fn cos_tilt_agrees_within_the_sum_of_the_errors(toss in tosses()) {
         let said = answers(Want::Tilt(toss));
         for (model, a, error_a) in &said {
             for (other, b, error_b) in &said {
@@ -48,7 +49,7 @@ proptest! {
     }
 
     #[test]
-    fn attitudes_are_the_same_within_the_sum_of_the_errors(toss in tosses()) {
+    fn attitudes_agree_within_the_sum_of_the_errors(toss in tosses()) {
         let said = answers(Want::Attitude(toss));
         for (model, a, error_a) in &said {
             for (other, b, error_b) in &said {
@@ -59,7 +60,7 @@ proptest! {
         }
     }
 
-    /// What is passed over stands before the choice, and `solve` does as planned.
+    /// The models passed over are those before the choice in the table, and `solve` uses the chosen model.
     #[test]
     fn a_plan_takes_the_first_model_that_serves(toss in tosses(), decade in 1..15_i32) {
         for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 3 }] {
@@ -128,7 +129,7 @@ fn a_probability_is_planned_and_sampled_to_its_accuracy() {
             assert!(choice.expected_error <= accuracy, "{candidate} to {accuracy:e}: {:e}", choice.expected_error);
         }
     }
-    // A plan that turns out too rough is doubled until its interval is narrow enough.
+    // A sample whose interval is too wide is doubled until it is narrow enough.
     let fine = Scene::new(Want::Probability(space), 1e-4);
     for (candidate, offer) in Scene::new(Want::Probability(space), 0.1).candidates().unwrap() {
         let Ok(choice) = offer else { continue };

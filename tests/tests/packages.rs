@@ -1,4 +1,5 @@
-//! Each library crate packages by itself: what its sources embed is among its own files.
+//! Checks that each library crate can be packaged by itself: a file that its sources embed (`include_str!`) has to be
+//! in its own folder. Cargo packages one folder, so a file from elsewhere would be missing from the package.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -6,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 const LIBRARIES: [&str; 7] =
     ["numerics", "dynamics", "exact", "kinematics-euler", "kinematics-quat", "sampling", "toss"];
 
+/// Adds the Rust files below `folder` to `found`.
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("a folder of the workspace") {
         let path = entry.expect("a readable folder").path();
@@ -17,7 +19,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The paths that `include_str!` and its kind name in a source.
+/// The paths that `include_str!` and `include_bytes!` name in a source.
 fn embedded(text: &str) -> impl Iterator<Item = &str> {
     text.split("include_").skip(1).filter_map(|after| {
         let (macro_name, rest) = after.split_once("!(\"")?;
@@ -25,7 +27,7 @@ fn embedded(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// `path` without its `..`.
+/// `path` with each `..` resolved.
 fn normal(path: &Path) -> PathBuf {
     path.components().fold(PathBuf::new(), |mut normal, component| {
         if component == Component::ParentDir {

@@ -1,10 +1,12 @@
-//! What the paper leaves open or loses in its formulas, against the exact motion.
+//! Compares formulas and claims of the paper "Modeling the unfair toss of an unbiased coin" with the exact motion,
+//! where its text loses a quadrant or leaves something open. docs/paper-audit.md cites these tests.
 
 use blackbox::toss;
 use dynamics::body_rate::body_precession_rate;
 use toss::{Coin, ExactMotion};
 
-/// (2)-(4): ωx = Ω sin(q t + δ), ωy = -Ω cos(q t + δ) with tan δ = -ωx/ωy at launch.
+/// The paper's (2)-(4): ωx = Ω sin(q t + δ) and ωy = -Ω cos(q t + δ), with tan δ = -ωx/ωy at launch. An arctangent of
+/// this ratio finds δ or δ + π; atan2 finds δ.
 #[test]
 fn tan_delta_loses_its_quadrant() {
     for (k, [x, y, z]) in
@@ -19,7 +21,7 @@ fn tan_delta_loses_its_quadrant() {
                 let (sin, cos) = (body_precession_rate(k, z) * time + delta).sin_cos();
                 (rate.x - transverse * sin).hypot(rate.y + transverse * cos)
             };
-            assert!(deviation(x.atan2(-y)) < 1e-14 * transverse, "the whole circle");
+            assert!(deviation(x.atan2(-y)) < 1e-14 * transverse, "by atan2");
             let printed = deviation((-x / y).atan());
             let expected = if y < 0.0 { 0.0 } else { 2.0 * transverse };
             assert!((printed - expected).abs() < 1e-14 * transverse, "ωy = {y}: off by {printed}");

@@ -1,4 +1,7 @@
-//! Relations that hold for the motion itself, so for every solver of the registry.
+//! Tests relations that follow from the motion itself, such as symmetries and conservation laws, with every solver of
+//! the registry. A relation needs no reference value, so it can be tested on random tosses.
+//!
+//! BF is the body frame, whose z axis is the coin's normal n; θ is the angle between n and the vertical.
 
 use blackbox::{attitude_error, config, lasting, name, phase, solvers, tilt_error, toss, tosses};
 use dynamics::Singularity;
@@ -6,7 +9,8 @@ use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy}
 use proptest::prelude::*;
 use toss::{Attitude, Coin, ExactMotion, ExactSolver, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3};
 
-/// The landing, or `None` where a solver may refuse: the γ-ODE on rods that spin without precession.
+/// The state at landing, or `None` where the γ-ODE refuses a toss because the precession is too slow. Any other error
+/// fails the test.
 fn landing(solver: &dyn Solver, toss: &Toss) -> Option<State> {
     match solver.propagate(toss) {
         Ok(propagation) => Some(propagation.state),
@@ -20,11 +24,12 @@ fn landing(solver: &dyn Solver, toss: &Toss) -> Option<State> {
     }
 }
 
+/// The toss that starts from `state` and lasts `time` (s).
 fn resume(toss: &Toss, state: &State, time: f64) -> Toss {
     Toss { launch: Launch::from_state(state, TimeOfFlight::Given(time)).expect("a landing is a launch"), ..*toss }
 }
 
-/// `change` of the toss leaves cos θ as `expected` makes of it, by every solver.
+/// Asserts for every solver that `change` of the toss turns its cos θ into `expected` of it.
 fn check_tilt(toss: &Toss, change: impl Fn(&Toss) -> Toss, expected: impl Fn(f64) -> f64) {
     let changed = change(toss);
     for solver in solvers() {
@@ -55,14 +60,15 @@ proptest! {
         for solver in solvers() {
             let Some(state) = landing(solver.as_ref(), &toss) else { continue };
             let difference = state.attitude.angle_to(&exact.attitude);
-            prop_assert!(difference <= attitude_error(solver.as_ref(), &toss), "{}: {difference:e}", name(solver.as_ref()));
+            let allowed = attitude_error(solver.as_ref(), &toss);
+            prop_assert!(difference <= allowed, "{}: {difference:e}", name(solver.as_ref()));
             let tilt = (solver.cos_tilt(&toss).unwrap() - exact.attitude.cos_tilt()).abs();
             prop_assert!(tilt <= tilt_error(solver.as_ref(), &toss), "{}: {tilt:e}", name(solver.as_ref()));
         }
     }
 
     #[test]
-    fn rates_and_times_scaled_by_a_power_of_two_change_no_bit(toss in tosses(), exponent in -40..40) {
+    fn scaling_rate_and_time_by_powers_of_two_changes_no_bit(toss in tosses(), exponent in -40..40) {
         let c = 2f64.powi(exponent);
         let faster = lasting(&with_rate(&toss, toss.launch.rate() * c), toss.launch.flight_time() / c);
         for solver in solvers() {
@@ -75,8 +81,9 @@ proptest! {
     }
 
     #[test]
-    fn moments_scaled_together_change_nothing(toss in tosses(), exponent in -40..40) {
-        let scaled = |s: f64| Toss { coin: Coin::from_moments(toss.coin.i1() * s, toss.coin.i3() * s).unwrap(), ..toss };
+    fn scaling_both_moments_of_inertia_changes_nothing(toss in tosses(), exponent in -40..40) {
+        let moments = |s: f64| Coin::from_moments(toss.coin.i1() * s, toss.coin.i3() * s).unwrap();
+        let scaled = |s: f64| Toss { coin: moments(s), ..toss };
         for solver in solvers() {
             let Some(before) = landing(solver.as_ref(), &toss) else { continue };
             prop_assert_eq!(landing(solver.as_ref(), &scaled(2f64.powi(exponent))), Some(before));
@@ -87,20 +94,23 @@ proptest! {
     }
 
     #[test]
-    fn two_flights_in_a_row_are_one(toss in tosses(), part in 0.0..1.0) {
+    fn a_flight_in_two_legs_lands_like_the_whole_flight(toss in tosses(), part in 0.0..1.0) {
         let time = toss.launch.flight_time();
         for solver in solvers() {
             let solver = solver.as_ref();
             let Some(middle) = landing(solver, &lasting(&toss, part * time)) else { continue };
             let (Some(end), Some(whole)) =
-                (landing(solver, &resume(&toss, &middle, time - part * time)), landing(solver, &toss)) else { continue };
+                (landing(solver, &resume(&toss, &middle, time - part * time)), landing(solver, &toss))
+            else {
+                continue;
+            };
             let difference = end.attitude.angle_to(&whole.attitude);
             prop_assert!(difference <= 2.0 * attitude_error(solver, &toss), "{}: {difference:e}", name(solver));
         }
     }
 
     #[test]
-    fn a_reversed_flight_comes_back(toss in tosses()) {
+    fn a_flight_with_reversed_rate_returns_to_the_launch(toss in tosses()) {
         for solver in solvers() {
             let solver = solver.as_ref();
             let Some(there) = landing(solver, &toss) else { continue };
@@ -115,9 +125,9 @@ proptest! {
     }
 
     #[test]
-    fn a_launch_turned_about_the_vertical_or_spun_in_its_face_keeps_its_tilt(toss in tosses(), angle in -6.0..6.0) {
+    fn turning_a_launch_about_the_vertical_or_about_its_normal_keeps_the_tilt(toss in tosses(), angle in -6.0..6.0) {
         check_tilt(&toss, |t| with_attitude(t, Attitude::about_z(angle) * t.launch.attitude()), |cos_tilt| cos_tilt);
-        // Turning the body's axes by -angle about n turns (ωx, ωy) by angle and the attitude's spin along.
+        // Turning the axes of BF by -angle about n turns (ωx, ωy) by angle and changes the attitude by the same turn.
         let spun = |t: &Toss| {
             let rate = Attitude::about_z(angle).body_to_lab(&t.launch.rate());
             with_attitude(&with_rate(t, rate), t.launch.attitude() * Attitude::about_z(-angle))
@@ -126,21 +136,24 @@ proptest! {
     }
 
     #[test]
-    fn a_launch_turned_by_r_lands_turned_by_r(toss in tosses(), q in prop::array::uniform4(0.1..1.0)) {
+    fn turning_a_launch_turns_its_landing_by_the_same_rotation(toss in tosses(), q in prop::array::uniform4(0.1..1.0)) {
         let turn = Attitude::from_components(q).unwrap();
         let turned = with_attitude(&toss, turn * toss.launch.attitude());
         for solver in solvers() {
-            let (Some(before), Some(after)) = (landing(solver.as_ref(), &toss), landing(solver.as_ref(), &turned)) else {
+            let (Some(before), Some(after)) =
+                (landing(solver.as_ref(), &toss), landing(solver.as_ref(), &turned))
+            else {
                 continue;
             };
-            // The flight relative to its launch is the same numbers; only the last products round differently.
+            // Solvers compute the flight relative to its launch, which is the same; only the last product rounds
+            // differently.
             let difference = after.attitude.angle_to(&(turn * before.attitude));
             prop_assert!(difference <= 4e-15, "{}: {difference:e}", name(solver.as_ref()));
         }
     }
 
     #[test]
-    fn mirrored_rates_keep_the_tilt_from_horizontal(toss in tosses()) {
+    fn mirroring_the_rate_of_a_horizontal_launch_keeps_the_tilt(toss in tosses()) {
         let toss = with_attitude(&toss, Attitude::IDENTITY);
         for mirror in [Vector3::new(1.0, 1.0, -1.0), Vector3::new(-1.0, 1.0, 1.0)] {
             check_tilt(&toss, |t| with_rate(t, t.launch.rate().component_mul(&mirror)), |cos_tilt| cos_tilt);
@@ -148,8 +161,8 @@ proptest! {
     }
 
     #[test]
-    fn the_other_face_lands_the_other_way(toss in tosses()) {
-        // The same motion with BF turned by π about its x axis: n → -n.
+    fn launching_the_other_face_up_changes_the_sign_of_cos_tilt(toss in tosses()) {
+        // The same motion with BF turned by π about its x axis, so that n becomes -n.
         let other_face = |t: &Toss| {
             let rate = t.launch.rate().component_mul(&Vector3::new(1.0, -1.0, -1.0));
             let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).unwrap();
@@ -159,7 +172,7 @@ proptest! {
     }
 
     #[test]
-    fn the_tilt_repeats_with_the_precession(toss in tosses()) {
+    fn the_tilt_repeats_after_one_turn_of_the_precession(toss in tosses()) {
         let rate = ExactMotion::new(&toss).precession_rate();
         if rate < 0.5 {
             return Ok(());
@@ -169,7 +182,7 @@ proptest! {
     }
 
     #[test]
-    fn the_sign_of_the_quaternion_means_nothing(toss in tosses()) {
+    fn the_sign_of_the_quaternion_does_not_change_the_outcome(toss in tosses()) {
         let [w, x, y, z] = toss.launch.attitude().components();
         let negative = Attitude::from_components([-w, -x, -y, -z]).unwrap();
         for solver in solvers() {
@@ -190,7 +203,8 @@ proptest! {
         for solver in solvers() {
             let Some(state) = landing(solver.as_ref(), &sphere) else { continue };
             let difference = state.attitude.angle_to(&(toss.launch.attitude() * turn));
-            prop_assert!(difference <= attitude_error(solver.as_ref(), &sphere), "{}: {difference:e}", name(solver.as_ref()));
+            let allowed = attitude_error(solver.as_ref(), &sphere);
+            prop_assert!(difference <= allowed, "{}: {difference:e}", name(solver.as_ref()));
         }
     }
 
@@ -214,7 +228,8 @@ proptest! {
             prop_assert!((energy(&end) - energy(&launch)).abs() <= allowed * energy_scale, "{}: energy", name(solver));
             prop_assert_eq!(end.rate.z, launch.rate.z);
             let transverse = |state: &State| state.rate.x.hypot(state.rate.y);
-            prop_assert!((transverse(&end) - transverse(&launch)).abs() <= allowed * launch.rate.norm(), "{}", name(solver));
+            let drift = (transverse(&end) - transverse(&launch)).abs();
+            prop_assert!(drift <= allowed * launch.rate.norm(), "{}", name(solver));
         }
     }
 }
@@ -228,7 +243,8 @@ fn a_flat_disc_with_a_small_tilt_wobbles_twice_as_fast_as_it_spins() {
         state.attitude.normal().xy().norm()
     };
     for solver in solvers() {
-        // Two wobbles in one turn of the spin: back at no tilt after half a turn, farthest after a quarter.
+        // There are two wobbles in one turn of the spin: the tilt is largest after a quarter of a turn and 0 after
+        // half.
         let (quarter, half) = (tilt_at(solver.as_ref(), 0.25), tilt_at(solver.as_ref(), 0.5));
         assert!((quarter - small / spin).abs() < 1e-8, "{}: {quarter:e}", name(solver.as_ref()));
         assert!(half < 1e-8, "{}: {half:e}", name(solver.as_ref()));
@@ -236,7 +252,7 @@ fn a_flat_disc_with_a_small_tilt_wobbles_twice_as_fast_as_it_spins() {
 }
 
 #[test]
-fn long_phases_stay_within_what_the_solvers_answer_for() {
+fn errors_of_long_flights_stay_within_the_error_estimates() {
     let toss = toss(1.98, [31.0, -17.0, 42.0], 0.6, 60.0);
     assert!(phase(&toss) > 4000.0);
     let exact = ExactSolver.cos_tilt(&toss).unwrap();

@@ -1,7 +1,9 @@
-//! Mutation testing: every change that cargo-mutants makes to the numerical crates has to fail a test, or be explained.
+//! Runs mutation testing: cargo-mutants changes the numerical crates, and each change has to make a test fail. A change
+//! that survives points to a claim that no test makes, unless `validation/mutants.md` explains why it makes no
+//! difference.
 //!
-//! The explanations stand in `validation/mutants.md`, whose code blocks list mutants as cargo-mutants names them, but
-//! without line and column, so that they stay when lines move. What changes where is `.cargo/mutants.toml`.
+//! The code blocks of that file list the explained mutants as cargo-mutants names them, but without line and column, so
+//! that the list stays valid when lines move. `.cargo/mutants.toml` says which crates are changed.
 
 use std::collections::BTreeMap;
 use std::process::{Command, ExitCode, ExitStatus};
@@ -13,7 +15,7 @@ use crate::root;
 const EXPLANATIONS: &str = "validation/mutants.md";
 const FOLDER: &str = "target";
 
-/// How often each mutant occurs; two in one function may have the same name.
+/// How often each mutant occurs. Two mutants in one function may have the same name.
 type Counts = BTreeMap<String, usize>;
 
 /// Change the numerical crates in some 4000 ways; each change has to fail a test or be explained
@@ -66,19 +68,19 @@ fn count(mutants: impl Iterator<Item = String>) -> Counts {
     })
 }
 
-/// `file:line:column: change` as `file: change`.
+/// Turns `file:line:column: change` into `file: change`.
 fn without_position(line: &str) -> String {
     let mut parts = line.splitn(4, ':');
     let (file, change) = (parts.next().unwrap_or_default(), parts.nth(2).unwrap_or_default());
     format!("{file}:{change}")
 }
 
-/// The lines of the code blocks.
+/// The mutants that the code blocks of `markdown` list.
 fn explained(markdown: &str) -> impl Iterator<Item = &str> {
     markdown.split("```").skip(1).step_by(2).flat_map(str::lines).filter(|line| line.contains(": "))
 }
 
-/// The mutants of `these` that `those` has not, or not as often.
+/// The mutants of `these` that `those` lacks or has less often, each as often as it is missing.
 fn beyond<'a>(these: &'a Counts, those: &Counts) -> Vec<&'a str> {
     let rest = |(mutant, times): (&'a String, &usize)| {
         std::iter::repeat_n(mutant.as_str(), times.saturating_sub(those.get(mutant).copied().unwrap_or(0)))

@@ -1,5 +1,6 @@
-//! Who may depend on whom in this workspace: what keeps the integrators ignorant of the closed form, and the libraries of the
-//! suite. Dependencies of tests are free.
+//! Checks the dependencies between the crates of this workspace against a table. The integrators must not depend on the
+//! closed form (`exact`), with which they are compared, and no library may depend on the verification suite.
+//! Dev-dependencies are not restricted.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -7,7 +8,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// Each crate, and the crates of ours that it may depend on.
+/// Each crate of the workspace, with the other crates of the workspace that it may depend on.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("numerics", &[]),
     ("dynamics", &["numerics"]),
@@ -24,6 +25,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("blackbox", &["toss"]),
 ];
 
+/// The packages of the workspace, as `cargo metadata` describes them.
 fn packages() -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace");
     let output = Command::new(env!("CARGO"))
@@ -41,7 +43,7 @@ fn name(of: &Value) -> &str {
 }
 
 #[test]
-fn every_crate_depends_on_those_that_it_may_alone() {
+fn every_crate_depends_only_on_those_that_the_table_allows() {
     let packages = packages();
     let ours: BTreeSet<&str> = packages.iter().map(name).collect();
     let listed: BTreeSet<&str> = ALLOWED.iter().map(|(package, _)| *package).collect();

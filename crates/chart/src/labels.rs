@@ -1,4 +1,4 @@
-//! Labels beside the ends of lines, pushed apart.
+//! Draws labels beside the ends of lines. They are pushed apart so that none covers another.
 
 use plotters::prelude::*;
 

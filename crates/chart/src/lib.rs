@@ -1,11 +1,15 @@
-//! What the charts of the workspace share: the canvas, the palette, logarithmic axes, labels beside lines.
+//! What the charts of the workspace share: the canvas, the palette, frames with axes, lines and their labels. The command
+//! line and the verification draw with it, so that their charts look alike.
 
+mod frame;
 mod labels;
 mod log_log;
 mod running;
+mod ticks;
 
+pub use frame::{Axis, Frame, centred, frame, pixel};
 pub use labels::{EndLabel, end_labels};
-pub use log_log::{Axis, LINE_WIDTH, Marker, Series, legend, log_log};
+pub use log_log::{LINE_WIDTH, Marker, Series, legend, log_log};
 pub use running::running;
 
 use plotters::coord::Shift;

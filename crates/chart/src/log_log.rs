@@ -1,10 +1,8 @@
-//! Lines over two logarithmic axes, with runs that failed at the upper edge.
+//! Draws lines over two logarithmic axes, as errors and work need them. Runs that failed are crosses at the upper edge.
 
-use std::ops::Range;
-
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
+use crate::frame::{Axis, Frame, frame, pixel};
 use crate::{Drawn, EndLabel, GREY, Panel, TEXT};
 
 /// Width of a line (pixels), unless it has a reason to differ.
@@ -36,58 +34,16 @@ pub struct Series {
     pub width: u32,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// Its points' form.
+    /// The form of its points.
     pub marker: Marker,
-    /// Its points; values outside the axes are drawn at their edge.
+    /// Its points. A value outside the range of an axis is drawn at its end.
     pub points: Vec<(f64, f64)>,
-    /// Where it has no point because the run failed: drawn as crosses at the upper edge.
+    /// Where the run failed, so that there is no point. A cross is drawn there at the upper edge.
     pub failures: Vec<f64>,
 }
 
-/// A logarithmic axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
-    /// Quantity and unit.
-    pub label: String,
-    /// From its first to its last value, both positive; it may fall.
-    pub range: Range<f64>,
-    /// The first value stands for 0, and is so labelled.
-    pub starts_at_zero: bool,
-}
-
-impl Axis {
-    /// An axis that shows nothing but positive values.
-    pub fn positive(label: &str, range: Range<f64>) -> Self {
-        Self { label: label.to_owned(), range, starts_at_zero: false }
-    }
-
-    /// Decades, counted so that they rise along the axis.
-    fn position(&self, value: f64) -> f64 {
-        let Range { start, end } = self.range;
-        self.sense() * value.clamp(start.min(end), start.max(end)).log10()
-    }
-
-    fn sense(&self) -> f64 {
-        if self.range.start < self.range.end { 1.0 } else { -1.0 }
-    }
-
-    fn span(&self) -> Range<f64> {
-        self.position(self.range.start)..self.position(self.range.end)
-    }
-
-    fn tick(&self, position: f64) -> String {
-        let decade = self.sense() * position;
-        // Adding zero turns -0 into 0.
-        if (decade - decade.round()).abs() < 1e-9 { format!("1e{:.0}", decade.round() + 0.0) } else { String::new() }
-    }
-}
-
-/// A chart that has been laid out.
-type Chart<'a, 'b> =
-    ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// Draws `series` over the axes `x` and `y` on `panel`, with `right` pixels left free beside them, and returns labels for
-/// those that have an end.
+/// Draws `series` over the axes `x` and `y` on `panel`, and leaves `right` pixels free beside them. Returns a label for each
+/// line that has a point, at the height of its last.
 ///
 /// # Errors
 /// As the backend's.
@@ -98,39 +54,17 @@ pub fn log_log(
     series: &[Series],
     right: u32,
 ) -> Result<Vec<EndLabel>, Box<dyn std::error::Error>> {
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .margin_right(right)
-        .caption(title, TEXT)
-        .x_label_area_size(84)
-        .y_label_area_size(132)
-        .build_cartesian_2d(x.span(), y.span())?;
-    chart
-        .configure_mesh()
-        .light_line_style(WHITE)
-        .x_labels(7)
-        .y_labels(9)
-        .x_desc(&x.label)
-        .y_desc(&y.label)
-        .x_label_formatter(&|position: &f64| x.tick(*position))
-        .y_label_formatter(&|position: &f64| y.tick(*position))
-        .label_style(TEXT)
-        .axis_desc_style(TEXT)
-        .draw()?;
+    let mut chart = frame(panel, title, (x, y), right)?;
     let mut labels = Vec::new();
     for line in series {
         labels.extend(draw_line(panel, &mut chart, (x, y), line)?);
-    }
-    if x.starts_at_zero {
-        let (column, bottom) = local(panel, chart.backend_coord(&(x.span().start, y.span().start)));
-        panel.draw(&Text::new("0", (column - 8, bottom + 14), TEXT))?;
     }
     Ok(labels)
 }
 
 fn draw_line<'b>(
     panel: &Panel<'b>,
-    chart: &mut Chart<'_, 'b>,
+    chart: &mut Frame<'_, 'b>,
     (x, y): (&Axis, &Axis),
     line: &Series,
 ) -> Result<Option<EndLabel>, Box<dyn std::error::Error>> {
@@ -141,21 +75,15 @@ fn draw_line<'b>(
     } else {
         chart.draw_series(LineSeries::new(points.clone(), stroke))?;
     }
-    let pixels: Vec<(i32, i32)> = points.iter().map(|point| local(panel, chart.backend_coord(point))).collect();
+    let pixels: Vec<(i32, i32)> = points.iter().map(|point| pixel(panel, chart, *point)).collect();
     for at in &pixels {
         draw_marker(panel, line.marker, *at, line.colour)?;
     }
     for failed in &line.failures {
-        let (column, top) = local(panel, chart.backend_coord(&(x.position(*failed), y.span().end)));
+        let (column, top) = pixel(panel, chart, (x.position(*failed), y.span().end));
         panel.draw(&Cross::new((column, top + 14), 9, line.colour.stroke_width(4)))?;
     }
     Ok(pixels.last().map(|end| EndLabel { y: end.1, text: line.label.clone(), colour: line.colour }))
-}
-
-/// Backend coordinates in those of `panel`.
-fn local(panel: &Panel<'_>, (x, y): (i32, i32)) -> (i32, i32) {
-    let (left, top) = panel.get_base_pixel();
-    (x - left, y - top)
 }
 
 fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBColor) -> Drawn {
@@ -169,7 +97,7 @@ fn draw_marker(panel: &Panel<'_>, marker: Marker, at: (i32, i32), colour: RGBCol
     Ok(())
 }
 
-/// The names of `series` in rows of `columns`, each `width` pixels wide, with a remark on failures.
+/// Draws the names of `series` in rows of `columns`, each `width` pixels wide, and after them what a cross means.
 ///
 /// # Errors
 /// As the backend's.
@@ -188,6 +116,6 @@ pub fn legend(panel: &Panel<'_>, series: &[Series], columns: i32, width: i32) ->
     }
     let (x, y) = place(last);
     panel.draw(&Cross::new((x + 30, y), 9, GREY.stroke_width(4)))?;
-    panel.draw(&Text::new("a typed error, no answer", (x + 76, y - 14), TEXT.into_font().color(&GREY)))?;
+    panel.draw(&Text::new("an error, no answer", (x + 76, y - 14), TEXT.into_font().color(&GREY)))?;
     Ok(())
 }

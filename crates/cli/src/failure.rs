@@ -1,16 +1,17 @@
-//! Why a command gave no answer, and the exit code that says so.
+//! The reasons for which a command gives no answer, with their exit codes and their JSON. All of them go through one
+//! type, so that every command reports a failure in the same way.
 
 use chart::ChartError;
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
 
-/// Why a command gave no answer.
+/// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// Input that describes nothing that could be solved, or a solver that failed.
+    /// Invalid input, or a solver that failed.
     #[error(transparent)]
     Unanswered(#[from] Error),
-    /// Options that do not go together.
+    /// An option that is missing, invalid or in conflict with another.
     #[error("{0}")]
     Usage(String),
     /// A file that can't be read.
@@ -18,23 +19,23 @@ pub(crate) enum Failure {
     Read {
         /// The file.
         path: String,
-        /// Why not.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A file whose text describes nothing.
+    /// A file whose text is not a valid description.
     #[error("{path}, {source}")]
     Text {
         /// The file.
         path: String,
-        /// Where and why.
+        /// The error, with its line and column.
         source: Error,
     },
     /// A file or standard output that can't be written.
     #[error("cannot write {target}: {source}")]
     Write {
-        /// What was to be written.
+        /// The file, or "standard output".
         target: String,
-        /// Why it could not.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A chart that can't be drawn.
@@ -55,7 +56,7 @@ impl From<SolveError> for Failure {
 }
 
 impl Failure {
-    /// 1 if the solver failed, 2 for bad usage or input.
+    /// The exit code: 1 if the solver failed, 2 for bad usage or input.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Unanswered(error) if !error.is_input() => 1,
@@ -73,7 +74,7 @@ impl Failure {
         }
     }
 
-    /// `{"error":{"kind":..,"message":..,..}}` with what else is known of it.
+    /// `{"error":{"kind":..,"message":..,..}}`, with further fields that depend on the kind, such as `field` or `time`.
     pub(crate) fn to_json(&self) -> String {
         let mut error = Map::new();
         error.insert("kind".to_owned(), json!(self.kind()));
@@ -131,7 +132,7 @@ fn solve_details(source: &SolveError) -> Value {
     }
 }
 
-/// `details` and one more.
+/// `details` with one more key.
 fn with(mut details: Value, key: &str, value: Value) -> Value {
     details[key] = value;
     details

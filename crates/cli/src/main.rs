@@ -1,6 +1,7 @@
-//! The command `unfair-toss`: toss a coin, trace its flight, estimate a probability, list what can be named.
+//! The command `unfair-toss` tosses coins, traces their flights and estimates probabilities of heads. It parses
+//! options, calls the libraries and prints their answers, so that each computation can also be made from Rust.
 //!
-//! Exit codes: 0 answered; 1 the solver failed; 2 bad usage or input.
+//! The exit code is 0 for an answer, 1 if the solver failed, and 2 for bad usage or input.
 
 mod chart;
 mod commands;
@@ -19,7 +20,12 @@ use crate::failure::Failure;
 use crate::output::{DataFormat, Format};
 
 #[derive(Debug, Parser)]
-#[command(name = "unfair-toss", version, about = "Tosses of an unbiased coin, solved", propagate_version = true)]
+#[command(
+    name = "unfair-toss",
+    version,
+    about = "Computes how a tossed coin lands, and how probable heads is",
+    propagate_version = true
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -27,33 +33,33 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Toss a coin and say how it lands
+    /// Toss a coin and print how it lands
     Toss(toss::Args),
-    /// Follow the flight at equal steps of time
+    /// Follow the flight of a coin at equally spaced times
     Trace(trace::Args),
     /// Estimate the probability of heads over a space of launches
     Probability(probability::Args),
-    /// Follow the probability of heads as launches are added, by a grid and at random
+    /// Show how the probability of heads converges as launches are added, by a grid and at random
     Convergence(convergence::Args),
-    /// Measure the error of every method of sampling against the number of launches
+    /// Measure how the error of each sampling method falls with the number of launches
     Errors(errors::Args),
     /// Map the probability of heads over two coordinates of a space
     Map(map::Args),
-    /// Find the speeds that land heads
+    /// Find the ranges of speed that land heads
     Intervals(intervals::Args),
     /// Find the launch that lands heads with a wanted probability
     Inverse(inverse::Args),
-    /// Set the probability of heads in the limit of long flights beside the share of long flights that land heads
+    /// Compare the limit of the probability of heads for long flights with the share of long flights that land heads
     Limit(limit::Args),
-    /// Choose the cheapest model that serves a scene
+    /// Choose the cheapest model that answers a question accurately enough
     Plan(plan::Args),
-    /// List the coins that can be named
+    /// List the coins of the catalogue
     Coins(list::Args),
-    /// List the solvers
+    /// List the solvers with their schemes and formulations
     Solvers(list::Args),
-    /// List the models that a plan chooses from, from the cheapest on
+    /// List the models from which `plan` chooses
     Models(list::Args),
-    /// List the spaces of launches that can be named
+    /// List the named spaces of launches
     Spaces(list::Args),
 }
 
@@ -103,7 +109,7 @@ fn main() -> ExitCode {
         Err(failure) => {
             eprintln!("error: {failure}");
             if command.wants_json() {
-                // Standard output may be closed; the message above and the exit code still tell.
+                // An error here means that standard output is closed; the message above and the exit code remain.
                 let _ = output::print(&failure.to_json());
             }
             ExitCode::from(failure.exit_code())

@@ -1,4 +1,5 @@
-//! How answers leave the program.
+//! Prints answers as text, JSON or CSV, and writes charts. All commands use these functions, so that their output has
+//! the same form.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -8,7 +9,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 
-/// For people or for programs.
+/// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
     /// Aligned text with units
@@ -17,35 +18,35 @@ pub(crate) enum Format {
     Json,
 }
 
-/// Series of data for programs.
+/// The format of a series of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum DataFormat {
-    /// A line a point, with a heading
+    /// One line per point, with a heading
     Csv,
-    /// JSON
+    /// One JSON value on standard output
     Json,
 }
 
-/// How a series of data is wanted.
+/// Options of a command that prints a series of data.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SeriesArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
     pub(crate) format: DataFormat,
-    /// Also draw it into this file
+    /// Also draw a chart into this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
 impl SeriesArgs {
-    /// Writes the chart that `draw` makes, if one is wanted: whole or not at all.
+    /// Writes the chart that `draw` makes if `--svg` was given. The file is written whole or not at all.
     pub(crate) fn draw(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<(), Failure> {
         let Some(path) = &self.svg else { return Ok(()) };
         whole_file::write(path, &draw()?)
             .map_err(|source| Failure::Write { target: path.display().to_string(), source })
     }
 
-    /// Lines of plain data in the format asked for.
+    /// Formats lines of plain data as `--format` says.
     pub(crate) fn data(&self, lines: &[impl Serialize]) -> String {
         match self.format {
             DataFormat::Csv => csv(lines),
@@ -54,7 +55,7 @@ impl SeriesArgs {
     }
 }
 
-/// Prints an answer as one piece; a reader that has gone away (a closed pipe) is no failure.
+/// Prints an answer as a whole. A pipe that the reader has closed is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     let written =
@@ -67,12 +68,12 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Plain data as JSON.
+/// Formats plain data as JSON.
 pub(crate) fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain data with string keys is always JSON")
 }
 
-/// Lines of plain data as CSV, with a heading.
+/// Formats lines of plain data as CSV with a heading.
 pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for line in lines {
@@ -81,10 +82,11 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
 }
 
-/// A bar over as many `things` with rate and time left, on standard error; hidden unless that is a terminal.
+/// A progress bar for `number` `things` on standard error, with the rate and the time left. It is hidden if standard
+/// error is not a terminal.
 pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
     let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        // An error would be one of the terminal, which shows the bar or does not.
+        // An error of the terminal is ignored: the bar is not part of the answer.
         let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
     };
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} {msg}, {rate}, {eta} left")
@@ -93,7 +95,7 @@ pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
     ProgressBar::new(number).with_style(style).with_message(things)
 }
 
-/// A table with aligned columns; the first row is the heading.
+/// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);

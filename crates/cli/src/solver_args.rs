@@ -1,5 +1,5 @@
-//! Options about the solver. What they offer is what the registry holds: no list of solvers, schemes or formulations
-//! stands here.
+//! The options that choose a solver and its settings. Their help texts are made from the registry, so that a new solver
+//! appears in them without a change here.
 
 use clap::Args;
 use dynamics::Frame;
@@ -22,7 +22,7 @@ pub(crate) struct SolverArgs {
           help = format!("Step of {} (s) [default: {}]", schemes_with_a_step(), Stepping::DEFAULT_STEP))]
     step: Option<f64>,
     #[arg(long, value_name = "NAME", alias = "frame", default_value = Formulation::default().name(),
-          help = format!("Set-up of the kinematics: {}", formulations()))]
+          help = format!("Formulation of the kinematics: {}", formulations()))]
     formulation: String,
 }
 
@@ -39,7 +39,7 @@ impl SolverArgs {
         match self.scheme.as_deref() {
             None => Ok(default_scheme(entry)),
             Some(name) if entry.integrates() => entry.scheme(name),
-            // A closed form has no use for a scheme, and takes any.
+            // A closed form ignores the scheme, so any known one is accepted.
             Some(name) => find_named("scheme", name, &all_schemes(), |scheme| scheme.name()).copied(),
         }
     }
@@ -59,7 +59,7 @@ impl SolverArgs {
     }
 }
 
-/// The scheme of a solver for which none is asked for.
+/// The scheme that is used if no `--scheme` is given.
 fn default_scheme(entry: &SolverEntry) -> Scheme {
     let default = Stepping::DEFAULT.scheme();
     if entry.schemes().contains(&default) { default } else { entry.schemes().first().copied().unwrap_or(default) }
@@ -68,8 +68,8 @@ fn default_scheme(entry: &SolverEntry) -> Scheme {
 fn scheme_help() -> String {
     let (schemes, default) = (schemes(|_| true), Stepping::DEFAULT.scheme().name());
     format!(
-        "Scheme by which an integrator steps: {schemes}; `solvers` lists those of each [default: {default}, or the \
-         solver's first]"
+        "Scheme by which the integrator steps: {schemes}; `unfair-toss solvers` lists those of each solver \
+         [default: {default}, or the first one of the solver]"
     )
 }
 
@@ -78,34 +78,34 @@ fn tolerance_help() -> String {
     format!("Local error per step of {schemes}, absolute and relative [default: {:e}]", Stepping::DEFAULT_TOLERANCE)
 }
 
-/// The schemes that have no use for a tolerance.
+/// The names of the schemes that take a fixed step.
 fn schemes_with_a_step() -> String {
     schemes(|scheme| !scheme.is_adaptive())
 }
 
-/// The names of the solvers that are `meant`, as `gamma, euler or quaternion`.
+/// The names of the solvers for which `meant` is true, such as `gamma, euler or quaternion`.
 pub(crate) fn solvers(meant: impl Fn(&SolverEntry) -> bool) -> String {
     one_of(entries().filter(|entry| meant(entry)).map(|entry| entry.name().to_owned()))
 }
 
-/// The names of the schemes that are `meant`, as `dop853, dopri5 or taylor`.
+/// The names of the schemes for which `meant` is true, such as `dop853, dopri5 or taylor`.
 pub(crate) fn schemes(meant: impl Fn(Scheme) -> bool) -> String {
     one_of(all_schemes().into_iter().filter(|scheme| meant(*scheme)).map(|scheme| scheme.name().to_owned()))
 }
 
-/// The formulations, each with what happens at its singular points.
+/// The names of the formulations, each with its behaviour at singular points.
 fn formulations() -> String {
     one_of(each_once(entries().flat_map(SolverEntry::formulations)).into_iter().map(|formulation: Formulation| {
         let words = match (formulation.frame(), formulation.is_guarded()) {
             (_, false) => "as the paper prints it: an answer may be wrong without an error",
             (Frame::Momentum, true) => "no flight is singular",
-            (Frame::Vertical, true) => "as the paper has it: typed errors where it is singular",
+            (Frame::Vertical, true) => "the paper's frame: a typed error where it is singular",
         };
         format!("{} ({words})", formulation.name())
     }))
 }
 
-/// Every scheme that a solver offers.
+/// Every scheme that any solver offers, once.
 fn all_schemes() -> Vec<Scheme> {
     each_once(entries().flat_map(SolverEntry::schemes))
 }
@@ -123,7 +123,7 @@ fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -
     })
 }
 
-/// As `a, b or c`.
+/// Joins the items as in `a, b or c`.
 fn one_of(items: impl Iterator<Item = String>) -> String {
     let mut items: Vec<String> = items.collect();
     match (items.pop(), items.is_empty()) {
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_solver_without_the_default_scheme_steps_by_its_first() {
+    fn a_solver_without_the_default_scheme_uses_its_first_scheme() {
         let offers = |schemes: &[Scheme]| SolverEntry::new("own", "", |_| Box::new(ExactSolver)).with_schemes(schemes);
         assert_eq!(default_scheme(&offers(&[Scheme::RK4, Scheme::DOP853])), Scheme::DOP853);
         assert_eq!(default_scheme(&offers(&[Scheme::RK4, Scheme::DOPRI5])), Scheme::RK4);

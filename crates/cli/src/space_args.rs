@@ -1,4 +1,5 @@
-//! Options of the commands about many launches: the space, how its launches are chosen, the threads.
+//! The options of the commands about many launches: the space, the method that chooses the launches, and the threads.
+//! These commands share them, so that an option means the same in each.
 
 use std::path::Path;
 
@@ -10,7 +11,7 @@ use crate::failure::Failure;
 use crate::output::progress_bar;
 use crate::toss_args::CoinArgs;
 
-/// A space of launches: by name, from a file, or by its axes.
+/// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
 pub(crate) struct SpaceArgs {
     #[command(flatten)]
@@ -19,22 +20,23 @@ pub(crate) struct SpaceArgs {
     #[arg(long, value_name = "NAME|FILE.toml",
           conflicts_with_all = ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"])]
     space: Option<String>,
-    /// ωx (rad/s): VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; or y or z for that rate's value
+    /// Body rate ωx (rad/s): VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; y or z ties it to
+    /// that rate
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_x: Option<String>,
-    /// ωy (rad/s), likewise; x for ωy = ωx
+    /// Body rate ωy (rad/s), likewise; x for ωy = ωx
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_y: Option<String>,
-    /// ωz (rad/s), likewise
+    /// Body rate ωz about the coin's normal (rad/s), likewise
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     rate_z: Option<String>,
-    /// v0 (m/s), likewise
+    /// Launch speed v0 (m/s), likewise
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     speed: Option<String>,
     /// Gravity (m/s²), likewise [default: 9.81]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     gravity: Option<String>,
-    /// Turn about the lab's x axis at launch (rad), likewise [default: 0]
+    /// Tilt at launch: a turn about the lab's x axis (rad), likewise [default: 0]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     tilt: Option<String>,
 }
@@ -49,14 +51,14 @@ impl SpaceArgs {
             Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
         if given.is_empty() {
             return Err(Failure::Usage(
-                "one of --space and the axes --rate-x, --rate-y, --rate-z, --speed is needed".to_owned(),
+                "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed".to_owned(),
             ));
         }
         Ok(Space::parse(self.coin.given()?.unwrap_or(Coin::PAPER), &given)?)
     }
 }
 
-/// The space with this name, or in this file, for the coin that is given, if one is.
+/// The space with this name or in this file. A coin that is given replaces the coin of the space.
 pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
     let coin = coin.given()?;
     let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
@@ -70,32 +72,32 @@ fn space_file(path: &Path) -> Result<Space, Failure> {
     Ok(described.space)
 }
 
-/// How the launches of a space are chosen.
+/// Options for the number and the seed of launches.
 #[derive(Debug, Args)]
 pub(crate) struct PlanArgs {
-    /// Number of launches [default: 250000 at random, 262144 of sobol, 1024 for a node of a map; exact-speed uses the
-    /// grid of the other axes if they have one, else as many as sobol]
+    /// Number of launches [default: 250000 for random, 262144 for sobol, 1024 per node of a map; exact-speed takes the
+    /// grid of the other axes if all have points, else as many launches as sobol]
     #[arg(long, value_name = "N")]
     points: Option<u64>,
-    /// Seed of the random launches and of the scrambles
+    /// Seed of the random launches or of the scrambles
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
 }
 
-/// The methods of sampling.
+/// The method by which launches are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum MethodArg {
-    /// Method A: a grid over the space
+    /// A grid over the space (the paper's method A)
     Grid,
-    /// Method B: independent random launches
+    /// Independent random launches (the paper's method B)
     Random,
-    /// Owen-scrambled Sobol points, 8 scrambles
+    /// Owen-scrambled Sobol points, in 8 scrambles
     Sobol,
-    /// The speed integrated in closed form, by the exact motion; the rest by its grid or by Sobol points
+    /// Integrates over the speed in closed form; the other coordinates by their grid or by Sobol points
     ExactSpeed,
 }
 
-/// How many launches are tried where no number is given.
+/// The numbers of launches that are used if no `--points` is given.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DefaultPoints {
     pub(crate) random: u64,
@@ -103,7 +105,7 @@ pub(crate) struct DefaultPoints {
 }
 
 impl PlanArgs {
-    /// The plan for `space`.
+    /// The plan for sampling `space`.
     pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: DefaultPoints) -> Result<Plan, Failure> {
         let seed = self.seed;
         let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
@@ -123,16 +125,16 @@ impl PlanArgs {
     }
 }
 
-/// Threads that share the work.
+/// Option for the number of threads.
 #[derive(Debug, Args)]
 pub(crate) struct ThreadArgs {
-    /// Number of threads [default: one a core]
+    /// Number of threads [default: one per core]
     #[arg(long, value_name = "K")]
     threads: Option<usize>,
 }
 
 impl ThreadArgs {
-    /// Asks `sampler` the `question` on these threads, with a bar over the `number` of `things` that it goes through.
+    /// Runs `question` with `sampler` on these threads, with a progress bar for the `number` of `things`.
     pub(crate) fn ask<T: Send>(
         &self,
         sampler: Sampler<'_>,

@@ -1,4 +1,5 @@
-//! Options about one toss: the coin, the launch, the solver.
+//! The options that describe one toss: the coin and the launch, and for a flight also the solver. The commands about
+//! single tosses share them.
 
 use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
@@ -9,13 +10,13 @@ use toss::{Backend, Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
 use crate::failure::Failure;
 use crate::solver_args::SolverArgs;
 
-/// Reads numbers separated by commas.
+/// Parses numbers that are separated by commas.
 fn list(field: &'static str, text: &str, expected: &'static str) -> Result<Vec<f64>, InputError> {
     let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     parts.map_err(|_| InputError::Malformed { field, value: text.to_owned(), expected })
 }
 
-/// Reads N numbers separated by commas.
+/// Parses exactly N numbers that are separated by commas.
 pub(crate) fn numbers<const N: usize>(
     field: &'static str,
     text: &str,
@@ -31,16 +32,16 @@ pub(crate) struct CoinArgs {
     /// A coin of the catalogue [default: paper]
     #[arg(long, value_name = "NAME")]
     coin: Option<String>,
-    /// A homogeneous cylinder (kg, m, m)
+    /// A homogeneous cylinder as a coin (kg, m, m)
     #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
     cylinder: Option<String>,
-    /// Principal moments of inertia (kg m²); I1,I2,I3 with I2 = I1 is understood too
+    /// Moments of inertia about a diameter and about the normal (kg m²); I1,I2,I3 with I2 = I1 is accepted too
     #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
     moments: Option<String>,
 }
 
 impl CoinArgs {
-    /// The coin, if one was asked for.
+    /// The coin, if one of the options was given.
     pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
         if let Some(text) = &self.cylinder {
             let [mass, radius, thickness] = numbers("cylinder", text, "MASS,RADIUS,THICKNESS [kg, m, m]")?;
@@ -53,33 +54,33 @@ impl CoinArgs {
     }
 }
 
-/// A coin and its launch.
+/// Options for a coin and its launch.
 #[derive(Debug, Args)]
 pub(crate) struct TossArgs {
     #[command(flatten)]
     pub(crate) coin: CoinArgs,
-    /// Body rate at launch, body frame (rad/s)
+    /// Body rate at launch, in the body frame (rad/s)
     #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
     rate: Option<String>,
     /// Launch speed v0 (m/s)
     #[arg(long, value_name = "V0", allow_hyphen_values = true)]
     speed: Option<f64>,
-    /// Time of flight, instead of a speed (s)
+    /// Time of flight (s), instead of a speed
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"])]
     time: Option<f64>,
     /// Gravity (m/s²) [default: 9.81]
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     gravity: Option<f64>,
-    /// How far below the launch the coin lands; negative: above it (m) [default: 0]
+    /// Height of the launch above the landing (m), negative if the coin lands higher [default: 0]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     drop: Option<f64>,
-    /// Attitude at launch: a turn about the lab's x axis (rad)
+    /// Tilt at launch: a turn about the lab's x axis (rad)
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
     tilt: f64,
-    /// Outside the model, and refused with the reason
+    /// Air drag is outside the model; the option is refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     drag: Option<String>,
-    /// Outside the model, and refused with the reason
+    /// Bouncing is outside the model; the option is refused with the reason
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     bounce: Option<String>,
 }
@@ -105,7 +106,7 @@ impl TossArgs {
     }
 }
 
-/// One toss and its solver.
+/// Options for one toss and the solver that flies it.
 #[derive(Debug, Args)]
 #[command(mut_arg("scheme", |scheme| scheme.alias("method")))]
 pub(crate) struct FlightArgs {

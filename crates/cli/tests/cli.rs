@@ -1,4 +1,5 @@
-//! The command line from outside: answers, exit codes, and what goes to standard output.
+//! Runs the commands about single tosses and the lists as a user does, and checks their answers, exit codes and
+//! standard output. Other programs rely on these, so they are part of the interface.
 
 mod common;
 
@@ -9,7 +10,7 @@ use serde_json::Value;
 use toss::{Registry, SolverEntry};
 
 #[test]
-fn a_toss_by_every_solver_has_the_reference_digits() {
+fn every_solver_and_scheme_reproduces_the_reference_value_of_cos_tilt() {
     let command = "toss --rate 1,1,2.5 --speed 3";
     assert_near(&json(command, 0)["cos_tilt"], 0.665_661_286_601_930_7, 1e-15);
     for solver in ["gamma", "euler", "quaternion"] {
@@ -32,7 +33,7 @@ fn the_answer_has_the_fields_of_the_contract() {
         assert!(fields.contains(&field), "{field}");
     }
     assert_eq!(fields.len(), 14);
-    // Kane's body.
+    // Kane's body, with its reference values.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
         [-0.304_936_388_530_335_6, 0.333_018_098_445_657_3, -0.137_999_998_420_704_2, -0.881_515_028_512_617_2]
@@ -43,7 +44,7 @@ fn the_answer_has_the_fields_of_the_contract() {
         assert_near(&answer["attitude"][part], sign * expected, 1e-15);
     }
     assert_eq!(answer["coin"], serde_json::json!({"i1": 0.04, "i2": 0.04, "i3": 0.02}));
-    // Euler's equations turn (ωx, ωy) by -(k - 1) ωz T = 3 rad, and leave ωz.
+    // Euler's equations turn (ωx, ωy) by -(k - 1) ωz T = 3 rad and leave ωz unchanged.
     let (sin, cos) = 3f64.sin_cos();
     for (part, expected) in [2.0 * cos + 4.0 * sin, 4.0 * cos - 2.0 * sin, 6.0].into_iter().enumerate() {
         assert_near(&answer["rate"][part], expected, 1e-14);
@@ -218,7 +219,7 @@ fn a_trace_starts_at_launch_and_ends_at_landing() {
 }
 
 #[test]
-fn a_margin_leads_to_the_other_outcome() {
+fn a_speed_changed_by_the_margin_flips_the_outcome() {
     let answer = json("toss --rate 2,2,0.5 --speed 3", 0);
     let change = answer["margin"]["speed"].as_f64().unwrap();
     assert!(change < 0.0, "{answer}");
@@ -257,7 +258,7 @@ fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
 
 #[test]
 fn the_inverse_launch_has_the_wanted_probability() {
-    // p(60°) of the reference numbers, cot²ψ = 1/3.
+    // p(60°) from the reference numbers; there cot²ψ = 1/3.
     let answer = json("inverse --probability 0.6081734479693927 --coin disc", 0);
     assert_near(&answer["cone_angle"], std::f64::consts::FRAC_PI_3, 1e-14);
     assert_near(&answer["rate_ratio"], 2.0 * 3f64.sqrt(), 1e-13);
@@ -293,7 +294,7 @@ fn lists_name_every_coin_solver_model_and_space() {
 }
 
 #[test]
-fn help_names_what_the_registry_holds() {
+fn help_names_every_solver_and_scheme_of_the_registry() {
     let help = stdout(&run("toss --help"));
     for entry in Registry::standard().entries() {
         assert!(help.contains(entry.name()), "{}", entry.name());

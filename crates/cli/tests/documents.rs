@@ -1,4 +1,5 @@
-//! The commands in the documents print what these say they print.
+//! Runs every command that README.md and docs/paper-audit.md show, and compares its output with the output shown there.
+//! So the numbers in these documents cannot become outdated.
 
 use std::process::Command;
 
@@ -6,7 +7,7 @@ const DOCUMENTS: [&str; 2] = [include_str!("../../../README.md"), include_str!("
 const PREFIX: &str = "$ unfair-toss ";
 
 #[test]
-fn console_blocks_are_current() {
+fn the_console_blocks_of_the_documents_show_the_output_of_their_commands() {
     for document in DOCUMENTS {
         let blocks: Vec<&str> =
             document.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
@@ -21,7 +22,7 @@ fn console_blocks_are_current() {
     }
 }
 
-/// What a terminal shows of `command`, which may end in `| head -n LINES`.
+/// The output of `command` as a terminal shows it; the command may end in `| head -n LINES`.
 fn printed(command: &str) -> String {
     let (arguments, lines) = match command.split_once(" | head -n ") {
         Some((arguments, lines)) => (arguments, lines.parse().expect("a number of lines")),

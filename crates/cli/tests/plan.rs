@@ -1,10 +1,11 @@
-//! `plan` from outside: its model, what it passes over, and what it refuses.
+//! Runs `unfair-toss plan` as a user does, and checks which model it chooses, which it passes over, and what it
+//! refuses. Refusals matter here because an option without effect would mislead.
 
 mod common;
 
 use common::{assert_near, assert_refused, json, run, stderr};
 
-/// Options that don't go together.
+/// Asserts that the options are refused because they conflict.
 #[track_caller]
 fn refused(arguments: &str) {
     let output = run(arguments);
@@ -13,7 +14,7 @@ fn refused(arguments: &str) {
 }
 
 #[test]
-fn a_plan_names_its_model_and_what_it_passes_over() {
+fn a_plan_names_its_model_and_those_that_it_passed_over() {
     let thrown = "--rate 1,1,2.5 --speed 3 --accuracy 1e-9";
     let model = |answer: &serde_json::Value| answer["model"].as_str().unwrap_or_default().to_owned();
     for (options, expected) in [
@@ -40,7 +41,7 @@ fn a_plan_names_its_model_and_what_it_passes_over() {
 }
 
 #[test]
-fn a_scheme_is_of_an_integrator_and_keeps_its_former_name() {
+fn only_an_integrator_has_a_scheme_and_method_is_its_former_name() {
     let toss = "plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-9 --solver gamma";
     let answer = json(&format!("{toss} --method dopri5"), 0);
     assert_eq!(answer, json(&format!("{toss} --scheme dopri5"), 0));
@@ -69,7 +70,7 @@ fn a_scene_is_read_from_a_file() {
 }
 
 #[test]
-fn what_the_model_does_not_hold_is_refused_with_the_reason() {
+fn input_outside_the_model_is_refused_with_the_reason() {
     for (options, kind, words) in [
         ("--drag 0.4", "outside_model", "free of torque and drag"),
         ("--bounce 0.5", "outside_model", "ends at the first landing"),
@@ -92,7 +93,7 @@ fn what_the_model_does_not_hold_is_refused_with_the_reason() {
     json("plan --want tilt --accuracy 1e-9", 2);
     json("plan --want probability --accuracy 1e-9", 2);
     json("plan --space cheated --want tilt --accuracy 1e-9", 2);
-    // What would have no effect is refused, not ignored.
+    // An option that would have no effect is refused and not ignored.
     for option in ["--tilt 1", "--drag 0.4", "--rate 1,1,1", "--gravity 3"] {
         refused(&format!("plan --space cheated --want probability --accuracy 1e-9 {option}"));
     }

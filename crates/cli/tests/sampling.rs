@@ -1,10 +1,13 @@
-//! The commands about many launches, from outside.
+//! Runs the commands about many launches as a user does, and checks their numbers, their refusals and their charts. The
+//! libraries have tests of their own; these show that options reach them and answers come back unchanged.
 
+mod charts;
 mod common;
 
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use charts::{lines_of_colour, svg, texts};
 use common::{assert_near, assert_refused, json, run, stderr, stdout};
 use serde_json::Value;
 
@@ -26,7 +29,7 @@ fn probabilities_are_counts_that_do_not_depend_on_threads() {
     assert_eq!((&grid["heads"], &grid["points"], &grid["interval"]), (&500.into(), &500.into(), &Value::Null));
     let box_of_axes = "probability --rate-x 0:40:20 --rate-y x --rate-z 30 --speed 3:5:20 --method grid";
     assert_eq!(json(box_of_axes, 0)["points"], 400);
-    // A disc with Ω ≤ 56.6 rad/s < k ωz = 60 rad/s never flips.
+    // A disc never flips as long as Ω < k ωz, and here Ω ≤ 56.6 rad/s and k ωz = 60 rad/s.
     assert_eq!(json(&format!("{box_of_axes} --coin disc"), 0)["heads"], 400);
 }
 
@@ -35,7 +38,7 @@ fn exact_speed_reports_a_probability_and_an_error_bound() {
     let exact = json("probability --space tails --method exact-speed", 0);
     assert_eq!((&exact["probability"], &exact["heads"], &exact["seed"]), (&0.0.into(), &Value::Null, &Value::Null));
     assert!(exact["error_bound"].as_f64() < Some(1e-15) && exact["interval_kind"] == "rounding error");
-    // A flip within the range: the first at t = 0.555955 s, v0 = 2.726959 m/s (and the next after 5 m/s).
+    // The first flip is at t = 0.555955 s, which belongs to v0 = 2.726959 m/s. The next one is beyond 5 m/s.
     let flips = json("probability --rate-x 2 --rate-y 2 --rate-z 0.5 --speed 2:4 --method exact-speed", 0);
     assert_near(&flips["probability"], (9.81 * 0.555_955 / 2.0 - 2.0) / 2.0, 2e-6);
 
@@ -57,7 +60,7 @@ fn sobol_points_are_counted_with_an_interval_from_scrambles() {
 }
 
 #[test]
-fn a_space_is_read_from_a_file_and_its_faults_are_found_by_line_and_column() {
+fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     let command = format!("probability --space {} --method grid", path.display());
@@ -118,7 +121,7 @@ fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
 }
 
 #[test]
-fn a_convergence_ends_with_what_probability_says() {
+fn the_last_step_of_a_convergence_is_the_result_of_probability() {
     let series = json("convergence --space paper-fig4 --steps 50", 0);
     let last = &series.as_array().unwrap()[49];
     assert_eq!(last["launches"], 250_000);
@@ -132,13 +135,13 @@ fn a_convergence_ends_with_what_probability_says() {
 }
 
 #[test]
-fn errors_fall_and_are_measured_from_a_better_reference() {
+fn errors_are_measured_from_an_accurate_reference_and_smaller_by_exact_speed() {
     let space = "--rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --speed 3:5";
     let lines = json(&format!("errors {space} --up-to 10 --replicates 4"), 0);
     let lines = lines.as_array().unwrap();
     assert_eq!(lines.len(), 5 * 3);
     for line in lines {
-        // The box's probability, known from quadrature.
+        // The probability over this box, from quadrature.
         assert_near(&line["reference"], 0.580_665_055_2, line["reference_error"].as_f64().unwrap());
         assert!(line["rms_error"].as_f64() > Some(0.0), "{line}");
     }
@@ -156,7 +159,7 @@ fn a_map_has_a_probability_for_each_node() {
     let map = json(command, 0);
     assert_eq!((&map["across"], &map["up"]), (&"rate_x".into(), &"rate_z".into()));
     assert_eq!(map["across_values"], serde_json::json!([0.0, 10.0, 20.0, 30.0, 40.0]));
-    // Heads for sure while ωx < k ωz.
+    // Heads is certain as long as ωx ≤ k ωz.
     assert_eq!((&map["probability"][1][1], &map["probability"][2][2]), (&1.0.into(), &1.0.into()));
     let node = json("probability --rate-x 30 --rate-y 0 --rate-z 40 --speed 3:5 --method exact-speed", 0);
     assert_eq!(map["probability"][1][3], node["probability"]);
@@ -166,7 +169,7 @@ fn a_map_has_a_probability_for_each_node() {
 }
 
 #[test]
-fn long_flights_stand_beside_their_limit() {
+fn limit_prints_the_share_of_long_flights_and_its_limit() {
     let lines = json("limit --points 400 --coin us-quarter", 0);
     let lines = lines.as_array().unwrap();
     assert_eq!(lines.len(), 25);
@@ -190,16 +193,54 @@ fn charts_are_written_whole() {
         let path = folder.path().join("chart.svg");
         let output = run(&format!("{command} --svg {}", path.display()));
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(output.stderr.is_empty(), "progress is for terminals: {}", stderr(&output));
+        assert!(output.stderr.is_empty(), "a progress bar without a terminal: {}", stderr(&output));
         let svg = std::fs::read_to_string(&path).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains(word), "{command}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }
 
+#[test]
+fn the_line_of_certain_heads_leaves_from_the_origin_on_any_grid() {
+    const LINE: &str = "#D55E00";
+    for points in [2, 4, 31] {
+        let svg = svg(&format!("map --rate-x 0:30:{points} --rate-y 0 --rate-z 0:60:{points} --speed 3:5"));
+        // The other line of this colour is in the legend.
+        let lines = lines_of_colour(&svg, LINE);
+        let ends = [lines[1][0], *lines[1].last().unwrap()];
+        let axes = lines_of_colour(&svg, "#000000");
+        let (left, right) = (axes.iter().flatten().map(|at| at.0).min(), ends[1].0);
+        assert_eq!(lines[1].len(), 2, "it is straight on {points} points");
+        assert!((ends[0].0 - left.unwrap()).abs() < 12 && right > 1200, "{ends:?}, {left:?}");
+        assert!(svg.contains("the line where heads becomes certain, ψ = 45°"));
+    }
+    let tilted = svg("map --rate-x 0:30:3 --rate-y 0 --rate-z 40 --tilt 0:1:3 --speed 3:5 --up tilt");
+    assert!(tilted.contains("no line: ") && lines_of_colour(&tilted, LINE).is_empty());
+}
+
+#[test]
+fn no_number_stands_twice_on_an_axis_and_zero_has_no_sign() {
+    for command in [
+        "errors --space paper-fig4 --up-to 14 --replicates 2",
+        "convergence --space paper-fig4 --steps 20",
+        "convergence --space cheated --steps 20",
+        "limit --points 50",
+        "map --rate-x -0.3:0.3:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5",
+    ] {
+        let numbers = texts(&svg(command)).into_iter().filter(|(.., text)| text.parse::<f64>().is_ok());
+        let numbers: Vec<(i32, i32, String)> = numbers.collect();
+        assert!(numbers.len() >= 6, "{command}: {numbers:?}");
+        for (index, (x, y, text)) in numbers.iter().enumerate() {
+            assert!(!(text.starts_with('-') && text.parse() == Ok(0.0)), "{command}: {text}");
+            let is_twin = |other: &(i32, i32, String)| other.2 == *text && (other.0 == *x || other.1 == *y);
+            assert!(!numbers[index + 1..].iter().any(is_twin), "{command}: {text} stands twice");
+        }
+    }
+}
+
 #[cfg(unix)]
 #[test]
-fn a_run_that_is_stopped_leaves_no_file_behind() {
+fn a_command_that_is_killed_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("chart.svg");
     let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
@@ -210,7 +251,8 @@ fn a_run_that_is_stopped_leaves_no_file_behind() {
         .unwrap();
     std::thread::sleep(Duration::from_millis(300));
     assert_eq!(child.try_wait().unwrap(), None, "it is still at work");
-    // Not SIGINT, which Ctrl-C sends: both end the program by default, but a test run in the background ignores that one.
+    // SIGTERM instead of the SIGINT of Ctrl-C: both end the program, but a test that runs in the background ignores
+    // SIGINT.
     let stopped = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
     assert!(stopped.success());
     let output = child.wait_with_output().unwrap();

@@ -1,11 +1,12 @@
-//! What it costs to plan a scene, and what `solve` adds to the direct call. Read the ratio of the last two.
+//! Measures what it costs to plan a scene, and what `Scene::solve` adds to a direct call of the solver. A planner is of
+//! use only if it costs less than it saves; the ratio of the last two results is what it adds to an outcome.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use toss::{Coin, ExactSolver, Launch, Outcome, Scene, Solver, TimeOfFlight, Toss, Vector3, Want};
 
-/// Rates of up to 60 rad/s on each axis, speeds of 3 to 5 m/s, by Weyl's sequence.
+/// 1000 tosses with rates of up to 60 rad/s on each axis and speeds of 3 to 5 m/s, from Weyl's sequence.
 fn tosses() -> Vec<Toss> {
     let part = |index: u32, irrational: f64| (f64::from(index) * irrational).fract();
     let toss = |index| {
@@ -16,7 +17,7 @@ fn tosses() -> Vec<Toss> {
     (0..1000).map(toss).collect()
 }
 
-/// How a scene is made of a toss.
+/// Makes a scene from a toss.
 type Make = fn(Toss) -> Scene;
 
 fn plans(criterion: &mut Criterion) {

@@ -1,8 +1,9 @@
 //! Which model answers which question at the least cost?
 //!
-//! A backend that is chosen while the program runs: the planner takes the cheapest model that serves each scene, here
-//! of the paper's cheated toss, caught 30 cm below the hand that threw it. An integrator is taken if it is asked for by
-//! name.
+//! This example lets the planner choose the backend while the program runs: for each scene it takes the cheapest model
+//! that is accurate enough. The scenes ask about the paper's cheated toss, caught 30 cm below the hand that threw it,
+//! and about the probability of heads in the space of launches `paper-fig4`. The planner takes an integrator only if a
+//! scene asks for one by name.
 //!
 //! ```text
 //! outcome      heads

@@ -1,6 +1,7 @@
 //! Do two solvers agree on many tosses?
 //!
-//! A backend that is chosen when the program is compiled: generic code over [`Solver`], without a box or a look-up.
+//! This example chooses the backend when the program is compiled. Its code is generic over [`Solver`], so it needs
+//! neither a `Box` nor a look-up by name.
 //!
 //! ```text
 //! heads of 50: 45 by the exact motion, 45 by the quaternion
@@ -13,7 +14,7 @@ use toss::{
     TimeOfFlight, Toss, Vector3,
 };
 
-/// How often a coin lands heads when the hand's spin varies, by whichever backend the caller named as `S`.
+/// The number of tosses that land heads according to `solver`.
 fn heads_by<S: Solver>(solver: &S, tosses: &[Toss]) -> Result<usize, SolveError> {
     let mut heads = 0;
     for toss in tosses {
@@ -22,7 +23,7 @@ fn heads_by<S: Solver>(solver: &S, tosses: &[Toss]) -> Result<usize, SolveError>
     Ok(heads)
 }
 
-/// The paper's coin, thrown at 4 m/s with ω = (10, 10, ωz), ωz from 0 to 49 rad/s.
+/// 50 tosses of the paper's coin at 4 m/s with the body rates ω = (10, 10, ωz), where ωz is 0, 1, ..., 49 rad/s.
 fn tosses() -> Result<Vec<Toss>, InputError> {
     let thrown = TimeOfFlight::thrown(4.0, 9.81, None);
     let toss = |spin: u32| {

@@ -1,10 +1,11 @@
 //! How much do people's coins wobble?
 //!
-//! 48 people flipped coins 350 757 times; 178 078 landed on the side that had been up (F. Bartoš et al., "Fair coins
-//! tend to land on the same side they started", arXiv:2310.04153, 2023). Had every coin left the thumb flat, with one
-//! and the same angle ψ (or 180° - ψ) between its normal and its angular momentum, and flown for many turns, this share
-//! would be p(ψ) = ½ + asin(cot²ψ)/π (P. Diaconis, S. Holmes and R. Montgomery, SIAM Review 49 (2007), 211). Solved for
-//! ψ:
+//! 48 people flipped coins 350 757 times, and 178 078 of the coins landed on the side that had been up (F. Bartoš et
+//! al., "Fair coins tend to land on the same side they started", arXiv:2310.04153, 2023). The more a coin wobbles, the
+//! more often it does so. Let ψ be the angle between the coin's normal and its angular momentum. If every coin left the
+//! thumb flat, had the same ψ (or 180° - ψ) and flew for many turns, the share of coins that land on the same side
+//! would be p(ψ) = ½ + asin(cot²ψ)/π (P. Diaconis, S. Holmes and R. Montgomery, SIAM Review 49 (2007), 211). This
+//! example solves for ψ:
 //!
 //! ```text
 //! same side     0.5077, ψ = 81.2°
@@ -14,10 +15,13 @@
 //! a US quarter  0.5073 ± 0.0005, 4000000 launches with that ψ
 //! ```
 //!
-//! At 90° a coin is fair. The first interval takes all flips for alike; to its three digits it is that of the paper's
-//! abstract. But people differ by more than chance: the second interval takes the people for the sample, and is more
-//! than twice as wide. What none of this accounts for: ψ may differ from flip to flip, coins need not leave the thumb
-//! flat, and flights may be short. The angle is one that would do, not the mean of those that were.
+//! At ψ = 90° a coin is fair. The first interval assumes that all flips are alike; it agrees with the interval in that
+//! paper's abstract, which has three digits. But people differ by more than chance. The second interval treats the
+//! people as the sample and is more than twice as wide.
+//!
+//! Three things are not accounted for: ψ may differ from flip to flip, coins need not leave the thumb flat, and flights
+//! may be short. So the angle would explain the share, but it need not be the mean of the real angles. The last line is
+//! a check: a sample of launches with this ψ has the same share.
 //!
 //! `cargo run --release -p toss --example human`
 
@@ -25,14 +29,14 @@ use toss::catalogue::named_coin;
 use toss::sampling::interval::from_scrambles;
 use toss::sampling::{Axis, Estimate, Interval, Plan, Sampler, Space, clopper_pearson, long_flight_cone, rate_ratio};
 
-/// Flips of each person that landed on the side they started from, as the data set dat.bartos2023 of the R package
-/// metadat has them.
+/// For each person, the number of flips that landed on the side they started from (data set dat.bartos2023 of the R
+/// package metadat).
 const SAME: [u32; 48] = [
     780, 1126, 2204, 7056, 4957, 1937, 7458, 4971, 5219, 5368, 1801, 3352, 7506, 2761, 2510, 5022, 8649, 353, 2220,
     3261, 10148, 4340, 2475, 2071, 5559, 1769, 7586, 5069, 2510, 2540, 1118, 5080, 1525, 1749, 3815, 3309, 2224, 2020,
     1658, 1426, 4334, 9080, 3705, 7895, 1869, 2055, 956, 1682,
 ];
-/// All flips of each person.
+/// For each person, the number of all flips.
 const FLIPS: [u32; 48] = [
     1600, 2300, 4477, 14324, 10015, 3900, 15012, 10005, 10500, 10757, 3600, 6700, 15000, 5500, 5000, 10000, 17182, 701,
     4400, 6463, 20100, 8596, 4900, 4100, 11000, 3500, 14999, 10004, 4944, 5000, 2200, 9996, 3000, 3400, 7400, 6400,
@@ -53,13 +57,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sample = of_a_quarter(share)?;
     let half_width = sample.half_width().ok_or("a sample has an interval")?;
     println!("a US quarter  {:.4} ± {half_width:.4}, {} launches with that ψ", sample.probability, sample.points);
-    // Four standard deviations of the sample, a quarter of the people's interval.
+    // 1e-3 is four standard deviations of the sample, and a quarter of the half-width of the people's interval.
     assert!((sample.probability - share).abs() < 1e-3);
     Ok(())
 }
 
-/// Launches of a real coin whose ψ should land the share `share` of them on the same side. It turns 40 times a second,
-/// so that ± 0.2 m/s blur the phase at landing by ± 10 rad: as good as a long flight.
+/// Estimates the share of launches that land on the same side for a US quarter whose ψ should give `share`. The coin
+/// turns 40 times a second, and the speed has a standard deviation of 0.2 m/s. This spreads the phase at landing by
+/// 10 rad, which is as good as a long flight.
 fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
     const RATE: f64 = 251.0;
     let quarter = named_coin("us-quarter")?;
@@ -68,8 +73,8 @@ fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
     Sampler::exact().estimate(&space, Plan::Random { points: 4_000_000, seed: 1 })
 }
 
-/// Student's interval of 95 % for the share, with people as the units of the sample: a ratio of two sums over people,
-/// to first order the mean of one number for each person.
+/// Student's interval of 95 % for the share, with the people as the sample. The share is a ratio of two sums over
+/// people, which to first order is the mean of one number for each person.
 fn of_people(share: f64, flips: u32) -> Option<Interval> {
     let weight = 48.0 / f64::from(flips);
     let of_one = |(same, flips): (&u32, &u32)| share + (f64::from(*same) - share * f64::from(*flips)) * weight;
@@ -80,7 +85,7 @@ fn degrees(probability: f64) -> Result<f64, toss::InputError> {
     Ok(long_flight_cone(probability)?.to_degrees())
 }
 
-/// An interval of shares with the angles that it stands for; more wobble, a smaller angle, is a larger share.
+/// An interval of shares with its interval of angles. A smaller angle ψ belongs to a larger share, so the ends swap.
 fn text(Interval { lo, hi }: Interval) -> Result<String, toss::InputError> {
     Ok(format!("{lo:.4} to {hi:.4}, ψ = {:.1}° to {:.1}° (95 %)", degrees(hi)?, degrees(lo)?))
 }

@@ -1,9 +1,10 @@
-//! How has a coin to be launched to land heads in 95 % of the tosses?
+//! How must a coin be launched to land heads in 95 % of the tosses?
 //!
-//! A US quarter, from horizontal, at a speed that is anywhere from 3 to 5 m/s: which spin ωz does it need beside the
-//! rate Ω at which it tumbles? In long flights cot²ψ = sin(π (p - ½)) and ωz = Ω/(k tan ψ). At these speeds the share
-//! of heads is known in closed form, so the spin follows from it by bisection; independent random launches say that it
-//! is right.
+//! A US quarter is thrown from horizontal at any speed from 3 to 5 m/s. It tumbles at the rate Ω (the body rate about a
+//! diameter). Which spin ωz (the body rate about its normal) does it need? For long flights the answer is a formula:
+//! cot²ψ = sin(π (p - ½)) and ωz = Ω/(k tan ψ), where p is the wanted probability, ψ the angle between the normal and
+//! the angular momentum, and k = I3/I1. For speeds from 3 to 5 m/s the share of heads has a closed form, and the
+//! example finds the spin from it by bisection. Independent random launches then confirm the result.
 //!
 //! ```text
 //! Ω/(rad/s)  ωz in long flights  ωz from 3 to 5 m/s  heads of 1000000 launches (95 %)
@@ -31,15 +32,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let Interval { lo, hi } = sample.interval.ok_or("a sample has an interval")?;
         println!("{rate:<9}  {long:<18.4}  {spin:<18.4}  {:.4} ({lo:.4} to {hi:.4})", sample.probability);
 
-        // Wider than the interval that is shown, so that chance fails it for one seed in 10 000.
+        // This interval is wider than the one that is printed: by chance alone, one seed in 10 000 fails.
         let Found::Counts(counts) = sample.found else { return Err("a sample has counts".into()) };
         assert!(clopper_pearson(counts.heads(), LAUNCHES, 0.9999).contains(WANTED));
     }
     Ok(())
 }
 
-/// The spin ωz (rad/s) at which the tumbling rate `rate` (rad/s) has the wanted share of heads. Without spin it is
-/// less; at ψ = 45°, Ω = k ωz, it is 1.
+/// The spin ωz (rad/s) that gives the wanted share of heads at the tumbling rate `rate` (rad/s). The share is smaller
+/// without spin, and it is 1 at ψ = 45°, where Ω = k ωz.
 fn spin(coin: Coin, rate: f64) -> Result<f64, Error> {
     let (mut less, mut more) = (0.0, rate / coin.inertia_ratio());
     for _ in 0..60 {
@@ -50,7 +51,7 @@ fn spin(coin: Coin, rate: f64) -> Result<f64, Error> {
     Ok(more)
 }
 
-/// P(heads) at speeds from 3 to 5 m/s.
+/// The probability of heads at speeds from 3 to 5 m/s, for the rates (rad/s) of tumbling and of spin.
 fn heads(coin: Coin, rate: f64, spin: f64, plan: Plan) -> Result<Estimate, Error> {
     let space = Space::builder(coin).rate_x(rate).rate_y(0.0).rate_z(spin).speed(3.0..=5.0).build()?;
     Sampler::exact().estimate(&space, plan)

@@ -1,9 +1,12 @@
 //! Which launches are fair, and which are certain?
 //!
-//! P(heads) of a US quarter thrown at 3 to 5 m/s, over Ω (across, 1 rad/s a character) and ωz (upwards): the share of
-//! the speeds that land heads, in closed form. Digits are tenths, and `#` is heads at every speed. Left of `/`, the
-//! line Ω = k ωz on which ψ = 45°, the coin shows heads at every time. Right of it fast coins become fair, while slow
-//! ones have so few turns that it matters where these end.
+//! The map shows the probability of heads for a US quarter that is thrown at 3 to 5 m/s: the share of the speeds that
+//! land heads, in closed form. The rate of tumbling Ω goes across, 1 rad/s per character; the rate of spin ωz goes up.
+//! A digit is the probability in tenths, and `#` means heads at every speed.
+//!
+//! The line `/` is Ω = k ωz, with k = I3/I1. There the angle ψ between the normal and the angular momentum is 45°. Left
+//! of it the coin shows heads at every time. Right of it fast coins become fair, while slow coins make so few turns
+//! that the probability depends on where these end.
 //!
 //! ```text
 //!  30 ############################################################/9
@@ -46,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (left, right) = row.split_at(certain);
         println!("{spin:>3} {}/{}", text(left), text(right));
 
-        // The line is where the angular momentum says, and left of it the probability is 1.
+        // The line is where ψ = 45°, and left of it the probability is 1.
         assert_eq!(certain, rates.iter().filter(|rate| **rate <= quarter.inertia_ratio() * spin).count());
         assert!(left.iter().all(|node| node.probability == 1.0));
     }

@@ -1,7 +1,8 @@
-//! How does this toss land, and how near was it to the other side?
+//! How does this toss land, and how close was it to the other side?
 //!
-//! A US quarter, flipped at 38 turns a second with some spin about its normal, thrown at 2.4 m/s and caught at the
-//! height that it left from.
+//! A US quarter tumbles at 38 turns a second and spins about its normal at 50 rad/s. It is thrown at 2.4 m/s and caught
+//! at the height at which it left the hand. The margin is the smallest change of the speed v0 that flips the outcome; ψ
+//! is the angle between the normal and the angular momentum.
 //!
 //! ```text
 //! outcome   heads, proven
@@ -32,13 +33,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("margin    {:+.4} mm/s in v0", 1e3 * change);
     println!("ψ         {:.4}°, heads for ever below 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
 
-    // A little less than the margin keeps the outcome, a little more flips it.
+    // A change slightly below the margin keeps the outcome, and one slightly above flips it.
     assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome(), proven.outcome());
     assert_ne!(certify(&thrown(SPEED + change * (1.0 + 1e-9))?)?.outcome(), proven.outcome());
     Ok(())
 }
 
-/// The quarter thrown at `speed` (m/s).
+/// The toss of the quarter at `speed` (m/s).
 fn thrown(speed: f64) -> Result<Toss, InputError> {
     let up = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
     let launch = Launch::new(Vector3::new(38.0 * TAU, 0.0, 50.0), up)?;

@@ -1,4 +1,5 @@
-//! Answers to scenes, and what they rest on.
+//! The types of an answer to a scene. An outcome says whether it is proven or estimated, so that an estimate is never
+//! taken for a proof.
 
 use dynamics::{Outcome, State};
 use exact::{Certificate, Stage};
@@ -6,27 +7,27 @@ use sampling::Estimate;
 
 use crate::trace::TracePoint;
 
-/// What was wanted.
+/// The answer to a [`Want`](crate::Want), of the same kind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
-    /// Heads or tails, and what it rests on.
+    /// Heads or tails, proven or estimated.
     Outcome(Verdict),
     /// cos θ at landing.
     Tilt(f64),
     /// Attitude and body rate at landing.
     Attitude(State),
-    /// The flight.
+    /// The flight at equally spaced times.
     Trace(Vec<TracePoint>),
     /// The probability of heads.
     Probability(Box<Estimate>),
 }
 
-/// An outcome, and what it rests on. Only the proving code can make one that is proven.
+/// An outcome, proven or estimated. Only the crate `exact` can make a [`Certificate`], so only it can prove one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// By a proof.
+    /// The outcome is proven, for exactly the f64 inputs given.
     Proven(Certificate),
-    /// By a solver, as far as its error estimate goes.
+    /// A solver decided it by its own error estimate, which may be wrong.
     Estimated(Outcome),
 }
 
@@ -39,7 +40,7 @@ impl Verdict {
         }
     }
 
-    /// The stage that proved it; `None` for an estimate.
+    /// The stage of the proof that decided it; `None` for an estimate.
     pub fn stage(self) -> Option<Stage> {
         match self {
             Self::Proven(certificate) => Some(certificate.stage()),
@@ -47,7 +48,7 @@ impl Verdict {
         }
     }
 
-    /// Whether it is proven.
+    /// Whether the outcome is proven.
     pub fn is_proven(self) -> bool {
         matches!(self, Self::Proven(_))
     }

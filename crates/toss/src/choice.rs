@@ -1,4 +1,5 @@
-//! What a plan says: the choice with the error and the cost to expect of it, and why others were passed over.
+//! The result of planning a scene: the chosen model with its expected error and cost, and why the others were passed
+//! over. A plan can be read, checked and reported before anything is computed.
 
 use std::fmt;
 
@@ -7,48 +8,50 @@ use dynamics::{Scheme, SolverEntry, Stepping};
 use crate::model::Model;
 use crate::reason::Reason;
 
-/// A model with its settings, and what to expect of it.
+/// A model with its settings, its expected error and its expected cost.
 #[derive(Debug, Clone)]
 pub struct Choice {
     /// The model.
     pub model: &'static Model,
-    /// Its settings.
+    /// The settings of the model.
     pub how: How,
-    /// Its error, as the record has it; 0 for an outcome, which is right or undecided.
+    /// The error to expect by the [table of measurements](crate::fitted): of cos θ, of the attitude (rad) or of the
+    /// probability. It is 0 for an outcome, which is either right or undecided.
     pub expected_error: f64,
-    /// Its cost on one core of the machine of the record (ns).
+    /// The cost to expect (ns), on one core of the machine on which the table was measured.
     pub expected_cost_ns: f64,
 }
 
 /// How a model is to be used.
 #[derive(Debug, Clone)]
 pub enum How {
-    /// It has no settings.
+    /// The model has no settings.
     ClosedForm,
-    /// By an integrator that steps so.
+    /// This integrator with this scheme and tolerance.
     Integrator(SolverEntry, Stepping),
-    /// With these launches.
+    /// The launches that are tried.
     Sampling(sampling::Plan),
 }
 
-/// What a model has to offer to a scene, or why it has nothing.
+/// How a model would answer a scene, or the reason why it cannot.
 pub type Offer = Result<Choice, Reason>;
 
-/// The chosen model, and why others were not.
+/// The chosen model, and why each of the others was passed over.
 #[derive(Debug, Clone)]
 pub struct Decision {
     /// The choice.
     pub choice: Choice,
-    /// Every cheaper model, and every other way of the chosen kind, with the reason.
+    /// The models that were considered and not taken, each with the reason. Where models are tried in the order of
+    /// their cost, those after the choice are not considered.
     pub passed_over: Vec<(Candidate, Reason)>,
 }
 
-/// A model that was considered, and the solver and scheme if it is an integrator.
+/// A model that was considered; for an integrator also its solver and scheme.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Candidate {
     /// The model.
     pub model: &'static Model,
-    /// The integrator's solver and scheme.
+    /// Name of the solver and its scheme; `None` for a model that is no integrator.
     pub integrator: Option<(String, Scheme)>,
 }
 

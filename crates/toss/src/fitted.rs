@@ -1,7 +1,12 @@
-//! What models cost and how far they are off, as measured: the planner's only source.
+//! The table of measured errors and costs by which the planner chooses a model. The planner has to predict both before
+//! it runs a model, so they are measured beforehand and stored with the crate.
 //!
-//! The table is `data/fitted.toml` of this crate. `cargo xtask verify --bless` measures it anew, on whatever machine it
-//! runs; costs are of one core of that machine, errors are the largest that were met, times a factor of safety.
+//! The table is `data/fitted.toml`. `cargo xtask verify --bless` measures it anew. Costs are those of one core of the
+//! machine that ran it. Errors are the largest that were met, times a factor of safety.
+//!
+//! Integrators are tabulated by two numbers that describe a flight of duration T: its phase (the angle by which the
+//! motion turns) and the ratio of spin to precession |q|/ωL. Here ωL is the rate of the precession about the angular
+//! momentum, q = (k - 1) ωz the rate at which the transverse body rate turns in the body frame, and k = I3/I1.
 
 use std::sync::LazyLock;
 
@@ -11,26 +16,26 @@ use serde::{Deserialize, Serialize};
 /// The table that this library was built with.
 ///
 /// # Panics
-/// Never: a test reads it.
+/// Never: a test makes sure that the file can be read.
 pub static FITTED: LazyLock<Fitted> =
     LazyLock::new(|| toml::from_str(include_str!("../data/fitted.toml")).expect("a test reads it"));
 
 /// Errors and costs of all models.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fitted {
-    /// When and on what it was measured.
+    /// The day and the machine on which it was measured.
     pub measured: String,
-    /// The models without steps or samples.
+    /// The models in closed form, which take no steps and no samples.
     pub closed: Vec<ClosedFit>,
-    /// Upper ends of the bins of |q|/ωL, spin over precession, of the integrators; the last one is open.
+    /// Upper ends of the bins of |q|/ωL, the ratio of spin to precession, for integrators. The last bin has no end.
     pub spins: Vec<f64>,
-    /// Upper ends of their bins of phases (rad).
+    /// Upper ends of the bins of the phase (rad), for integrators.
     pub phases: Vec<f64>,
-    /// Their tolerances, from rough to fine.
+    /// Tolerances of the integrators, from coarse to fine.
     pub tolerances: Vec<f64>,
-    /// Integrators by scheme.
+    /// The integrators, an entry for each scheme.
     pub integrators: Vec<IntegratorFit>,
-    /// The ways to sample a space.
+    /// The models that sample a space.
     pub sampling: Vec<SamplingFit>,
 }
 
@@ -39,52 +44,53 @@ pub struct Fitted {
 pub struct ClosedFit {
     /// The model's name.
     pub model: String,
-    /// Its cost (ns), that of a trace for each point.
+    /// Cost (ns); for a trace, the cost of each point.
     pub cost_ns: f64,
-    /// Its error, at any phase.
+    /// Largest error at any phase: of cos θ, of the attitude (rad) or of a probability.
     pub error: f64,
 }
 
-/// A solver and its scheme: tables by spin, phase and tolerance.
+/// A solver with one of its schemes. Its tables are indexed by the bin of |q|/ωL, the bin of the phase, and the
+/// tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct IntegratorFit {
     /// The solver's name in the registry.
     pub solver: String,
     /// The scheme's name.
     pub scheme: String,
-    /// Cost of a flight apart from its calls (ns).
+    /// Cost of a flight (ns), without its calls of the right-hand side.
     pub cost_ns: f64,
-    /// Cost of a call of the right-hand side, with all that belongs to it (ns).
+    /// Cost of a call of the right-hand side (ns), with everything whose cost grows with the number of calls.
     pub call_ns: f64,
-    /// Error of cos θ at the end of a bin of phases.
+    /// Error of cos θ for a phase at the upper end of the bin.
     pub tilt_errors: Vec<Vec<Vec<f64>>>,
-    /// Error of the attitude there (rad).
+    /// Error of the attitude (rad) for a phase at the upper end of the bin.
     pub errors: Vec<Vec<Vec<f64>>>,
-    /// Mean calls of the right-hand side over 1 + phase.
+    /// Mean number of calls of the right-hand side, divided by 1 + phase.
     pub calls: Vec<Vec<Vec<f64>>>,
 }
 
-/// A way to sample a space: the error after N launches is `error` N^-`power`.
+/// A model that samples a space. Its error after N launches is `error` × N^-`power`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SamplingFit {
     /// The model's name.
     pub model: String,
-    /// Cost of an estimate apart from its launches (ns).
+    /// Cost of an estimate (ns), without its launches.
     pub cost_ns: f64,
     /// Cost of a launch (ns).
     pub launch_ns: f64,
-    /// Error of one launch.
+    /// The factor of the error: what the error would be with a single launch.
     pub error: f64,
-    /// How fast it falls.
+    /// The exponent with which the error falls as N grows.
     pub power: f64,
 }
 
-/// How far a flight turns.
+/// How far a flight turns, and how: the place of a toss in the tables of the integrators.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
     /// The larger of ωL T and |q| T (rad).
     pub phase: f64,
-    /// |q|/ωL; infinite without a precession.
+    /// |q|/ωL, the ratio of spin to precession; infinite if there is a spin and no precession.
     pub spin: f64,
 }
 
@@ -92,47 +98,47 @@ impl Turn {
     /// The turn of the motion of `toss`.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
     pub fn of(toss: &Toss) -> Result<Self, SolveError> {
         let phases = RoughPhases::new(toss);
-        // A motion that does neither is as good as one that only precesses.
+        // Without a spin the ratio is 0, also for a coin at rest, where it would be 0/0.
         let spin = if phases.spin == 0.0 { 0.0 } else { phases.spin / phases.precession };
         Ok(Self { phase: phases.largest()?, spin })
     }
 }
 
-/// A tolerance and what it leads to.
+/// A tolerance of an integrator, with the error and the cost to expect from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// The tolerance.
     pub tolerance: f64,
-    /// The error, of cos θ or the attitude (rad).
+    /// The expected error, of cos θ or of the attitude (rad).
     pub error: f64,
-    /// Its cost (ns).
+    /// The expected cost (ns).
     pub cost_ns: f64,
 }
 
 impl Fitted {
-    /// The fit of the model in closed form called `model`, if it is in the record.
+    /// The entry of the closed form called `model`, if it has been measured.
     pub fn closed(&self, model: &str) -> Option<&ClosedFit> {
         self.closed.iter().find(|fit| fit.model == model)
     }
 
-    /// The fit of an integrator's scheme, if it is in the record.
+    /// The entry of the integrator `solver` with `scheme`, if it has been measured.
     pub fn integrator(&self, solver: &str, scheme: &str) -> Option<&IntegratorFit> {
         self.integrators.iter().find(|fit| fit.solver == solver && fit.scheme == scheme)
     }
 
-    /// The fit of the way to sample called `model`, if it is in the record.
+    /// The entry of the sampling model called `model`, if it has been measured.
     pub fn sampling(&self, model: &str) -> Option<&SamplingFit> {
         self.sampling.iter().find(|fit| fit.model == model)
     }
 
-    /// The roughest tolerance at which `fit` stays within `accuracy` over `turn`, in cos θ or else in the attitude
-    /// (rad), interpolated in phase and tolerance.
+    /// The coarsest tolerance at which the error of `fit` over `turn` is within `accuracy`, interpolated in phase and
+    /// tolerance. The error is that of cos θ if `of_tilt`, else that of the attitude (rad).
     ///
     /// # Errors
-    /// The smallest error that it reaches.
+    /// If no tabulated tolerance is fine enough: the smallest error that is reached.
     pub fn setting(&self, fit: &IntegratorFit, of_tilt: bool, turn: &Turn, accuracy: f64) -> Result<Setting, f64> {
         let spin = self.spin_bin(turn.spin);
         let place = self.place(turn.phase);
@@ -150,7 +156,7 @@ impl Fitted {
         Ok(Setting { tolerance, error, cost_ns: self.cost_ns(fit, turn, tolerance) })
     }
 
-    /// What a flight by `fit` over `turn` costs at a `tolerance` (ns).
+    /// The expected cost (ns) of a flight by `fit` over `turn` at a `tolerance`.
     pub fn cost_ns(&self, fit: &IntegratorFit, turn: &Turn, tolerance: f64) -> f64 {
         let calls = &fit.calls[self.spin_bin(turn.spin)][self.place(turn.phase).bin];
         let last = self.tolerances.len() - 1;
@@ -173,23 +179,24 @@ impl Fitted {
     }
 }
 
-/// Where a phase lies among the bins.
+/// The place of a phase among the bins.
 struct Place {
     bin: usize,
-    /// How far into its bin, from 0 to 1, by the logarithm.
+    /// How far the phase is into its bin, from 0 to 1, on a logarithmic scale.
     part: f64,
-    /// How far beyond the last bin: errors grow with the phase there, which tightens the tolerance as much.
+    /// The phase over the end of the last bin if it lies beyond that, else 1. Errors are taken to grow in proportion to
+    /// the phase there, so that the tolerance chosen becomes finer by about as much.
     beyond: f64,
 }
 
 impl Place {
-    /// The entry of a table by phase and tolerance, between the ends of its bin.
+    /// The entry of a table (phase × tolerance) for this phase, interpolated between the ends of its bin.
     fn of(&self, table: &[Vec<f64>], tolerance: usize) -> f64 {
         let [from, to] = self.ends(table, tolerance);
         between(from, to, self.part)
     }
 
-    /// Whether that entry is at most `accuracy`; mostly told without a logarithm.
+    /// Whether that entry is at most `accuracy`. The ends of the bin mostly decide it, which saves a logarithm.
     fn is_within(&self, table: &[Vec<f64>], tolerance: usize, accuracy: f64) -> bool {
         let [from, to] = self.ends(table, tolerance);
         from.min(to) <= accuracy && (from.max(to) <= accuracy || self.of(table, tolerance) <= accuracy)
@@ -200,7 +207,7 @@ impl Place {
     }
 }
 
-/// Between `rough` and `fine`, by the logarithm.
+/// Interpolates between `rough` (`part` = 0) and `fine` (`part` = 1) on a logarithmic scale.
 fn between(rough: f64, fine: f64, part: f64) -> f64 {
     rough * (part * (fine / rough).ln()).exp()
 }
@@ -211,11 +218,11 @@ mod tests {
     use crate::model::MODELS;
 
     #[test]
-    fn the_table_has_a_fit_for_every_model_and_for_our_integrators() {
+    fn the_table_has_an_entry_for_every_model_and_for_our_integrators() {
         let fitted = &*FITTED;
         for model in &MODELS {
             match model.name {
-                // It tells no error, so that none can be expected.
+                // Integrators are tabulated by scheme (below). A grid has no error estimate, so it has no entry.
                 "integrator" | "grid" => {}
                 name if model.is_closed_form() || name == "share" => {
                     assert!(fitted.closed(name).unwrap().cost_ns > 0.0);
@@ -237,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn phases_and_tolerances_between_those_of_the_record_are_interpolated() {
+    fn errors_and_costs_are_interpolated_in_phase_and_tolerance() {
         let calls = vec![vec![8.0, 16.0, 32.0]; 2];
         let fit = IntegratorFit {
             solver: "gamma".to_owned(),
@@ -262,7 +269,7 @@ mod tests {
         let setting = |phase, spin, accuracy| fitted.setting(&fit, false, &Turn { phase, spin }, accuracy);
         let rough = setting(1.0, 0.1, 0.5).unwrap();
         assert_eq!((rough.tolerance, rough.error, rough.cost_ns), (1e-3, 1e-2, 260.0));
-        // Half of the way from 1 to 9 rad, and from 1e-5 to 1e-7.
+        // Half-way from 1 to 9 rad and from 1e-5 to 1e-7, on logarithmic scales.
         let middle = setting(3.0, 0.5, 2e-5).unwrap();
         near(middle.tolerance, 1e-6);
         near(middle.error, 2e-5);

@@ -1,7 +1,10 @@
-//! Which integrator, scheme and tolerance: the cheapest whose tabulated error stays within the accuracy.
+//! Finds the tolerance and the cost of every integrator and scheme for the flights of a scene. The planner takes the
+//! cheapest of these offers when a scene asks for an integrator, as a cross-check of the exact motion.
 //!
-//! An outcome needs 100 × tolerance × (1 + phase) ≤ accuracy; a trace of n legs has errors of the attitude and of the
-//! rate handed on, so that each leg may err by accuracy/(2 n).
+//! The tolerance is the coarsest whose tabulated error is within the accuracy. There are two special cases. For an
+//! outcome it is the tolerance at which the error estimate, 100 × tolerance × (1 + phase), equals the accuracy. A trace
+//! is flown in n legs, and each leg passes its errors of the attitude and of the rate on to the next, so each leg may
+//! err by accuracy/(2 n).
 
 use dynamics::{Error, InputError, Scheme, Settings, SolverEntry, Stepping};
 
@@ -15,35 +18,36 @@ use crate::samples::no_integrator_for_a_space;
 use crate::scene::{Integrator, Want};
 use crate::trace::trace;
 
-/// The flights that an integrator has to make, one after the other.
+/// The flights that an integrator makes for a scene, one after the other.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Flights {
-    /// How far they turn in all.
+    /// How far they turn, all together.
     pub(crate) turn: Turn,
-    /// What they are for.
+    /// What is computed from them.
     pub(crate) aim: Aim,
-    /// The error that is allowed at the end of any of them.
+    /// The largest error that is allowed at the end of any of them.
     pub(crate) accuracy: f64,
 }
 
-/// What flights are for.
+/// What is computed from the flights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Aim {
-    /// An outcome, decided where |cos θ| exceeds the accuracy.
+    /// An outcome, which is decided where |cos θ| exceeds the accuracy.
     Outcome,
     /// cos θ.
     Tilt,
     /// An attitude.
     Attitude,
-    /// As many attitudes, one after the other.
+    /// A trace with this number of legs, each of which starts where the one before ended.
     Trace(usize),
 }
 
-/// The offers of every adaptive scheme of the integrator that was asked for, or of all in the registry.
+/// The offers of the integrator and the scheme that are asked for. Without a scheme these are all adaptive schemes of
+/// the integrator, and without an integrator all adaptive schemes of the registry.
 ///
 /// # Errors
-/// [`InputError`] for a name that is unknown, the exact solver, and a scheme that the integrator does not offer or that
-/// has no error estimate.
+/// [`InputError`] for an unknown name, for the exact solver, for a scheme that the integrator does not offer or that
+/// takes no tolerance, and for an integrator that has not been measured.
 pub(crate) fn integrators(
     registry: &Registry,
     by: Option<&Integrator>,
@@ -83,7 +87,7 @@ fn integrator<'a>(registry: &'a Registry, name: &str) -> Result<&'a SolverEntry,
     entry.integrates().then_some(entry).ok_or_else(malformed)
 }
 
-/// The model of all integrators.
+/// The row of the integrators in [`MODELS`].
 fn model() -> &'static Model {
     MODELS.iter().find(|model| matches!(model.kind, Kind::Integrator)).expect("a row of the table")
 }
@@ -91,7 +95,7 @@ fn model() -> &'static Model {
 /// The answer to `want` by an integrator.
 ///
 /// # Errors
-/// What the solver says; [`InputError`] for a space.
+/// The error of the solver; [`InputError`] for a space.
 pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -> Result<Answer, Error> {
     let solver = entry.solver(&Settings { stepping, ..Settings::default() })?;
     Ok(match want {
@@ -104,7 +108,7 @@ pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -
 }
 
 impl Flights {
-    /// The offer of a scheme of an integrator, which has to be in the record.
+    /// The offer of a scheme of an integrator; none if it has not been measured.
     fn by(&self, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
         let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
         let offer = match FITTED.integrator(entry.name(), scheme.name()) {
@@ -123,8 +127,8 @@ impl Flights {
         }
     }
 
-    /// With the tolerance at which the [error estimate](Stepping::error_estimate) is the accuracy: a decided outcome is
-    /// right.
+    /// The offer for an outcome. Its tolerance makes the [error estimate](Stepping::error_estimate) equal to the
+    /// accuracy, so that a decided outcome is right if the estimate is.
     fn decided(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
         let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
         let estimate = |tolerance: f64| 100.0 * tolerance * (1.0 + self.turn.phase);
@@ -133,7 +137,7 @@ impl Flights {
         Ok(by.choice(stepping, 0.0, fitted.cost_ns(by.fit, &self.turn, tolerance)))
     }
 
-    /// Tolerances are not rougher than those of the record.
+    /// The coarsest tolerance of the table; no coarser one is used.
     const ROUGHEST: f64 = 1e-3;
 
     fn flown(&self, fitted: &Fitted, by: &Measured<'_>, of_tilt: bool) -> Offer {
@@ -144,15 +148,15 @@ impl Flights {
         Ok(by.choice(stepping, error, cost_ns))
     }
 
-    /// Each leg hands its errors on to the next: that of the attitude, and that of the rate, which turns into as much
-    /// again.
+    /// The offer for a trace. Each leg passes two errors on to the next: that of the attitude, and that of the rate,
+    /// which adds about as much again to the attitude.
     fn traced(&self, fitted: &Fitted, by: &Measured<'_>, legs: usize) -> Offer {
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
         let legs = legs as f64;
         let handed_on = 2.0 * legs;
         let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
         let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
-        // A trace has its own cost for each point, of which there is one more than legs.
+        // What a trace adds to the cost of a landing, for each point; there is one more point than legs.
         let cost_of = |model: &str| fitted.closed(model).map_or(0.0, |fit| fit.cost_ns);
         let tracing_ns = cost_of("trace") - cost_of("attitude");
         match leg.fitted(fitted, by) {
@@ -169,7 +173,7 @@ impl Flights {
     }
 }
 
-/// A scheme of an integrator, and what was measured of it.
+/// A scheme of an integrator, with its measured errors and costs.
 struct Measured<'a> {
     entry: &'a SolverEntry,
     scheme: Scheme,

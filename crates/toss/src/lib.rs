@@ -1,19 +1,24 @@
-//! The free flight of a tossed coin: outcomes, trajectories and probabilities, for downstream code.
+//! This crate computes the free flight of a tossed coin: how it lands, how it moves, and how probable heads is. It is
+//! the one crate of the workspace that you need to depend on, because it re-exports what the others offer.
 //!
-//! A coin with moments I1 = I2 and I3 = k I1 that leaves the hand flat, with the body rate ω, turns about its angular
-//! momentum at ωL = √(ωx² + ωy² + (k ωz)²). With cos ψ = k ωz/ωL its normal is at the angle θ to the vertical,
+//! A coin has the moments of inertia I1 = I2 about its diameters and I3 = k I1 about its normal. If it
+//! leaves the hand flat with the body rate ω, it precesses about its angular momentum at the rate
+//! ωL = √(ωx² + ωy² + (k ωz)²). The angle ψ between the normal and the angular momentum is constant, with
+//! cos ψ = k ωz/ωL. At the time t the angle θ between the normal and the vertical is given by
 //!
 //! ```text
-//! cos θ(t) = cos²ψ + sin²ψ cos(ωL t),        heads if it lands with cos θ > 0, at t = 2 v0/g
+//! cos θ(t) = cos²ψ + sin²ψ cos(ωL t)
 //! ```
 //!
-//! so ψ < 45° or ψ > 135° is heads for ever. All quantities are f64 in SI units. The paper meant below is "Modeling the unfair toss
-//! of an unbiased coin".
+//! A coin thrown up at the speed v0 is caught at t = 2 v0/g, where g is gravity. It lands heads if cos θ > 0. A coin
+//! with ψ < 45° or ψ > 135° therefore shows heads at every time.
+//!
+//! All quantities are f64 in SI units. "The paper" is "Modeling the unfair toss of an unbiased coin".
 //!
 //! # A toss
-//! The paper's cheated toss, ω = (1, 1, 2.5) rad/s thrown up at 3 m/s: its outcome is proven, and the speed would have
-//! to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real ones are in the [`catalogue`]), [`certify`],
-//! [`margin()`].
+//! This is the paper's cheated toss, with ω = (1, 1, 2.5) rad/s and a speed of 3 m/s. Its outcome is proven, and the
+//! speed would have to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real coins are in the [`catalogue`]),
+//! [`certify`] and [`margin()`].
 //!
 //! ```
 //! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
@@ -24,15 +29,15 @@
 //! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
 //! assert_eq!(margin(&toss)?.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
 //!
-//! // The same flight by an integrator that is chosen at run time.
+//! // The same flight, solved by an integrator that is chosen at run time.
 //! let gamma = Registry::standard().named("gamma")?.solver(&Settings::default())?;
 //! assert!((gamma.cos_tilt(&toss)? - ExactSolver.cos_tilt(&toss)?).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # A trace
-//! The flight at equal steps of time, by any solver. Read on at [`trace()`] and [`Registry`]; whole columns of tosses at
-//! once are a [`Batch`].
+//! Any solver can follow a flight at equally spaced times. Read on at [`trace()`] and [`Registry`]. To solve many
+//! tosses at once, see [`Batch`].
 //!
 //! ```
 //! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss, Vector3};
@@ -45,9 +50,9 @@
 //! ```
 //!
 //! # A probability
-//! Launches vary: a US quarter that turns at 20 to 60 rad/s with a spin of 5 to 15 rad/s, thrown at 3 to 5 m/s. The
-//! speed is integrated in closed form, the rates are sampled. Read on at [`sampling`]: its [`Space`](sampling::Space)
-//! says which launches are meant, its [`Plan`](sampling::Plan) which of them are tried.
+//! Real launches vary. Here a US quarter is thrown at 3 to 5 m/s; it tumbles at 20 to 60 rad/s and spins at 5 to 15
+//! rad/s. The speed is integrated in closed form and the rates are sampled. Read on at [`sampling`]: a
+//! [`Space`](sampling::Space) describes the launches, and a [`Plan`](sampling::Plan) chooses which of them are tried.
 //!
 //! ```
 //! use toss::catalogue::named_coin;
@@ -68,8 +73,8 @@
 //! ```
 //!
 //! # A plan
-//! You don't need a trajectory to know the outcome: a [`Scene`] says what is wanted and how accurately, and the planner
-//! takes the cheapest model that serves. Read on at [`Want`], [`MODELS`], [`Scene::plan`].
+//! You don't need a trajectory to know the outcome. A [`Scene`] says what is wanted and how accurately, and the planner
+//! takes the cheapest model that gives it. Read on at [`Want`], [`MODELS`] and [`Scene::plan`].
 //!
 //! ```
 //! use toss::{Answer, Scene, Want};
@@ -85,8 +90,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! More questions, with their answers, are in the crate's `examples`: which launches are fair, how to launch for a
-//! wanted probability, how much people's coins wobble.
+//! The crate's folder `examples` answers further questions: which launches are fair, how to launch for a wanted
+//! probability, how much people's coins wobble.
 
 mod answer;
 mod choice;
@@ -100,11 +105,11 @@ mod samples;
 mod scene;
 mod trace;
 
-// The body, the launch and the flight.
+// The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{Attitude, Coin, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3};
 
-// What a solver is, for those who choose one and for those who write one.
+// Solvers: to choose one, or to write your own.
 pub use dynamics::{
     Checked, Formulation, Propagation, Scheme, Settings, Solver, SolverEntry, StepControl, Stepping, Work,
 };
@@ -112,13 +117,13 @@ pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::{QuaternionSolver, TAYLOR};
 pub use registry::{Backend, Registry};
 
-// The exact motion, and what it proves.
+// The exact motion, and what follows from it.
 pub use exact::{
     Batch, Certificate, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify, margin, speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 
-// Many launches.
+// Probabilities over many launches.
 pub use sampling;
 
 // Questions, and the models that answer them.
@@ -130,5 +135,5 @@ pub use reason::{Nanoseconds, Reason};
 pub use scene::{Integrator, Scene, Want, WantKind};
 pub use trace::{MOST_POINTS, TracePoint, trace, trace_every};
 
-// What can go wrong.
+// Errors.
 pub use dynamics::{Error, InputError, SolveError};

@@ -1,11 +1,12 @@
-//! The hierarchy of models: from what needs no motion to what integrates it, a row each.
+//! The hierarchy of models that the planner chooses from, as a table with one row for each. A new model is a new row,
+//! because the planner goes through the rows and treats them alike.
 //!
-//! A row says what its model assumes and gives, which questions it serves and how it answers; its error and cost are in
-//! the table of [`fitted`](crate::fitted). Nothing else knows the models one by one.
+//! A row says what its model assumes and gives, which question it answers and by which function. Its error and cost are
+//! in the table of [`fitted`](crate::fitted).
 //!
-//! For a single landing there is little to choose from: an outcome takes 15 to 35 ns, cos θ 60 ns. To look for a cheaper
-//! form of these costs more than it saves, so `outcome` and `tilt` are one model each. The [proof](exact::certified) of
-//! an outcome goes through its own stages, and says which of them decided.
+//! An outcome takes 15 to 35 ns and cos θ 60 ns. To look for a cheaper form would cost more than it saves, so there is
+//! one model for an outcome, `outcome`, and one for cos θ to the last bits, `tilt`. The [proof](exact::certified) of an
+//! outcome goes through stages of its own and says which of them decided.
 
 use dynamics::{Error, Solver, Toss};
 use exact::{ExactSolver, certify, compensated_cos_tilt, compensated_landing};
@@ -19,33 +20,33 @@ use crate::trace::trace;
 /// A model of the hierarchy.
 #[derive(Debug)]
 pub struct Model {
-    /// Its name.
+    /// The name, as in `share-sobol`.
     pub name: &'static str,
-    /// What it assumes.
+    /// What it assumes of the question, in words.
     pub assumes: &'static str,
-    /// What it gives.
+    /// What it computes, in words.
     pub gives: &'static str,
-    /// What it is.
+    /// How it answers.
     pub(crate) kind: Kind,
 }
 
-/// What a model is, and how it answers.
+/// The kind of a model, with the functions that answer.
 #[derive(Debug)]
 pub(crate) enum Kind {
     /// The exact motion in one of its forms.
     ClosedForm {
-        /// The wants that it serves.
+        /// The kind of question that it answers.
         serves: WantKind,
-        /// The answer for a toss; a trace has so many points.
+        /// Computes the answer for a toss; the number is that of the points of a trace.
         answer: fn(&Toss, usize) -> Result<Answer, Error>,
     },
-    /// An integrator, by any of its schemes.
+    /// Any integrator with any of its schemes.
     Integrator,
-    /// Launches of a space.
+    /// A sample of the launches of a space.
     Sample {
-        /// Why it does not serve a space, if it does not.
+        /// The reason why it cannot answer for this space, if there is one.
         refuses: fn(&Space) -> Option<Reason>,
-        /// The plan of so many launches with a seed.
+        /// Makes the plan from the number of launches and the seed.
         plan: fn(u64, u64) -> Plan,
     },
 }
@@ -69,7 +70,7 @@ const fn sample(
     Model { name, assumes, gives, kind: Kind::Sample { refuses, plan } }
 }
 
-/// All models: those of a toss and those of a space, each from the cheapest on.
+/// All models: first those for a toss, then those for a space, both in the order of their cost, from the cheapest on.
 pub static MODELS: [Model; 11] = [
     closed_form("outcome", "outcome, proven", WantKind::Outcome, |toss, _| {
         Ok(Answer::Outcome(Verdict::Proven(certify(toss)?)))
@@ -83,13 +84,13 @@ pub static MODELS: [Model; 11] = [
     closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, |toss, _| {
         Ok(Answer::Tilt(ExactSolver.cos_tilt(toss)?))
     }),
-    closed_form("trace", "the flight at equal steps of time", WantKind::Trace, |toss, points| {
+    closed_form("trace", "the flight at equally spaced times", WantKind::Trace, |toss, points| {
         Ok(Answer::Trace(trace(&ExactSolver, toss, points)?))
     }),
     Model {
         name: "integrator",
         assumes: "a tolerance",
-        gives: "all of these, as a cross-check",
+        gives: "any of the above, as a cross-check",
         kind: Kind::Integrator,
     },
     sample(
@@ -124,7 +125,7 @@ pub static MODELS: [Model; 11] = [
     sample(
         "grid",
         "points on every free axis",
-        "probability, without an error",
+        "probability, without an error estimate",
         |_| Some(Reason::TellsNoError),
         |_, _| Plan::Grid,
     ),
@@ -147,17 +148,17 @@ impl Model {
         MODELS.iter().find(|model| model.name == name)
     }
 
-    /// Its place in [`MODELS`].
+    /// Its index in [`MODELS`].
     pub fn place(&self) -> usize {
         MODELS.iter().position(|other| other == self).unwrap_or(MODELS.len())
     }
 
-    /// Whether it takes no steps and no samples.
+    /// Whether it is a closed form, which takes no steps and no samples.
     pub fn is_closed_form(&self) -> bool {
         matches!(self.kind, Kind::ClosedForm { .. })
     }
 
-    /// Its plan with so many launches and this seed; `None` for a model that samples nothing.
+    /// The plan of `points` launches with this seed; `None` for a model that takes no samples.
     pub fn plan(&self, points: u64, seed: u64) -> Option<Plan> {
         if let Kind::Sample { plan, .. } = self.kind { Some(plan(points, seed)) } else { None }
     }
@@ -177,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_model_has_a_name_of_its_own() {
+    fn model_names_are_unique() {
         for (place, model) in MODELS.iter().enumerate() {
             assert_eq!((model.place(), Model::named(model.name)), (place, Some(model)));
         }

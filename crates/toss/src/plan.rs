@@ -1,7 +1,8 @@
-//! From a scene to the cheapest model that serves it, and to the answer.
+//! Plans a scene: finds the cheapest model that gives what is wanted within the accuracy, and answers by it. You don't
+//! have to know the models, because their [measured errors and costs](crate::fitted) decide.
 //!
-//! The [models](crate::model) are asked from the cheapest on whether they give what is wanted within the accuracy, by
-//! the [record](crate::fitted) of what was measured of them.
+//! Closed forms are tried in the order of the table of [models](crate::model), from the cheapest on, and the first that
+//! serves is taken. Integrators and samples have costs that depend on the scene, so all of them are compared.
 
 use dynamics::error::require;
 use dynamics::{Error, InputError, Toss};
@@ -28,19 +29,19 @@ pub struct Solution {
 }
 
 impl Scene {
-    /// The cheapest model that serves the scene, with our own solvers as integrators.
+    /// The cheapest model that serves the scene, with the integrators of [`Registry::standard`].
     ///
     /// # Errors
-    /// As [`Scene::plan_with`].
+    /// As for [`Scene::plan_with`].
     pub fn plan(&self) -> Result<Decision, Error> {
         self.plan_with(Registry::standard())
     }
 
-    /// The cheapest model that serves the scene, with the solvers of `registry` as integrators.
+    /// The cheapest model that serves the scene, with the integrators of `registry`.
     ///
     /// # Errors
-    /// [`Error::Input`] if the scene makes no sense or no model is that accurate; [`Error::Solve`] for a phase that is too
-    /// large to mean anything.
+    /// [`Error::Input`] if the scene is invalid or no model is accurate enough; [`Error::Solve`] for a phase above 2^53
+    /// rad, at which neighbouring inputs differ by whole turns.
     pub fn plan_with(&self, registry: &Registry) -> Result<Decision, Error> {
         self.validate()?;
         match (self.want.toss(), &self.by) {
@@ -58,10 +59,11 @@ impl Scene {
         }
     }
 
-    /// Every model's offer to the scene, in the order of [`MODELS`] and whatever was asked for.
+    /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
+    /// [`Registry::standard`] are among them, whether the scene asks for one or not.
     ///
     /// # Errors
-    /// As [`Scene::plan`].
+    /// As for [`Scene::plan`].
     pub fn candidates(&self) -> Result<Vec<(Candidate, Offer)>, Error> {
         self.validate()?;
         let Some(toss) = self.want.toss() else { return Ok(samples(self)?) };
@@ -72,11 +74,11 @@ impl Scene {
     /// Answers the scene by the model that [`Scene::plan`] chooses.
     ///
     /// # Errors
-    /// [`Error`]: what the plan says, or what the solver says.
+    /// The [`Error`] of the plan or of the solver.
     #[inline]
     pub fn solve(&self) -> Result<Solution, Error> {
         match &self.want {
-            // There is one model for it, and to look for it would cost more than the answer.
+            // A shortcut: an outcome has one model, and planning would cost more than the answer.
             Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => {
                 Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(toss)?)), model: &MODELS[0] })
             }
@@ -90,14 +92,15 @@ impl Scene {
         Ok(Solution { answer: choice.run(self)?, model: choice.model })
     }
 
-    /// A toss and a space are valid by themselves.
+    /// Checks the accuracy and the number of points. A toss and a space need no check: their types hold valid values
+    /// only.
     fn validate(&self) -> Result<(), InputError> {
         require("accuracy", self.accuracy, "finite and > 0", self.accuracy > 0.0)?;
         if let Want::Trace { points, .. } = self.want { require_points(points) } else { Ok(()) }
     }
 
     fn first_closed_form(&self, toss: &Toss) -> Result<Decision, Error> {
-        // No model says anything of a phase beyond 2^53.
+        // No model has an answer beyond a phase of 2^53 rad; this returns the error.
         Turn::of(toss)?;
         let mut passed_over = Vec::new();
         for model in closed_forms() {
@@ -141,10 +144,10 @@ impl Scene {
 }
 
 impl Choice {
-    /// Answers `scene`, for which it was made.
+    /// Answers `scene`, for which this choice was made.
     ///
     /// # Errors
-    /// What the solver says; [`Error::Input`] for a scene of another kind than the one that it was made for.
+    /// The error of the solver; [`Error::Input`] for a scene that wants something else than the one planned.
     pub fn run(&self, scene: &Scene) -> Result<Answer, Error> {
         let expected = "one that was made for this scene";
         let other = || InputError::Malformed { field: "choice", value: self.model.name.to_owned(), expected };
@@ -161,12 +164,13 @@ impl Choice {
     }
 }
 
-/// The models for a toss that take no steps.
+/// The models in closed form.
 fn closed_forms() -> impl Iterator<Item = &'static Model> {
     MODELS.iter().filter(|model| model.is_closed_form())
 }
 
-/// The cheapest of the candidates that serve, and what is said of the others after `passed_over`.
+/// Chooses the cheapest candidate that serves, and appends the others with their reasons to `passed_over`. `None` if no
+/// candidate serves.
 fn cheapest(
     mut passed_over: Vec<(Candidate, Reason)>,
     candidates: impl IntoIterator<Item = (Candidate, Offer)>,

@@ -1,31 +1,32 @@
-//! Why a plan passes a model over.
+//! The reasons for which a plan passes a model over. They are typed, so that programs can tell them apart, and print as
+//! text for people.
 
 use std::fmt;
 
-/// Why a model is passed over.
+/// The reason why a model is passed over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reason {
-    /// It answers another question.
+    /// The model computes only this, and something else is wanted.
     GivesOnly(&'static str),
-    /// Its error is larger than what is wanted.
+    /// The expected error is larger than the accuracy wanted.
     TooRough {
-        /// The error.
+        /// The expected error, of what is wanted.
         expected_error: f64,
     },
-    /// Nobody has measured its error and cost.
+    /// The table has no error and cost of this model.
     NotMeasured,
-    /// An integrator was asked for by name.
+    /// The scene asks for an integrator, and the model is none.
     NotAskedFor,
-    /// It serves, but costs more.
+    /// The model serves, but a cheaper one serves too.
     Dearer {
-        /// Its cost (ns).
+        /// The expected cost (ns).
         expected_cost_ns: f64,
     },
-    /// The speed is fixed.
+    /// The speed is fixed, and the model integrates over a range of speeds.
     SpeedIsFixed,
-    /// More than the speed is free.
+    /// Other coordinates than the speed are free, and the model handles the speed only.
     MoreIsFree,
-    /// It tells no error.
+    /// The model has no error estimate.
     TellsNoError,
     /// The coins land below or above their launch.
     HasDrop,
@@ -35,19 +36,19 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GivesOnly(what) => write!(f, "gives only {what}"),
-            Self::NotMeasured => f.write_str("its error and cost are not in the table of what was measured"),
+            Self::NotMeasured => f.write_str("its error and cost have not been measured"),
             Self::TooRough { expected_error } => write!(f, "its expected error is {expected_error:.1e}"),
             Self::NotAskedFor => f.write_str("an integrator was asked for"),
             Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
-            Self::TellsNoError => f.write_str("tells no error"),
+            Self::TellsNoError => f.write_str("has no error estimate"),
             Self::HasDrop => f.write_str("needs a landing at the height of the launch"),
         }
     }
 }
 
-/// A time (ns), written with the unit that suits it.
+/// A time in ns, which prints in the unit that suits it, from ns to s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nanoseconds(pub f64);
 

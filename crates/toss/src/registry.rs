@@ -1,4 +1,5 @@
-//! The registry: every solver that can be named.
+//! The registry lists the solvers that can be chosen by name while the program runs. Tests, checks and the command line
+//! go through this list, so that a new solver needs one line here and nothing else.
 
 use std::sync::LazyLock;
 
@@ -11,12 +12,12 @@ use sampling::Sampler;
 
 use crate::answer::Verdict;
 
-/// Our own solvers, a line each. Tests and checks run over all of them.
+/// The solvers of this workspace, one line for each.
 fn standard() -> Vec<SolverEntry> {
     vec![ExactSolver::entry(), GammaSolver::entry(), EulerAnglesSolver::entry(), QuaternionSolver::entry()]
 }
 
-/// Solvers by name.
+/// A list of solvers with unique names.
 ///
 /// ```
 /// use toss::{Registry, Settings, Solver};
@@ -37,10 +38,10 @@ impl Registry {
         &STANDARD
     }
 
-    /// These solvers and one more.
+    /// A registry with the same solvers and one more.
     ///
     /// # Errors
-    /// [`InputError::Malformed`] for a name that a solver has already.
+    /// [`InputError::Malformed`] if a solver of the registry already has this name.
     pub fn with(&self, entry: SolverEntry) -> Result<Self, InputError> {
         if self.entries.iter().any(|other| other.name() == entry.name()) {
             let expected = "a name that no other solver of the registry has";
@@ -49,7 +50,7 @@ impl Registry {
         Ok(Self { entries: self.entries.iter().cloned().chain([entry]).collect() })
     }
 
-    /// All solvers.
+    /// All solvers, in the order in which they were added.
     pub fn entries(&self) -> &[SolverEntry] {
         &self.entries
     }
@@ -62,17 +63,17 @@ impl Registry {
         find_named("solver", name, &self.entries, |entry| entry.name())
     }
 
-    /// The solver called `name` with `settings`, and the proofs of the exact motion if it is that.
+    /// The solver called `name` with `settings`. Only the backend of the exact motion proves its outcomes.
     ///
     /// # Errors
-    /// As [`Registry::named`] and [`SolverEntry::solver`].
+    /// As for [`Registry::named`] and [`SolverEntry::solver`].
     pub fn backend(&self, name: &str, settings: &Settings) -> Result<Backend, InputError> {
         let solver = self.named(name)?.solver(settings)?;
         Ok(if name == ExactSolver::NAME { Backend::Exact(Checked::new(ExactSolver)) } else { Backend::Solver(solver) })
     }
 }
 
-/// What solves tosses: the exact motion, which proves its outcomes, or any other solver, which estimates them.
+/// A solver that was chosen by name: the exact motion, which proves outcomes, or another solver, which estimates them.
 pub enum Backend {
     /// The exact motion.
     Exact(Checked<ExactSolver>),
@@ -89,10 +90,11 @@ impl Backend {
         }
     }
 
-    /// How the toss lands, by `cos_tilt` of the solver or by a proof.
+    /// How the toss lands. The exact motion proves it; another solver decides by its own `cos_tilt` (cos θ at landing)
+    /// and its error estimate.
     ///
     /// # Errors
-    /// As [`Solver::outcome_at`].
+    /// As for [`Solver::outcome_at`].
     pub fn verdict(&self, toss: &Toss, cos_tilt: f64) -> Result<Verdict, SolveError> {
         match self {
             Self::Exact(_) => certify(toss).map(Verdict::Proven),
@@ -100,15 +102,15 @@ impl Backend {
         }
     }
 
-    /// The outcome, as [`Backend::verdict`] has it.
+    /// The outcome without its proof or estimate.
     ///
     /// # Errors
-    /// As [`Solver::outcome`].
+    /// As for [`Solver::outcome`].
     pub fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
         self.solver().outcome(toss)
     }
 
-    /// What asks it about many launches.
+    /// A sampler that solves its launches by this backend.
     pub fn sampler(&self) -> Sampler<'_> {
         match self {
             Self::Exact(_) => Sampler::exact(),
@@ -124,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn solvers_have_names_of_their_own() {
+    fn solver_names_are_unique() {
         let registry = Registry::standard();
         let names: BTreeSet<&str> = registry.entries().iter().map(SolverEntry::name).collect();
         assert_eq!(names.len(), registry.entries().len());

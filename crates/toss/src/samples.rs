@@ -1,5 +1,6 @@
-//! Models that sample a space: with how many launches, N = (e/accuracy)^(1/p) for a tabulated error of e N^-p, and
-//! twice as many as long as the interval that they find is too wide.
+//! Plans and runs the models that sample a space of launches. The number of launches N follows from the tabulated error
+//! e N^-p: it is N = (e/accuracy)^(1/p). This error was measured on other spaces, so an estimate whose interval turns
+//! out wider than the accuracy is repeated with twice as many launches.
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
@@ -11,16 +12,17 @@ use crate::model::{Kind, MODELS, Model};
 use crate::reason::Reason;
 use crate::scene::{Scene, Want};
 
-/// Seed of what is sampled; any other would do.
+/// The seed of all planned samples. Any other number would serve as well.
 const SEED: u64 = 1;
 
-/// More launches than this are not planned.
+/// The largest number of launches that is planned.
 const MOST_LAUNCHES: u64 = 1 << 36;
 
-/// The offers of the models that sample the space of a scene, in the order of [`MODELS`]; none for another scene.
+/// The offers of the models that sample the space of a scene, in the order of [`MODELS`]; none if it has a toss
+/// instead.
 ///
 /// # Errors
-/// [`InputError`] where an integrator is asked for: outcomes are proven, and shares follow from the exact motion.
+/// [`InputError`] if an integrator is asked for: these models use the exact motion.
 pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputError> {
     if scene.by.is_some() {
         return Err(no_integrator_for_a_space());
@@ -36,7 +38,7 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
     Ok(MODELS.iter().filter_map(offer).collect())
 }
 
-/// The error of an integrator that is asked for a probability.
+/// The error for a scene that wants a probability by an integrator.
 pub(crate) fn no_integrator_for_a_space() -> InputError {
     InputError::OutsideModel {
         field: "by",
@@ -61,7 +63,8 @@ fn offer(model: &'static Model, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Of
     }
 }
 
-/// As many launches as the fitted error needs; of scrambled points a power of two.
+/// The number of launches for which the tabulated error equals the accuracy, rounded up to a power of two for scrambled
+/// points.
 fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Result<u64, Reason> {
     #[expect(clippy::cast_precision_loss, reason = "a power of two")]
     let most = MOST_LAUNCHES as f64;
@@ -75,7 +78,7 @@ fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> R
     Ok(if is_independent { needed } else { needed.next_power_of_two().max(SCRAMBLES * 2) })
 }
 
-/// The estimate of `plan`, with twice the launches as long as its interval reaches beyond the accuracy.
+/// Runs `plan`, with twice the launches again and again as long as the half-width of the interval exceeds the accuracy.
 pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
     let found = Sampler::exact().estimate(space, plan)?;
     match (found.half_width(), doubled(plan)) {
@@ -89,7 +92,7 @@ pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estima
     }
 }
 
-/// The plan with twice the launches; `None` where nothing is sampled.
+/// The plan with twice the launches; `None` for a plan that draws no sample.
 fn doubled(plan: Plan) -> Option<Plan> {
     let twice = |scrambled: Scrambled| Scrambled { points: 2 * scrambled.points, ..scrambled };
     match plan {

@@ -1,9 +1,10 @@
-//! Scenes: what is wanted of which toss, and how accurately.
+//! A scene is a question to the planner: what is wanted, of which toss or space of launches, and how accurately. It is
+//! plain data, so that it can be written to and read from a TOML or JSON file:
 //!
 //! ```toml
 //! accuracy = 1e-9
 //!
-//! [want.tilt]                      # or outcome, attitude; [want.trace] has toss and points, [want.probability] a space
+//! [want.tilt]   # or outcome, attitude; [want.trace] has toss and points, [want.probability] a space
 //! coin = "us-quarter"
 //! launch = { rate = [20.0, 0.0, 5.0], speed = 3.0 }
 //! ```
@@ -12,21 +13,21 @@ use dynamics::Toss;
 use sampling::Space;
 use serde::{Deserialize, Serialize};
 
-/// A question about a toss or a space of launches.
+/// A question about a toss or a space of launches, with the accuracy wanted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// What is wanted.
     pub want: Want,
-    /// The largest error that is good enough, > 0: of cos θ, of attitudes (rad), of the probability. An outcome is
-    /// proven whatever it is; one by an integrator is decided where |cos θ| exceeds it.
+    /// The largest acceptable error, > 0: of cos θ, of attitudes (rad) or of the probability. It has no influence on an
+    /// outcome, which is proven; an outcome by an integrator is decided where |cos θ| exceeds it.
     pub accuracy: f64,
-    /// The integrator that is to be used instead of the cheapest model, as a cross-check.
+    /// An integrator that is used instead of the cheapest model, as a cross-check.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<Integrator>,
 }
 
-/// What is wanted, and of what.
+/// What is wanted, and of which toss or space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Want {
@@ -36,24 +37,24 @@ pub enum Want {
     Tilt(Toss),
     /// Attitude and body rate at landing.
     Attitude(Toss),
-    /// The flight at equal steps of time.
+    /// The flight at equally spaced times.
     Trace {
-        /// The toss.
+        /// The toss whose flight it is.
         toss: Toss,
         /// Number of times, launch and landing included.
         points: usize,
     },
-    /// The probability of heads.
+    /// The probability of heads over a space of launches.
     Probability(Space),
 }
 
-/// An integrator, with the scheme left open or not; its tolerance follows from the accuracy.
+/// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Integrator {
-    /// Its solver's name in the [`Registry`](crate::Registry).
+    /// Name of the solver in the [`Registry`](crate::Registry).
     pub solver: String,
-    /// Name of its scheme, one with an error estimate; the cheapest one if it is open.
+    /// Name of the scheme, one that takes a tolerance; if it is `None`, the cheapest one is taken.
     #[serde(alias = "method", skip_serializing_if = "Option::is_none")]
     pub scheme: Option<String>,
 }
@@ -67,26 +68,26 @@ pub enum WantKind {
     Tilt,
     /// Attitude and body rate at landing.
     Attitude,
-    /// The flight.
+    /// The flight at equally spaced times.
     Trace,
     /// The probability of heads.
     Probability,
 }
 
 impl WantKind {
-    /// Its name in files and options, as `outcome`.
+    /// Its name in files and options, such as `outcome`.
     pub fn name(self) -> &'static str {
         ["outcome", "tilt", "attitude", "trace", "probability"][self as usize]
     }
 
-    /// What it is, in words.
+    /// What is wanted, in words.
     pub fn words(self) -> &'static str {
         ["the outcome", "cos θ", "one landing", "a flight", "a probability"][self as usize]
     }
 }
 
 impl Want {
-    /// Its kind.
+    /// The kind of what is wanted.
     pub fn kind(&self) -> WantKind {
         match self {
             Self::Outcome(_) => WantKind::Outcome,
@@ -97,12 +98,12 @@ impl Want {
         }
     }
 
-    /// The points of its trace; 1 for anything else.
+    /// The number of points of a trace; 1 for anything else.
     pub(crate) fn points(&self) -> usize {
         if let Self::Trace { points, .. } = self { *points } else { 1 }
     }
 
-    /// The toss that is asked about; `None` for a space.
+    /// The toss of the question; `None` for a space.
     pub fn toss(&self) -> Option<&Toss> {
         match self {
             Self::Outcome(toss) | Self::Tilt(toss) | Self::Attitude(toss) | Self::Trace { toss, .. } => Some(toss),
@@ -110,7 +111,7 @@ impl Want {
         }
     }
 
-    /// The same want of another toss; a space stays what it is.
+    /// The same question about another toss. A question about a space is returned unchanged.
     #[must_use]
     pub fn of(&self, toss: Toss) -> Self {
         match self {
@@ -124,12 +125,12 @@ impl Want {
 }
 
 impl Scene {
-    /// The scene of `want`, to be answered by the cheapest model.
+    /// A scene that is answered by the cheapest model.
     pub fn new(want: Want, accuracy: f64) -> Self {
         Self { want, accuracy, by: None }
     }
 
-    /// The same scene, to be answered by an integrator.
+    /// The same scene, answered by the integrator called `solver`; without a `scheme`, by its cheapest one.
     #[must_use]
     pub fn by(self, solver: &str, scheme: Option<&str>) -> Self {
         let by = Integrator { solver: solver.to_owned(), scheme: scheme.map(str::to_owned) };
@@ -142,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_scene_is_plain_data() {
+    fn a_scene_survives_toml_and_back() {
         let text =
             "accuracy = 1e-9\n[want.trace]\npoints = 50\n[want.trace.toss.launch]\nrate = [1, 1, 2.5]\nspeed = 3.0\n";
         let scene: Scene = toml::from_str(text).unwrap();
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_misspelt_or_outside_the_model_is_refused() {
+    fn scene_files_with_misspelt_fields_or_drag_are_refused() {
         let launch = "launch = { rate = [1, 1, 2.5], speed = 3.0 }\n";
         for (text, message) in [
             (format!("acuracy = 1\n[want.tilt]\n{launch}"), "unknown field `acuracy`"),

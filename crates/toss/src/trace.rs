@@ -1,10 +1,14 @@
-//! The flight at equal steps of time: Q(t) and cos θ(t) at t = i T/(n - 1), i = 0 to n - 1, or at multiples of a step.
+//! Follows a flight at equally spaced times, for charts and for comparisons of solvers along the way. Point i of n is
+//! at the time t = i T/(n - 1), where T is the time of flight and i goes from 0 to n - 1.
+//!
+//! BF is the body frame, whose z axis is the coin's normal n. LF is the laboratory frame, whose z axis ẑ points up; θ
+//! is the angle between n and ẑ.
 
 use dynamics::error::require;
 use dynamics::{Attitude, Checked, Error, EulerAngles, InputError, Launch, Solver, State, TimeOfFlight, Toss, Vector3};
 use exact::ExactMotion;
 
-/// More points than this are refused; a chart of a flight needs hundreds.
+/// The largest number of points of a trace. A chart needs some hundreds.
 pub const MOST_POINTS: usize = 1_000_000;
 
 /// The coin at one time of its flight.
@@ -12,13 +16,13 @@ pub const MOST_POINTS: usize = 1_000_000;
 pub struct TracePoint {
     /// Time after launch (s).
     pub time: f64,
-    /// Attitude (body to LF).
+    /// Attitude (BF to LF).
     pub attitude: Attitude,
-    /// Euler angles, continuous over the flight.
+    /// Euler angles (rad), continuous over the flight.
     pub angles: EulerAngles,
-    /// The normal n (LF).
+    /// The coin's normal n (unit vector in LF).
     pub normal: Vector3<f64>,
-    /// The body's x axis, a vector fixed in the coin's face (LF).
+    /// The body's x axis, which is fixed in the coin's face (unit vector in LF).
     pub face: Vector3<f64>,
     /// cos θ = n · ẑ.
     pub cos_tilt: f64,
@@ -26,11 +30,11 @@ pub struct TracePoint {
 
 /// The flight of `toss` by `solver` at `points` equally spaced times, launch and landing included.
 ///
-/// An integrator propagates each point from the one before; a closed form takes each from the launch. The attitude
-/// fixes the Euler angles up to their branch; the branch is the one of the exact motion.
+/// An integrator starts from the previous point, a closed form from the launch. The attitude leaves the
+/// branch of the Euler angles open; the one nearest to the exact motion is taken.
 ///
 /// # Errors
-/// [`Error`]: fewer than 2 or more than [`MOST_POINTS`] points, or what the solver says.
+/// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
 pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
     require_points(points)?;
     #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
@@ -72,8 +76,10 @@ fn trace_at(
     Ok(trace)
 }
 
+/// Checks the number of points.
+///
 /// # Errors
-/// [`InputError`] for fewer than 2 points, and more than [`MOST_POINTS`].
+/// [`InputError`] for fewer than 2 or more than [`MOST_POINTS`] points.
 pub(crate) fn require_points(points: usize) -> Result<(), InputError> {
     let malformed = || InputError::Malformed { field: "points", value: points.to_string(), expected: "2 to 1000000" };
     (2..=MOST_POINTS).contains(&points).then_some(()).ok_or_else(malformed)
@@ -136,7 +142,7 @@ mod tests {
         assert_eq!(trace_every(&ExactSolver, &still, 0.1).unwrap().len(), 1);
     }
 
-    /// An integrator that gives up in the middle of every leg but the first.
+    /// An integrator that fails in the middle of every leg but the first.
     struct Weary;
     impl Solver for Weary {
         fn name(&self) -> &str {
@@ -157,14 +163,14 @@ mod tests {
     }
 
     #[test]
-    fn a_failing_leg_tells_the_time_since_launch() {
+    fn the_error_of_a_later_leg_has_the_time_since_launch() {
         let launch = Launch::new(Vector3::new(0.0, 40.0, 3.0), TimeOfFlight::Given(2.0)).unwrap();
         let error = trace(&Weary, &Toss { coin: Coin::PAPER, launch }, 3).unwrap_err();
         assert_eq!(error, Error::Solve(SolveError::NotFinite { time: 1.5 }));
     }
 
     #[test]
-    fn fewer_than_two_points_are_refused() {
+    fn fewer_than_two_or_more_than_a_million_points_are_refused() {
         let launch = Launch::new(Vector3::x(), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         for points in [0, 1, MOST_POINTS + 1] {

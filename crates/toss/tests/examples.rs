@@ -1,9 +1,11 @@
-//! The examples print what their documentation says they print, and so keep what they assert.
+//! Runs every example and compares its output with the output that its documentation shows. So the documentation stays
+//! true, and the assertions in the examples are checked.
 
 use std::path::Path;
 use std::process::Command;
 
-/// The examples that cargo built beside this test, in `examples` next to its own folder `deps`.
+/// Runs an example and returns what it prints. Cargo builds the examples beside this test, in the folder `examples`
+/// next to the test's folder `deps`.
 fn run(name: &str) -> String {
     let test = std::env::current_exe().expect("a test knows where it is");
     let profile = test.ancestors().nth(2).expect("target/PROFILE/deps/TEST");
@@ -15,7 +17,7 @@ fn run(name: &str) -> String {
     String::from_utf8(output.stdout).expect("examples print text")
 }
 
-/// The block of text in the documentation at the top of an example.
+/// The block of text in the header of an example: the output that it shows.
 fn documented(source: &str) -> String {
     let lines =
         source.lines().map_while(|line| line.strip_prefix("//!")).map(|line| line.strip_prefix(' ').unwrap_or(line));
@@ -24,7 +26,7 @@ fn documented(source: &str) -> String {
 }
 
 #[test]
-fn every_example_prints_what_it_says() {
+fn every_example_prints_the_output_in_its_documentation() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut names: Vec<String> = Vec::new();
     for file in std::fs::read_dir(folder).unwrap() {

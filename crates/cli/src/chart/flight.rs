@@ -1,55 +1,74 @@
-//! The chart of a flight: the coin going up and down, cos θ below it, and the traces on the sphere beside it.
+//! The chart of a flight: the coin going up and down, cos θ below it, and the paths on the sphere beside it. It shows why a
+//! coin lands as it does, as the paper's Figs. 2 and 3.
 
-use chart::{ChartError, Drawn, Panel, TEXT, svg};
+use chart::{Axis, ChartError, Drawn, Panel, TEXT, centred, frame, pixel, svg};
 use plotters::prelude::*;
+use toss::catalogue::CATALOGUE;
 use toss::{Outcome, Toss, TracePoint};
 
 use crate::chart::coin::draw_coins;
-use crate::chart::layout::{NORMAL, NUMBERS, times};
+use crate::chart::layout::{NORMAL, RIGHT, is_too_fast, times};
+use crate::chart::legend::draw_legend;
 use crate::chart::sphere::draw_sphere;
 
 /// Twice the size at which it is read.
-const SIZE: (u32, u32) = (1800, 940);
+const SIZE: (u32, u32) = (1800, 1080);
+/// Height of the title (pixels).
+const TITLE: u32 = 70;
 /// Width of the panels over time (pixels).
-const LEFT: u32 = 1020;
+const LEFT: u32 = 1040;
 /// Height of the panel of the coins (pixels).
-const UPPER: u32 = 580;
+const COINS: u32 = 570;
+/// Height of the panel of the sphere (pixels).
+const SPHERE: u32 = 760;
 
 /// The chart of `flight`, the trace of `toss`, as SVG.
 pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
     svg(SIZE, |root| {
-        let (over_time, sphere) = root.split_horizontally(LEFT);
-        let (coins, tilt) = over_time.split_vertically(UPPER);
-        draw_coins(&coins, flight, toss, outcome)?;
+        let (head, body) = root.split_vertically(TITLE);
+        let (over_time, beside) = body.split_horizontally(LEFT);
+        let (coins, tilt) = over_time.split_vertically(COINS);
+        let (sphere, legend) = beside.split_vertically(SPHERE);
+        centred(&head, &title(toss, outcome), (i32::try_from(SIZE.0 / 2).unwrap_or(0), 42))?;
+        draw_coins(&coins, flight, toss)?;
         draw_tilt(&tilt, flight)?;
-        draw_sphere(&sphere, flight)
+        draw_sphere(&sphere, flight)?;
+        draw_legend(&legend, is_too_fast(toss))
     })
 }
 
+/// The coin, its launch and its landing.
+fn title(toss: &Toss, outcome: Outcome) -> String {
+    let rounded = |value: f64| (1e4 * value).round() / 1e4;
+    let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|coin| coin == toss.coin));
+    let coin = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));
+    let attitude = toss.launch.attitude();
+    let [w, x, ..] = attitude.components();
+    let tilt =
+        if x == 0.0 { "horizontal".to_owned() } else { format!("at a tilt of {} rad", rounded(2.0 * x.atan2(w))) };
+    let (k, rate) = (rounded(toss.coin.inertia_ratio()), toss.launch.rate());
+    let landing = landing(outcome);
+    format!("{coin} (k = {k}), launched {tilt}, ω = ({}, {}, {}) rad/s: {landing}", rate.x, rate.y, rate.z)
+}
+
+fn landing(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Heads => "the coin lands heads",
+        Outcome::Tails => "the coin lands tails",
+        Outcome::Undecided => "how the coin lands is undecided",
+    }
+}
+
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
-    let times = times(flight);
-    let mut chart = ChartBuilder::on(panel)
-        .margin(24)
-        .x_label_area_size(84)
-        .y_label_area_size(NUMBERS)
-        .build_cartesian_2d(times.clone(), -1.1..1.1)?;
-    chart
-        .configure_mesh()
-        .light_line_style(WHITE)
-        .y_labels(5)
-        .x_desc("time [s]")
-        .y_desc("cos θ")
-        // Adding zero turns the label -0.0 into 0.0.
-        .y_label_formatter(&|cos_tilt: &f64| format!("{:.1}", (10.0 * cos_tilt).round() / 10.0 + 0.0))
-        .label_style(TEXT)
-        .axis_desc_style(TEXT)
-        .draw()?;
-    chart.draw_series(LineSeries::new([(times.start, 0.0), (times.end, 0.0)], BLACK.stroke_width(2)))?;
+    let (x, y) = (times("time [s]", flight), Axis::linear("cos θ", -1.1..1.1));
+    let mut chart = frame(panel, "", (&x, &y), RIGHT)?;
+    let [start, end] = [x.start(), x.end()];
+    chart.draw_series(LineSeries::new([(start, 0.0), (end, 0.0)], BLACK.stroke_width(2)))?;
     let line = flight.iter().map(|point| (point.time, point.cos_tilt));
     chart.draw_series(LineSeries::new(line, NORMAL.stroke_width(4)))?;
-    let (left, level) = chart.plotting_area().map_coordinate(&(times.start, 0.0));
-    let (left, level) = (left + 10 - panel.get_base_pixel().0, level - panel.get_base_pixel().1);
-    panel.draw(&Text::new("heads", (left, level - 36), TEXT))?;
-    panel.draw(&Text::new("tails", (left, level + 10), TEXT))?;
+    // Beside the frame, where no curve comes.
+    let (right, level) = pixel(panel, &chart, (end, 0.0));
+    panel.draw(&Text::new("heads", (right + 12, level - 40), TEXT))?;
+    panel.draw(&Text::new("tails", (right + 12, level + 10), TEXT))?;
     Ok(())
 }

@@ -1,39 +1,21 @@
-//! p(ψ), the long-flight limit, as a curve, with the shares of heads among long flights on it.
+//! Draws p(ψ), the probability of heads in the limit of long flights, as a curve, and the shares of heads among long flights
+//! as points, so that one sees them agree.
 
-use chart::{BLUE, ChartError, Drawn, Panel, SIZE, TEXT, VERMILION, svg};
-use plotters::coord::types::RangedCoordf64;
+use chart::{Axis, BLUE, ChartError, Drawn, Frame, Panel, SIZE, TEXT, VERMILION, frame, pixel, svg};
 use plotters::prelude::*;
 use sampling::{LONG_FLIGHT_TURNS, LongFlightShare, long_flight_probability};
 
-/// A chart that has been laid out.
-type Chart<'a, 'b> =
-    ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// Of ψ (degrees).
+/// The angles ψ that are drawn (degrees).
 const RANGE: std::ops::Range<f64> = 28.0..92.0;
 
 /// The chart as SVG.
 pub(crate) fn limit(shares: &[LongFlightShare]) -> Result<String, ChartError> {
     let launches = shares.first().map_or(0, |found| found.estimate.points);
     svg(SIZE, |root| {
-        let mut chart = ChartBuilder::on(root)
-            .margin(24)
-            .caption("P(heads) of long flights from horizontal", TEXT)
-            .x_label_area_size(84)
-            .y_label_area_size(120)
-            .build_cartesian_2d(RANGE, 0.4..1.04)?;
-        chart
-            .configure_mesh()
-            .light_line_style(WHITE)
-            .x_labels(8)
-            .x_desc("angle ψ between the coin's normal and its angular momentum [degrees]")
-            .y_desc("P(heads)")
-            .x_label_formatter(&|angle: &f64| format!("{angle:.0}"))
-            .y_label_formatter(&|p: &f64| format!("{p:.1}"))
-            .label_style(TEXT)
-            .axis_desc_style(TEXT)
-            .draw()?;
-        // The steps meet the corner at 45°.
+        let x = Axis::linear("angle ψ between the coin's normal and its angular momentum [degrees]", RANGE);
+        let y = Axis::linear("P(heads)", 0.4..1.04);
+        let mut chart = frame(root, "P(heads) of long flights from horizontal", (&x, &y), 20)?;
+        // One of the steps is 45°, where the curve has a corner.
         let curve = (112..=368).map(|step| 0.25 * f64::from(step)).map(|angle| {
             let cone: f64 = angle.to_radians();
             (angle, long_flight_probability(cone, cone))
@@ -42,12 +24,14 @@ pub(crate) fn limit(shares: &[LongFlightShare]) -> Result<String, ChartError> {
         for found in shares {
             draw_share(&mut chart, found)?;
         }
+        let (left, line) = pixel(root, &chart, (RANGE.start, 1.0));
+        root.draw(&Text::new("heads is certain", (left + 12, line + 18), TEXT))?;
         draw_legend(root, launches)
     })
 }
 
-/// A disc with its interval.
-fn draw_share(chart: &mut Chart<'_, '_>, found: &LongFlightShare) -> Drawn {
+/// Draws a share as a disc, and its interval as a bar.
+fn draw_share(chart: &mut Frame<'_, '_>, found: &LongFlightShare) -> Drawn {
     let angle = found.cone_angle.to_degrees();
     if let Some(interval) = found.estimate.interval {
         let ends = [(angle, interval.lo), (angle, interval.hi)];
@@ -73,6 +57,5 @@ fn draw_legend(root: &Panel<'_>, launches: u64) -> Drawn {
     for (row, words) in (0..).zip(words) {
         root.draw(&Text::new(words, (x + 80, y + 44 + 38 * row), TEXT.into_font().color(&VERMILION)))?;
     }
-    root.draw(&Text::new("heads is certain", (160, 120), TEXT))?;
     Ok(())
 }

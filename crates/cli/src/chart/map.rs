@@ -1,11 +1,16 @@
-//! P(heads) over two coordinates, as a heat map with the line of certainty.
+//! Draws P(heads) over two coordinates as a heat map, with the line where heads becomes certain.
 
-use chart::{ChartError, Drawn, Panel, TEXT, VERMILION, svg};
+use chart::{Axis, ChartError, Drawn, Panel, TEXT, VERMILION, centred, frame, svg};
 use plotters::prelude::*;
-use sampling::Map;
+use sampling::{Map, Space};
+
+use crate::chart::certain_line::{CertainLine, Piece, certain_line};
 
 /// Twice the size at which it is read.
-const SIZE: (u32, u32) = (1500, 1200);
+const SIZE: (u32, u32) = (1500, 1300);
+
+/// Height of the title (pixels).
+const HEAD: u32 = 110;
 
 /// Colours of P = 0, ½ and 1: dark blue, grey, pale yellow, after the palette cividis (J. R. Nuñez, C. R. Anderton and
 /// R. S. Renslow, PLoS ONE 13 (2018), e0199239), whose lightness grows evenly for every kind of colour vision.
@@ -23,91 +28,73 @@ fn colour(probability: f64) -> RGBColor {
     RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
-/// The map as SVG.
-pub(crate) fn map(map: &Map) -> Result<String, ChartError> {
+/// The map, which is of `space`, as SVG.
+pub(crate) fn map(map: &Map, space: &Space) -> Result<String, ChartError> {
+    let line = certain_line(map, space);
     svg(SIZE, |root| {
-        let (left, right) = root.split_horizontally(SIZE.0 - 200);
-        draw_map(&left, map)?;
+        let (head, body) = root.split_vertically(HEAD);
+        let (left, right) = body.split_horizontally(SIZE.0 - 200);
+        draw_head(&head, &line)?;
+        draw_map(&left, map, line.as_ref().map_or(&[], |line| line.pieces.as_slice()))?;
         draw_scale(&right)
     })
 }
 
-/// Edges of the cells about the nodes.
+/// The edges of the cells around the nodes.
 fn edges(nodes: &[f64]) -> Vec<f64> {
     let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
     let last = nodes.len() - 1;
     std::iter::once(nodes[0]).chain(middles).chain(std::iter::once(nodes[last])).collect()
 }
 
-fn draw_map(panel: &Panel<'_>, map: &Map) -> Drawn {
+fn draw_map(panel: &Panel<'_>, map: &Map, line: &[Piece]) -> Drawn {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
     let (x, y) = (edges(columns), edges(rows));
-    let has_line = map.nodes.iter().any(|node| node.least_cos_tilt.is_some_and(|least| least >= 0.0));
-    let caption = if has_line { "P(heads), and the line where heads becomes certain" } else { "P(heads)" };
-    let mut chart = ChartBuilder::on(panel)
-        .margin(24)
-        .caption(caption, TEXT)
-        .x_label_area_size(84)
-        .y_label_area_size(120)
-        .build_cartesian_2d(x[0]..x[columns.len()], y[0]..y[rows.len()])?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .x_desc(across.symbol())
-        .y_desc(up.symbol())
-        .label_style(TEXT)
-        .axis_desc_style(TEXT)
-        .draw()?;
+    let (x_axis, y_axis) =
+        (Axis::linear(across.symbol(), x[0]..x[columns.len()]), Axis::linear(up.symbol(), y[0]..y[rows.len()]));
+    let mut chart = frame(panel, "", (&x_axis, &y_axis), 20)?;
     for (row, nodes) in map.nodes.chunks(columns.len()).enumerate() {
         let mut start = 0;
         for run in nodes.chunk_by(|a, b| colour(a.probability) == colour(b.probability)) {
-            // A cell too far, for the next ones to draw over: no seams.
+            // It reaches one cell too far, and the next ones are drawn over it: so no seams are seen.
             let end = (x[(start + run.len() + 1).min(columns.len())], y[(row + 2).min(rows.len())]);
             let corners = [(x[start], y[row]), end];
             chart.draw_series([Rectangle::new(corners, colour(run[0].probability).filled())])?;
             start += run.len();
         }
     }
-    for segment in certainty_line(map) {
-        // White below, so that the line is seen on every colour.
-        chart.draw_series(LineSeries::new(segment, WHITE.stroke_width(9)))?;
-    }
-    for segment in certainty_line(map) {
-        chart.draw_series(LineSeries::new(segment, VERMILION.stroke_width(5)))?;
+    // White below, so that the line is seen on every colour.
+    for (colour, width) in [(WHITE, 9), (VERMILION, 5)] {
+        for piece in line {
+            chart.draw_series(LineSeries::new(piece.iter().copied(), colour.stroke_width(width)))?;
+        }
     }
     Ok(())
 }
 
-/// The contour where the least cos θ is 0, which is ψ = 45° for horizontal launches: a segment for each cell that it crosses.
-fn certainty_line(map: &Map) -> Vec<[(f64, f64); 2]> {
-    let ((_, columns), (_, rows)) = (&map.across, &map.up);
-    let node = |column: usize, row: usize| {
-        let least = map.nodes[row * columns.len() + column].least_cos_tilt;
-        least.map(|least| ((columns[column], rows[row]), least))
+/// The title, and below it what the line is or why there is none.
+fn draw_head(panel: &Panel<'_>, line: &Result<CertainLine, &'static str>) -> Drawn {
+    let middle = i32::try_from(SIZE.0 / 2).unwrap_or(0);
+    centred(panel, "P(heads)", (middle, 40))?;
+    let words = match line {
+        Ok(CertainLine { angles: "", .. }) => "the line where heads becomes certain",
+        Ok(CertainLine { angles, .. }) => &format!("the line where heads becomes certain, {angles}"),
+        Err(reason) => reason,
     };
-    let mut segments = Vec::new();
-    for row in 0..rows.len() - 1 {
-        for column in 0..columns.len() - 1 {
-            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(right, up)| node(column + right, row + up));
-            let mut crossings = Vec::new();
-            for side in 0..4 {
-                let (Some((a, at_a)), Some((b, at_b))) = (corners[side], corners[(side + 1) % 4]) else { continue };
-                if (at_a >= 0.0) != (at_b >= 0.0) {
-                    let part = at_a / (at_a - at_b);
-                    crossings.push((a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)));
-                }
-            }
-            segments.extend(crossings.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
-        }
+    centred(panel, words, (middle, 86))?;
+    if line.is_ok() {
+        // Left of the words, of which a letter takes some 15 pixels.
+        let end = middle - 15 * i32::try_from(words.chars().count()).unwrap_or(0) / 2 - 20;
+        panel.draw(&PathElement::new([(end - 80, 88), (end, 88)], VERMILION.stroke_width(5)))?;
     }
-    segments
+    Ok(())
 }
 
 fn draw_scale(panel: &Panel<'_>) -> Drawn {
     let mut chart = ChartBuilder::on(panel)
         .margin(24)
-        .margin_top(60)
-        .margin_bottom(108)
+        .margin_top(20)
+        .margin_bottom(104)
         .right_y_label_area_size(90)
         .build_cartesian_2d(0.0..1.0, 0.0..1.0)?
         .set_secondary_coord(0.0..1.0, 0.0..1.0);

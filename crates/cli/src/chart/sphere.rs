@@ -1,8 +1,8 @@
-//! What n and a vector in the face trace on the sphere; its far side is dashed.
+//! Draws the paths of n and of a vector in the face on the unit sphere. What is on the far side is dashed.
 
 use std::f64::consts::TAU;
 
-use chart::{Drawn, FAINT, Panel, TEXT};
+use chart::{Drawn, FAINT, Panel, centred};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use toss::{TracePoint, Vector3};
@@ -10,18 +10,22 @@ use toss::{TracePoint, Vector3};
 use crate::chart::layout::{FACE, NORMAL};
 use crate::chart::projection::{Seen, project};
 
-/// A chart that has been laid out.
+/// Room for the title, and on the other sides (pixels).
+const TITLE: u32 = 76;
+const MARGIN: u32 = 16;
+
+/// A chart without axes.
 type Chart<'a, 'b> =
     ChartContext<'a, SVGBackend<'b>, plotters::coord::cartesian::Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Draws the traces of `flight`.
+/// Draws the paths of `flight`.
 pub(super) fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
     let (width, height) = panel.dim_in_pixel();
-    let tall = 2.2 * f64::from(height) / f64::from(width);
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .caption("traces on the sphere, seen from above", TEXT)
-        .build_cartesian_2d(-1.1..1.1, 1.12 - tall..1.12)?;
+    let (middle, title) = (i32::try_from(width / 2).unwrap_or(0), "The paths on the unit sphere, seen from above");
+    centred(panel, title, (middle, 40))?;
+    let reach = 1.05 * f64::from(width - 2 * MARGIN) / f64::from(height - TITLE - MARGIN);
+    let mut chart =
+        ChartBuilder::on(panel).margin(MARGIN).margin_top(TITLE).build_cartesian_2d(-reach..reach, -1.05..1.05)?;
     let angles = || (0..=120).map(|step| f64::from(step) * TAU / 120.0);
     chart.draw_series(LineSeries::new(angles().map(f64::sin_cos), FAINT.stroke_width(2)))?;
     let equator: Vec<Seen> = angles().map(|angle| project(&Vector3::new(angle.cos(), angle.sin(), 0.0))).collect();
@@ -38,16 +42,10 @@ pub(super) fn draw_sphere(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {
             chart.draw_series([launch, ring, landing])?;
         }
     }
-    let line = |row: f64| -1.22 - 0.11 * row;
-    chart.draw_series([
-        Text::new("n, the normal of the heads side", (-1.05, line(0.0)), TEXT.into_font().color(&NORMAL)),
-        Text::new("a vector fixed in the face", (-1.05, line(1.0)), TEXT.into_font().color(&FACE)),
-        Text::new("○ launch, ● landing; dashed: on the far side", (-1.05, line(2.0)), TEXT.into_font().color(&BLACK)),
-    ])?;
     Ok(())
 }
 
-/// A path on the sphere, dashed where it is on the far side.
+/// Draws a path on the sphere, dashed where it is on the far side.
 fn draw_path(chart: &mut Chart<'_, '_>, path: &[Seen], colour: RGBColor, width: u32) -> Drawn {
     let pairs: Vec<&[Seen]> = path.windows(2).collect();
     let is_near = |pair: &[Seen]| pair[0].near + pair[1].near >= 0.0;

@@ -1,4 +1,6 @@
-//! `unfair-toss convergence`: the running probability of methods A and B.
+//! `unfair-toss convergence` prints the probability of heads after each step of a growing number of launches, for a
+//! grid (the paper's method A) and for random launches (method B). With the space `paper-fig4` it reproduces the
+//! paper's Fig. 4.
 
 use sampling::{RunningStep, Sampler};
 
@@ -11,10 +13,10 @@ use crate::space_args::{SpaceArgs, ThreadArgs};
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Number of equal steps; the last one is the whole grid
+    /// Number of equal steps, of which the last one contains the whole grid
     #[arg(long, value_name = "N", default_value_t = 500)]
     steps: u64,
-    /// Seed of the random launches, of which there are as many as the grid has
+    /// Seed of the random launches, which are as many as the grid has
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     #[command(flatten)]

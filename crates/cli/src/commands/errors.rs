@@ -1,4 +1,5 @@
-//! `unfair-toss errors`: the error of every method of sampling against the number of launches.
+//! `unfair-toss errors` measures the error of every sampling method for a range of numbers of launches. It shows which
+//! method reaches a wanted accuracy with the fewest launches.
 
 use sampling::{ESTIMATORS, Estimator, Plan, Rest, Sampler, Scrambled, Space, rms_error};
 use toss::Error;
@@ -12,13 +13,13 @@ use crate::space_args::{SpaceArgs, ThreadArgs};
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Number of seeds whose errors are averaged
+    /// Number of seeds over which the root mean square error is taken
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     replicates: u64,
-    /// Largest number of launches, as a power of two
+    /// The largest number of launches is 2^EXPONENT
     #[arg(long, value_name = "EXPONENT", default_value_t = 18, value_parser = clap::value_parser!(u32).range(8..=24))]
     up_to: u32,
-    /// The probability that errors are measured from [default: exact-speed with 64 times as many launches]
+    /// The probability that is taken as true [default: exact-speed with 64 times the largest number of launches]
     #[arg(long, value_name = "P", value_parser = probability)]
     reference: Option<f64>,
     #[command(flatten)]
@@ -41,17 +42,17 @@ impl Args {
         Ok(self.series.data(&lines))
     }
 
-    /// The numbers of launches that each method is tried with.
+    /// The numbers of launches with which each method is run.
     fn sizes(&self) -> impl Iterator<Item = u64> {
         (8..=self.up_to).map(|exponent| 1 << exponent)
     }
 
-    /// Launches of the reference.
+    /// The number of launches of the reference.
     fn reference_launches(&self) -> u64 {
         64 << self.up_to
     }
 
-    /// All launches together.
+    /// The number of all launches together, for the progress bar.
     fn launches(&self) -> u64 {
         let seeds = |estimator: &Estimator| if estimator.is_random { self.replicates } else { 1 };
         let all = ESTIMATORS.iter().map(seeds).sum::<u64>() * self.sizes().sum::<u64>();
@@ -81,7 +82,7 @@ impl Args {
         if let Some(probability) = self.reference {
             return Ok(Reference { probability, error: 0.0 });
         }
-        // A seed that no replicate has.
+        // Seed 0 is the reference's own: the replicates have other seeds.
         let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(self.reference_launches(), 0)));
         let found = sampler.estimate(space, plan)?;
         Ok(Reference { probability: found.probability, error: found.half_width().unwrap_or(0.0) })

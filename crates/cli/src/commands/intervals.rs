@@ -1,4 +1,5 @@
-//! `unfair-toss intervals`: the speeds that land heads, for one rate.
+//! `unfair-toss intervals` lists the ranges of launch speed that land heads, for one body rate. A range is where the
+//! outcome does not change, so the list shows how precisely a speed has to be met.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Space};
@@ -9,23 +10,23 @@ use crate::failure::Failure;
 use crate::output::{self, Format, table};
 use crate::toss_args::{CoinArgs, numbers};
 
-/// More turns than this are refused: nobody reads so many intervals.
+/// The largest number of turns, with one interval each. A longer list would be of no use.
 const MOST_TURNS: f64 = 10_000.0;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
-    /// Body rate at launch (rad/s)
+    /// Body rate at launch, in the body frame (rad/s)
     #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
     rate: String,
-    /// Range of speeds (m/s)
+    /// Range of launch speeds (m/s)
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     speed: String,
     /// Gravity (m/s²)
     #[arg(long, value_name = "G", allow_hyphen_values = true, default_value_t = DEFAULT_GRAVITY)]
     gravity: f64,
-    /// Attitude at launch: a turn about the lab's x axis (rad)
+    /// Tilt at launch: a turn about the lab's x axis (rad)
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
     tilt: f64,
     /// Output format
@@ -35,9 +36,9 @@ pub(crate) struct Args {
 
 #[derive(Serialize)]
 struct Answer {
-    /// Speeds (m/s) between which the toss lands heads.
+    /// The ranges of speed (m/s) in which the toss lands heads.
     heads: Vec<[f64; 2]>,
-    /// Their share of the range.
+    /// The share of these ranges in the whole range.
     probability: f64,
 }
 
@@ -58,7 +59,7 @@ impl Args {
             )));
         }
         let heads: Vec<[f64; 2]> = speeds_of_heads(&toss, slowest)?.into_iter().flatten().collect();
-        // From 0, where the sum of nothing is -0.
+        // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };
         Ok(match self.format {
@@ -68,7 +69,7 @@ impl Args {
     }
 }
 
-/// The slowest and the fastest of a range of speeds (m/s).
+/// Parses a range of speeds (m/s) into the slowest and the fastest.
 fn speeds(text: &str) -> Result<[f64; 2], InputError> {
     let of_no_turn = Space::builder(Coin::PAPER).rate_x(0.0).rate_y(0.0).rate_z(0.0);
     Ok(of_no_turn.parse(Coordinate::Speed, text)?.build()?.axis(Coordinate::Speed).bounds())

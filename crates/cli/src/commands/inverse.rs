@@ -1,4 +1,6 @@
-//! `unfair-toss inverse`: how to launch for a wanted probability of heads.
+//! `unfair-toss inverse` computes how to launch a coin so that it lands heads with a wanted probability in long
+//! flights. The result is the ratio of the tumbling rate Ω to the spin ωz, and the angle ψ between the normal and the
+//! angular momentum.
 
 use sampling::{long_flight_cone, rate_ratio};
 use serde::Serialize;
@@ -12,7 +14,7 @@ use crate::toss_args::CoinArgs;
 pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
-    /// Wanted probability of heads in long flights from horizontal, above 1/2
+    /// Wanted probability of heads in long flights from horizontal, above 1/2 and at most 1
     #[arg(long, value_name = "P", allow_hyphen_values = true)]
     probability: f64,
     /// Output format

@@ -1,4 +1,6 @@
-//! `unfair-toss limit`: p(ψ), the probability of heads in the limit of long flights, beside the share of long flights.
+//! `unfair-toss limit` compares p(ψ), the limit of the probability of heads for long flights, with the share of heads
+//! in a sample of long flights. ψ is the angle between the coin's normal and its angular momentum; the comparison shows
+//! that the limit holds.
 
 use sampling::{LongFlightShare, Sampler};
 use serde::Serialize;
@@ -18,7 +20,7 @@ pub(crate) struct Args {
     /// Number of flights at each ψ
     #[arg(long, value_name = "N", default_value_t = 1000)]
     points: u64,
-    /// Seed of the speeds
+    /// Seed of the random speeds
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     #[command(flatten)]
@@ -29,7 +31,7 @@ pub(crate) struct Args {
     pub(crate) series: SeriesArgs,
 }
 
-/// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, its interval of 95 %.
+/// One line: ψ (rad), p(ψ), the number of flights, the share of heads among them, and the 95 % interval of the share.
 #[derive(Serialize)]
 struct Line {
     cone_angle: f64,
@@ -44,7 +46,7 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let backend = self.solver.backend()?;
-        // Beyond 90° it all repeats the other way round.
+        // 30° to 90° in steps of 2.5°; beyond 90° the curve is the mirror image.
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));

@@ -1,4 +1,5 @@
-//! `unfair-toss coins`, `solvers`, `models` and `spaces`: what can be named.
+//! The commands `coins`, `solvers`, `models` and `spaces` of `unfair-toss` list the names that the other commands
+//! accept. The lists come from the libraries, so that they are complete.
 
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
@@ -85,7 +86,7 @@ struct SolverLine {
     summary: &'static str,
     integrates: bool,
     schemes: Vec<&'static str>,
-    /// The schemes by their former name.
+    /// The schemes again, under the former name of the field.
     methods: Vec<&'static str>,
     formulations: Vec<&'static str>,
 }
@@ -123,7 +124,7 @@ struct ModelLine {
     name: &'static str,
     assumes: &'static str,
     gives: &'static str,
-    /// By the record, of a closed form.
+    /// The recorded cost (ns) of a model in closed form.
     cost_ns: Option<f64>,
 }
 

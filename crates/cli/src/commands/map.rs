@@ -1,4 +1,5 @@
-//! `unfair-toss map`: the probability of heads over two coordinates of a space.
+//! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
+//! other coordinates are sampled at each node.
 
 use sampling::{Coordinate, Map, Sampler};
 use serde::Serialize;
@@ -9,14 +10,14 @@ use crate::output::{self, DataFormat, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
 
-/// For a node.
+/// The numbers of launches at each node.
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 1024, sobol: 1024 };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Coordinate along a row, whose axis has points: rate_x, rate_y, rate_z, speed, gravity or tilt
+    /// Coordinate along a row: rate_x, rate_y, rate_z, speed, gravity or tilt; its axis needs points
     #[arg(long, value_name = "COORDINATE", default_value = "rate_x")]
     across: String,
     /// Coordinate from row to row, likewise
@@ -44,7 +45,7 @@ impl Args {
         let nodes = (axes.iter().filter_map(|of| space.axis(*of).points()).product(), "nodes");
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
         let mapped = self.threads.ask(backend.sampler(), nodes, ask)?;
-        self.series.draw(|| Ok(chart::map(&mapped)?))?;
+        self.series.draw(|| Ok(chart::map(&mapped, &space)?))?;
         Ok(match self.series.format {
             DataFormat::Csv => csv(&mapped),
             DataFormat::Json => output::json(&Answer::from(&mapped)),
@@ -52,7 +53,7 @@ impl Args {
     }
 }
 
-/// A line a node.
+/// Formats the map as CSV with one line per node.
 fn csv(map: &Map) -> String {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
     let heading = format!("{},{},probability\n", across.name(), up.name());

@@ -1,4 +1,5 @@
-//! One file a command.
+//! The commands of `unfair-toss`, with one file for each. A command parses its options, calls the libraries and formats
+//! their answer.
 
 pub(crate) mod convergence;
 pub(crate) mod errors;

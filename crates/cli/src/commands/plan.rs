@@ -1,4 +1,5 @@
-//! `unfair-toss plan`: the cheapest model that serves a scene, and why none before it does.
+//! `unfair-toss plan` chooses the cheapest model that answers a question accurately enough, without running it. It also
+//! prints which models were passed over, and why.
 
 use std::path::{Path, PathBuf};
 
@@ -22,24 +23,29 @@ pub(crate) struct Args {
     /// What is wanted
     #[arg(long, value_enum, required_unless_present = "scene")]
     want: Option<WantArg>,
-    /// The largest error that is good enough: of cos θ, an attitude (rad), a probability
+    /// The largest acceptable error: of cos θ, of an attitude (rad) or of a probability
     #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene")]
     accuracy: Option<f64>,
-    /// Number of times of a trace, launch and landing included
+    /// Number of times in a trace, launch and landing included
     #[arg(long, value_name = "N", default_value_t = 100)]
     points: usize,
-    /// A space for a probability, instead of a toss: a name (`spaces` lists them), or a file that ends in .toml
-    #[arg(long, value_name = "NAME|FILE.toml", conflicts_with_all = ["rate", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
+    /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
+    /// that ends in .toml
+    #[arg(long, value_name = "NAME|FILE.toml",
+          conflicts_with_all = ["rate", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
     #[arg(long, value_name = "NAME",
-          help = format!("An integrator to be used, as a cross-check: {}", solver_args::solvers(SolverEntry::integrates)))]
+          help = format!("An integrator that is used as a cross-check: {}",
+                         solver_args::solvers(SolverEntry::integrates)))]
     solver: Option<String>,
     #[arg(long, value_name = "NAME", alias = "method", requires = "solver",
-          help = format!("Its scheme: {} [default: the cheapest one]", solver_args::schemes(Scheme::is_adaptive)))]
+          help = format!("Scheme of the integrator: {} [default: the cheapest one]",
+                         solver_args::schemes(Scheme::is_adaptive)))]
     scheme: Option<String>,
-    /// The whole scene from a TOML file instead, or a JSON one if it ends in .json
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate", "speed", "time",
-              "gravity", "drop", "tilt", "drag", "bounce"])]
+    /// Read the whole question from this file: JSON if its name ends in .json, else TOML
+    #[arg(long, value_name = "FILE",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate",
+                                "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -54,9 +60,9 @@ enum WantArg {
     Tilt,
     /// The attitude at landing
     Attitude,
-    /// The flight
+    /// The flight at equally spaced times
     Trace,
-    /// The probability of heads in a space
+    /// The probability of heads over a space of launches
     Probability,
 }
 
@@ -66,10 +72,10 @@ struct Answer {
     solver: String,
     /// The scheme of an integrator.
     scheme: Option<&'static str>,
-    /// The scheme by its former name; of a sample, how its launches are chosen.
+    /// For an integrator the scheme again, under its former name; for a sample the method that chooses its launches.
     method: Option<&'static str>,
     tolerance: Option<f64>,
-    /// Launches of a sample.
+    /// The number of launches of a sample.
     points: Option<u64>,
     expected_error: f64,
     expected_cost_ns: f64,
@@ -183,7 +189,7 @@ impl PassedOver {
     }
 }
 
-/// As `probability --method` calls it.
+/// The name of the method, as `probability --method` takes it.
 fn way_to_sample(plan: Plan) -> &'static str {
     match plan {
         Plan::Grid => "grid",

@@ -1,4 +1,5 @@
-//! `unfair-toss probability`: the share of heads over a space of launches.
+//! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
+//! interval of the estimate with it, as far as the method has one.
 
 use exact::{ProvenCounts, Stage};
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled};
@@ -35,13 +36,13 @@ struct Answer {
     counts: Option<CountsAnswer>,
     points: u64,
     probability: f64,
-    /// For exact-speed: how far the interval reaches from the probability.
+    /// For exact-speed: half the width of the interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_bound: Option<f64>,
     interval: Option<[f64; 2]>,
     interval_kind: String,
     certified: bool,
-    /// How many outcomes each stage of the proof decided.
+    /// The number of outcomes that each stage of the proof decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     proven_by: Option<ProvenBy>,
     seed: Option<u64>,
@@ -54,7 +55,7 @@ struct CountsAnswer {
     undecided: u64,
 }
 
-/// By stage.
+/// The number of outcomes by stage of the proof.
 #[derive(Serialize)]
 struct ProvenBy {
     keller: u64,
@@ -79,7 +80,7 @@ impl Args {
     }
 }
 
-/// The seed of what is random in `plan`.
+/// The seed of `plan`; `None` if nothing in it is random.
 fn seed_of(plan: Plan) -> Option<u64> {
     match plan {
         Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
@@ -160,7 +161,7 @@ fn text(found: &Estimate, solver: &str) -> String {
     lines.join("\n")
 }
 
-/// Digits after the point that show two of an error, and at least six.
+/// The number of decimal places that show two digits of `error`, at least six.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 6 and 17")]
 fn digits_for(error: f64) -> usize {
     (1.0 - error.log10().floor()).clamp(6.0, 17.0) as usize

@@ -1,4 +1,5 @@
-//! `unfair-toss trace`: the flight at equal steps of time, as data and as a chart.
+//! `unfair-toss trace` prints the flight of a coin at equally spaced times, and draws it on request. LF below is the
+//! laboratory frame, whose z axis points up.
 
 use serde::Serialize;
 use toss::{TracePoint, trace};
@@ -19,7 +20,8 @@ pub(crate) struct Args {
     pub(crate) series: SeriesArgs,
 }
 
-/// One line: time (s), attitude, Euler angles (rad), n and a vector fixed in the face (LF), cos θ.
+/// One line: time (s), attitude quaternion, Euler angles (rad), the coin's normal and a vector fixed in its face (both
+/// in LF), and cos θ, where θ is the angle between the normal and the vertical.
 #[derive(Serialize)]
 struct Line {
     time: f64,
@@ -61,7 +63,11 @@ impl Args {
     pub(crate) fn run(&self) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
         let flight = trace(backend.solver(), &toss, self.points)?;
-        self.series.draw(|| Ok(chart::flight(&flight, &toss, backend.outcome(&toss)?)?))?;
+        self.series.draw(|| {
+            // As many points as the motion needs, whatever number is printed.
+            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
+            Ok(chart::flight(&drawn, &toss, backend.outcome(&toss)?)?)
+        })?;
         Ok(match self.series.format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {

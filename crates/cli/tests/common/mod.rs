@@ -1,4 +1,5 @@
-//! What the tests of the command line share.
+//! Functions that the tests of the command line share: they run the program and check its output. Each test runs the
+//! real program, so that options, exit codes and standard output are tested together.
 
 use std::process::{Command, Output};
 
@@ -17,7 +18,7 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("UTF-8")
 }
 
-/// The one JSON value on standard output of a command that ends with `code`.
+/// Runs a command with `--format json`, asserts that it ends with `code`, and returns the JSON value that it prints.
 #[track_caller]
 pub(crate) fn json(arguments: &str, code: i32) -> Value {
     let output = run(&format!("{arguments} --format json"));
@@ -31,7 +32,8 @@ pub(crate) fn assert_near(value: &Value, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found}, not {expected}");
 }
 
-/// Each command ends with 2, prints nothing but its message, and that has both words; so does its JSON.
+/// Asserts that each command ends with 2, prints nothing on standard output, and that its message contains both texts.
+/// With `--format json` the message has to contain the first.
 #[track_caller]
 pub(crate) fn assert_refused(cases: &[(&str, [&str; 2])]) {
     for (arguments, words) in cases {

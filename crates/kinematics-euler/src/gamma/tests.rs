@@ -98,7 +98,7 @@ fn state(system: &GammaSystem, d: f64, u: f64, beta_rate: f64) -> SVector<f64, 5
 }
 
 #[test]
-fn only_the_regular_solution_may_pass_where_d_vanishes() {
+fn where_d_vanishes_only_the_regular_solution_has_an_acceleration_of_0() {
     for rate_z in [0.5, 2.0, -3.0] {
         let system = GammaSystem::new(0.5, rate_z, 1.0);
         let acceleration = |d: f64, u: f64, beta_rate: f64| {
@@ -171,7 +171,7 @@ fn a_step_reports_the_singular_point_that_it_crosses() {
 }
 
 #[test]
-fn a_rod_that_only_spins_rests_at_the_pole_and_any_other_has_no_answer() {
+fn accepts_a_rod_in_pure_spin_at_the_pole_and_refuses_other_rods_without_precession() {
     let stepping = Stepping::adaptive(Scheme::DOP853, 1e-10).unwrap();
     for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
         let solver = GammaSolver::new(stepping, formulation);

@@ -1,4 +1,4 @@
-//! `verify figure`: figures of what is committed.
+//! `verify figure` draws figures from what is committed, without any measurement.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub(super) struct Figure {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Name {
-    /// What contestants are known to do where methods fail
+    /// How contestants are known to answer where methods fail
     AtlasMatrix,
     /// Speed against accuracy, of the newest record
     WorkPrecision,

@@ -1,11 +1,11 @@
-//! The accuracy of the committed records over time, as a table.
+//! Renders the accuracy of the committed records over time as a table.
 
 use crate::judge::record::Record;
 
 /// The check whose errors are followed: random launches, against the exact motion.
 pub const FOLLOWED: &str = "random-attitude";
 
-/// A block a record: date, commit and host, then the errors of every subject.
+/// One block for each record: its date, commit and host, then the errors of every subject.
 pub fn text(records: &[Record]) -> String {
     let block = |record: &Record| {
         let host = &record.host;

@@ -1,4 +1,5 @@
-//! The report as one HTML file that needs no network: the verdict, the checks, the charts, each with what to see in it.
+//! Renders the report as one HTML file that needs no network: the verdict, the checks, the tables and the charts. Each
+//! chapter says what to see in it.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -151,8 +152,8 @@ fn line(row: &Row) -> Markup {
 fn probabilities(lines: &[Probability]) -> Markup {
     html! {
         h2 id="probabilities" { "Probabilities" }
-        p.faint { "P(heads) of the named spaces by every way of sampling: the paper's 66 % (reconstructed), its cheated toss and its \
-                   toss that lands tails. A grid is no sample and has no interval." }
+        p.faint { "P(heads) of the named spaces by every way of sampling: the space of the paper's 66 % (reconstructed), its cheated toss and \
+                   its toss that lands tails. A grid is no sample, so it has no interval." }
         div.wide { table {
             tr { th { "space" } th { "method" } th { "launches" } th { "P(heads)" } th { "95 % interval" } th { "" } }
             @for line in lines {
@@ -170,9 +171,10 @@ fn planner(lines: &[Line]) -> Markup {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     html! {
         h2 id="planner" { "The planner" }
-        p.faint { "Random scenes, solved as planned. Errors: the largest, divided by what was asked and by what was expected. Expected: \
-                   fraction of scenes whose expected error is at most 30 times the error. Economical: fraction of the scenes solved by \
-                   every model whose choice cost at most 1.2 times the cheapest that served." }
+        p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy asked for and \
+                   by the error expected. expected ≤ 30×: the fraction of scenes whose expected error is at most 30 times the error. \
+                   tried: the scenes that were solved by every model. economical: the fraction of these where the chosen model cost at \
+                   most 1.2 times the cheapest that served, by recorded and by measured cost." }
         div.wide { table {
             tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } th { "expected ≤ 30×" }
                  th { "tried" } th { "economical, recorded" } th { "economical, measured" } th { "largest cost ratio" } }
@@ -203,15 +205,16 @@ const CHAPTERS: [(&str, &str, &str); 6] = [
         "fig4",
         "The paper's Fig. 4",
         "Probability against the number of launches: a grid (A), in the order of its axes, and \
-      random launches (B). B settles like one over the root of n; A wanders until its last axis is complete. Both end at the \
-      paper's 66 %, in a space of ours, since the paper names none.",
+      random launches (B). B converges like one over the root of n; A drifts until its last axis is complete. Both end at the \
+      paper's 66 %. The space is reconstructed, since the paper names none.",
     ),
     (
         "work-precision",
         "Speed against accuracy",
         "Each point is a run at one tolerance or step: the further right, the more \
-      accurate; the lower, the cheaper. Left in calls, which repeat exactly, right in time on this machine. The grey band is \
-      what no integrator beats; the exact motion calls nothing and is accurate to the last bit.",
+      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
+      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
+      and work. The exact motion calls nothing and is accurate to the last bit.",
     ),
     (
         "models",
@@ -223,21 +226,22 @@ const CHAPTERS: [(&str, &str, &str); 6] = [
         "order",
         "Order of convergence",
         "With fixed steps the error falls like a power of the step. The fitted power stands \
-      beside what theory gives; DOP853 leaves only one halving of the step between what is not yet asymptotic and rounding.",
+      beside that of the theory. For DOP853 only one halving of the step lies between steps that are too large for the power law \
+      and errors that are rounding alone.",
     ),
     (
         "atlas",
         "Where methods fail",
         "The worst answer of every solver, scheme and formulation near eight hazards. The raw \
-      forms are the paper's equations as printed: they report success and are wrong. By default nothing is. Below, error and \
-      work against the distance from each hazard; where the purple line is above an error, the launch itself is not known \
-      better.",
+      forms are the paper's equations as printed: they report success and are wrong. No default is wrong without an error. Below \
+      stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
+      an error below it cannot be told from an error of the launch.",
     ),
     (
         "long-flights",
         "Long flights",
         "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
-      in proportion to the time; what is conserved drifts by some parts in 10⁸ at most.",
+      in proportion to the time. The conserved quantities drift by some parts in 10⁸ at most.",
     ),
 ];
 

@@ -1,4 +1,5 @@
-//! The rows as JUnit XML: one test suite per check, one test case per subject.
+//! Renders the rows as JUnit XML, which continuous integration reads: one test suite for each check, one test case for each
+//! subject.
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 

@@ -1,4 +1,4 @@
-//! Rendering: one set of rows as text, HTML, JSON, JUnit and charts. Nothing is measured or judged here.
+//! Renders one set of rows as text, HTML, JSON, JUnit and charts. Nothing is measured or judged here.
 
 pub mod charts;
 pub mod history;

@@ -1,4 +1,4 @@
-//! The report of a run: all that the renderings show.
+//! The report of a run. It holds all that the renderings show.
 
 use serde::Serialize;
 
@@ -17,7 +17,7 @@ pub struct Report<'a> {
     pub schema: u32,
     /// Whether every row passes.
     pub passed: bool,
-    /// How much was tried.
+    /// The effort of the run: how many cases were tried.
     pub effort: Effort,
     /// The rows.
     pub rows: &'a [Row],
@@ -33,7 +33,7 @@ impl<'a> Report<'a> {
         Self { schema: SCHEMA, passed: rows.iter().all(|row| row.status.passes()), effort, rows, moves, records }
     }
 
-    /// As JSON.
+    /// The report as JSON.
     ///
     /// # Errors
     /// Never for plain data.

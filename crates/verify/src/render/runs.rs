@@ -1,9 +1,9 @@
-//! Runs of one toss as a table, one line per contestant.
+//! Renders the runs of one toss as a table, with one line for each contestant.
 
 use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::run::Run;
 
-/// Answer, errors and work of each run, and what one rounding of the launch does by itself.
+/// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
 pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
     let width = runs.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));

@@ -1,5 +1,5 @@
-//! Error and work against the distance from each hazard: one panel per hazard, one line per solver and formulation, by the first of
-//! its schemes; the others do the same with more work.
+//! Draws error and work against the distance from each hazard, with one panel for each hazard and one line for each solver and
+//! formulation. A line is by the first scheme of its solver; the other schemes do the same with more work.
 
 use chart::{Axis, ChartError, LINE_WIDTH, Marker, PURPLE, Series, log_log, svg};
 
@@ -11,16 +11,16 @@ use crate::measure::atlas::{Atlas, Spot};
 /// Where the distance 0 is drawn.
 const ZERO: f64 = 1e-18;
 
-/// What is drawn of each spot.
+/// The number that is drawn of each spot.
 type Quantity = fn(&Spot) -> Option<f64>;
 
-/// The attitude's error, with what one rounding of the inputs does.
+/// The chart of the attitude's error, with the effect of one rounding of the launch.
 pub(super) fn errors(atlas: &Atlas, palette: &Palette<'_>) -> Result<String, ChartError> {
     let quantity: Quantity = |spot| spot.run.err_attitude;
     Lines { atlas, palette, quantity, with_rounding: true }.svg("error of the attitude [rad]", 1e-18..1e3)
 }
 
-/// Calls of the right-hand side.
+/// The chart of the calls of the right-hand side.
 pub(super) fn work(atlas: &Atlas, palette: &Palette<'_>) -> Result<String, ChartError> {
     let quantity: Quantity = |spot| spot.run.rhs_calls.filter(|calls| *calls > 0).map(|calls| calls as f64);
     Lines { atlas, palette, quantity, with_rounding: false }.svg("calls of the right-hand side", 1e1..1e7)
@@ -39,7 +39,7 @@ impl Lines<'_> {
         let rows = HAZARDS.len().div_ceil(2);
         let foot = legend_height(self.of(&HAZARDS[0]).len());
         let height = 540 * u32::try_from(rows).unwrap_or(1) + foot;
-        let y = Axis::positive(label, range);
+        let y = Axis::logarithmic(label, range);
         svg((2000, height), |root| {
             let (body, foot) = root.split_vertically(height - foot);
             for (hazard, panel) in HAZARDS.iter().zip(body.split_evenly((rows, 2))) {
@@ -68,7 +68,7 @@ impl Lines<'_> {
         lines
     }
 
-    /// What one rounding of the launch does, which is the same for all contestants.
+    /// The effect of one rounding of the launch, which is the same for all contestants.
     fn rounding(&self, hazard: &Hazard) -> Series {
         let first = self.atlas.subjects().first().copied().unwrap_or_default();
         let spots = self.atlas.series(hazard.id, first);
@@ -87,7 +87,8 @@ impl Lines<'_> {
 fn distance_axis(hazard: &Hazard) -> Axis {
     let nearest = hazard.distances.iter().copied().fold(1.0, f64::min);
     let start = if nearest == 0.0 { ZERO } else { nearest };
-    Axis { label: hazard.distance.to_owned(), range: start..1.0, starts_at_zero: nearest == 0.0 }
+    let axis = Axis::logarithmic(hazard.distance, start..1.0);
+    if nearest == 0.0 { axis.starting_at_zero() } else { axis }
 }
 
 fn at(spot: &Spot) -> f64 {

@@ -1,4 +1,5 @@
-//! The atlas at a glance: one row per contestant, one column per hazard, the worst answer in each cell.
+//! Draws the atlas of failures at a glance: one row for each contestant, one column for each hazard, and in each cell the
+//! contestant's worst answer.
 
 use chart::{ChartError, Drawn, FAINT, GREEN, GREY, ORANGE, Panel, TEXT, VERMILION, svg};
 use plotters::prelude::*;
@@ -12,12 +13,12 @@ const LEFT: i32 = 360;
 const TOP: i32 = 160;
 const CELL: (i32, i32) = (177, 46);
 
-/// What a cell says.
+/// What stands in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cell {
     /// The worst answer.
     Answer(Answer),
-    /// It may be right or an error.
+    /// The answer may be right, or a typed error.
     RightOrTypedError,
 }
 
@@ -37,7 +38,7 @@ pub(super) fn matrix(subjects: &[&str], worst: impl Fn(&str, &str) -> Option<Cel
     let width = LEFT + CELL.0 * as_i32(HAZARDS.len()) + 40;
     let height = TOP + CELL.1 * as_i32(subjects.len()) + 120;
     svg((width.cast_unsigned(), height.cast_unsigned()), |root| {
-        centred(root, "what solvers make of flights next to where methods fail", (width / 2, 30), BLACK)?;
+        centred(root, "How solvers answer near the places where methods fail", (width / 2, 30), BLACK)?;
         for (column, hazard) in (0..).zip(HAZARDS) {
             let x = LEFT + CELL.0 * column + CELL.0 / 2;
             let what = hazard.name.split_once(": ").map_or(hazard.name, |(what, _)| what);
@@ -54,11 +55,10 @@ pub(super) fn matrix(subjects: &[&str], worst: impl Fn(&str, &str) -> Option<Cel
                 }
             }
         }
-        let remark =
-            "the worst answer over all distances from the hazard, 1 to 1e-16 and 0 (F6, F8: up to 2^53 rad, 10⁴ s)";
+        let remark = "Each cell: the worst answer over all distances from the hazard, 1 to 1e-16 and 0 (F6: up to 2^53 rad; F8: up to 10⁴ s)";
         let below = TOP + CELL.1 * as_i32(subjects.len());
         root.draw(&Text::new(remark, (24, below + 24), TEXT.into_font().color(&GREY)))?;
-        let rk4 = "rk4 estimates no error: it is judged by what its order promises, and takes a sign for an outcome";
+        let rk4 = "rk4 estimates no error. It is judged by the error that its order promises, and its outcome by the sign of cos θ.";
         root.draw(&Text::new(rk4, (24, below + 66), TEXT.into_font().color(&GREY)))?;
         Ok(())
     })
@@ -68,7 +68,7 @@ fn as_i32(count: usize) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
 }
 
-/// Colour and word, so that neither has to be relied on.
+/// Draws a cell by a colour and a word, so that nobody has to rely on the colour.
 fn draw(root: &Panel<'_>, (x, y): (i32, i32), cell: Cell) -> Drawn {
     let (fill, text, word) = match cell {
         Cell::Answer(Answer::Right) => (GREEN.mix(0.25), BLACK, "right"),

@@ -1,4 +1,4 @@
-//! Charts of the records, as SVG.
+//! Draws the records of a run as charts in SVG, for the report and for `docs/figures`.
 
 mod atlas_lines;
 mod atlas_matrix;
@@ -27,11 +27,12 @@ pub struct Chart {
     pub file: String,
     /// The SVG.
     pub svg: String,
-    /// What it shows, where that does not follow from its chapter.
+    /// What it shows, if its chapter does not say so.
     pub caption: Option<String>,
 }
 
-/// The errors of committed records over time, as SVG; `records` are not empty. Solvers have the colours of `registry`.
+/// Draws the errors of committed records over time, as SVG. There is at least one record. Solvers have the colours of
+/// `registry`.
 ///
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
@@ -39,7 +40,8 @@ pub fn history(records: &[Record], registry: &[SolverEntry]) -> Result<String, C
     history::history(records, &Palette::new(registry))
 }
 
-/// What the contestants called `names` are known to do where methods fail, as SVG; one that nothing is known of is left out.
+/// Draws what the contestants called `names` are known to do where methods fail, as SVG. A contestant that `expected` does
+/// not list is left out.
 ///
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
@@ -48,8 +50,8 @@ pub fn known_failures(names: &[String], expected: &Expected) -> Result<String, C
     atlas_matrix::matrix(&names, |subject, hazard| expected.get(subject, hazard).map(Cell::from))
 }
 
-/// Speed against accuracy on the problem `problem` of a record, made on the day `date`, as SVG. Solvers have the colours of
-/// `registry`.
+/// Draws speed against accuracy on the problem `problem` of the record of the day `date`, as SVG. Solvers have the colours
+/// of `registry`.
 ///
 /// # Errors
 /// [`ChartError`] if the sweep has no such problem, or if it can't be drawn.
@@ -60,7 +62,7 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     work_precision::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
 }
 
-/// The charts of the records that there are. Solvers have the colours of `registry`.
+/// Draws the charts of all records that the run has. Solvers have the colours of `registry`.
 ///
 /// # Errors
 /// [`ChartError`] if one can't be drawn.
@@ -87,6 +89,7 @@ pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Cha
         charts.push(chart("models.svg", models::models(&planner.t_costs_ns)?));
     }
     if let Some(sweep) = records.sweep {
+        charts.push(chart("work-precision-all.svg", work_precision::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
@@ -105,13 +108,13 @@ fn chart(file: &str, svg: String) -> Chart {
 /// Columns of a legend below panels.
 const COLUMNS: i32 = 4;
 
-/// Height of the legend of so many lines and the remark on failures (pixels).
+/// Height of the legend of so many lines and of the remark on failures (pixels).
 fn legend_height(lines: usize) -> u32 {
     let entries = i32::try_from(lines).unwrap_or(i32::MAX - 4) + 1;
     38 + 44 * (entries + COLUMNS - 1).div_euclid(COLUMNS).unsigned_abs()
 }
 
-/// The names of lines.
+/// Draws the names of lines below panels.
 fn legend(panel: &Panel<'_>, lines: &[Series]) -> Drawn {
     chart::legend(panel, lines, COLUMNS, 480)
 }

@@ -1,4 +1,5 @@
-//! What each model of the hierarchy costs: a bar from the 5 % to the 95 % quantile, and the median.
+//! Draws what each model of the hierarchy costs: a bar from the 5 % to the 95 % quantile, and a disc at the median. The
+//! planner chooses by these costs.
 
 use chart::{BLUE, ChartError, FAINT, GREEN, GREY, Panel, TEXT, VERMILION, svg};
 use plotters::prelude::*;
@@ -13,7 +14,7 @@ const RIGHT: i32 = 1800;
 const TOP: i32 = 70;
 const ROW: i32 = 64;
 
-/// Range of the axis: 10^1 to 10^8 ns.
+/// The range of the axis, as powers of ten: 10 ns to 10^8 ns.
 const DECADES: std::ops::RangeInclusive<i32> = 1..=8;
 
 /// The chart as SVG.
@@ -59,7 +60,7 @@ fn bar(root: &Panel<'_>, y: i32, cost: &Cost) -> chart::Drawn {
     root.draw(&Rectangle::new([(low, y - 12), (high.max(low + 2), y + 12)], colour.mix(0.35).filled()))?;
     root.draw(&Circle::new((median, y), 9, colour.filled()))?;
     let (label, x) = (Nanoseconds(cost.median).to_string(), high.max(median) + 24);
-    // Nothing behind the words: a line of the grid would strike them through.
+    // White behind the words, because a line of the grid would strike them through.
     let width = 17 * i32::try_from(label.chars().count()).unwrap_or(0);
     root.draw(&Rectangle::new([(x - 6, y - 18), (x + width, y + 18)], WHITE.filled()))?;
     text(root, &label, (x, y), HPos::Left, &colour)

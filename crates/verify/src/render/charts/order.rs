@@ -1,11 +1,11 @@
-//! Error against step, with the orders that the lines show.
+//! Draws the error against the step, with the order that each line shows beside that which theory gives.
 
 use chart::{Axis, ChartError, EndLabel, Series, end_labels, log_log, svg};
 
 use super::palette::Palette;
 use crate::measure::convergence::Convergence;
 
-/// Where labels begin (pixels).
+/// Where the labels begin (pixels from the top).
 const TOP: i32 = 80;
 
 /// Room for labels beside the lines (pixels).
@@ -19,10 +19,11 @@ pub(super) fn order(all: &[Convergence], palette: &Palette<'_>) -> Result<String
         palette.line(&found.subject, label, found.points.clone(), Vec::new())
     };
     let lines: Vec<Series> = all.iter().map(of_subject).collect();
-    let (x, y) = (Axis::positive("step [s]", 1.0..1e-4), Axis::positive("error of the state", 1e-12..10.0));
+    let (x, y) = (Axis::logarithmic("step [s]", 1.0..1e-4), Axis::logarithmic("error of the state", 1e-12..10.0));
     svg((2000, 1000), |root| {
-        let labels = log_log(root, "fixed steps: error, and observed order of theory's", (&x, &y), &lines, RIGHT)?;
-        // The lines end next to each other at the lower edge: their names stand in a column from the top.
+        let labels =
+            log_log(root, "Fixed steps: error, and the order observed of that expected", (&x, &y), &lines, RIGHT)?;
+        // The lines end next to each other at the lower edge, so their names stand in a column from the top.
         let from_the_top = labels.into_iter().map(|label| EndLabel { y: TOP, ..label }).collect();
         end_labels(root, 2000 - i32::try_from(RIGHT).unwrap_or(0) + 20, from_the_top)
     })

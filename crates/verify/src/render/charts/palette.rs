@@ -1,4 +1,5 @@
-//! How solvers are drawn: the colour follows from the registry, the form from the scheme.
+//! Chooses how solvers are drawn, alike in all charts: the colour comes from the registry, the form of points and lines from
+//! the scheme or the formulation.
 
 use chart::{LINE_WIDTH, Marker, Series};
 use plotters::style::RGBColor;
@@ -23,7 +24,7 @@ impl<'a> Palette<'a> {
         RGBColor(red, green, blue)
     }
 
-    /// The line of a subject: its solver's colour, and a form for its scheme.
+    /// The line of a subject, in the colour of its solver and with the form of its scheme.
     pub(super) fn line(&self, subject: &str, label: String, points: Vec<(f64, f64)>, failures: Vec<f64>) -> Series {
         let (marker, dashed) = match subject.split('/').nth(1) {
             Some("dopri5") => (Marker::Triangle, false),
@@ -34,7 +35,7 @@ impl<'a> Palette<'a> {
         Series { label, colour: self.colour(subject), width: LINE_WIDTH, dashed, marker, points, failures }
     }
 
-    /// The contestants of the atlas, each by the first of its schemes, with a form for its formulation.
+    /// The contestants of the atlas, each by the first scheme of its solver and with the form of its formulation.
     pub(super) fn contestants(&self) -> Vec<(String, RGBColor, bool, Marker)> {
         let forms = [
             (Formulation::RAW, true, Marker::Ring),
