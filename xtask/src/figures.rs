@@ -5,7 +5,7 @@ use std::process::{ExitCode, Stdio};
 
 use clap::Args;
 
-use crate::{program, root};
+use crate::{output, program, root};
 
 /// Draw the figures of docs/figures
 #[derive(Debug, Args)]
@@ -53,7 +53,7 @@ impl Figures {
         draw(&fresh)?;
         let stale: Vec<&str> = stale(&committed, &fresh).collect();
         for file in &stale {
-            eprintln!("not current: {FOLDER}/{file}; `cargo xtask figures` draws it");
+            output::say(format_args!("not current: {FOLDER}/{file}; `cargo xtask figures` draws it"));
         }
         Ok(ExitCode::from(u8::from(!stale.is_empty())))
     }

@@ -6,6 +6,7 @@
 
 mod figures;
 mod mutants;
+mod output;
 mod program;
 mod verify;
 
@@ -13,6 +14,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
+
+/// Arguments that are not understood.
+const BAD_USAGE: u8 = 2;
 
 /// What could not be built or started.
 const COULD_NOT_RUN: u8 = 4;
@@ -29,15 +33,21 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    let ended = match Task::parse() {
-        Task::Verify(task) => task.run(),
-        Task::Bench(task) => task.run(),
-        Task::History(task) => task.run(),
-        Task::Figures(task) => task.run(),
-        Task::Mutants(task) => task.run(),
+    let ended = match Task::try_parse() {
+        Ok(Task::Verify(task)) => task.run(),
+        Ok(Task::Bench(task)) => task.run(),
+        Ok(Task::History(task)) => task.run(),
+        Ok(Task::Figures(task)) => task.run(),
+        Ok(Task::Mutants(task)) => task.run(),
+        Err(asked) if !asked.use_stderr() => output::printed(asked.print()).map(|()| ExitCode::SUCCESS),
+        // Without a standard error there is nobody to say it to.
+        Err(error) => {
+            let _ = error.print();
+            Ok(ExitCode::from(BAD_USAGE))
+        }
     };
     ended.unwrap_or_else(|message| {
-        eprintln!("error: {message}");
+        output::say(format_args!("error: {message}"));
         ExitCode::from(COULD_NOT_RUN)
     })
 }

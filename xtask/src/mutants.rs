@@ -10,7 +10,7 @@ use std::process::{Command, ExitCode, ExitStatus};
 
 use clap::Args;
 
-use crate::root;
+use crate::{output, root};
 
 const EXPLANATIONS: &str = "validation/mutants.md";
 const FOLDER: &str = "target";
@@ -46,14 +46,11 @@ fn compare(complete: bool) -> Result<ExitCode, String> {
     let explained = count(explained(&read(EXPLANATIONS)?).map(str::to_owned));
     let unexplained = beyond(&survived, &explained);
     let caught = if complete { beyond(&explained, &survived) } else { Vec::new() };
-    for mutant in &unexplained {
-        println!("survived, not explained: {mutant}");
-    }
-    for mutant in &caught {
-        println!("explained, but caught:   {mutant}");
-    }
+    let lines = unexplained.iter().map(|mutant| format!("survived, not explained: {mutant}\n"));
+    let lines = lines.chain(caught.iter().map(|mutant| format!("explained, but caught:   {mutant}\n")));
     let all: usize = survived.values().sum();
-    println!("{all} survived, {} of them not explained in {EXPLANATIONS}", unexplained.len());
+    let sum = format!("{all} survived, {} of them not explained in {EXPLANATIONS}\n", unexplained.len());
+    output::print(&lines.chain([sum]).collect::<String>())?;
     Ok(ExitCode::from(u8::from(!(unexplained.is_empty() && caught.is_empty()))))
 }
 

@@ -7,7 +7,7 @@ use std::io::IsTerminal;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::{COULD_NOT_RUN, root};
+use crate::{COULD_NOT_RUN, output, root};
 
 /// Builds `program` with optimisation and returns the command that runs it in the root of the workspace; the program's
 /// arguments are to be added.
@@ -50,7 +50,7 @@ fn build(program: &str) {
         std::thread::sleep(Duration::from_millis(50));
         if !on_terminal && started.elapsed().as_secs() / 60 > minutes {
             minutes += 1;
-            eprintln!("building {program}, for {minutes} min so far");
+            output::say(format_args!("building {program}, for {minutes} min so far"));
         }
     }
 }

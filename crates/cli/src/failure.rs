@@ -2,8 +2,11 @@
 //! type, so that every command reports a failure in the same way.
 
 use chart::ChartError;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
+
+use crate::output::{self, SCHEMA};
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
@@ -11,9 +14,17 @@ pub(crate) enum Failure {
     /// Invalid input, or a solver that failed.
     #[error(transparent)]
     Unanswered(#[from] Error),
+    /// Arguments that are not understood.
+    #[error("{}", words(.0))]
+    Arguments(clap::Error),
     /// An option that is missing, invalid or in conflict with another.
-    #[error("{0}")]
-    Usage(String),
+    #[error("{message}")]
+    Usage {
+        /// The option at fault.
+        field: &'static str,
+        /// What is wrong with it.
+        message: String,
+    },
     /// A file that can't be read.
     #[error("cannot read {path}: {source}")]
     Read {
@@ -30,7 +41,10 @@ pub(crate) enum Failure {
         /// The error, with its line and column.
         source: Error,
     },
-    /// A file or standard output that can't be written.
+    /// Standard output that can't be written.
+    #[error("cannot write standard output: {0}")]
+    Print(std::io::Error),
+    /// A file that can't be written.
     #[error("cannot write {target}: {source}")]
     Write {
         /// The file, or "standard output".
@@ -56,9 +70,24 @@ impl From<SolveError> for Failure {
 }
 
 impl Failure {
-    /// The exit code: 1 if the solver failed, 2 for bad usage or input.
+    /// The option `field` can't be used, as `message` says.
+    pub(crate) fn usage(field: &'static str, message: impl Into<String>) -> Self {
+        Self::Usage { field, message: message.into() }
+    }
+
+    /// Says on standard error what is wrong.
+    pub(crate) fn report(&self) {
+        match self {
+            // With colours and the usage. If that can't be written there is nowhere left to say so.
+            Self::Arguments(error) => _ = error.print(),
+            _ => whole_file::report(self),
+        }
+    }
+
+    /// The exit code: 1 if the solver failed or the answer can't be printed, 2 for bad usage or input.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
+            Self::Print(_) => 1,
             Self::Unanswered(error) if !error.is_input() => 1,
             _ => 2,
         }
@@ -67,14 +96,14 @@ impl Failure {
     fn kind(&self) -> &'static str {
         match self {
             Self::Unanswered(error) | Self::Text { source: error, .. } => error.kind(),
-            Self::Usage(_) => "input",
+            Self::Arguments(_) | Self::Usage { .. } => "input",
             Self::Read { .. } => "read",
-            Self::Write { .. } => "write",
+            Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
         }
     }
 
-    /// `{"error":{"kind":..,"message":..,..}}`, with further fields that depend on the kind, such as `field` or `time`.
+    /// `{"error":{"kind":..,"message":..,..},..}` with further fields that depend on the kind, such as `field` or `time`.
     pub(crate) fn to_json(&self) -> String {
         let mut error = Map::new();
         error.insert("kind".to_owned(), json!(self.kind()));
@@ -82,7 +111,7 @@ impl Failure {
         if let Value::Object(details) = self.details() {
             error.extend(details);
         }
-        json!({ "error": error }).to_string()
+        output::plain_json(&json!({ "schema": SCHEMA, "error": error }))
     }
 
     fn details(&self) -> Value {
@@ -90,9 +119,33 @@ impl Failure {
             Self::Unanswered(error) => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
             Self::Read { path, .. } => json!({"path": path}),
-            Self::Usage(_) | Self::Write { .. } | Self::Chart(_) => json!({}),
+            Self::Arguments(error) => option_of(error).map_or_else(|| json!({}), |field| json!({"field": field})),
+            Self::Usage { field, .. } => json!({"field": field}),
+            Self::Write { target, .. } => json!({"path": target}),
+            Self::Print(_) | Self::Chart(_) => json!({}),
         }
     }
+}
+
+/// What clap says is wrong, in a line, without the usage.
+fn words(error: &clap::Error) -> String {
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return "a command is needed; --help lists them".to_owned();
+    }
+    let text = error.to_string();
+    let text = text.strip_prefix("error: ").unwrap_or(&text);
+    let end = ["\n\nUsage:", "\n\nFor more information"].iter().filter_map(|rest| text.find(rest)).min();
+    text[..end.unwrap_or(text.len())].split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The option that clap complains about, without dashes and value.
+fn option_of(error: &clap::Error) -> Option<String> {
+    let argument = match error.get(ContextKind::InvalidArg)? {
+        ContextValue::String(argument) => argument,
+        ContextValue::Strings(arguments) => arguments.first()?,
+        _ => return None,
+    };
+    argument.trim_start_matches('-').split([' ', '=']).next().map(str::to_owned)
 }
 
 fn details(error: &Error) -> Value {
@@ -124,10 +177,8 @@ fn solve_details(source: &SolveError) -> Value {
     match source {
         SolveError::PhaseTooLarge { phase } => json!({"phase": phase}),
         SolveError::Singular { point, time } => json!({"point": point.to_string(), "time": time}),
-        SolveError::NotOffered { scheme } => json!({"scheme": scheme}),
         SolveError::StepLimit { time, limit } => json!({"time": time, "limit": limit}),
         SolveError::StepSizeUnderflow { time } | SolveError::NotFinite { time } => json!({"time": time}),
-        SolveError::Misbehaved { solver, .. } | SolveError::Failed { solver, .. } => json!({"solver": solver}),
         _ => json!({}),
     }
 }

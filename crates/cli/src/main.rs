@@ -1,31 +1,29 @@
 //! The command `unfair-toss` tosses coins, traces their flights and estimates probabilities of heads. It parses
 //! options, calls the libraries and prints their answers, so that each computation can also be made from Rust.
 //!
-//! The exit code is 0 for an answer, 1 if the solver failed, and 2 for bad usage or input.
+//! The exit code is 0 for an answer, 1 if the solver failed or standard output can't be written, and 2 for bad usage or
+//! input.
 
 mod chart;
 mod commands;
 mod failure;
+mod input;
 mod output;
 mod solver_args;
 mod space_args;
 mod toss_args;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{convergence, errors, intervals, inverse, limit, list, map, plan, probability, toss, trace};
 use crate::failure::Failure;
-use crate::output::{DataFormat, Format};
+use crate::output::Input;
 
 #[derive(Debug, Parser)]
-#[command(
-    name = "unfair-toss",
-    version,
-    about = "Computes how a tossed coin lands, and how probable heads is",
-    propagate_version = true
-)]
+#[command(name = "unfair-toss", version, about = "Computes how a tossed coin lands, and how probable heads is")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -64,55 +62,53 @@ enum Command {
 }
 
 impl Command {
-    fn run(&self) -> Result<String, Failure> {
+    fn run(&self, input: &Input) -> Result<String, Failure> {
         match self {
-            Self::Toss(args) => args.run(),
-            Self::Trace(args) => args.run(),
-            Self::Probability(args) => args.run(),
-            Self::Convergence(args) => args.run(),
-            Self::Errors(args) => args.run(),
-            Self::Map(args) => args.run(),
-            Self::Intervals(args) => args.run(),
-            Self::Inverse(args) => args.run(),
-            Self::Limit(args) => args.run(),
-            Self::Plan(args) => args.run(),
-            Self::Coins(args) => list::coins(args),
-            Self::Solvers(args) => list::solvers(args),
-            Self::Models(args) => list::models(args),
-            Self::Spaces(args) => list::spaces(args),
-        }
-    }
-
-    fn wants_json(&self) -> bool {
-        match self {
-            Self::Toss(args) => args.format == Format::Json,
-            Self::Trace(args) => args.series.format == DataFormat::Json,
-            Self::Convergence(args) => args.series.format == DataFormat::Json,
-            Self::Errors(args) => args.series.format == DataFormat::Json,
-            Self::Map(args) => args.series.format == DataFormat::Json,
-            Self::Limit(args) => args.series.format == DataFormat::Json,
-            Self::Probability(args) => args.format == Format::Json,
-            Self::Intervals(args) => args.format == Format::Json,
-            Self::Inverse(args) => args.format == Format::Json,
-            Self::Plan(args) => args.format == Format::Json,
-            Self::Coins(args) | Self::Solvers(args) | Self::Models(args) | Self::Spaces(args) => {
-                args.format == Format::Json
-            }
+            Self::Toss(args) => args.run(input),
+            Self::Trace(args) => args.run(input),
+            Self::Probability(args) => args.run(input),
+            Self::Convergence(args) => args.run(input),
+            Self::Errors(args) => args.run(input),
+            Self::Map(args) => args.run(input),
+            Self::Intervals(args) => args.run(input),
+            Self::Inverse(args) => args.run(input),
+            Self::Limit(args) => args.run(input),
+            Self::Plan(args) => args.run(input),
+            Self::Coins(args) => list::coins(args, input),
+            Self::Solvers(args) => list::solvers(args, input),
+            Self::Models(args) => list::models(args, input),
+            Self::Spaces(args) => list::spaces(args, input),
         }
     }
 }
 
 fn main() -> ExitCode {
-    let command = Cli::parse().command;
-    match command.run().and_then(|text| output::print(&text)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprintln!("error: {failure}");
-            if command.wants_json() {
-                // An error here means that standard output is closed; the message above and the exit code remain.
-                let _ = output::print(&failure.to_json());
-            }
-            ExitCode::from(failure.exit_code())
-        }
+    let printed = match Cli::command().try_get_matches() {
+        Ok(given) => answer(&given).and_then(|text| output::print(&text)),
+        Err(asked) if !asked.use_stderr() => whole_file::unless_closed(asked.print()).map_err(Failure::Print),
+        Err(error) => Err(Failure::Arguments(error)),
+    };
+    let Err(failure) = printed else { return ExitCode::SUCCESS };
+    failure.report();
+    if wants_json(std::env::args_os().skip(1)) {
+        // If this can't be printed, the message above and the exit code still tell.
+        let _ = output::print(&failure.to_json());
     }
+    ExitCode::from(failure.exit_code())
+}
+
+/// The answer of the command that the arguments ask for.
+fn answer(given: &ArgMatches) -> Result<String, Failure> {
+    let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
+    let program = Cli::command();
+    let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
+    let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
+    command.run(&input)
+}
+
+/// Whether `arguments`, which may be none that the program understands, ask for JSON.
+fn wants_json(arguments: impl Iterator<Item = OsString>) -> bool {
+    let arguments: Vec<OsString> = arguments.collect();
+    arguments.iter().any(|argument| argument == "--format=json")
+        || arguments.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
 }

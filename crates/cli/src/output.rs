@@ -1,11 +1,11 @@
 //! Prints answers as text, JSON or CSV, and writes charts. All commands use these functions, so that their output has
 //! the same form.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
+use serde_json::ser::{CompactFormatter, Formatter};
 
 use crate::failure::Failure;
 
@@ -30,47 +30,101 @@ pub(crate) enum DataFormat {
 /// Options of a command that prints a series of data.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SeriesArgs {
-    /// Output format
-    #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
-    pub(crate) format: DataFormat,
-    /// Also draw a chart into this file
+    /// Output format of the data [default: csv]
+    #[arg(long, value_enum)]
+    format: Option<DataFormat>,
+    /// Also draw a chart into this file; - draws it on standard output, in place of the data
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
 impl SeriesArgs {
-    /// Writes the chart that `draw` makes if `--svg` was given. The file is written whole or not at all.
-    pub(crate) fn draw(&self, draw: impl FnOnce() -> Result<String, Failure>) -> Result<(), Failure> {
-        let Some(path) = &self.svg else { return Ok(()) };
-        whole_file::write(path, &draw()?)
-            .map_err(|source| Failure::Write { target: path.display().to_string(), source })
+    /// Refuses a format of data that will not be printed, before anything is computed.
+    pub(crate) fn validate(&self) -> Result<(), Failure> {
+        match (&self.svg, self.format) {
+            (Some(path), Some(_)) if whole_file::leads_to(path) => Err(Failure::usage(
+                "format",
+                "--format has no effect with --svg on standard output, where the chart stands in place of the data",
+            )),
+            _ => Ok(()),
+        }
     }
 
-    /// Formats lines of plain data as `--format` says.
-    pub(crate) fn data(&self, lines: &[impl Serialize]) -> String {
-        match self.format {
-            DataFormat::Csv => csv(lines),
-            DataFormat::Json => json(&lines),
+    /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
+    pub(crate) fn answer(
+        &self,
+        data: impl FnOnce(DataFormat) -> String,
+        draw: impl FnOnce() -> Result<String, Failure>,
+    ) -> Result<String, Failure> {
+        if let Some(path) = &self.svg {
+            let chart = draw()?;
+            if whole_file::leads_to(path) {
+                return Ok(chart);
+            }
+            whole_file::write(path, &chart)
+                .map_err(|source| Failure::Write { target: path.display().to_string(), source })?;
         }
+        Ok(data(self.format.unwrap_or(DataFormat::Csv)))
+    }
+}
+
+/// Lines of plain data in `format`.
+pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize]) -> String {
+    #[derive(Serialize)]
+    struct Answer<'a, T> {
+        series: &'a [T],
+    }
+    match format {
+        DataFormat::Csv => csv(series),
+        DataFormat::Json => json(input, &Answer { series }),
     }
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    let written =
-        out.write_all(text.trim_end().as_bytes()).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
-    match written {
-        Err(source) if source.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::Write { target: "standard output".to_owned(), source })
-        }
-        _ => Ok(()),
+    whole_file::print(&format!("{}\n", text.trim_end())).map_err(Failure::Print)
+}
+
+/// The number of the format that `docs/json.md` describes. It grows when a field changes its meaning or goes away.
+pub(crate) const SCHEMA: u32 = 1;
+
+/// The input of a command; see [`input`](crate::input).
+pub(crate) type Input = serde_json::Map<String, serde_json::Value>;
+
+/// An answer with what every answer has.
+#[derive(Serialize)]
+struct Answered<'a, T> {
+    schema: u32,
+    input: &'a Input,
+    #[serde(flatten)]
+    answer: &'a T,
+}
+
+/// An answer, which has fields, as JSON.
+pub(crate) fn json(input: &Input, answer: &impl Serialize) -> String {
+    plain_json(&Answered { schema: SCHEMA, input, answer })
+}
+
+/// Plain data as JSON: numbers with the fewest digits that read back as the same number, and no -0.
+pub(crate) fn plain_json(value: &impl Serialize) -> String {
+    let mut text = Vec::new();
+    let written = value.serialize(&mut serde_json::Serializer::with_formatter(&mut text, NoNegativeZero));
+    written.expect("plain data with string keys is always JSON");
+    String::from_utf8(text).expect("JSON is UTF-8")
+}
+
+/// Compact JSON in which -0, which equals 0 and surprises programs, is 0.
+struct NoNegativeZero;
+
+impl Formatter for NoNegativeZero {
+    fn write_f64<W: ?Sized + std::io::Write>(&mut self, to: &mut W, value: f64) -> std::io::Result<()> {
+        CompactFormatter.write_f64(to, without_sign_of_zero(value))
     }
 }
 
-/// Formats plain data as JSON.
-pub(crate) fn json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).expect("plain data with string keys is always JSON")
+/// -0 as 0; any other number as it is.
+pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
+    value + 0.0
 }
 
 /// Formats lines of plain data as CSV with a heading.

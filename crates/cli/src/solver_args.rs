@@ -21,17 +21,17 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "H", allow_hyphen_values = true,
           help = format!("Step of {} (s) [default: {}]", schemes_with_a_step(), Stepping::DEFAULT_STEP))]
     step: Option<f64>,
-    #[arg(long, value_name = "NAME", alias = "frame", default_value = Formulation::default().name(),
-          help = format!("Formulation of the kinematics: {}", formulations()))]
-    formulation: String,
+    #[arg(long, value_name = "NAME", alias = "frame", help = formulation_help())]
+    formulation: Option<String>,
 }
 
 impl SolverArgs {
     /// The solver with its settings.
     pub(crate) fn backend(&self) -> Result<Backend, Failure> {
         let registry = Registry::standard();
-        let scheme = self.scheme(registry.named(&self.solver)?)?;
-        let formulation = Formulation::named(&self.formulation)?;
+        let entry = registry.named(&self.solver)?;
+        let (scheme, formulation) = (self.scheme(entry)?, self.formulation(entry)?);
+        self.require_steps(entry)?;
         Ok(registry.backend(&self.solver, &Settings { stepping: self.stepping(scheme)?, formulation })?)
     }
 
@@ -39,9 +39,31 @@ impl SolverArgs {
         match self.scheme.as_deref() {
             None => Ok(default_scheme(entry)),
             Some(name) if entry.integrates() => entry.scheme(name),
-            // A closed form ignores the scheme, so any known one is accepted.
+            // A closed form is refused any scheme, but a name that is none is the clearer complaint.
             Some(name) => find_named("scheme", name, &all_schemes(), |scheme| scheme.name()).copied(),
         }
+    }
+
+    /// Refuses what would have no effect with a solver that takes no steps.
+    fn require_steps(&self, entry: &SolverEntry) -> Result<(), Failure> {
+        let given =
+            [("scheme", self.scheme.is_some()), ("tolerance", self.tolerance.is_some()), ("step", self.step.is_some())];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) if !entry.integrates() => {
+                Err(no_effect(option, &format!("--{option}"), entry, SolverEntry::integrates))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn formulation(&self, entry: &SolverEntry) -> Result<Formulation, Failure> {
+        let Some(name) = &self.formulation else { return Ok(Formulation::default()) };
+        let formulation = Formulation::named(name)?;
+        let differs = |entry: &SolverEntry| entry.formulations().contains(&formulation);
+        if differs(entry) {
+            return Ok(formulation);
+        }
+        Err(no_effect("formulation", &format!("--formulation {name}"), entry, differs))
     }
 
     fn stepping(&self, scheme: Scheme) -> Result<Stepping, Failure> {
@@ -52,11 +74,23 @@ impl SolverArgs {
             }
             (false, None, step) => Ok(Stepping::fixed(scheme, step.unwrap_or(Stepping::DEFAULT_STEP))?),
             (true, _, Some(_)) => {
-                Err(Failure::Usage(format!("--step is for {}; {name} takes --tolerance", schemes_with_a_step())))
+                let message = format!("--step is for {}; {name} takes --tolerance", schemes_with_a_step());
+                Err(Failure::usage("step", message))
             }
-            (false, Some(_), _) => Err(Failure::Usage(format!("--tolerance: {name} takes --step"))),
+            (false, Some(_), _) => Err(Failure::usage("tolerance", format!("--tolerance: {name} takes --step"))),
         }
     }
+}
+
+/// The error of an option, `given` so, that has an effect with other solvers than `entry`.
+fn no_effect(
+    option: &'static str,
+    given: &str,
+    entry: &SolverEntry,
+    has_effect: impl Fn(&SolverEntry) -> bool,
+) -> Failure {
+    let (name, others) = (entry.name(), solvers(has_effect));
+    Failure::usage(option, format!("{given} has no effect with --solver {name}; it is for {others}"))
 }
 
 /// The scheme that is used if no `--scheme` is given.
@@ -76,6 +110,14 @@ fn scheme_help() -> String {
 fn tolerance_help() -> String {
     let schemes = schemes(Scheme::is_adaptive);
     format!("Local error per step of {schemes}, absolute and relative [default: {:e}]", Stepping::DEFAULT_TOLERANCE)
+}
+
+fn formulation_help() -> String {
+    format!(
+        "Formulation of the kinematics of an integrator: {} [default: {}]",
+        formulations(),
+        Formulation::default().name()
+    )
 }
 
 /// The names of the schemes that take a fixed step.

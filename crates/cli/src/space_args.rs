@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use clap::Args;
-use sampling::{Coordinate, DescribedSpace, Plan, Rest, Sampler, Scrambled, Space, named_space};
+use sampling::{AxisOrTie, Coordinate, DescribedSpace, Plan, Rest, Sampler, Scrambled, Space, named_space};
 use toss::{Coin, Error};
 
 use crate::failure::Failure;
@@ -50,11 +50,28 @@ impl SpaceArgs {
         let given: Vec<(Coordinate, &str)> =
             Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
         if given.is_empty() {
-            return Err(Failure::Usage(
-                "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed".to_owned(),
-            ));
+            let message = "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed";
+            return Err(Failure::usage("space", message));
         }
         Ok(Space::parse(self.coin.given()?.unwrap_or(Coin::PAPER), &given)?)
+    }
+
+    /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its
+    /// points for those commands and methods that lay one.
+    pub(crate) fn require_grid_where_points_are(
+        &self,
+        space: &Space,
+        has_grid: impl Fn(Coordinate) -> bool,
+    ) -> Result<(), Failure> {
+        let own_axis = |of: &Coordinate| matches!(space.axis_or_tie(*of), AxisOrTie::Axis(_));
+        let has_points = |of: &Coordinate| own_axis(of) && space.axis(*of).points().is_some();
+        let idle = space.free().find(|of| self.space.is_none() && has_points(of) && !has_grid(*of));
+        idle.map_or(Ok(()), |of| {
+            let axis = space.axis(of);
+            let message =
+                format!("{} = '{axis}': the number of points has no effect, no grid is laid over it", of.field());
+            Err(Failure::usage(of.field(), message))
+        })
     }
 }
 
@@ -79,9 +96,9 @@ pub(crate) struct PlanArgs {
     /// grid of the other axes if all have points, else as many launches as sobol]
     #[arg(long, value_name = "N")]
     points: Option<u64>,
-    /// Seed of the random launches or of the scrambles
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    seed: u64,
+    /// Seed of the random launches or of the scrambles [default: 1]
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
 }
 
 /// The method by which launches are chosen.
@@ -107,22 +124,64 @@ pub(crate) struct DefaultPoints {
 impl PlanArgs {
     /// The plan for sampling `space`.
     pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: DefaultPoints) -> Result<Plan, Failure> {
-        let seed = self.seed;
+        let seed = self.seed.unwrap_or(1);
         let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
-        match method {
-            MethodArg::Grid if self.points.is_some() => {
-                Err(Failure::Usage("--points: a grid takes its points from the axes, LO:HI:POINTS".to_owned()))
-            }
-            MethodArg::Grid => Ok(Plan::Grid),
-            MethodArg::Random => Ok(Plan::Random { points: self.points.unwrap_or(default.random), seed }),
-            MethodArg::Sobol => Ok(Plan::Sobol(scrambled())),
+        let plan = match method {
+            MethodArg::Grid => Plan::Grid,
+            MethodArg::Random => Plan::Random { points: self.points.unwrap_or(default.random), seed },
+            MethodArg::Sobol => Plan::Sobol(scrambled()),
             MethodArg::ExactSpeed => {
                 let grid = Plan::ExactSpeed(Rest::Grid);
+                let only_the_speed_is_free = space.free().all(|of| of == Coordinate::Speed);
                 let has_grid = self.points.is_none() && grid.points(space).is_ok();
-                Ok(if has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) })
+                if only_the_speed_is_free || has_grid { grid } else { Plan::ExactSpeed(Rest::Sobol(scrambled())) }
             }
+        };
+        self.require_effect(plan, space)?;
+        Ok(plan)
+    }
+
+    /// Refuses numbers that `plan` has no use for.
+    fn require_effect(&self, plan: Plan, space: &Space) -> Result<(), Failure> {
+        let why = match plan {
+            Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => return Ok(()),
+            Plan::ExactSpeed(Rest::Grid) if space.free().all(|of| of == Coordinate::Speed) => {
+                "exact-speed needs no sample where at most the speed is free"
+            }
+            Plan::Grid | Plan::ExactSpeed(Rest::Grid) => "a grid takes its points from the axes, LO:HI:POINTS",
+        };
+        match (self.points, self.seed) {
+            (Some(_), _) => Err(Failure::usage("points", format!("--points: {why}"))),
+            (None, Some(_)) => Err(Failure::usage("seed", format!("--seed: no launch is drawn at random, {why}"))),
+            (None, None) => Ok(()),
         }
     }
+}
+
+/// Whether `plan` lays a grid over the coordinate `of`.
+pub(crate) fn lays_grid(plan: Plan, of: Coordinate) -> bool {
+    match plan {
+        Plan::Grid => true,
+        Plan::ExactSpeed(Rest::Grid) => of != Coordinate::Speed,
+        Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => false,
+    }
+}
+
+/// More launches than this are refused by the exact motion: from hours for its grids to months where the speed is
+/// integrated.
+const MOST_LAUNCHES: u64 = 10_000_000_000_000;
+
+/// More launches than this are refused by an integrator, which takes some 10 µs for each.
+const MOST_INTEGRATED_LAUNCHES: u64 = 1_000_000_000;
+
+/// Refuses `launches` that would take years.
+pub(crate) fn require_few(sampler: &Sampler<'_>, launches: u64) -> Result<(), Failure> {
+    let most = if sampler.is_exact() { MOST_LAUNCHES } else { MOST_INTEGRATED_LAUNCHES };
+    if launches <= most {
+        return Ok(());
+    }
+    let by = if sampler.is_exact() { "the exact motion" } else { "an integrator" };
+    Err(Failure::usage("points", format!("{launches} launches would take too long: at most {most} by {by}")))
 }
 
 /// Option for the number of threads.
@@ -141,6 +200,7 @@ impl ThreadArgs {
         (number, things): (u64, &'static str),
         question: impl FnOnce(&Sampler<'_>) -> Result<T, Error> + Send,
     ) -> Result<T, Failure> {
+        require_few(&sampler, number)?;
         let pool = self.pool()?;
         let bar = progress_bar(number, things);
         let progress = |more| bar.inc(more);
@@ -154,9 +214,12 @@ impl ThreadArgs {
         let threads = match self.threads {
             None => 0,
             Some(threads @ 1..=MOST_THREADS) => threads,
-            Some(threads) => return Err(Failure::Usage(format!("threads = {threads}: valid are 1 to {MOST_THREADS}"))),
+            Some(threads) => {
+                let message = format!("threads = {threads}: valid are 1 to {MOST_THREADS}");
+                return Err(Failure::usage("threads", message));
+            }
         };
         let build = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        build.map_err(|error| Failure::Usage(format!("threads = {threads}: {error}")))
+        build.map_err(|error| Failure::usage("threads", format!("threads = {threads}: {error}")))
     }
 }

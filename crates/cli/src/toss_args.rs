@@ -74,9 +74,9 @@ pub(crate) struct TossArgs {
     /// Height of the launch above the landing (m), negative if the coin lands higher [default: 0]
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     drop: Option<f64>,
-    /// Tilt at launch: a turn about the lab's x axis (rad)
-    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
-    tilt: f64,
+    /// Tilt at launch: a turn about the lab's x axis (rad) [default: 0]
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    tilt: Option<f64>,
     /// Air drag is outside the model; the option is refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     drag: Option<String>,
@@ -94,14 +94,14 @@ impl TossArgs {
             return Err(NO_BOUNCE.into());
         }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = self.rate.as_deref().ok_or_else(|| Failure::Usage("--rate WX,WY,WZ is needed".to_owned()))?;
+        let rate = self.rate.as_deref().ok_or_else(|| Failure::usage("rate", "--rate WX,WY,WZ is needed"))?;
         let rate = Vector3::from(numbers("rate", rate, "WX,WY,WZ [rad/s]")?);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
-            (None, None) => return Err(Failure::Usage("one of --speed and --time is needed".to_owned())),
+            (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
-        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt)?;
+        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt.unwrap_or(0.0))?;
         Ok(Toss { coin, launch })
     }
 }

@@ -28,11 +28,11 @@ fn every_solver_and_scheme_reproduces_the_reference_value_of_cos_tilt() {
 fn the_answer_has_the_fields_of_the_contract() {
     let answer = json("toss --moments 0.04,0.02 --rate 2,4,6 --time 1", 0);
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
-    let toss = ["coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude"];
+    let toss = ["schema", "input", "coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude"];
     for field in toss.into_iter().chain(["rate", "norm_error", "defect", "solver", "scheme", "method", "work"]) {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 14);
+    assert_eq!(fields.len(), 16);
     // Kane's body, with its reference values.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -270,26 +270,27 @@ fn the_inverse_launch_has_the_wanted_probability() {
 
 #[test]
 fn lists_name_every_coin_solver_model_and_space() {
-    let coins = json("coins", 0);
+    let list = |name: &str| json(name, 0)[name].clone();
+    let coins = list("coins");
     assert!(coins.as_array().unwrap().len() >= 14);
     assert!(coins.as_array().unwrap().iter().all(|coin| coin["source"].as_str().is_some_and(|text| !text.is_empty())));
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|line| line["name"].as_str().unwrap().to_owned()).collect()
     };
-    let solvers = json("solvers", 0);
+    let solvers = list("solvers");
     let registered: Vec<&str> = Registry::standard().entries().iter().map(SolverEntry::name).collect();
     assert_eq!(names(&solvers), registered);
     let quaternion = &solvers[3];
     assert_eq!(quaternion["schemes"], serde_json::json!(["dop853", "dopri5", "rk4", "taylor"]));
     assert_eq!(quaternion["methods"], quaternion["schemes"]);
     assert_eq!(quaternion["formulations"], serde_json::json!(["momentum", "raw"]));
-    let models = json("models", 0);
+    let models = list("models");
     assert_eq!(names(&models)[..3], ["outcome", "tilt", "attitude"]);
     assert!(models[0]["cost_ns"].as_f64() > Some(0.0) && models[5]["cost_ns"].is_null());
-    assert_eq!(names(&json("spaces", 0)), ["paper-fig4", "cheated", "tails"]);
-    for list in ["coins", "solvers", "models", "spaces"] {
-        let text = stdout(&run(list));
-        assert!(names(&json(list, 0)).iter().all(|name| text.contains(name.as_str())), "{list}");
+    assert_eq!(names(&list("spaces")), ["paper-fig4", "cheated", "tails"]);
+    for kind in ["coins", "solvers", "models", "spaces"] {
+        let text = stdout(&run(kind));
+        assert!(names(&list(kind)).iter().all(|name| text.contains(name.as_str())), "{kind}");
     }
 }
 

@@ -15,8 +15,11 @@
 //! Drag and bounce are outside the model. They are fields of a launch nevertheless, so that they are refused with the
 //! reason instead of as an "unknown field".
 
+use std::fmt;
+
 use nalgebra::Vector3;
-use serde::de::{Error, IgnoredAny};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::attitude::Attitude;
@@ -38,42 +41,63 @@ pub const NO_BOUNCE: InputError = InputError::OutsideModel {
     why: "the flight ends at the first landing, and what the coin does on the floor is not solved",
 };
 
-/// A coin as it stands in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }")]
-enum CoinData {
-    Named(String),
-    Moments { moments: Vec<f64> },
-    Cylinder { cylinder: [f64; 3] },
+/// A coin as it stands in a file, unless it is given by its name.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct CoinData {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moments: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cylinder: Option<Vec<f64>>,
 }
 
 impl TryFrom<CoinData> for Coin {
     type Error = InputError;
 
     fn try_from(data: CoinData) -> Result<Self, InputError> {
-        match data {
-            CoinData::Named(name) => named_coin(&name),
-            CoinData::Moments { moments } => Self::from_listed_moments(&moments),
-            CoinData::Cylinder { cylinder: [mass, radius, thickness] } => Self::from_cylinder(mass, radius, thickness),
+        match (data.moments, data.cylinder) {
+            (Some(moments), None) => Self::from_listed_moments(&moments),
+            (None, Some(cylinder)) => {
+                let [mass, radius, thickness] = exactly("cylinder [kg, m, m]", cylinder, "[mass, radius, thickness]")?;
+                Self::from_cylinder(mass, radius, thickness)
+            }
+            (None, None) => Err(InputError::Missing { field: "coin", expected: COIN }),
+            (Some(_), Some(_)) => Err(twice("coin", "either moments or cylinder")),
         }
     }
 }
 
-impl From<Coin> for CoinData {
-    fn from(coin: Coin) -> Self {
-        Self::Moments { moments: vec![coin.i1(), coin.i3()] }
+/// What a coin may be written as.
+const COIN: &str = "a name, { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }";
+
+/// Reads a coin by its name or from its table.
+struct CoinVisitor;
+
+impl<'de> Visitor<'de> for CoinVisitor {
+    type Value = Coin;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(COIN)
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Coin, E> {
+        named_coin(name).map_err(E::custom)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Coin, A::Error> {
+        CoinData::deserialize(MapAccessDeserializer::new(table))?.try_into().map_err(A::Error::custom)
     }
 }
 
 impl<'de> Deserialize<'de> for Coin {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        CoinData::deserialize(from)?.try_into().map_err(D::Error::custom)
+        from.deserialize_any(CoinVisitor)
     }
 }
 
 impl Serialize for Coin {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        CoinData::from(*self).serialize(to)
+        CoinData { moments: Some(vec![self.i1(), self.i3()]), cylinder: None }.serialize(to)
     }
 }
 
@@ -93,6 +117,7 @@ impl Serialize for Launch {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LaunchData {
+    #[serde(deserialize_with = "rate")]
     rate: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<f64>,
@@ -104,7 +129,7 @@ struct LaunchData {
     time: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tilt: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "attitude", skip_serializing_if = "Option::is_none")]
     attitude: Option<[f64; 4]>,
     #[serde(skip_serializing)]
     drag: Option<IgnoredAny>,
@@ -141,6 +166,25 @@ impl LaunchData {
             (Some(speed), None) => Ok(TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop)),
         }
     }
+}
+
+fn rate<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 3], D::Error> {
+    exactly("rate [rad/s]", Vec::deserialize(from)?, "three numbers").map_err(D::Error::custom)
+}
+
+fn attitude<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64; 4]>, D::Error> {
+    let given = Option::<Vec<f64>>::deserialize(from)?;
+    given.map(|numbers| exactly("attitude", numbers, "four numbers")).transpose().map_err(D::Error::custom)
+}
+
+/// `numbers` if there are N of them. An array of N would be read from a longer list, the rest of which is ignored.
+fn exactly<const N: usize>(
+    field: &'static str,
+    numbers: Vec<f64>,
+    expected: &'static str,
+) -> Result<[f64; N], InputError> {
+    let malformed = |numbers| InputError::Malformed { field, value: format!("{numbers:?}"), expected };
+    numbers.try_into().map_err(malformed)
 }
 
 /// The error of a quantity that is given by two fields.
@@ -214,6 +258,17 @@ mod tests {
             (format!("{launch}attitude = [0, 0, 0, 0]"), "attitude (largest component) = 0.0"),
             (format!("{launch}drop = -1"), "drop [m] = -1.0 is outside its valid range"),
             (format!("{launch}wind = 3"), "unknown field `wind`"),
+            (
+                format!("coin = {{ moments = [1, 1], cylinder = [1, 1, 1] }}\n{launch}"),
+                "coin = 'given twice' can't be used: expected either moments or cylinder",
+            ),
+            (format!("coin = {{ moments = [1, 1], mass = 1 }}\n{launch}"), "unknown field `mass`"),
+            (format!("coin = {{ cylinder = [1, 1, 1, 1] }}\n{launch}"), "cylinder [kg, m, m] = '[1.0, 1.0, 1.0, 1.0]'"),
+            (format!("coin = {{ }}\n{launch}"), "coin is missing: expected a name, { moments = [I1, I3] }"),
+            (format!("coin = 3\n{launch}"), "invalid type: integer `3`, expected a name, { moments"),
+            (format!("{launch}attitude = [1, 0, 0, 0, 0]"), "attitude = '[1.0, 0.0, 0.0, 0.0, 0.0]'"),
+            ("[launch]\nrate = [1, 1, 2, 9]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0, 2.0, 9.0]'"),
+            ("[launch]\nrate = [1, 1]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0]'"),
             ("[launch]\nrate = [1, 1, 2]".to_owned(), "speed [m/s] is missing"),
         ] {
             let found = read(&text).unwrap_err();

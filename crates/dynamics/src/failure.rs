@@ -56,6 +56,14 @@ pub enum Error {
 }
 
 impl Error {
+    /// An error at the byte `offset` of `text`, or at its end: there is missed what is missing.
+    pub fn in_text(text: &str, offset: Option<usize>, message: String) -> Self {
+        let before = offset.and_then(|offset| text.get(..offset)).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        Self::Text { line, column, message }
+    }
+
     /// A short name of the kind of error, for machine-readable output.
     pub fn kind(&self) -> &'static str {
         match self {

@@ -45,7 +45,7 @@ pub use fold::Progress;
 pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
-pub use map::{Map, Node};
+pub use map::{Map, Node, map_nodes};
 pub use plan::{Plan, Rest, Scrambled};
 pub use random::random_tosses;
 pub use sampler::Sampler;

@@ -45,10 +45,18 @@ pub fn long_flight_cone(probability: f64) -> Result<f64, InputError> {
 ///
 /// # Errors
 /// [`InputError::OutOfRange`] for a probability of ½, which needs ωz = 0, and for one below ½ or above 1, which no
-/// launch from horizontal has.
+/// launch from horizontal has; and for a rod (k = 0), which has no other than ½.
 pub fn rate_ratio(probability: f64, k: f64) -> Result<f64, InputError> {
     require("probability", probability, "above 1/2, at most 1", probability > 0.5 && probability <= 1.0)?;
+    require_turning_momentum(k)?;
     Ok(k / cotangent(probability))
+}
+
+/// # Errors
+/// [`InputError::OutOfRange`] for a rod, k = 0: ψ is 90° at any rate, so that its long flights land heads half the time.
+pub(crate) fn require_turning_momentum(k: f64) -> Result<(), InputError> {
+    let valid = "> 0: the angular momentum of a rod is at 90° to its axis at any rate, so that P(heads) is 1/2";
+    require("inertia ratio I3/I1", k, valid, k > 0.0).map(|_| ())
 }
 
 /// cot ψ = √sin(π (p - ½)), for p from ½ to 1, where the difference p - ½ is exact in f64.

@@ -7,7 +7,7 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use dynamics::{Coin, Error, InputError};
 
 use crate::estimate::Estimate;
-use crate::long_flight::long_flight_probability;
+use crate::long_flight::{long_flight_probability, require_turning_momentum};
 use crate::plan::Plan;
 use crate::sampler::Sampler;
 use crate::space::Space;
@@ -63,6 +63,7 @@ impl Sampler<'_> {
 /// The space of long flights at one cone angle ψ: Ω = ωL sin ψ and k ωz = ωL cos ψ.
 fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
     let [lo, hi] = SPEEDS;
+    require_turning_momentum(coin.inertia_ratio())?;
     Space::builder(coin)
         .rate_x(PRECESSION * cone_angle.sin())
         .rate_y(0.0)

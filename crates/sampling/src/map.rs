@@ -42,10 +42,7 @@ impl Sampler<'_> {
     /// As [`Sampler::estimate`], and an [`InputError`] that names a coordinate of the grid if it is given twice, is
     /// tied, or has no number of points from 2 to 10 000.
     pub fn map(&self, space: &Space, [across, up]: [Coordinate; 2], plan: Plan) -> Result<Map, Error> {
-        if across == up {
-            let (field, value) = (up.field(), up.name().to_owned());
-            return Err(InputError::Malformed { field, value, expected: "two different coordinates" }.into());
-        }
+        map_nodes(space, [across, up])?;
         let (columns, rows) = (values(space, across)?, values(space, up)?);
         let sampler = self.silent();
         let node = |index: usize| {
@@ -62,8 +59,33 @@ impl Sampler<'_> {
     }
 }
 
+/// More nodes than this are refused: a map holds some hundred bytes for each, and so does its chart.
+const MOST_NODES: u64 = 1_000_000;
+
+/// The number of nodes of a map of `space`.
+///
+/// # Errors
+/// As [`Sampler::map`], before anything is computed.
+pub fn map_nodes(space: &Space, [across, up]: [Coordinate; 2]) -> Result<u64, InputError> {
+    let refused = |value, expected| InputError::Malformed { field: up.field(), value, expected };
+    if across == up {
+        return Err(refused(up.name().to_owned(), "two different coordinates"));
+    }
+    let (columns, rows) = (count(space, across)?, count(space, up)?);
+    if columns * rows > MOST_NODES {
+        return Err(refused(format!("{columns} × {rows} points"), "a map of at most 1000000 nodes"));
+    }
+    Ok(columns * rows)
+}
+
 /// The grid points of a coordinate.
 fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
+    let points = count(space, of)?;
+    Ok((0..points).map(|index| space.axis(of).grid_point(index, points)).collect())
+}
+
+/// The number of the grid's values of a coordinate.
+fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
     const MOST: u64 = 10_000;
     let refused = |value: String| InputError::Malformed {
         field: of.field(),
@@ -72,7 +94,7 @@ fn values(space: &Space, of: Coordinate) -> Result<Vec<f64>, InputError> {
     };
     match space.axis_or_tie(of) {
         AxisOrTie::Axis(axis) => match axis.points() {
-            Some(points @ 2..=MOST) => Ok((0..points).map(|index| axis.grid_point(index, points)).collect()),
+            Some(points @ 2..=MOST) => Ok(points),
             _ => Err(refused(axis.to_string())),
         },
         tie @ AxisOrTie::SameAs(_) => Err(refused(tie.to_string())),

@@ -43,6 +43,11 @@ impl<'a> Sampler<'a> {
         Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {} }
     }
 
+    /// Whether the exact motion decides.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.decider, Decider::Exact)
+    }
+
     /// Sets a function that is called with the number of launches (or nodes of a map) done since it was last called.
     #[must_use]
     pub fn on_progress<'b>(self, progress: Progress<'b>) -> Sampler<'b>

@@ -30,6 +30,9 @@ pub struct RunningStep {
     pub random_hi: f64,
 }
 
+/// More steps than this are refused; a chart shows hundreds.
+const MOST_STEPS: u64 = 1_000_000;
+
 impl RunningStep {
     /// The values in the order of the fields.
     pub fn columns(&self) -> [f64; 5] {
@@ -76,7 +79,12 @@ impl Sampler<'_> {
     /// The running counts over the first `points` of `launches`, in `steps` equal steps.
     fn running(&self, space: &Space, launches: &Launches, points: u64, steps: u64) -> Result<Vec<Counts>, Error> {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-        require("steps", steps as f64, "at least 1, at most the number of launches", (1..=points).contains(&steps))?;
+        require(
+            "steps",
+            steps as f64,
+            "at least 1, at most the number of launches and 1000000",
+            (1..=points.min(MOST_STEPS)).contains(&steps),
+        )?;
         // Number of launches at the end of a step, computed without overflow.
         let end =
             |step: u64| u64::try_from(u128::from(points) * u128::from(step) / u128::from(steps)).unwrap_or(points);

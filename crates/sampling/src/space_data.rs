@@ -1,8 +1,6 @@
 //! This file reads and writes spaces as plain data by serde, so that they can be part of any file format. A space is
 //! written as its coin and, for each coordinate by its name, a number or a text.
 
-use std::collections::BTreeMap;
-
 use dynamics::{Coin, Dimension, InputError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -36,13 +34,18 @@ pub(crate) fn paper() -> Coin {
 
 /// A space in a file.
 #[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct SpaceData {
     #[serde(default = "paper")]
     coin: Coin,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rate_x: Option<Entry>,
+    rate_y: Option<Entry>,
+    rate_z: Option<Entry>,
+    speed: Option<Entry>,
+    gravity: Option<Entry>,
+    tilt: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     drop: Option<Entry>,
-    #[serde(flatten)]
-    axes: BTreeMap<String, Entry>,
 }
 
 impl<'de> Deserialize<'de> for Space {
@@ -61,18 +64,20 @@ impl TryFrom<SpaceData> for Space {
     type Error = InputError;
 
     fn try_from(data: SpaceData) -> Result<Self, InputError> {
-        let text = |(name, entry): (String, Entry)| Coordinate::named(&name).map(|of| (of, entry.text()));
-        let texts = data.axes.into_iter().map(text).collect::<Result<Vec<_>, _>>()?;
+        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = data;
+        let entries = Coordinate::ALL.into_iter().zip([rate_x, rate_y, rate_z, speed, gravity, tilt]);
+        let texts: Vec<_> = entries.filter_map(|(of, entry)| Some((of, entry?.text()))).collect();
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
-        let drop = data.drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
-        Self::parse(data.coin, &texts)?.with_drop(drop)
+        let drop = drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
+        Self::parse(coin, &texts)?.with_drop(drop)
     }
 }
 
 impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
-        let entry = |of: Coordinate| (of.name().to_owned(), Entry::Text(space.axis_or_tie(of).to_string()));
-        Self { coin: space.coin(), drop: space.drop().map(Entry::Number), axes: Coordinate::ALL.map(entry).into() }
+        let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of).to_string()));
+        let [rate_x, rate_y, rate_z, speed, gravity, tilt] = Coordinate::ALL.map(entry);
+        Self { coin: space.coin(), rate_x, rate_y, rate_z, speed, gravity, tilt, drop: space.drop().map(Entry::Number) }
     }
 }
 
@@ -95,7 +100,10 @@ mod tests {
     fn errors_name_the_coordinate_or_key() {
         for (text, message) in [
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
-            ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1", "coordinate = 'spin' is unknown"),
+            (
+                "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1",
+                "unknown field `spin`, expected one of `coin`, `rate_x`",
+            ),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 1\ndrop = '3s'", "drop [m] = '3s'"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),
         ] {

@@ -79,10 +79,7 @@ impl DescribedSpace {
 /// An error at the start of `span` in `text`, or at the end of `text` if there is no span because a coordinate is
 /// missing.
 fn error_at(text: &str, span: Option<Range<usize>>, message: String) -> Error {
-    let before = text.get(..span.map_or(text.len(), |span| span.start)).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    Error::Text { line, column, message }
+    Error::in_text(text, span.map(|span| span.start), message)
 }
 
 /// Names and texts of the named spaces.
@@ -150,7 +147,7 @@ mod tests {
             (format!("{valid}gravity = 0"), 5, 11, "gravity [m/s²] = 0.0"),
             (format!("{valid}coin = 'groat'"), 5, 8, "coin = 'groat' is unknown"),
             (format!("{valid}coin = {{ moments = [1, 3] }}"), 5, 8, "I3 [kg m²] = 3.0"),
-            (format!("{valid}coin = {{ mass = 1 }}"), 5, 8, "expected a name, { moments"),
+            (format!("{valid}coin = {{ mass = 1 }}"), 5, 10, "unknown field `mass`, expected `moments` or `cylinder`"),
             (format!("{valid}tilt = nan"), 5, 8, "tilt [rad] = NaN"),
             (format!("{valid}tilt = '3m'"), 5, 8, "an angle in rad, deg"),
             (format!("{valid}drop = '3s'"), 5, 8, "drop [m] = '3s'"),

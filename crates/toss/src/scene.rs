@@ -29,7 +29,7 @@ pub struct Scene {
 
 /// What is wanted, and of which toss or space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Want {
     /// Heads or tails.
     Outcome(Toss),

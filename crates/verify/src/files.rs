@@ -1,5 +1,6 @@
 //! This file reads and writes files. Every error names the file, and a file is written as a whole or not at all, so
-//! that an interrupted run leaves no half of a report or baseline.
+//! that an interrupted run leaves no half of a report or baseline. It prints, too, without a panic where nothing can be
+//! printed.
 
 use std::path::Path;
 
@@ -20,6 +21,22 @@ pub fn read(path: &Path) -> anyhow::Result<String> {
 /// If the file can't be read or describes something else.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> anyhow::Result<T> {
     toml::from_str(&read(path)?).with_context(|| format!("in {}", path.display()))
+}
+
+/// Prints `text` on standard output; a reader that has gone away is no error.
+///
+/// # Errors
+/// If it can't be written.
+pub fn print(text: &str) -> anyhow::Result<()> {
+    printed(whole_file::print(text))
+}
+
+/// The same result with an error that says what could not be written.
+///
+/// # Errors
+/// As `result`.
+pub fn printed(result: std::io::Result<()>) -> anyhow::Result<()> {
+    result.context("cannot write standard output")
 }
 
 /// Writes `content` to the file at `path`, and makes its folder if there is none.

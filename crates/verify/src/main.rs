@@ -9,18 +9,27 @@ mod commands;
 use std::process::ExitCode;
 
 use clap::Parser;
-
 use commands::Program;
+use verify::files;
+
+/// Arguments that are not understood.
+const BAD_USAGE: u8 = 2;
 
 /// Exit code of a command that could not run.
 const COULD_NOT_RUN: u8 = 4;
 
 fn main() -> ExitCode {
-    match Program::parse().run() {
-        Ok(code) => ExitCode::from(code),
+    let ended = match Program::try_parse() {
+        Ok(program) => program.run(),
+        Err(asked) if !asked.use_stderr() => files::printed(whole_file::unless_closed(asked.print())).map(|()| 0),
+        // Without a standard error there is nobody to say it to.
         Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::from(COULD_NOT_RUN)
+            let _ = error.print();
+            Ok(BAD_USAGE)
         }
-    }
+    };
+    ExitCode::from(ended.unwrap_or_else(|error| {
+        whole_file::report(format_args!("{error:#}"));
+        COULD_NOT_RUN
+    }))
 }

@@ -209,3 +209,22 @@ fn list_prints_one_line_for_every_check() {
     assert!(verify::CHECKS.iter().all(|check| list.contains(check.id) && list.contains(check.claim)));
     assert_eq!(list.lines().count(), verify::CHECKS.len());
 }
+
+/// The device is inherited as an open stream, so that no program could replace it.
+#[cfg(unix)]
+#[test]
+fn full_outputs_end_with_their_codes_and_without_a_panic() {
+    let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device");
+    let program = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
+        command.args(arguments);
+        command
+    };
+    for arguments in [["list"], ["--help"]] {
+        let output = program(&arguments).stdout(full()).output().unwrap();
+        assert_eq!(output.status.code(), Some(4), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("cannot write standard output"));
+    }
+    assert_eq!(program(&["nonsense"]).stderr(full()).output().unwrap().status.code(), Some(2));
+    assert_eq!(program(&["list"]).stdout(full()).stderr(full()).output().unwrap().status.code(), Some(4));
+}

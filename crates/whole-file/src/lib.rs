@@ -1,65 +1,28 @@
-//! Writes a file whole or not at all. A program that is interrupted while it writes a report or a baseline must not
-//! leave half a file, which the next run would read.
+//! Writes the outputs of a program: files whole or not at all, and standard output without a panic. A program that is
+//! interrupted while it writes a report or a baseline must not leave half a file, which the next run would read.
+//!
+//! An output is named by a path. What happens depends on what is there:
+//!
+//! | path | what is done |
+//! |---|---|
+//! | `-`, or the file that standard output leads to | printed |
+//! | nothing, or a regular file | the content goes into a temporary neighbour, which then takes the name |
+//! | a symbolic link | the same, for the file that it leads to; the link stays |
+//! | a device, a pipe, a socket | written through |
+//! | a read-only file, a folder | an error |
 
-use std::io::{self, Write};
+mod file;
+mod standard;
+
+use std::io;
 use std::path::Path;
 
-/// Writes `content` to a temporary file in the folder of `path`, and then renames it to `path`. A reader of `path`
-/// therefore sees the old content or the new one, never a part. If an error is returned, no temporary file is left
-/// behind.
+pub use standard::{leads_to, print, report, unless_closed};
+
+/// Writes `content` to the output at `path`, as [the table](self) says. A reader that has gone away is no error.
 ///
 /// # Errors
-/// If the temporary file can't be written or renamed. The folder has to exist.
+/// If the output can't be written. A regular file is then what it was, and nothing is left behind.
 pub fn write(path: &Path, content: &str) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = neighbour().tempfile_in(folder)?;
-    file.write_all(content.as_bytes())?;
-    file.persist(path)?;
-    Ok(())
-}
-
-/// Settings of the temporary file. Its permissions are those of any new file under the umask, because the default of
-/// temporary files, readable by the owner alone, would stay after the renaming.
-#[cfg(unix)]
-fn neighbour() -> tempfile::Builder<'static, 'static> {
-    use std::os::unix::fs::PermissionsExt;
-    let mut builder = tempfile::Builder::new();
-    builder.permissions(std::fs::Permissions::from_mode(0o666));
-    builder
-}
-
-#[cfg(not(unix))]
-fn neighbour() -> tempfile::Builder<'static, 'static> {
-    tempfile::Builder::new()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn replaces_a_file_and_leaves_no_temporary_file_behind() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.txt");
-        write(&path, "one, and longer").unwrap();
-        write(&path, "two").unwrap();
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), "two");
-        assert!(write(&folder.path().join("missing/b.txt"), "three").is_err());
-        // A folder can't be replaced by a file.
-        std::fs::create_dir_all(folder.path().join("c.txt/inner")).unwrap();
-        assert!(write(&folder.path().join("c.txt"), "four").is_err());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_written_file_has_the_permissions_of_any_new_file() {
-        use std::os::unix::fs::PermissionsExt;
-        let folder = tempfile::tempdir().unwrap();
-        let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
-        write(&ours, "").unwrap();
-        std::fs::write(&plain, "").unwrap();
-        let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
-        assert_eq!(mode(&ours), mode(&plain));
-    }
+    if leads_to(path) { print(content) } else { unless_closed(file::write(path, content.as_bytes())) }
 }

@@ -5,7 +5,7 @@
 use sampling::{RunningStep, Sampler};
 
 use crate::failure::Failure;
-use crate::output::SeriesArgs;
+use crate::output::{self, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
@@ -28,13 +28,16 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend()?;
-        let launches = (2 * space.grid_points()?, "launches");
+        let launches = (space.grid_points()?.saturating_mul(2), "launches");
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, self.steps, self.seed);
         let steps = self.threads.ask(backend.sampler(), launches, ask)?;
-        self.series.draw(|| Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?))?;
-        Ok(self.series.data(&steps))
+        self.series.answer(
+            |format| output::series(input, format, &steps),
+            || Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?),
+        )
     }
 }

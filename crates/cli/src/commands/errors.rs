@@ -6,7 +6,7 @@ use toss::Error;
 
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
-use crate::output::SeriesArgs;
+use crate::output::{self, Input, SeriesArgs};
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -34,12 +34,14 @@ fn probability(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let space = self.space.space()?;
+        // Every number of launches has a grid of its own.
+        self.space.require_grid_where_points_are(&space, |_| false)?;
         let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);
         let (lines, reference) = self.threads.ask(Sampler::exact(), (self.launches(), "launches"), ask)?;
-        self.series.draw(|| Ok(chart::errors(&lines, &reference)?))?;
-        Ok(self.series.data(&lines))
+        self.series.answer(|format| output::series(input, format, &lines), || Ok(chart::errors(&lines, &reference)?))
     }
 
     /// The numbers of launches with which each method is run.

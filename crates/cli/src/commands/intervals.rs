@@ -2,12 +2,12 @@
 //! outcome does not change, so the list shows how precisely a speed has to be met.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use sampling::{Coordinate, Space};
+use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
+use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, table};
+use crate::output::{self, Format, Input, table};
 use crate::toss_args::{CoinArgs, numbers};
 
 /// The largest number of turns, with one interval each. A longer list would be of no use.
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     tilt: f64,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -43,36 +43,43 @@ struct Answer {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
-            return Err(Failure::Usage("--speed: a range LO:HI of more than one speed is needed".to_owned()));
+            return Err(Failure::usage("speed", "--speed: a range LO:HI of more than one speed is needed"));
         }
         let thrown = TimeOfFlight::Ballistic { speed: fastest, gravity: self.gravity };
         let toss = Toss { coin, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
         let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
-            return Err(Failure::Usage(format!(
-                "the coin turns more than {MOST_TURNS} times; ask for a shorter range"
-            )));
+            let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");
+            return Err(Failure::usage("speed", message));
         }
         let heads: Vec<[f64; 2]> = speeds_of_heads(&toss, slowest)?.into_iter().flatten().collect();
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };
         Ok(match self.format {
-            Format::Json => output::json(&answer),
+            Format::Json => output::json(input, &answer),
             Format::Text => answer.text(),
         })
     }
 }
 
 /// Parses a range of speeds (m/s) into the slowest and the fastest.
-fn speeds(text: &str) -> Result<[f64; 2], InputError> {
+fn speeds(text: &str) -> Result<[f64; 2], Failure> {
     let of_no_turn = Space::builder(Coin::PAPER).rate_x(0.0).rate_y(0.0).rate_z(0.0);
-    Ok(of_no_turn.parse(Coordinate::Speed, text)?.build()?.axis(Coordinate::Speed).bounds())
+    let axis = of_no_turn.parse(Coordinate::Speed, text)?.build()?.axis(Coordinate::Speed);
+    let why = match (axis.distribution(), axis.points()) {
+        (Distribution::Uniform { lo, hi }, points) if points.is_none() || lo == hi => return Ok(axis.bounds()),
+        (Distribution::Uniform { .. }, _) => "a number of points has no effect, the range is solved as a whole",
+        (Distribution::Normal { .. }, _) => {
+            "a range LO:HI is needed; `probability --method exact-speed` has the share of a normal distribution"
+        }
+    };
+    Err(Failure::usage("speed", format!("--speed '{text}': {why}")))
 }
 
 impl Answer {

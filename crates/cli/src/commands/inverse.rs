@@ -7,7 +7,7 @@ use serde::Serialize;
 use toss::Coin;
 
 use crate::failure::Failure;
-use crate::output::{self, Format};
+use crate::output::{self, Format, Input};
 use crate::toss_args::CoinArgs;
 
 #[derive(Debug, clap::Args)]
@@ -19,7 +19,7 @@ pub(crate) struct Args {
     probability: f64,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -33,13 +33,13 @@ struct Answer {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let (probability, k) = (self.probability, coin.inertia_ratio());
         let cone_angle = long_flight_cone(probability)?;
         let answer = Answer { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };
         Ok(match self.format {
-            Format::Json => output::json(&answer),
+            Format::Json => output::json(input, &answer),
             Format::Text => answer.text(),
         })
     }

@@ -8,7 +8,7 @@ use toss::Coin;
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::SeriesArgs;
+use crate::output::{self, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::ThreadArgs;
 use crate::toss_args::CoinArgs;
@@ -43,7 +43,8 @@ struct Line {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
         let backend = self.solver.backend()?;
         // 30° to 90° in steps of 2.5°; beyond 90° the curve is the mirror image.
@@ -51,8 +52,8 @@ impl Args {
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
         let shares = self.threads.ask(backend.sampler(), flights, ask)?;
-        self.series.draw(|| Ok(chart::limit(&shares)?))?;
-        Ok(self.series.data(&shares.iter().map(Line::from).collect::<Vec<_>>()))
+        let lines = || shares.iter().map(Line::from).collect::<Vec<_>>();
+        self.series.answer(|format| output::series(input, format, &lines()), || Ok(chart::limit(&shares)?))
     }
 }
 

@@ -1,6 +1,8 @@
 //! The commands `coins`, `solvers`, `models` and `spaces` of `unfair-toss` list the names that the other commands
 //! accept. The lists come from the libraries, so that they are complete.
 
+use std::collections::BTreeMap;
+
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::catalogue::{Body, CATALOGUE, CatalogueEntry};
@@ -8,13 +10,13 @@ use toss::fitted::FITTED;
 use toss::{MODELS, Registry, SolverEntry};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, table};
+use crate::output::{self, Format, Input, table};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -67,10 +69,10 @@ impl CoinLine {
     }
 }
 
-pub(crate) fn coins(args: &Args) -> Result<String, Failure> {
+pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
     let lines = CATALOGUE.iter().map(CoinLine::of).collect::<Result<Vec<_>, _>>()?;
     if args.format == Format::Json {
-        return Ok(output::json(&lines));
+        return Ok(list(input, "coins", lines));
     }
     let mut rows =
         vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
@@ -105,10 +107,10 @@ impl From<&'static SolverEntry> for SolverLine {
     }
 }
 
-pub(crate) fn solvers(args: &Args) -> Result<String, Failure> {
+pub(crate) fn solvers(args: &Args, input: &Input) -> Result<String, Failure> {
     let lines: Vec<SolverLine> = Registry::standard().entries().iter().map(SolverLine::from).collect();
     if args.format == Format::Json {
-        return Ok(output::json(&lines));
+        return Ok(list(input, "solvers", lines));
     }
     let mut rows = vec![row(["name", "schemes", "formulations", "what"])];
     rows.extend(lines.iter().map(|line| {
@@ -128,7 +130,7 @@ struct ModelLine {
     cost_ns: Option<f64>,
 }
 
-pub(crate) fn models(args: &Args) -> Result<String, Failure> {
+pub(crate) fn models(args: &Args, input: &Input) -> Result<String, Failure> {
     let cost = |model| FITTED.closed(model).map(|fit| fit.cost_ns);
     let lines: Vec<ModelLine> = MODELS
         .iter()
@@ -140,7 +142,7 @@ pub(crate) fn models(args: &Args) -> Result<String, Failure> {
         })
         .collect();
     if args.format == Format::Json {
-        return Ok(output::json(&lines));
+        return Ok(list(input, "models", lines));
     }
     let mut rows = vec![row(["name", "ns", "gives", "assumes"])];
     rows.extend(lines.iter().map(|line| {
@@ -163,7 +165,7 @@ struct SpaceLine {
     grid_points: u64,
 }
 
-pub(crate) fn spaces(args: &Args) -> Result<String, Failure> {
+pub(crate) fn spaces(args: &Args, input: &Input) -> Result<String, Failure> {
     let mut lines = Vec::new();
     for (name, DescribedSpace { description, space }) in named_spaces() {
         let [rate_x, rate_y, rate_z, speed, gravity, tilt] =
@@ -172,7 +174,7 @@ pub(crate) fn spaces(args: &Args) -> Result<String, Failure> {
         lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points });
     }
     if args.format == Format::Json {
-        return Ok(output::json(&lines));
+        return Ok(list(input, "spaces", lines));
     }
     let [x, y, z, v, g, t] = Coordinate::ALL.map(Coordinate::symbol);
     let mut rows = vec![row(["name", x, y, z, v, g, t, "launches", "what"])];
@@ -181,6 +183,11 @@ pub(crate) fn spaces(args: &Args) -> Result<String, Failure> {
         row([name, rate_x, rate_y, rate_z, speed, gravity, tilt, &grid_points.to_string(), description])
     }));
     Ok(table(&rows))
+}
+
+/// As `{"name":[..],..}`.
+fn list(input: &Input, name: &'static str, lines: Vec<impl Serialize>) -> String {
+    output::json(input, &BTreeMap::from([(name, lines)]))
 }
 
 fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {

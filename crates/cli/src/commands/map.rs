@@ -1,14 +1,15 @@
 //! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
 //! other coordinates are sampled at each node.
 
-use sampling::{Coordinate, Map, Sampler};
+use sampling::{Coordinate, Map, Sampler, Space, map_nodes};
 use serde::Serialize;
+use toss::InputError;
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, SeriesArgs};
+use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
-use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
+use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
 /// The numbers of launches at each node.
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 1024, sobol: 1024 };
@@ -37,20 +38,29 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend()?;
-        let plan = self.plan.plan(self.method, &space, DEFAULT_POINTS)?;
         let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
-        let nodes = (axes.iter().filter_map(|of| space.axis(*of).points()).product(), "nodes");
+        let nodes = map_nodes(&space, axes)?;
+        let node = first_node(&space, axes)?;
+        let plan = self.plan.plan(self.method, &node, DEFAULT_POINTS)?;
+        self.space.require_grid_where_points_are(&space, |of| axes.contains(&of) || lays_grid(plan, of))?;
+        require_few(&backend.sampler(), nodes.saturating_mul(plan.points(&node)?))?;
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
-        let mapped = self.threads.ask(backend.sampler(), nodes, ask)?;
-        self.series.draw(|| Ok(chart::map(&mapped, &space)?))?;
-        Ok(match self.series.format {
+        let mapped = self.threads.ask(backend.sampler(), (nodes, "nodes"), ask)?;
+        let data = |format| match format {
             DataFormat::Csv => csv(&mapped),
-            DataFormat::Json => output::json(&Answer::from(&mapped)),
-        })
+            DataFormat::Json => output::json(input, &Answer::from(&mapped)),
+        };
+        self.series.answer(data, || Ok(chart::map(&mapped, &space)?))
     }
+}
+
+/// The space that the first node of a map has its probability from.
+fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError> {
+    axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
 }
 
 /// Formats the map as CSV with one line per node.

@@ -6,15 +6,18 @@ use std::path::{Path, PathBuf};
 use sampling::Plan;
 use serde::Serialize;
 use toss::{
-    Candidate, Choice, Decision, ExactSolver, How, Integrator, Nanoseconds, Reason, Scene, Scheme, SolverEntry,
+    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, Reason, Scene, Scheme, SolverEntry,
     StepControl, Want,
 };
 
 use crate::failure::Failure;
-use crate::output::{self, Format, table};
+use crate::output::{self, Format, Input, table};
 use crate::solver_args;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
+
+/// Points of a trace for which no number is given.
+const DEFAULT_POINTS: usize = 100;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -26,9 +29,9 @@ pub(crate) struct Args {
     /// The largest acceptable error: of cos θ, of an attitude (rad) or of a probability
     #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene")]
     accuracy: Option<f64>,
-    /// Number of times in a trace, launch and landing included
-    #[arg(long, value_name = "N", default_value_t = 100)]
-    points: usize,
+    /// Number of times in a trace, launch and landing included [default: 100]
+    #[arg(long, value_name = "N")]
+    points: Option<usize>,
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml
     #[arg(long, value_name = "NAME|FILE.toml",
@@ -49,7 +52,7 @@ pub(crate) struct Args {
     scene: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -89,32 +92,40 @@ struct PassedOver {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let scene = match &self.scene {
             Some(path) => scene_file(path)?,
             None => self.scene()?,
         };
         let decision = scene.plan()?;
         Ok(match self.format {
-            Format::Json => output::json(&Answer::new(&scene, &decision)?),
+            Format::Json => output::json(input, &Answer::new(&scene, &decision)?),
             Format::Text => Answer::new(&scene, &decision)?.text(&decision.choice),
         })
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
         let space = || {
-            let missing = || Failure::Usage("--space is needed for a probability".to_owned());
+            let missing = || Failure::usage("space", "--space is needed for a probability");
             space_called(self.space.as_deref().ok_or_else(missing)?, &self.toss.coin)
         };
         let want = match self.want {
+            Some(want) if want != WantArg::Trace && self.points.is_some() => {
+                return Err(Failure::usage(
+                    "points",
+                    "--points is for --want trace; a plan chooses its launches itself",
+                ));
+            }
             Some(WantArg::Probability) => Want::Probability(space()?),
             _ if self.space.is_some() => {
-                return Err(Failure::Usage("--space is for --want probability; a toss has --rate".to_owned()));
+                return Err(Failure::usage("space", "--space is for --want probability; a toss has --rate"));
             }
             Some(WantArg::Outcome) => Want::Outcome(self.toss.toss()?),
             Some(WantArg::Tilt) => Want::Tilt(self.toss.toss()?),
             Some(WantArg::Attitude) => Want::Attitude(self.toss.toss()?),
-            Some(WantArg::Trace) | None => Want::Trace { toss: self.toss.toss()?, points: self.points },
+            Some(WantArg::Trace) | None => {
+                Want::Trace { toss: self.toss.toss()?, points: self.points.unwrap_or(DEFAULT_POINTS) }
+            }
         };
         let by = self.solver.clone().map(|solver| Integrator { solver, scheme: self.scheme.clone() });
         Ok(Scene { want, accuracy: self.accuracy.unwrap_or(f64::NAN), by })
@@ -125,11 +136,19 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown.clone(), source })?;
     let scene = if path.extension().is_some_and(|extension| extension == "json") {
-        serde_json::from_str(&text).map_err(|error| error.to_string())
+        serde_json::from_str(&text).map_err(|error| {
+            let (line, column) = (error.line(), error.column());
+            let message = error.to_string();
+            // The place is said by the error that this becomes.
+            let message = message.trim_end_matches(&format!(" at line {line} column {column}")).to_owned();
+            Error::Text { line, column, message }
+        })
     } else {
-        toml::from_str(&text).map_err(|error| error.to_string())
+        toml::from_str(&text).map_err(|error: toml::de::Error| {
+            Error::in_text(&text, error.span().map(|span| span.start), error.message().to_owned())
+        })
     };
-    scene.map_err(|message| Failure::Usage(format!("{shown}: {message}")))
+    scene.map_err(|source| Failure::Text { path: shown, source })
 }
 
 impl Answer {

@@ -6,9 +6,9 @@ use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Samp
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::output::{self, Format};
+use crate::output::{self, Format, Input};
 use crate::solver_args::SolverArgs;
-use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs};
+use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
 
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 << 18 };
 
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     solver: SolverArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -66,15 +66,16 @@ struct ProvenBy {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = self.space.space()?;
         let backend = self.solver.backend()?;
         let plan = self.plan.plan(self.method, &space, DEFAULT_POINTS)?;
+        self.space.require_grid_where_points_are(&space, |of| lays_grid(plan, of))?;
         let launches = (plan.points(&space)?, "launches");
         let ask = |sampler: &Sampler<'_>| sampler.estimate(&space, plan);
         let found = self.threads.ask(backend.sampler(), launches, ask)?;
         Ok(match self.format {
-            Format::Json => output::json(&Answer::new(&found, seed_of(plan))),
+            Format::Json => output::json(input, &Answer::new(&found, seed_of(plan))),
             Format::Text => text(&found, backend.solver().name()),
         })
     }

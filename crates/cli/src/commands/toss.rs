@@ -4,7 +4,7 @@ use serde::Serialize;
 use toss::{Backend, Propagation, Toss, Work, margin};
 
 use crate::failure::Failure;
-use crate::output::{self, Format};
+use crate::output::{self, Format, Input, without_sign_of_zero};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -13,7 +13,7 @@ pub(crate) struct Args {
     flight: FlightArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
 }
 
 #[derive(Serialize)]
@@ -59,11 +59,11 @@ struct MarginAnswer {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
         let answer = Answer::new(&toss, &backend)?;
         Ok(match self.format {
-            Format::Json => output::json(&answer),
+            Format::Json => output::json(input, &answer),
             Format::Text => answer.text(toss.coin.inertia_ratio()),
         })
     }
@@ -81,11 +81,11 @@ impl Answer {
         Ok(Self {
             coin: Moments { i1, i2: i1, i3 },
             flight_time: toss.launch.flight_time(),
-            cos_tilt,
+            cos_tilt: without_sign_of_zero(cos_tilt),
             outcome: verdict.outcome().name(),
             certified: verdict.is_proven(),
             margin: MarginAnswer { time: margin.time, speed: margin.speed, rate: margin.rate },
-            attitude: state.attitude.components(),
+            attitude: state.attitude.components().map(without_sign_of_zero),
             rate: state.rate.into(),
             norm_error,
             defect: norm_error,

@@ -6,7 +6,7 @@ use toss::{TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, SeriesArgs};
+use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -60,44 +60,34 @@ struct Answer<'a> {
 }
 
 impl Args {
-    pub(crate) fn run(&self) -> Result<String, Failure> {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        self.series.validate()?;
         let (toss, backend) = self.flight.parts()?;
         let flight = trace(backend.solver(), &toss, self.points)?;
-        self.series.draw(|| {
-            // As many points as the motion needs, whatever number is printed.
-            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
-            Ok(chart::flight(&drawn, &toss, backend.outcome(&toss)?)?)
-        })?;
-        Ok(match self.series.format {
+        let data = |format| match format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
                 let points = flight.iter().map(Point::from).collect();
-                output::json(&Answer { solver: backend.solver().name(), points })
+                output::json(input, &Answer { solver: backend.solver().name(), points })
             }
+        };
+        self.series.answer(data, || {
+            // As many points as the motion needs, whatever number is printed.
+            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
+            Ok(chart::flight(&drawn, &toss, backend.outcome(&toss)?)?)
         })
     }
 }
 
 impl From<&TracePoint> for Line {
     fn from(point: &TracePoint) -> Self {
-        let [w, x, y, z] = point.attitude.components();
-        Self {
-            time: point.time,
-            w,
-            x,
-            y,
-            z,
-            alpha: point.angles.alpha,
-            beta: point.angles.beta,
-            gamma: point.angles.gamma,
-            normal_x: point.normal.x,
-            normal_y: point.normal.y,
-            normal_z: point.normal.z,
-            face_x: point.face.x,
-            face_y: point.face.y,
-            face_z: point.face.z,
-            cos_tilt: point.cos_tilt,
-        }
+        let [w, x, y, z] = point.attitude.components().map(without_sign_of_zero);
+        let [normal_x, normal_y, normal_z] = <[f64; 3]>::from(point.normal).map(without_sign_of_zero);
+        let [face_x, face_y, face_z] = <[f64; 3]>::from(point.face).map(without_sign_of_zero);
+        let angles = [point.angles.alpha, point.angles.beta, point.angles.gamma];
+        let [alpha, beta, gamma] = angles.map(without_sign_of_zero);
+        let [time, cos_tilt] = [point.time, point.cos_tilt].map(without_sign_of_zero);
+        Self { time, w, x, y, z, alpha, beta, gamma, normal_x, normal_y, normal_z, face_x, face_y, face_z, cos_tilt }
     }
 }
 

@@ -26,6 +26,7 @@ pub(crate) fn json(arguments: &str, code: i32) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{arguments}: {error}: {}", stdout(&output)))
 }
 
+#[allow(dead_code, reason = "not every file of tests has numbers")]
 #[track_caller]
 pub(crate) fn assert_near(value: &Value, expected: f64, within: f64) {
     let found = value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
@@ -34,6 +35,7 @@ pub(crate) fn assert_near(value: &Value, expected: f64, within: f64) {
 
 /// Asserts that each command ends with 2, prints nothing on standard output, and that its message contains both texts.
 /// With `--format json` the message has to contain the first.
+#[allow(dead_code, reason = "not every file of tests has refusals")]
 #[track_caller]
 pub(crate) fn assert_refused(cases: &[(&str, [&str; 2])]) {
     for (arguments, words) in cases {

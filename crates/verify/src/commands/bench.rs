@@ -4,6 +4,7 @@
 use clap::Args;
 use verify::bench::Table;
 use verify::bench::instructions::Instructions;
+use verify::files;
 
 use super::Folders;
 
@@ -22,13 +23,13 @@ impl Bench {
     /// Returns the exit code: 3 if a work takes more instructions than the baseline allows, otherwise 0.
     pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
         if !self.instructions {
-            print!("{}", Table::measure()?);
+            files::print(&Table::measure()?.to_string())?;
             return Ok(0);
         }
         let path = folders.validation.join("baseline").join("instructions.csv");
         let (baseline, found) = (Instructions::read(&path)?, Instructions::count()?);
         let (text, is_worse) = found.compared(&baseline);
-        print!("{text}");
+        files::print(&text)?;
         if self.bless {
             found.bless(&baseline, &path)?;
         }

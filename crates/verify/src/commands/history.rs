@@ -13,6 +13,6 @@ pub(super) fn history(folders: &Folders) -> anyhow::Result<u8> {
     anyhow::ensure!(!records.is_empty(), "there are no records yet; `cargo xtask verify --bless` writes one");
     let path = folders.out.join("history.svg");
     files::write(&path, &charts::history(&records, Registry::standard().entries())?)?;
-    println!("{}\nchart: {}", history::text(&records), path.display());
+    files::print(&format!("{}\nchart: {}\n", history::text(&records), path.display()))?;
     Ok(0)
 }

@@ -1,11 +1,10 @@
 //! `verify list` prints the id, the evidence and the claim of every check, one line each. The ids are what `--only`
 //! takes.
 
-use verify::CHECKS;
+use verify::{CHECKS, Check, files};
 
-pub(super) fn list() -> u8 {
-    for check in CHECKS {
-        println!("{:<36} [{}] {}", check.id, check.basis.name(), check.claim);
-    }
-    0
+pub(super) fn list() -> anyhow::Result<u8> {
+    let line = |check: &Check| format!("{:<36} [{}] {}\n", check.id, check.basis.name(), check.claim);
+    files::print(&CHECKS.iter().map(|check| line(check)).collect::<String>())?;
+    Ok(0)
 }

@@ -59,7 +59,7 @@ impl Program {
         let folders = &self.folders;
         match &self.command {
             Command::Run(command) => command.run(folders),
-            Command::List => Ok(list::list()),
+            Command::List => list::list(),
             Command::Replay(command) => replay::replay(&command.input),
             Command::Bench(command) => command.run(folders),
             Command::Work(command) => command.run(),

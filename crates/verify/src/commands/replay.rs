@@ -3,6 +3,7 @@
 
 use clap::Args;
 use toss::Registry;
+use verify::files;
 use verify::measure::atlas;
 use verify::measure::atlas::conditioning::Conditioning;
 use verify::measure::case::Case;
@@ -23,6 +24,6 @@ pub(super) fn input(line: &str) -> Result<Case, String> {
 
 pub(super) fn replay(case: &Case) -> anyhow::Result<u8> {
     let runs = atlas::replay(Registry::standard().entries(), case)?;
-    print!("{}", runs::text(&runs, Conditioning::new(&case.toss)?));
+    files::print(&runs::text(&runs, Conditioning::new(&case.toss)?))?;
     Ok(0)
 }

@@ -89,19 +89,19 @@ impl Run {
         let progress = ProgressBar::new(checks.len() as u64).with_style(style);
         progress.enable_steady_tick(std::time::Duration::from_millis(100));
         let show = |text: String| progress.suspend(|| self.print(&text));
-        show(table::heading());
+        show(table::heading())?;
         let mut rows = Vec::new();
         for check in checks {
             progress.inc(1);
             progress.set_message(check.id);
             let judged = judge(check, (check.measure)(context)?, bounds);
-            show(table::check(&judged, self.verbose));
+            show(table::check(&judged, self.verbose))?;
             rows.extend(judged);
         }
         progress.finish_and_clear();
         if self.only.is_none() {
             let unused = unused_bounds(&rows, bounds);
-            show(table::check(&unused, self.verbose));
+            show(table::check(&unused, self.verbose))?;
             rows.extend(unused);
         }
         Ok(rows)
@@ -121,12 +121,11 @@ impl Run {
         match self.format() {
             Format::Text => {
                 let moved = moves::text(report.moves, report.rows);
-                println!("{}{moved}\nreport: {}", table::verdict(report.rows), page.display());
+                files::print(&format!("{}{moved}\nreport: {}\n", table::verdict(report.rows), page.display()))
             }
-            Format::Json => println!("{json}"),
-            Format::Junit => println!("{junit}"),
+            Format::Json => files::print(&format!("{json}\n")),
+            Format::Junit => files::print(&format!("{junit}\n")),
         }
-        Ok(())
     }
 
     fn format(&self) -> Format {
@@ -134,9 +133,7 @@ impl Run {
     }
 
     /// Prints `text` if the table for people is what was asked for.
-    fn print(&self, text: &str) {
-        if self.format() == Format::Text {
-            print!("{text}");
-        }
+    fn print(&self, text: &str) -> anyhow::Result<()> {
+        if self.format() == Format::Text { files::print(text) } else { Ok(()) }
     }
 }

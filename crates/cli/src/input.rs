@@ -1,0 +1,36 @@
+//! The input of a command as its JSON answer repeats it: every option that was given or has a default, by its name.
+
+use clap::{ArgMatches, Command};
+use serde_json::{Map, Value};
+
+/// What does not change the answer, only where it goes, in which form, and how fast it is there.
+const NO_INPUT: [&str; 5] = ["format", "svg", "threads", "help", "version"];
+
+/// Options that are numbers separated by commas.
+const LISTS: [&str; 3] = ["rate", "moments", "cylinder"];
+
+/// The options of `command` that were `given` or have a default, and the command's name.
+pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value> {
+    let names = command.get_arguments().map(|argument| argument.get_id().as_str());
+    let options = names.filter(|name| !NO_INPUT.contains(name));
+    let mut input: Map<String, Value> =
+        options.filter_map(|name| Some((name.to_owned(), value(name, given)?))).collect();
+    input.insert("command".to_owned(), command.get_name().into());
+    input
+}
+
+/// A number where the option is one, else the text as it was given.
+fn value(name: &str, given: &ArgMatches) -> Option<Value> {
+    let whole = || number::<u64>(name, given).or_else(|| number::<u32>(name, given));
+    let number = number::<f64>(name, given).or_else(whole).or_else(|| number::<usize>(name, given));
+    number.or_else(|| {
+        let text = given.try_get_raw(name).ok()??.next()?.to_string_lossy();
+        let numbers = || text.split(',').map(|part| part.trim().parse::<f64>().ok()).collect::<Option<Vec<_>>>();
+        Some(if LISTS.contains(&name) { numbers().into() } else { text.into_owned().into() })
+    })
+}
+
+/// The value of an option that holds a `T`.
+fn number<T: Into<Value> + Copy + Clone + Send + Sync + 'static>(name: &str, given: &ArgMatches) -> Option<Value> {
+    given.try_get_one::<T>(name).ok()?.map(|number| (*number).into())
+}

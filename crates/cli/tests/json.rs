@@ -1,0 +1,209 @@
+//! JSON as a contract: every field of every command is the one that `docs/json.md` lists, and bad input is JSON too.
+
+mod common;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use common::{json, run, stderr, stdout};
+use serde_json::Value;
+
+const DOCUMENT: &str = include_str!("../../../docs/json.md");
+
+/// Paths of fields, each with the types of its values.
+type Fields = BTreeMap<String, BTreeSet<String>>;
+
+/// The rows of a section of the document.
+fn documented(section: &str) -> Fields {
+    let (_, text) = DOCUMENT.split_once(&format!("\n## {section}\n")).unwrap_or_else(|| panic!("no section {section}"));
+    let text = text.split("\n## ").next().unwrap_or(text);
+    let row = |line: &str| {
+        let mut cells = line.split('|').map(str::trim).skip(1);
+        let (path, types) = (cells.next()?.strip_prefix('`')?.strip_suffix('`')?, cells.next()?);
+        Some((path.to_owned(), types.split(" or ").map(str::to_owned).collect()))
+    };
+    text.lines().filter_map(row).collect()
+}
+
+/// Adds the fields of `value`, which stands at `path`.
+fn collect(value: &Value, path: &str, fields: &mut Fields) {
+    let kind = match value {
+        Value::Object(object) => {
+            for (key, value) in object {
+                collect(value, &if path.is_empty() { key.clone() } else { format!("{path}.{key}") }, fields);
+            }
+            return;
+        }
+        Value::Array(items) if items.first().is_some_and(Value::is_object) => {
+            return items.iter().for_each(|item| collect(item, &format!("{path}[]"), fields));
+        }
+        Value::Array(_) => "array",
+        Value::Number(number) if number.is_u64() => "integer",
+        Value::Number(_) => "number",
+        Value::String(_) => "string",
+        Value::Bool(_) => "boolean",
+        Value::Null => "null",
+    };
+    fields.entry(path.to_owned()).or_default().insert(kind.to_owned());
+}
+
+/// Every field that was found is documented with its type, and every documented one was found.
+#[track_caller]
+fn assert_documented(found: &Fields, documented: &Fields) {
+    for (path, types) in found {
+        let known = documented.get(path).unwrap_or_else(|| panic!("{path} is not documented"));
+        assert!(types.is_subset(known), "{path}: {types:?}, documented {known:?}");
+    }
+    for (path, types) in documented {
+        let seen = found.get(path).unwrap_or_else(|| panic!("{path} is documented and was not found"));
+        assert!(types.iter().all(|of| seen.contains(of)), "{path}: documented {types:?}, found {seen:?}");
+    }
+}
+
+/// Runs of each command that together show all of its fields with all of their types.
+const ANSWERS: &[(&str, &[&str])] = &[
+    (
+        "toss",
+        &[
+            "--rate 1,1,2.5 --speed 3 --gravity 9.8 --drop 0.1 --tilt 0.1 --coin disc",
+            "--rate 2,2,0.5 --speed 3 --moments 1,1",
+            "--rate 1,1,2.5 --time 1 --cylinder 1,1,1 --solver gamma --scheme rk4 --step 1e-3 --formulation vertical",
+            "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
+        ],
+    ),
+    ("trace", &["--rate 1,1,2.5 --speed 3 --points 3"]),
+    (
+        "probability",
+        &[
+            "--space tails --method grid",
+            "--space tails --method exact-speed",
+            "--space paper-fig4 --method exact-speed",
+            "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
+        ],
+    ),
+    ("convergence", &["--space tails --steps 3"]),
+    ("errors", &["--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5"]),
+    ("map", &["--rate-x 0:9:2 --rate-y 0 --rate-z 1:9:2 --speed 3:5"]),
+    ("intervals", &["--rate 1,1,2 --speed 2:3", "--rate 2,2,0.5 --speed 3:5"]),
+    ("inverse", &["--probability 0.7"]),
+    ("limit", &["--points 9"]),
+    (
+        "plan",
+        &[
+            "--rate 1,1,1 --speed 3 --want attitude --accuracy 1e-6 --solver gamma",
+            "--space cheated --want probability --accuracy 1e-3",
+            "--scene SCENE",
+        ],
+    ),
+    ("coins", &[""]),
+    ("solvers", &[""]),
+    ("models", &[""]),
+    ("spaces", &[""]),
+];
+
+#[test]
+fn every_field_of_every_command_is_documented_and_every_documented_field_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, "accuracy = 1e-9\n[want.tilt]\nlaunch = { rate = [1, 1, 2], speed = 3 }\n").unwrap();
+    let (mut every, mut inputs) = (Fields::new(), Fields::new());
+    for (command, runs) in ANSWERS {
+        let mut found = Fields::new();
+        for options in *runs {
+            let options = options.replace("SCENE", &scene.display().to_string());
+            let answer = json(&format!("{command} {options}"), 0);
+            assert_eq!((&answer["schema"], &answer["input"]["command"]), (&1.into(), &(*command).into()));
+            collect(&answer, "", &mut found);
+        }
+        let (input, own): (Fields, Fields) = found.into_iter().partition(|(path, _)| path.starts_with("input."));
+        let (general, own): (Fields, Fields) = own.into_iter().partition(|(path, _)| path == "schema");
+        every.extend(general);
+        for (path, types) in input {
+            let to = if path == "input.command" { &mut every } else { &mut inputs };
+            to.entry(path).or_default().extend(types);
+        }
+        assert_documented(&own, &documented(&format!("`{command}`")));
+    }
+    assert_documented(&every, &documented("Every answer"));
+    assert_documented(&inputs, &documented("`input`"));
+}
+
+#[test]
+fn input_is_repeated_as_it_was_given() {
+    let toss = json("toss --rate -0,1,2.5 --speed 3 --solver gamma --method rk4 --threads-are-not-echoed", 2);
+    assert_eq!(toss["error"]["field"], "threads-are-not-echoed");
+    let toss = json("toss --rate -0,1,2.5 --speed 3 --solver gamma --method rk4", 0);
+    let expected = r#"{"command":"toss","rate":[0.0,1.0,2.5],"scheme":"rk4","solver":"gamma","speed":3.0}"#;
+    assert_eq!(toss["input"].to_string(), expected);
+    let space =
+        json("probability --rate-x 0:1 --rate-y x --rate-z 5 --speed 3 --method random --points 9 --threads 2", 0);
+    assert_eq!((&space["input"]["rate_x"], &space["input"]["points"]), (&"0:1".into(), &9.into()));
+    assert_eq!(space["input"]["threads"], Value::Null);
+}
+
+#[test]
+fn bad_input_of_every_kind_is_json_with_the_message_of_standard_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, "accuracy = true").unwrap();
+    let scene = format!("plan --scene {}", scene.display());
+    let mut found = Fields::new();
+    for (arguments, code) in [
+        ("toss --rate 1,1,1 --speed 3 --nonsense", 2),
+        ("toss --rate 1,1,1 --speed x", 2),
+        ("toss --rate 1,1,1 --speed nan", 2),
+        ("toss --rate 1,1,1 --speed -3", 2),
+        ("toss --rate 1,1,1 --speed 3 --time 1", 2),
+        ("toss --speed 3", 2),
+        ("toss --rate 1,1 --speed 3", 2),
+        ("toss --rate 1,1,1 --speed 3 --drag 1", 2),
+        ("toss --rate 1,1,1 --speed 3 --step 1", 2),
+        ("plan", 2),
+        ("nonsense", 2),
+        ("", 2),
+        ("probability --space no.toml --method grid", 2),
+        (&scene, 2),
+        ("trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg", 2),
+        ("toss --rate 1,1,1e300 --time 1", 1),
+        ("toss --rate 0.3,0.3,5 --time 5 --tilt 1 --solver gamma --formulation vertical", 1),
+        ("toss --rate 1,1,1 --time 1 --solver quaternion --scheme rk4 --step 1e-9", 1),
+        (
+            "probability --rate-x 9 --rate-y x --rate-z 0 --speed 3:5:9 --method grid --solver gamma --formulation vertical",
+            1,
+        ),
+    ] {
+        let answer = json(arguments, code);
+        let mut words = answer["error"]["message"].as_str().unwrap().split_whitespace();
+        let said = stderr(&run(&format!("{arguments} --format=json"))).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(words.next().unwrap()) && said.starts_with("error: "), "{arguments}: {said}");
+        collect(&answer, "", &mut found);
+    }
+    assert_eq!(found.remove("schema"), Some(BTreeSet::from(["integer".to_owned()])));
+    assert_documented(&found, &documented("`error`"));
+    let field = |arguments: &str| json(arguments, 2)["error"]["field"].clone();
+    assert_eq!(field("toss --rate 1,1,1 --speed x"), "speed");
+    assert_eq!(field("plan"), "want");
+    assert_eq!(field("probability --space tails --method dice"), "method");
+}
+
+#[test]
+fn no_answer_has_a_negative_zero() {
+    for command in [
+        "toss --rate -0,-0,-0 --time 0 --tilt -0",
+        "trace --rate -0,0,-3 --time 1 --points 5",
+        "trace --rate 0,0,-3 --time 1 --points 5 --solver gamma",
+        "intervals --rate 2,2,0.5 --speed 3:5 --tilt -0",
+        "map --rate-x -0:9:2 --rate-y 0 --rate-z -5:0:2 --speed 3:5",
+    ] {
+        let answer = stdout(&run(&format!("{command} --format json")));
+        assert!(!answer.contains("-0.0,") && !answer.contains("-0.0]") && !answer.contains("-0.0}"), "{answer}");
+        assert!(!answer.is_empty() && !answer.contains("\"error\""), "{answer}");
+    }
+    let csv = stdout(&run("trace --rate -0,0,-3 --time 1 --points 5"));
+    assert!(csv.split([',', '\n']).all(|cell| cell != "-0" && cell != "-0.0"), "{csv}");
+}
+
+#[test]
+fn the_version_is_that_of_the_program() {
+    assert_eq!(stdout(&run("--version")), format!("unfair-toss {}\n", env!("CARGO_PKG_VERSION")));
+    assert_eq!(run("toss --version").status.code(), Some(2));
+}

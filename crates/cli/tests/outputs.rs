@@ -1,0 +1,125 @@
+//! Where answers go: standard output that is full, closed or a chart's, and files of every kind.
+//!
+//! A full device is only ever inherited as an open stream, and every path is in a temporary folder: a program that replaced
+//! what it should write through could not harm the machine, whoever runs the test.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs::{self, OpenOptions};
+use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use common::{json, run, stderr, stdout};
+
+const MAP: &str = "map --rate-x 0:9:3 --rate-y 0 --rate-z 1:9:3 --speed 3:5";
+
+fn full() -> Stdio {
+    OpenOptions::new().write(true).open("/dev/full").expect("a full device").into()
+}
+
+fn program(arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_unfair-toss"));
+    command.args(arguments.split_whitespace());
+    command
+}
+
+fn drawn(path: &Path) -> Output {
+    run(&format!("{MAP} --svg {}", path.display()))
+}
+
+#[test]
+fn a_full_standard_output_is_an_error() {
+    for arguments in
+        ["--help", "--version", "toss --help", "coins", "toss --rate 1,1,2 --speed 3", &format!("{MAP} --svg -")]
+    {
+        let output = program(arguments).stdout(full()).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments}");
+        assert!(
+            stderr(&output).starts_with("error: cannot write standard output: "),
+            "{arguments}: {}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn an_error_that_cannot_be_told_keeps_its_code() {
+    for (arguments, code) in
+        [("toss --rate 1,1 --speed 3", 2), ("toss --nonsense", 2), ("toss --rate 1,1,1e300 --time 1", 1)]
+    {
+        let output = program(arguments).stderr(full()).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments}");
+        let output = program(&format!("{arguments} --format json")).stdout(full()).stderr(full()).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments}");
+    }
+}
+
+#[test]
+fn a_reader_that_closes_the_pipe_is_no_failure_for_help_and_charts_either() {
+    for arguments in ["--help", &format!("{MAP} --svg -")] {
+        let mut child = program(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()), "{arguments}");
+    }
+}
+
+#[test]
+fn a_chart_for_standard_output_stands_there_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("chart.svg");
+    assert!(stdout(&drawn(&file)).starts_with("rate_x,"));
+    let output = program(&format!("{MAP} --svg -")).current_dir(folder.path()).output().unwrap();
+    assert_eq!(stdout(&output).trim_end(), fs::read_to_string(&file).unwrap().trim_end());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no file is called -");
+    // The file that standard output leads to is not replaced under it.
+    let printed = folder.path().join("printed");
+    let open = OpenOptions::new().write(true).create_new(true).open(&printed).unwrap();
+    let status = program(&format!("{MAP} --svg {}", printed.display())).stdout(open).status().unwrap();
+    assert!(status.success());
+    assert_eq!(fs::read(&printed).unwrap(), output.stdout);
+    for format in ["csv", "json"] {
+        let output = run(&format!("{MAP} --svg - --format {format}"));
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("--format has no effect with --svg on standard output"));
+    }
+}
+
+#[test]
+fn files_of_every_kind_are_written_as_they_should_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("target"), "old").unwrap();
+    fs::set_permissions(path("target"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("target", path("link")).unwrap();
+    assert_eq!(drawn(&path("link")).status.code(), Some(0));
+    assert!(path("link").is_symlink() && fs::read_to_string(path("target")).unwrap().starts_with("<svg"));
+    assert_eq!(fs::metadata(path("target")).unwrap().permissions().mode() & 0o777, 0o640);
+
+    fs::write(path("read-only"), "old").unwrap();
+    fs::set_permissions(path("read-only"), fs::Permissions::from_mode(0o444)).unwrap();
+    fs::create_dir(path("folder")).unwrap();
+    for (name, words) in [("read-only", "read-only"), ("folder", "directory")] {
+        let output = drawn(&path(name));
+        assert_eq!((output.status.code(), stdout(&output)), (Some(2), String::new()), "{name}");
+        assert!(stderr(&output).contains("cannot write") && stderr(&output).contains(words), "{}", stderr(&output));
+        let error = json(&format!("{MAP} --svg {}", path(name).display()), 2);
+        assert_eq!(
+            (&error["error"]["kind"], &error["error"]["path"]),
+            (&"write".into(), &path(name).display().to_string().into())
+        );
+    }
+    assert_eq!(fs::read(path("read-only")).unwrap(), b"old");
+
+    assert!(Command::new("mkfifo").arg(path("pipe")).status().unwrap().success());
+    let reader = std::thread::spawn({
+        let pipe = path("pipe");
+        move || fs::read_to_string(pipe).unwrap()
+    });
+    assert_eq!(drawn(&path("pipe")).status.code(), Some(0));
+    // Before the reader is joined: had the pipe been replaced, it would wait for ever.
+    assert!(fs::symlink_metadata(path("pipe")).unwrap().file_type().is_fifo());
+    assert!(reader.join().unwrap().starts_with("<svg"));
+}
