@@ -9,6 +9,8 @@ mod commands;
 mod failure;
 mod input;
 mod output;
+mod quantity;
+mod rate_args;
 mod solver_args;
 mod space_args;
 mod toss_args;

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
 //! | cos θ as three terms in f64; the phases that show heads; the change that flips the outcome | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | the speeds that land heads, for a landing at any height | [`thrown`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
 //! | outcomes with a proof, and the types that carry the proof | [`certified`], [`certificate`] |
@@ -26,6 +27,7 @@ pub mod motion;
 mod polar;
 pub mod sensitivity;
 pub mod solver;
+pub mod thrown;
 pub mod tilt_terms;
 mod trig_free;
 
@@ -38,4 +40,5 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use motion::ExactMotion;
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
+pub use thrown::thrown_speeds_of_heads;
 pub use tilt_terms::TiltTerms;

@@ -107,7 +107,7 @@ mod trace;
 
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
-pub use dynamics::{Attitude, Coin, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3};
+pub use dynamics::{Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3};
 
 // Solvers: to choose one, or to write your own.
 pub use dynamics::{
@@ -120,6 +120,7 @@ pub use registry::{Backend, Registry};
 // The exact motion, and what follows from it.
 pub use exact::{
     Batch, Certificate, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify, margin, speeds_of_heads,
+    thrown_speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 
