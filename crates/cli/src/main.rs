@@ -7,7 +7,9 @@
 mod chart;
 mod commands;
 mod failure;
+mod help;
 mod input;
+mod launch_rows;
 mod output;
 mod quantity;
 mod rate_args;
@@ -20,7 +22,10 @@ use std::process::ExitCode;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{convergence, errors, intervals, inverse, limit, list, map, plan, probability, toss, trace};
+use crate::commands::{
+    compare, convergence, errors, intervals, inverse, limit, list, map, plan, probability, sample, shell, spread, toss,
+    trace,
+};
 use crate::failure::Failure;
 use crate::output::Input;
 
@@ -39,6 +44,12 @@ enum Command {
     Trace(trace::Args),
     /// Estimate the probability of heads over a space of launches
     Probability(probability::Args),
+    /// Print single launches of a space, or of standard input, and how each lands
+    Sample(sample::Args),
+    /// Solve one toss by every solver and scheme
+    Compare(compare::Args),
+    /// Find how precise a hand must be for a wanted probability of heads
+    Spread(spread::Args),
     /// Show how the probability of heads converges as launches are added, by a grid and at random
     Convergence(convergence::Args),
     /// Measure how the error of each sampling method falls with the number of launches
@@ -61,6 +72,10 @@ enum Command {
     Models(list::Args),
     /// List the named spaces of launches
     Spaces(list::Args),
+    /// Print a script that completes the options in a shell
+    Completions(shell::CompletionsArgs),
+    /// Print a manual page
+    Man(shell::ManArgs),
 }
 
 impl Command {
@@ -69,6 +84,9 @@ impl Command {
             Self::Toss(args) => args.run(input),
             Self::Trace(args) => args.run(input),
             Self::Probability(args) => args.run(input),
+            Self::Sample(args) => args.run(),
+            Self::Compare(args) => args.run(input),
+            Self::Spread(args) => args.run(input),
             Self::Convergence(args) => args.run(input),
             Self::Errors(args) => args.run(input),
             Self::Map(args) => args.run(input),
@@ -80,12 +98,14 @@ impl Command {
             Self::Solvers(args) => list::solvers(args, input),
             Self::Models(args) => list::models(args, input),
             Self::Spaces(args) => list::spaces(args, input),
+            Self::Completions(args) => Ok(args.run(program())),
+            Self::Man(args) => args.run(program()),
         }
     }
 }
 
 fn main() -> ExitCode {
-    let printed = match Cli::command().try_get_matches() {
+    let printed = match program().try_get_matches() {
         Ok(given) => answer(&given).and_then(|text| output::print(&text)),
         Err(asked) if !asked.use_stderr() => whole_file::unless_closed(asked.print()).map_err(Failure::Print),
         Err(error) => Err(Failure::Arguments(error)),
@@ -99,10 +119,15 @@ fn main() -> ExitCode {
     ExitCode::from(failure.exit_code())
 }
 
+/// The program with its commands, options and help texts.
+fn program() -> clap::Command {
+    help::described(Cli::command())
+}
+
 /// The answer of the command that the arguments ask for.
 fn answer(given: &ArgMatches) -> Result<String, Failure> {
     let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
-    let program = Cli::command();
+    let program = program();
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
     command.run(&input)

@@ -81,7 +81,11 @@ pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
+/// Nothing is printed for an answer that is empty because its command has printed it already.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    if text.is_empty() {
+        return Ok(());
+    }
     whole_file::print(&format!("{}\n", text.trim_end())).map_err(Failure::Print)
 }
 

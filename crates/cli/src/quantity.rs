@@ -9,8 +9,7 @@ use toss::InputError;
 const RATES: &str = "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm";
 
 /// What is expected of a cylinder.
-const CYLINDER: &str =
-    "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft";
+const CYLINDER: &str = "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft";
 
 /// What is expected of moments of inertia.
 const MOMENTS: &str = "I1,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";

@@ -63,7 +63,10 @@ impl SpaceArgs {
         let Some(spread) = self.spread else { return Ok(space) };
         let spreading = space.with_spread(spread, &HAND)?;
         if spreading == space {
-            return Err(Failure::usage("spread", "--spread has no effect: no rate and no speed has a single value but 0"));
+            return Err(Failure::usage(
+                "spread",
+                "--spread has no effect: no rate and no speed has a single value but 0",
+            ));
         }
         Ok(spreading)
     }
@@ -155,7 +158,9 @@ impl PlanArgs {
     pub(crate) fn require_none(&self) -> Result<(), Failure> {
         match (self.points, self.seed) {
             (Some(_), _) => Err(Failure::usage("points", "--points needs --method; without, --accuracy decides")),
-            (None, Some(_)) => Err(Failure::usage("seed", "--seed needs --method; without, the plan has a seed of its own")),
+            (None, Some(_)) => {
+                Err(Failure::usage("seed", "--seed needs --method; without, the plan has a seed of its own"))
+            }
             (None, None) => Ok(()),
         }
     }

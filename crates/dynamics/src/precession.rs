@@ -19,7 +19,8 @@ pub fn rate_of_precession(coin: &Coin, turn: f64, wobble: f64) -> Result<Vector3
     require("turn [rad/s]", turn, "finite and >= 0", turn >= 0.0)?;
     require("wobble [rad]", wobble, "0 to π", (0.0..=PI).contains(&wobble))?;
     if coin.i3() == 0.0 {
-        let why = "a rod with I3 = 0 has no angular momentum along its normal, so that its spin does not follow from it";
+        let why =
+            "a rod with I3 = 0 has no angular momentum along its normal, so that its spin does not follow from it";
         return Err(InputError::OutsideModel { field: "wobble [rad]", why });
     }
     let (sin, cos) = wobble.sin_cos();

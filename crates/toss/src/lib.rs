@@ -107,7 +107,9 @@ mod trace;
 
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
-pub use dynamics::{Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3};
+pub use dynamics::{
+    Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3,
+};
 
 // Solvers: to choose one, or to write your own.
 pub use dynamics::{

@@ -56,11 +56,7 @@ pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<Tr
 }
 
 /// The flight of `toss` by `solver` at `times`, which ascend from 0.
-fn trace_at(
-    solver: &dyn Solver,
-    toss: &Toss,
-    times: impl Iterator<Item = f64>,
-) -> Result<Vec<TracePoint>, Error> {
+fn trace_at(solver: &dyn Solver, toss: &Toss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
     let solver = Checked::new(solver);
     let motion = ExactMotion::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
