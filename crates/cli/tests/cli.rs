@@ -6,7 +6,7 @@ mod common;
 use std::process::Command;
 
 use common::{assert_near, assert_refused, json, run, stdout};
-use serde_json::Value;
+use serde_json::{Value, json as value};
 use toss::{Registry, SolverEntry};
 
 #[test]
@@ -231,7 +231,17 @@ fn a_speed_changed_by_the_margin_flips_the_outcome() {
     assert_near(&answer["margin"]["time"], 2.0 * change / 9.81, 1e-15);
     let forever = json("toss --rate 1,1,2.5 --speed 3 --coin disc", 0);
     assert_eq!((&forever["margin"]["speed"], &forever["margin"]["time"]), (&Value::Null, &Value::Null));
-    assert!(stdout(&run("toss --rate 1,1,2.5 --speed 3 --coin disc")).contains("no speed changes the outcome"));
+    assert!(stdout(&run("toss --rate 1,1,2.5 --speed 3 --coin disc")).contains("none in v0, none in g, "));
+    let cheated = json("toss --rate 1,1,2.5 --speed 3", 0);
+    assert_eq!((&cheated["margin"]["rate"][2], &cheated["margin"]["rate_range"][2]), (&Value::Null, &value!(1000.0)));
+    for (option, input) in [("--gravity", "gravity"), ("--tilt", "tilt")] {
+        let start = if option == "--tilt" { 0.0 } else { 9.81 };
+        let change = cheated["margin"][input].as_f64().unwrap();
+        for (part, outcome) in [(0.999_999, "heads"), (1.000_001, "tails")] {
+            let command = format!("toss --rate 1,1,2.5 --speed 3 {option} {}", start + part * change);
+            assert_eq!(json(&command, 0)["outcome"], outcome, "{command}");
+        }
+    }
 }
 
 #[test]

@@ -137,7 +137,7 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
         ),
         (
             "a.json",
-            format!("{{\"accuracy\": 1, \"want\": {{\"trace\": {{\"points\": 3,\n\"spin\": 1}}}}}}"),
+            "{\"accuracy\": 1, \"want\": {\"trace\": {\"points\": 3,\n\"spin\": 1}}}".to_owned(),
             "line 2, column 6: unknown field `spin`",
         ),
     ] {

@@ -1,12 +1,12 @@
 //! This benchmark measures what a proof costs. It compares proven outcomes of random launches with outcomes by the sign
-//! of the same f64 alone: the ratio of these two is the price of the proof. Two more lines give the time of cos θ and
-//! of the whole state to the last bits.
+//! of the same f64 alone: the ratio of these two is the price of the proof. Three more lines give the time of cos θ
+//! and of the whole state to the last bits, and of the margins by all inputs.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynamics::{Coin, Launch, Outcome, Solver, TimeOfFlight, Toss, Vector3};
-use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify};
+use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify, margin};
 
 /// Launches with rates of 1 to 60 rad/s about each axis and speeds of 3 to 5 m/s, from Weyl's sequence.
 fn tosses() -> Vec<Toss> {
@@ -43,6 +43,10 @@ fn outcomes(criterion: &mut Criterion) {
     group.bench_function("state to the last bits", |bencher| {
         let state = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.time_of_flight()).ok();
         bencher.iter(|| tosses.iter().filter_map(|toss| state(black_box(toss))).map(|state| state.rate.x).sum::<f64>());
+    });
+    group.bench_function("margins by all inputs", |bencher| {
+        let tilts = || tosses.iter().filter_map(|toss| margin(black_box(toss)).ok()?.tilt);
+        bencher.iter(|| tilts().sum::<f64>());
     });
     group.finish();
 }

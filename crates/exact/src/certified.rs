@@ -182,19 +182,37 @@ fn is_tie(toss: &Toss) -> bool {
 /// cos θ at landing, computed in `digits` binary digits.
 fn cos_tilt(toss: &Toss, digits: isize) -> Big {
     let digits = digits.unsigned_abs();
-    let big = |value: f64| exactly(value).with_precision(digits).value();
     let round = |value: Big| value.with_precision(digits).value();
-    let rate = toss.launch.rate();
-    let (x, y, z) = (big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z));
+    let [x, y, z] = momentum(toss, digits);
     let across = &x * &x + &y * &y;
     let squared = &across + &z * &z;
     let vertical = vertical(toss).map(round);
-    if squared == big(0.0) {
+    if squared == exactly(0.0) {
         let [.., m_z] = vertical;
         return m_z;
     }
     let momentum = squared.sqrt();
-    let time = match toss.launch.time_of_flight() {
+    let time = flight_time(toss, digits);
+    let (sin, cos) = (&momentum * time).sin_cos();
+    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
+    let height = mean + cosine * cos + sine * &momentum * sin;
+    // Division by |Q|² is left out: it is 1 to rounding, and only the sign of the result and its scale within a factor
+    // of two matter here.
+    height / squared
+}
+
+/// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
+pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let rate = toss.launch.rate();
+    [big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z)]
+}
+
+/// T in `digits` binary digits (s).
+pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
+    let round = |value: Big| value.with_precision(digits).value();
+    let big = |value: f64| round(exactly(value));
+    match toss.launch.time_of_flight() {
         TimeOfFlight::Given(time) => big(time),
         TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
         TimeOfFlight::BallisticTo { speed, gravity, drop } => {
@@ -202,13 +220,7 @@ fn cos_tilt(toss: &Toss, digits: isize) -> Big {
             let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
             (round(speed) + round(discriminant).sqrt()) / round(gravity)
         }
-    };
-    let (sin, cos) = (&momentum * time).sin_cos();
-    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
-    let height = mean + cosine * cos + sine * &momentum * sin;
-    // Division by |Q|² is left out: it is 1 to rounding, and only the sign of the result and its scale within a factor
-    // of two matter here.
-    height / squared
+    }
 }
 
 #[cfg(test)]

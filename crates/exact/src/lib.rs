@@ -5,7 +5,8 @@
 //! | what | file |
 //! |---|---|
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
-//! | cos θ as three terms in f64; the phases that show heads; the change that flips the outcome | [`tilt_terms`], [`heads`], [`mod@margin`] |
+//! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
+//! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
 //! | the speeds that land heads, for a landing at any height | [`thrown`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |

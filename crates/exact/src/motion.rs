@@ -58,23 +58,14 @@ impl ExactMotion {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
         let k = toss.coin.exact_inertia_ratio();
         let scale = power_of_two_scale(rate.amax());
-        let scaled = rate / scale;
-        let spin = k * scaled.z;
-        // S gets a unit of its own: that of a spinning rod may be so small beside its spin that the square underflows.
-        let unit = power_of_two_scale(scaled.x.abs().max(scaled.y.abs()).max(spin.hi().abs()));
-        let (_, unit_exponent) = mantissa_and_exponent(unit);
-        let momentum = [(scaled.x / unit).into(), (scaled.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
-        let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
-        let precession_rate = norm.times_power_of_two(unit_exponent);
-        let [s_x, s_y, s_z] =
-            if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };
-        let direction = [s_x, s_y, s_z];
+        let (direction, precession_rate) = unit_momentum(&(rate / scale), k);
+        let [s_x, s_y, s_z] = direction;
         Self {
             launch: State { attitude, rate },
             exponent: mantissa_and_exponent(scale).1,
             momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
             precession_rate,
-            spin_rate: (k - 1.0.into()) * scaled.z,
+            spin_rate: (k - 1.0.into()) * (rate.z / scale),
             tilt: terms(unit_vertical(attitude), direction, s_x * s_x + s_y * s_y),
         }
     }
@@ -82,6 +73,11 @@ impl ExactMotion {
     /// ωL = |S|/I1, the rate of the precession about S (rad/s); infinite if it leaves the range of f64.
     pub fn precession_rate(&self) -> f64 {
         self.precession_rate.times_power_of_two(self.exponent).hi()
+    }
+
+    /// The time (s) in which ωL t grows by `phase` (rad); not finite if it leaves the range of f64.
+    pub(crate) fn time_of(&self, phase: f64) -> f64 {
+        (DoubleDouble::from(phase) / self.precession_rate).times_power_of_two(-self.exponent).hi()
     }
 
     /// ψ, the angle between n and S (rad), from 0 to π: half the opening of the cone that n describes about S.
@@ -188,6 +184,25 @@ impl ExactMotion {
     pub fn first_flip(&self) -> Option<f64> {
         Some(self.heads().first_flip()? / self.precession_rate()).filter(|time| time.is_finite())
     }
+}
+
+/// ŝ, the direction of S at the launch of a toss (BF); ẑ without a precession.
+pub(crate) fn momentum_direction(toss: &Toss) -> [DoubleDouble; 3] {
+    let rate = toss.launch.rate();
+    unit_momentum(&(rate / power_of_two_scale(rate.amax())), toss.coin.exact_inertia_ratio()).0
+}
+
+/// ŝ and ωL for a `rate` (BF) in a unit that is near its largest component.
+fn unit_momentum(rate: &Vector3<f64>, k: DoubleDouble) -> ([DoubleDouble; 3], DoubleDouble) {
+    let spin = k * rate.z;
+    // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
+    let unit = power_of_two_scale(rate.x.abs().max(rate.y.abs()).max(spin.hi().abs()));
+    let (_, unit_exponent) = mantissa_and_exponent(unit);
+    let momentum = [(rate.x / unit).into(), (rate.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
+    let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
+    let direction =
+        if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };
+    (direction, norm.times_power_of_two(unit_exponent))
 }
 
 /// The vertical in BF, normalised in double-double, so that the rounding of the quaternion's norm does not matter.

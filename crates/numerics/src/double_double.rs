@@ -9,7 +9,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number hi + lo, where hi is the nearest f64 and lo the remainder.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct DoubleDouble {
     hi: f64,
     lo: f64,

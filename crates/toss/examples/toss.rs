@@ -8,7 +8,7 @@
 //! outcome   heads, proven
 //! cos θ     0.700987799768
 //! attitude  w +0.718362807  x +0.338857683  y -0.186229887  z +0.578315465
-//! margin    +16.7013 mm/s in v0
+//! margin    +16.7013 mm/s in v0, +0.3090 turns/s in ωx
 //! ψ         67.4155°, heads for ever below 45°
 //! ```
 //!
@@ -26,11 +26,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let proven = certify(&toss)?;
     let landing = ExactSolver.propagate(&toss)?;
     let [w, x, y, z] = landing.state.attitude.components();
-    let change = margin(&toss)?.speed.ok_or("no speed changes the outcome")?;
+    let nearest = margin(&toss)?;
+    let change = nearest.speed.ok_or("no speed changes the outcome")?;
+    let change_of_rate = nearest.rate[0].ok_or("no rate about x changes the outcome")?;
     println!("outcome   {}, proven", proven.outcome().name());
     println!("cos θ     {:.12}", landing.cos_tilt);
     println!("attitude  w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}");
-    println!("margin    {:+.4} mm/s in v0", 1e3 * change);
+    println!("margin    {:+.4} mm/s in v0, {:+.4} turns/s in ωx", 1e3 * change, change_of_rate / TAU);
     println!("ψ         {:.4}°, heads for ever below 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
 
     // A change slightly below the margin keeps the outcome, and one slightly above flips it.

@@ -17,7 +17,7 @@
 //!
 //! # A toss
 //! This is the paper's cheated toss, with ω = (1, 1, 2.5) rad/s and a speed of 3 m/s. Its outcome is proven, and the
-//! speed would have to grow by 3.4 m/s to flip it. Read on at [`Toss`], [`Coin`] (real coins are in the [`catalogue`]),
+//! speed would have to grow by 3.4 m/s to flip it, or ωx by 1.5 rad/s. Read on at [`Toss`], [`Coin`] (real coins are in the [`catalogue`]),
 //! [`certify`] and [`margin()`].
 //!
 //! ```
@@ -27,7 +27,9 @@
 //! let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
 //! assert_eq!(certify(&toss)?.outcome().name(), "heads");
 //! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
-//! assert_eq!(margin(&toss)?.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
+//! let nearest = margin(&toss)?;
+//! assert_eq!(nearest.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
+//! assert_eq!(nearest.rate[0].map(|change| format!("{change:+.4} rad/s")).as_deref(), Some("+1.4587 rad/s"));
 //!
 //! // The same flight, solved by an integrator that is chosen at run time.
 //! let gamma = Registry::standard().named("gamma")?.solver(&Settings::default())?;

@@ -1,7 +1,7 @@
 //! `unfair-toss toss`: one toss, one answer.
 
 use serde::Serialize;
-use toss::{Backend, Propagation, Toss, Work, margin};
+use toss::{Backend, Margin, Propagation, TimeOfFlight, Toss, Work, margin};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, without_sign_of_zero};
@@ -50,12 +50,19 @@ struct WorkCounts {
     rejected_steps: u64,
 }
 
-/// The smallest change of one input that flips the outcome of the exact motion; null where none does.
+/// For each input alone, the change to the nearest value that flips the outcome of the exact motion; null where none does, or,
+/// of a rate, none up to a change of `rate_range`.
 #[derive(Serialize)]
 struct MarginAnswer {
     time: Option<f64>,
     speed: Option<f64>,
+    gravity: Option<f64>,
+    tilt: Option<f64>,
     rate: [Option<f64>; 3],
+    rate_range: [f64; 3],
+    /// Whether a speed was given, and not a time.
+    #[serde(skip)]
+    thrown: bool,
 }
 
 impl Args {
@@ -74,7 +81,6 @@ impl Answer {
         let solver = backend.solver();
         let Propagation { state, cos_tilt, norm_error, work, .. } = solver.propagate(toss)?;
         let verdict = backend.verdict(toss, cos_tilt)?;
-        let margin = margin(toss)?;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
         let (i1, i3) = (toss.coin.i1(), toss.coin.i3());
         let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
@@ -84,7 +90,7 @@ impl Answer {
             cos_tilt: without_sign_of_zero(cos_tilt),
             outcome: verdict.outcome().name(),
             certified: verdict.is_proven(),
-            margin: MarginAnswer { time: margin.time, speed: margin.speed, rate: margin.rate },
+            margin: MarginAnswer::new(toss)?,
             attitude: state.attitude.components().map(without_sign_of_zero),
             rate: state.rate.into(),
             norm_error,
@@ -122,18 +128,43 @@ impl Answer {
 }
 
 impl MarginAnswer {
-    fn text(&self) -> String {
-        let change = |value: Option<f64>, unit| {
-            let digits = |value: f64| {
-                if (1e-3..1e4).contains(&value.abs()) { format!("{value:+.4}") } else { format!("{value:+.3e}") }
-            };
-            value.map(|value| format!("{} {unit}", digits(value)))
-        };
-        let nearest = change(self.speed, "m/s in v0").or_else(|| change(self.time, "s in the time of flight"));
-        let rates = ["ωx", "ωy", "ωz"].into_iter().zip(self.rate);
-        let rates =
-            rates.filter_map(|(name, value)| change(value, "rad/s").map(|change| format!("{change} in {name}")));
-        let all: Vec<String> = nearest.into_iter().chain(rates).collect();
-        if self.time.is_none() { "no speed changes the outcome".to_owned() } else { all.join(", ") }
+    fn new(toss: &Toss) -> Result<Self, Failure> {
+        let Margin { time, speed, gravity, tilt, rate, rate_range } = margin(toss)?;
+        let thrown = !matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_));
+        Ok(Self { time, speed, gravity, tilt, rate, rate_range, thrown })
     }
+
+    /// In two lines, which the column of the answers fits.
+    fn text(&self) -> String {
+        let change = |value: Option<f64>, unit: &str, name: &str| match value {
+            Some(value) => format!("{} {unit} in {name}", digits(value)),
+            None => format!("none in {name}"),
+        };
+        let rates = ["ωx", "ωy", "ωz"].iter().zip(self.rate).zip(self.rate_range).map(|((name, value), range)| {
+            let within = if value.is_none() { format!(" within ±{} rad/s", short(range)) } else { String::new() };
+            change(value, "rad/s", name) + &within
+        });
+        let rates: Vec<String> = rates.collect();
+        let tilt = change(self.tilt, "rad", "tilt");
+        let rest = if self.thrown {
+            format!("{}, {}, {tilt}", change(self.speed, "m/s", "v0"), change(self.gravity, "m/s²", "g"))
+        } else {
+            format!("{}, {tilt}", change(self.time, "s", "the time of flight"))
+        };
+        format!("{rest},\n             {}", rates.join(", "))
+    }
+}
+
+/// A change with its sign.
+fn digits(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        1e-3..1e4 => format!("{value:+.4}"),
+        _ => format!("{value:+.3e}"),
+    }
+}
+
+/// A range in few digits.
+fn short(range: f64) -> String {
+    if (1.0..1e6).contains(&range) { format!("{range:.0}") } else { format!("{range:.3e}") }
 }

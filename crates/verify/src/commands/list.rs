@@ -5,6 +5,6 @@ use verify::{CHECKS, Check, files};
 
 pub(super) fn list() -> anyhow::Result<u8> {
     let line = |check: &Check| format!("{:<36} [{}] {}\n", check.id, check.basis.name(), check.claim);
-    files::print(&CHECKS.iter().map(|check| line(check)).collect::<String>())?;
+    files::print(&CHECKS.iter().map(line).collect::<String>())?;
     Ok(0)
 }

@@ -1,0 +1,100 @@
+//! cos θ along a line of turns in as many digits as it takes, for margins near an edge, near a touch or of a large phase.
+//!
+//! The formula is that of [`height`](super::height), the inputs are those of the toss without a rounding.
+
+use dynamics::Toss;
+use dynamics::attitude::vertical_in_body;
+use numerics::UNIT_ROUNDOFF;
+use numerics::big::{Big, exactly};
+
+use super::height::{Height, Landing, functions_of_phase};
+use super::line::Input;
+use crate::certified::{flight_time, momentum};
+
+/// Digits to begin with, and after which a height counts as 0. The smallest height that is not 0 and that inputs in f64 can
+/// give has some 2^-2200.
+const DIGITS: usize = 192;
+const MOST_DIGITS: usize = 3072;
+
+/// Of these digits at most 80 are lost: the phase is up to 2^53, and there are some fifty operations.
+const LOST_DIGITS: usize = 80;
+
+/// f and f' of a toss whose turn is `change` (rad) further on the line of `input`.
+pub(super) fn height_in_digits(toss: &Toss, input: Input, change: f64) -> Height {
+    decided(|digits| height_and_slope(landing(toss, input, change, vertical(toss, digits), digits), digits))
+}
+
+/// cos θ of a toss, and what it becomes after a quarter of a turn of the launch about the lab's x axis.
+pub(super) fn tilted_heights(toss: &Toss) -> [Height; 2] {
+    let of = |vertical: fn(&Toss, usize) -> [Big; 3]| {
+        decided(|digits| height_and_slope(landing(toss, Input::Rate(0), 0.0, vertical(toss, digits), digits), digits))
+    };
+    [of(vertical), of(quarter_turned_vertical)]
+}
+
+/// A value and a slope in so many digits that the value is not 0, or in the most.
+fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
+    let mut digits = DIGITS;
+    loop {
+        let [value, slope] = of_digits(digits);
+        let bound = Big::ONE >> (digits - LOST_DIGITS).cast_signed();
+        let [size, threshold] = [if value < Big::ZERO { -value.clone() } else { value.clone() }, bound.clone() << 60];
+        if size > threshold || digits >= MOST_DIGITS {
+            let [value, slope, bound] = [value, slope, bound].map(|number| number.to_f64().value());
+            let rounding = |value: f64| 2.0 * UNIT_ROUNDOFF * value.abs();
+            return Height { value, slope, error: bound + rounding(value), slope_error: 2.0 * bound + rounding(slope) };
+        }
+        digits *= 2;
+    }
+}
+
+/// The landing `change` (rad) further on the line of `input`, in `digits` binary digits.
+fn landing(toss: &Toss, input: Input, change: f64, vertical: [Big; 3], digits: usize) -> Landing<Big> {
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let time = flight_time(toss, digits);
+    let momentum = momentum(toss, digits);
+    match input {
+        Input::Rate(axis) => {
+            let mut turn = momentum.map(|part| part * &time);
+            turn[axis] += big(change);
+            let mut direction = [0.0; 3].map(big);
+            direction[axis] = big(1.0);
+            let along = turn[axis].clone();
+            Landing { vertical, turn, direction, along }
+        }
+        Input::Time => {
+            let [x, y, z] = &momentum;
+            let rate = (x * x + y * y + z * z).sqrt();
+            let along = &rate * time + big(change);
+            let direction = momentum.map(|part| part / &rate);
+            let turn = direction.clone().map(|part| part * &along);
+            Landing { vertical, turn, direction, along }
+        }
+    }
+}
+
+/// f and f' at a landing.
+fn height_and_slope(landing: Landing<Big>, digits: usize) -> [Big; 2] {
+    let [x, y, z] = &landing.turn;
+    let phase = (x * x + y * y + z * z).sqrt();
+    let functions = functions_of_phase(&phase, phase.sin_cos(), |value| exactly(value).with_precision(digits).value());
+    landing.height_and_slope(functions)
+}
+
+/// The vertical seen from the body, of size 1.
+fn vertical(toss: &Toss, digits: usize) -> [Big; 3] {
+    normalised(toss.launch.attitude().components().map(exactly), digits)
+}
+
+/// The vertical seen from the body after a quarter of a turn about the lab's x axis: that of the quaternion (1, 1, 0, 0) q.
+fn quarter_turned_vertical(toss: &Toss, digits: usize) -> [Big; 3] {
+    let [w, x, y, z] = toss.launch.attitude().components().map(exactly);
+    normalised([&w - &x, w + x, &y - &z, y + z], digits)
+}
+
+fn normalised(components: [Big; 4], digits: usize) -> [Big; 3] {
+    let round = |value: Big| value.with_precision(digits).value();
+    let (vertical, norm) = vertical_in_body(components);
+    let norm = round(norm);
+    vertical.map(|part| round(part) / &norm)
+}

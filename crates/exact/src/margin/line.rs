@@ -1,0 +1,271 @@
+//! The line of turns that one input of a toss moves along, in f64: where it is sampled, and how far no flip can be.
+//!
+//! These bounds let the search skip parts of the line, each proven here or in [`height`](super::height):
+//!
+//! ```text
+//! |f''| ≤ 1                                            everywhere
+//! |f''| ≤ σ² + (1 + 4.5 σ)/φ + 10/φ²                   σ = |Φ·e|/φ and φ where each is worst on the part skipped
+//! |f''| ≤ |mz| + |a|/3 + |a'| + |b|/12 + |b'|/3 + |b''|/2
+//! |f''| ≤ |B| + |C|                                    along Φ itself, as for the time of flight
+//! (m·Φ)² + Φz² > |Φ|²                                  no flip: the cone of n does not reach the horizontal
+//! ```
+//!
+//! The second follows from cos θ = F(s, φ) = (m·s)(ẑ·s)(1 - cos φ) + mz cos φ + sin φ (m × s)z with s = Φ/φ:
+//! φ' = σ and φ'' ≤ 1/φ; |s'| ≤ 1/φ and |s''| ≤ 1.16/φ²; the derivatives of F are at most 1 (twice by φ, or once), √5 (by s
+//! and φ), 5 (by s) and 4 (twice by s). The third is for coins that stay near the edge all the time; there S = ∫ cos(t φ) dt
+//! and V = ∫ (1 - t) cos(t φ) dt over t from 0 to 1, and the n-th derivative of cos(t φ) is at most tⁿ. The fourth and the last
+//! are those of cos θ = A + B cos φ + C sin φ; the last says |A| > √(B² + C²).
+//!
+//! Errors of f in units of u = 2^-53, in the notation of [`height`](super::height):
+//!
+//! ```text
+//! m                 1       rounded from double-double
+//! mz cos φ          2.2     a cosine that is right to 1.2 and a product
+//! S a               10      3 of Φ/φ, 1.2 of the sine, 5 operations
+//! V b               33      V b ≤ 2, with 15 of Φ/φ (three times) and operations, 3 of 1 - cos φ
+//! the sums          3
+//! the phase         70 u φ  as in the crate's double-double stage; |df/dφ| ≤ 1
+//! ```
+//!
+//! That is 50 + 70 u φ, of which [`error`] makes 64 + 80 u φ; the slope has twice as many operations and twice the bound.
+
+use dynamics::Toss;
+use dynamics::attitude::vertical_in_body;
+use dynamics::time_of_flight::ExactTime;
+use numerics::scale::mantissa_and_exponent;
+use numerics::{DoubleDouble, UNIT_ROUNDOFF};
+
+use super::digits::height_in_digits;
+use super::height::{Height, Landing, functions_of_phase};
+use super::sine::sine_and_cosine;
+use crate::motion::momentum_direction;
+use crate::tilt_terms::terms;
+
+/// An input that moves the turn along a straight line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Input {
+    /// ωx, ωy or ωz, by its index.
+    Rate(usize),
+    /// The time of flight.
+    Time,
+}
+
+/// The turns Φ + u e of one input.
+pub(super) struct Line<'a> {
+    toss: &'a Toss,
+    input: Input,
+    /// m.
+    vertical: [DoubleDouble; 3],
+    /// e.
+    direction: [DoubleDouble; 3],
+    /// The part of Φ that the input does not move (rad), and its square.
+    across: [DoubleDouble; 3],
+    across_squared: DoubleDouble,
+    /// Φ·e at launch (rad).
+    along: DoubleDouble,
+}
+
+impl<'a> Line<'a> {
+    /// The line of a rate.
+    pub(super) fn of_rate(toss: &'a Toss, axis: usize, turn: [DoubleDouble; 3]) -> Self {
+        let mut direction = [DoubleDouble::ZERO; 3];
+        direction[axis] = 1.0.into();
+        let mut across = turn;
+        across[axis] = DoubleDouble::ZERO;
+        let across_squared = across.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part);
+        Self {
+            toss,
+            input: Input::Rate(axis),
+            vertical: vertical(toss.launch.attitude().components().map(DoubleDouble::from)),
+            direction,
+            across,
+            across_squared,
+            along: turn[axis],
+        }
+    }
+
+    /// The line of the time of flight, which ends at the `phase` ωL T (rad).
+    pub(super) fn of_time(toss: &'a Toss, phase: DoubleDouble) -> Self {
+        Self {
+            toss,
+            input: Input::Time,
+            vertical: vertical(toss.launch.attitude().components().map(DoubleDouble::from)),
+            direction: momentum_direction(toss),
+            across: [DoubleDouble::ZERO; 3],
+            across_squared: DoubleDouble::ZERO,
+            along: phase,
+        }
+    }
+
+    /// Φ·e at launch (rad).
+    pub(super) fn along(&self) -> DoubleDouble {
+        self.along
+    }
+
+    /// The size of the part of Φ that the input does not move (rad).
+    pub(super) fn across(&self) -> f64 {
+        self.across_squared.sqrt().hi()
+    }
+
+    /// Φ·e and φ at a `change` (rad).
+    fn along_and_phase(&self, change: f64) -> [DoubleDouble; 2] {
+        let along = self.along + change.into();
+        [along, (self.across_squared + along * along).sqrt()]
+    }
+
+    /// The landing in f64 where Φ·e is `along` (rad).
+    fn landing(&self, along: f64) -> Landing<f64> {
+        let [vertical, direction, across] =
+            [self.vertical, self.direction, self.across].map(|vector| vector.map(DoubleDouble::hi));
+        let part = |index: usize| across[index] + along * direction[index];
+        Landing { vertical, turn: [part(0), part(1), part(2)], direction, along }
+    }
+
+    /// f and f' at a `change` (rad): in f64, in double-double, and in as many digits as tell f from 0.
+    pub(super) fn height(&self, stage: usize, change: f64) -> Height {
+        match stage {
+            0 => self.rough_height(change),
+            1 => self.fine_height(change),
+            _ => height_in_digits(self.toss, self.input, change),
+        }
+    }
+
+    fn rough_height(&self, change: f64) -> Height {
+        let [along, phase] = self.along_and_phase(change);
+        height_of(self.landing(along.hi()), phase)
+    }
+
+    #[cold]
+    fn fine_height(&self, change: f64) -> Height {
+        let [along, phase] = self.along_and_phase(change);
+        let part = |index: usize| self.across[index] + self.direction[index] * along;
+        let turn = [part(0), part(1), part(2)];
+        fine_height_of(Landing { vertical: self.vertical, turn, direction: self.direction, along }, phase)
+    }
+
+    /// A bound of |f''| over a `length` ≥ 0 (rad) from `change` in the direction of `sense`, 1 or -1.
+    pub(super) fn curvature(&self, change: f64, sense: f64, length: f64) -> f64 {
+        let from = self.along.hi() + change;
+        let ends = [from, from + sense * length];
+        let bound = if self.across_squared.hi() > 0.0 {
+            self.curvature_far_out(ends).min(self.curvature_by_size(ends))
+        } else {
+            self.amplitude()
+        };
+        // The factor is for the roundings of the bound.
+        (1.000_001 * bound).min(1.0)
+    }
+
+    /// The bound by the change of the phase, between two values of Φ·e.
+    fn curvature_far_out(&self, ends: [f64; 2]) -> f64 {
+        let across = self.across_squared.hi();
+        let far = ends[0].abs().max(ends[1].abs());
+        let near = if ends[0] * ends[1] > 0.0 { ends[0].abs().min(ends[1].abs()) } else { 0.0 };
+        let sine = far / (across + far * far).sqrt();
+        let inverse = 1.0 / (across + near * near).sqrt();
+        let bound = sine * sine + inverse * (1.0 + 4.5 * sine + 10.0 * inverse);
+        // Not a number where all are 0.
+        if bound < 1.0 { bound } else { 1.0 }
+    }
+
+    /// The bound by the sizes of mz, a and b, between two values of Φ·e. It is convex, so that an end has the most.
+    fn curvature_by_size(&self, ends: [f64; 2]) -> f64 {
+        let far = if ends[0].abs() > ends[1].abs() { ends[0] } else { ends[1] };
+        let Landing { vertical, turn, direction, .. } = self.landing(far);
+        let [[m_x, m_y, m_z], [x, y, z], [e_x, e_y, e_z]] =
+            [vertical, turn, direction].map(|vector| vector.map(f64::abs));
+        let (level, level_slope) = (m_x * x + m_y * y + m_z * z, m_x * e_x + m_y * e_y + m_z * e_z);
+        let by_across = (m_x * y + m_y * x) / 3.0 + (m_x * e_y + m_y * e_x);
+        let by_tilted = z * level / 12.0 + (e_z * level + z * level_slope) / 3.0 + e_z * level_slope;
+        m_z + by_across + by_tilted
+    }
+
+    /// |B| + |C| of cos θ = A + B cos φ + C sin φ, along Φ itself.
+    fn amplitude(&self) -> f64 {
+        const ROUNDING: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+        let [x, y, _] = self.direction;
+        let [_, cosine, sine] = terms(self.vertical, self.direction, x * x + y * y);
+        cosine.hi().abs() + sine.hi().abs() + ROUNDING
+    }
+
+    /// A length from `change` on in the direction of `sense` over which the cone of n does not reach the horizontal: 0 if it
+    /// may do so at once, infinite if it never does.
+    ///
+    /// The condition is a quadratic of the length, of which each term is off by less than 16u of the size subtracted.
+    pub(super) fn closed_length(&self, change: f64, sense: f64) -> f64 {
+        const ERROR: f64 = 32.0 * UNIT_ROUNDOFF;
+        let [along, phase] = self.along_and_phase(change);
+        let Landing { vertical: m, turn, direction: e, along } = self.landing(along.hi());
+        let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (level, level_slope, phase) = (dot(&m, &turn), dot(&m, &e), phase.hi());
+        let constant = level * level + turn[2] * turn[2] - (1.0 + ERROR) * (phase * phase);
+        if constant <= 0.0 {
+            return 0.0;
+        }
+        let linear = sense * (level * level_slope + turn[2] * e[2] - along) - ERROR * phase;
+        let square = level_slope * level_slope + e[2] * e[2] - (1.0 + ERROR);
+        // The smallest positive root of constant + 2 linear h + square h².
+        let discriminant = linear * linear - square * constant;
+        if square >= 0.0 && (linear >= 0.0 || discriminant < 0.0) {
+            return f64::INFINITY;
+        }
+        (1.0 - 1e-9) * (constant / (discriminant.max(0.0).sqrt() - linear))
+    }
+}
+
+/// Φ at landing (rad), in double-double.
+pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
+    let time = ExactTime::from(toss.launch.time_of_flight());
+    let rate = toss.launch.rate();
+    let k = toss.coin.exact_inertia_ratio();
+    [(rate.x, 1.0.into()), (rate.y, 1.0.into()), (rate.z, k)].map(|(rate, ratio): (f64, DoubleDouble)| {
+        let (mantissa, exponent) = mantissa_and_exponent(rate);
+        (ratio * mantissa * time.mantissa()).times_power_of_two(exponent + time.exponent())
+    })
+}
+
+/// cos θ of a toss with the turn Φ at landing, and what it becomes after a quarter of a turn of the launch about the lab's x
+/// axis; in f64 or, at `stage` 1, in double-double.
+pub(super) fn tilted_heights(toss: &Toss, turn: [DoubleDouble; 3], stage: usize) -> [Height; 2] {
+    let components = toss.launch.attitude().components().map(DoubleDouble::from);
+    let [w, x, y, z] = components;
+    // The quarter turn is that of the quaternion (1, 1, 0, 0).
+    [components, [w - x, w + x, y - z, y + z]].map(|components| {
+        let line = Line { vertical: vertical(components), ..Line::of_rate(toss, 0, turn) };
+        line.height(stage, 0.0)
+    })
+}
+
+/// The vertical seen from the body, of size 1, for a quaternion of any norm.
+fn vertical(components: [DoubleDouble; 4]) -> [DoubleDouble; 3] {
+    let (vertical, norm) = vertical_in_body(components);
+    vertical.map(|part| part / norm)
+}
+
+/// f and f' in f64 at a landing with a `phase` (rad).
+fn height_of(landing: Landing<f64>, phase: DoubleDouble) -> Height {
+    let functions = functions_of_phase(&phase.hi(), phase.rounded_sin_cos(), |number| number);
+    let [value, slope] = landing.height_and_slope(functions);
+    let error = error(phase.hi());
+    Height { value, slope, error, slope_error: 2.0 * error }
+}
+
+/// f and f' in double-double at a landing with a `phase` (rad).
+fn fine_height_of(landing: Landing<DoubleDouble>, phase: DoubleDouble) -> Height {
+    let functions = functions_of_phase(&phase, sine_and_cosine(phase), DoubleDouble::from);
+    let [value, slope] = landing.height_and_slope(functions).map(DoubleDouble::hi);
+    let error = fine_error(phase.hi());
+    let rounding = UNIT_ROUNDOFF;
+    Height { value, slope, error: error + rounding * value.abs(), slope_error: 2.0 * error + rounding * slope.abs() }
+}
+
+/// Bound of the error of f in f64 at a `phase` (rad).
+fn error(phase: f64) -> f64 {
+    (64.0 + 80.0 * UNIT_ROUNDOFF * phase) * UNIT_ROUNDOFF
+}
+
+/// Bound of the error of f in double-double at a `phase` (rad): the same operations with 10 u² each, sine and cosine to
+/// (200 + 5 φ) u².
+fn fine_error(phase: f64) -> f64 {
+    (2000.0 + 100.0 * phase) * (UNIT_ROUNDOFF * UNIT_ROUNDOFF)
+}

@@ -1,0 +1,276 @@
+//! Flips by the proven outcome, touches, and inputs of any size. The dense scan is in `tests/margins`.
+
+use dynamics::{Attitude, Coin, Launch};
+use nalgebra::Vector3;
+
+use super::height::Height;
+use super::*;
+use crate::certified::certify;
+
+fn toss(rate: Vector3<f64>, tilt: f64, speed: f64) -> Toss {
+    let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
+    let launch = Launch::new(rate, thrown).unwrap().with_tilt(tilt).unwrap();
+    Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
+}
+
+const RATES: [[f64; 3]; 6] =
+    [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2.0, 2.0, 0.5], [0.0, 0.0, 0.0]];
+const TILTS: [f64; 4] = [0.0, 0.6, 2.0, -1.1];
+
+#[test]
+fn the_change_of_speed_flips_the_outcome_and_none_smaller_does() {
+    let mut flips = 0;
+    for rate in RATES.map(Vector3::from) {
+        for (tilt, speed) in TILTS.into_iter().flat_map(|tilt| [0.3, 3.0, 4.1].map(|speed| (tilt, speed))) {
+            let outcome = |speed| certify(&toss(rate, tilt, speed)).unwrap().outcome();
+            let Some(change) = margin(&toss(rate, tilt, speed)).unwrap().speed else { continue };
+            flips += 1;
+            assert_ne!(outcome(speed + change * (1.0 + 1e-9)), outcome(speed), "{rate:?} {tilt} {speed}");
+            for part in [-0.999_999, -0.5, 0.5, 0.999_999] {
+                let other = speed + part * change;
+                assert!(other < 0.0 || outcome(other) == outcome(speed), "{rate:?} {tilt} {speed}: {change}");
+            }
+        }
+    }
+    assert!(flips > 40, "{flips}");
+}
+
+#[test]
+fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
+    let mut flips = 0;
+    for rate in RATES.map(Vector3::from) {
+        for (drop, now) in [-0.4, 0.2, 1.5].into_iter().flat_map(|drop| [3.0, 4.1].map(|now| (drop, now))) {
+            let toss = |speed| {
+                let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop };
+                Toss { coin: Coin::DISC, launch: Launch::new(rate, thrown).unwrap().with_tilt(0.6).unwrap() }
+            };
+            let outcome = |speed| certify(&toss(speed)).unwrap().outcome();
+            let Some(change) = margin(&toss(now)).unwrap().speed else { continue };
+            flips += 1;
+            assert_ne!(outcome(now + change * (1.0 + 1e-9)), outcome(now), "{rate:?} {drop}");
+            assert_eq!(outcome(now + change * (1.0 - 1e-9)), outcome(now), "{rate:?} {drop}");
+        }
+    }
+    assert!(flips >= 18, "{flips}");
+}
+
+/// The first two figures are those of the README; to first order the changes would be 2.1266 and -49.9486.
+#[test]
+fn the_cheated_toss_flips_where_the_exact_motion_does() {
+    let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+    let cheated = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown).unwrap() };
+    let Margin { rate, rate_range, gravity, tilt, .. } = margin(&cheated).unwrap();
+    let digits = |value: Option<f64>| value.map(|value| format!("{value:+.4}"));
+    let found = [rate[0], rate[1], gravity, tilt].map(digits).map(Option::unwrap);
+    assert_eq!(found, ["+1.4587", "+1.4587", "-5.2204", "+1.1783"]);
+    assert_eq!((rate[2], rate_range), (None, [1000.0; 3]));
+    assert_eq!(rate[0], rate[1]);
+}
+
+#[test]
+fn margins_of_any_size_flip_the_outcome_and_none_smaller_does() {
+    // Nearer and nearer to an edge, down to the last bit of the speed.
+    let start = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, 3.0);
+    let edge = 3.0 + margin(&start).unwrap().speed.unwrap();
+    for from_edge in [0.3, 1e-4, 1e-8, 1e-12, 4e-16] {
+        let near = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, edge - from_edge);
+        let outcome = certify(&near).unwrap().outcome();
+        let Margin { rate, gravity, tilt, .. } = margin(&near).unwrap();
+        assert!(
+            [rate[0], rate[1], rate[2], gravity, tilt].iter().all(|change| change.unwrap().abs() < 40.0 * from_edge)
+        );
+        for (axis, change) in rate.into_iter().enumerate() {
+            let changed = |part: f64| near.launch.rate() + Vector3::ith(axis, part * change.unwrap());
+            let outcome_of = |part| certify(&toss(changed(part), 0.4, edge - from_edge)).unwrap().outcome();
+            // Where the change is some bits of the rate, so is what is tried.
+            let slack = 1e-12 + 1e-15 / change.unwrap().abs();
+            assert_eq!(outcome_of((1.0 - slack).max(0.0)), outcome, "{axis} {from_edge}");
+            assert_ne!(outcome_of(1.0 + slack), outcome, "{axis} {from_edge}");
+        }
+    }
+}
+
+#[test]
+fn the_change_of_tilt_flips_the_outcome_and_none_smaller_does() {
+    for (rate, tilt) in RATES.into_iter().flat_map(|rate| TILTS.map(|tilt| (rate, tilt))) {
+        let toss = |tilt| toss(rate.into(), tilt, 3.0);
+        let change = margin(&toss(tilt)).unwrap().tilt.unwrap();
+        let outcome = |part: f64| certify(&toss(tilt + part * change)).unwrap().outcome();
+        assert!(change.abs() <= std::f64::consts::FRAC_PI_2);
+        assert_ne!(outcome(1.0 + 1e-12), outcome(0.0), "{rate:?} {tilt}: {change}");
+        assert!([-0.999_999, -0.5, 0.5, 1.0 - 1e-12].iter().all(|part| outcome(*part) == outcome(0.0)));
+    }
+}
+
+#[test]
+fn speeds_inside_the_intervals_land_heads_and_others_tails() {
+    for rate in RATES.map(Vector3::from) {
+        for tilt in TILTS {
+            let intervals: Vec<[f64; 2]> = speeds_of_heads(&toss(rate, tilt, 9.0), 1.0).unwrap().unwrap().collect();
+            for part in 0..500 {
+                let speed = 1.0 + 8.0 * (f64::from(part) + 0.5) / 500.0;
+                let inside = intervals.iter().any(|[slow, fast]| *slow < speed && speed < *fast);
+                let heads = certify(&toss(rate, tilt, speed)).unwrap().outcome() == dynamics::Outcome::Heads;
+                assert_eq!(inside, heads, "{rate:?} {tilt} {speed}: {intervals:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_never_flips_has_no_margin_in_speed() {
+    let certain = margin(&toss(Vector3::new(1.0, 0.0, 9.0), 0.0, 3.0)).unwrap();
+    assert_eq!((certain.speed, certain.time), (None, None));
+    let launch = Launch::new(Vector3::new(9.0, 0.0, 0.0), TimeOfFlight::Given(0.1)).unwrap();
+    let given = margin(&Toss { coin: Coin::PAPER, launch }).unwrap();
+    assert_eq!(given.speed, None);
+    assert!((given.time.unwrap() - (std::f64::consts::FRAC_PI_2 / 9.0 - 0.1)).abs() < 1e-15);
+}
+
+/// Caught 1.5 m below, no flight is shorter than the fall from rest, 0.553 s: of the flips at 0.5 s and 1.5 s only the
+/// later one can be had.
+#[test]
+fn a_flip_before_the_shortest_flight_is_none() {
+    let toss = |speed| {
+        let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop: 1.5 };
+        Toss { coin: Coin::DISC, launch: Launch::new(Vector3::new(std::f64::consts::PI, 0.0, 0.0), thrown).unwrap() }
+    };
+    let change = margin(&toss(0.1)).unwrap().speed.unwrap();
+    let flight = toss(0.1 + change).launch.flight_time();
+    assert!((flight - 1.5).abs() < 1e-12, "{change}: {flight}");
+}
+
+/// On the edge by exact arithmetic: w = x.
+fn on_edge(rate: [f64; 3], time: f64) -> Toss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+    let attitude = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
+    Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_attitude(attitude) }
+}
+
+#[test]
+fn an_undecided_toss_has_a_margin_of_0() {
+    for (rate, time) in [([0.0; 3], 1.0), ([0.0, 0.0, 7.0], 1.0), ([1.0, 2.0, 3.0], 0.0)] {
+        let Margin { time, tilt, rate, speed, .. } = margin(&on_edge(rate, time)).unwrap();
+        assert_eq!((time, tilt, rate, speed), (Some(0.0), Some(0.0), [Some(0.0); 3], None));
+    }
+}
+
+/// With m along y and S in the plane of y and z, cos θ = my V Φy Φz never changes its sign, and is 0 at each whole turn.
+#[test]
+fn a_touch_is_no_flip() {
+    for [y, z] in [[5.0, 3.0], [-5.0, 3.0], [0.1, 60.0]] {
+        let found = margin(&on_edge([0.0, y, z], 1.0)).unwrap();
+        assert_eq!(found.time, None, "{y} {z}");
+        for (axis, rate) in [(1, y), (2, z)] {
+            let change = found.rate[axis].unwrap_or_else(|| panic!("{y} {z}: {found:?}"));
+            assert!((change + rate).abs() <= 1e-12 * rate.abs(), "{y} {z}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_flip_has_no_margin() {
+    // A rod's spin does not matter, nor does any rate to a coin that lands at once.
+    let rod = Coin::from_moments(1.0, 0.0).unwrap();
+    let launch = Launch::new(Vector3::new(3.0, 0.0, 9.0), TimeOfFlight::Given(1.0)).unwrap();
+    let found = margin(&Toss { coin: rod, launch }).unwrap();
+    assert!(found.rate[2].is_none() && found.rate[0].is_some(), "{found:?}");
+    let found = margin(&toss(Vector3::new(3.0, 2.0, 1.0), 0.3, 0.0)).unwrap();
+    assert_eq!((found.rate, found.gravity), ([None; 3], None));
+    assert!(found.time.is_some() && found.speed.is_some());
+    // At rest, time does not matter, and half a turn about x or y is as good as any.
+    let found = margin(&toss(Vector3::zeros(), 0.3, 3.0)).unwrap();
+    assert_eq!((found.time, found.speed, found.gravity, found.rate[2]), (None, None, None, None));
+    assert!((found.tilt.unwrap() - (std::f64::consts::FRAC_PI_2 - 0.3)).abs() < 1e-15);
+    let expected = found.tilt.unwrap() / (6.0 / 9.81);
+    assert!((found.rate[0].unwrap() - expected).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn inputs_of_any_size_have_finite_margins() {
+    let sizes = [0.0, 5e-324, 1e-300, 1e-30, 1.0, 1e15, 1e150, 1e300];
+    for (size, time) in sizes.into_iter().flat_map(|size| sizes.map(|time| (size, time))) {
+        for rate in [[1.0, 0.0, 0.0], [1.0, -1.0, 1.0], [0.0, 0.0, 1.0], [1e-20, 1.0, 1e-3]] {
+            for (k, tilt) in [(0.0, 0.0), (1e-300, 1.0), (1.0, 1e-300), (2.0, 1e15), (0.5, std::f64::consts::FRAC_PI_2)]
+            {
+                let launch = Launch::new(Vector3::from(rate) * size, TimeOfFlight::Given(time)).unwrap();
+                let launch = launch.with_tilt(tilt).unwrap();
+                let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+                let Ok(Margin { time, tilt, rate, rate_range: range, .. }) = margin(&toss) else { continue };
+                let all = [time, tilt, rate[0], rate[1], rate[2], Some(range[0]), Some(range[1]), Some(range[2])];
+                assert!(all.iter().flatten().all(|value| value.is_finite()), "{toss:?}: {all:?}");
+                let within = |axis: usize| rate[axis].is_none_or(|change| change.abs() <= 1.000_001 * range[axis]);
+                assert!((0..3).all(within), "{toss:?}: {rate:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scaled_toss_has_scaled_margins() {
+    let scaled = |scale: f64| {
+        let launch = Launch::new(Vector3::new(2e3, -5e3, 1e3) * scale, TimeOfFlight::Given(1e-3 / scale)).unwrap();
+        let found = margin(&Toss { coin: Coin::PAPER, launch: launch.with_tilt(1.2).unwrap() }).unwrap();
+        (found.rate.map(|change| change.unwrap() / scale), found.time.unwrap() * scale, found.tilt)
+    };
+    assert_eq!(scaled(1.0), scaled(f64::exp2(900.0)));
+}
+
+/// Lines of all inputs of tosses with small, large and vanishing parts, with a change on each.
+fn lines(mut test: impl FnMut(&Line, f64)) {
+    for (index, rate) in (1..).zip(RATES) {
+        for (tilt, speed) in TILTS.into_iter().flat_map(|tilt| [0.3, 3.0, 40.0].map(|speed| (tilt, speed))) {
+            let toss = toss(Vector3::from(rate) * 3.0, tilt, speed);
+            let turn = line::turn(&toss);
+            let (phase, _) = ExactMotion::new(&toss).phases(toss.launch.time_of_flight()).unwrap();
+            let lines = [0, 1, 2].map(|axis| Line::of_rate(&toss, axis, turn));
+            for line in lines.iter().chain((phase.hi() > 0.0).then_some(&Line::of_time(&toss, phase))) {
+                for part in 0..8 {
+                    test(line, 20.0 * (f64::from(part * 7 + index) * 2f64.sqrt()).fract() - 10.0);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_are_right_to_their_errors() {
+    lines(|line, change| {
+        let exact = line.height(2, change);
+        for Height { value, slope, error, slope_error } in [0, 1].map(|stage| line.height(stage, change)) {
+            assert!((value - exact.value).abs() <= error + exact.error, "{value:e}, not {exact:?}");
+            assert!((slope - exact.slope).abs() <= slope_error + exact.slope_error, "{slope:e}, not {exact:?}");
+        }
+    });
+}
+
+/// The slope changes by no more than the curvature allows, and does so by the slope of the height.
+#[test]
+fn slopes_and_curvatures_are_those_of_the_height() {
+    lines(|line, change| {
+        for (sense, length) in [(1.0, 1e-4), (-1.0, 1e-4), (1.0, 0.3), (-1.0, 3.0)] {
+            let [from, to] = [change, change + sense * length].map(|change| line.height(0, change));
+            let curvature = line.curvature(change, sense, length);
+            let fits = (to.value - from.value - sense * length * from.slope).abs();
+            assert!(fits <= 0.5 * curvature * length * length + 1e-14, "{fits:e} {curvature:e} {length}");
+            assert!((to.slope - from.slope).abs() <= curvature * length + 1e-14, "{curvature:e} {length}");
+            assert!(line.curvature(change, sense, 0.5 * length) <= curvature);
+        }
+    });
+}
+
+#[test]
+fn no_flip_is_where_the_cone_is_closed() {
+    let mut closed = 0;
+    lines(|line, change| {
+        for sense in [1.0, -1.0] {
+            let length = line.closed_length(change, sense).min(20.0);
+            closed += u32::from(length > 0.0);
+            let heads = line.height(0, change).value > 0.0;
+            let looks = (1..200).map(|look| change + sense * length * f64::from(look) / 200.0);
+            let same = |change| (line.height(0, change).value > 0.0) == heads;
+            assert!(length == 0.0 || looks.into_iter().all(same), "{change} {sense} {length}");
+        }
+    });
+    assert!(closed > 400, "{closed}");
+}
