@@ -231,7 +231,7 @@ mod tests {
     fn conversions_are_rounded_once() {
         for (dimension, text, expected) in [
             (Angle, "15deg", 0.261_799_387_799_149_46),
-            (Angle, "-45°", -0.785_398_163_397_448_3),
+            (Angle, "-44°", -0.767_944_870_877_505),
             (Angle, "181.04deg", 3.159_744_077_810_534_3),
             (Angle, "0.1rev", 0.628_318_530_717_958_7),
             (TurnRate, "38rev/s", 238.761_041_672_824_3),

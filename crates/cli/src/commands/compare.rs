@@ -71,7 +71,8 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let toss = self.toss.toss()?;
         let exact = ExactSolver.propagate(&toss)?;
-        let rows = self.candidates()?.into_iter().map(|candidate| self.row(candidate, &toss, &exact));
+        let candidates = self.candidates()?;
+        let rows = candidates.iter().map(|candidate| self.row(candidate, &toss, &exact));
         let flight_time = toss.launch.flight_time();
         let answer = Answer { cos_tilt: exact.cos_tilt, flight_time, rows: rows.collect::<Result<_, Failure>>()? };
         Ok(match self.format {
@@ -115,9 +116,9 @@ impl Args {
         }
     }
 
-    fn row(&self, candidate: Candidate, toss: &Toss, exact: &Propagation) -> Result<Row, Failure> {
+    fn row(&self, candidate: &Candidate, toss: &Toss, exact: &Propagation) -> Result<Row, Failure> {
         let backend = Registry::standard().backend(candidate.solver, &candidate.settings)?;
-        let mut row = Row::new(&candidate);
+        let mut row = Row::new(candidate);
         let answered = backend.solver().propagate(toss);
         let answered = answered.and_then(|landing| Ok((landing, backend.verdict(toss, landing.cos_tilt)?)));
         match answered {

@@ -25,8 +25,8 @@ const OF_A_SPACE: [&str; 14] = [
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// - to read the launches from standard input: CSV with a heading, whose columns are wx, wy, wz, speed or time, and if
-    /// wanted gravity, drop and tilt
+    /// With - the launches are read from standard input: CSV with a heading, whose columns are wx, wy, wz, speed or time,
+    /// and if wanted gravity, drop and tilt
     #[arg(value_name = "-", value_parser = ["-"], conflicts_with_all = OF_A_SPACE)]
     from: Option<String>,
     #[command(flatten)]
