@@ -60,6 +60,7 @@ fn a_wrong_unit_is_refused_with_the_units_that_fit() {
         ("toss --rate 1,1,1 --speed 3 --cylinder 5g,1g,1g", ["cylinder = '5g,1g,1g'", "m, cm, mm, in or ft"]),
         ("toss --rate 1,1,1 --speed 3 --cylinder 5g,0.01,1mm", ["cylinder = '5g,0.01,1mm'", "a unit after each"]),
         ("toss --rate 1,1,1 --speed 3 --moments 1g,1g", ["moments = '1g,1g'", "kg·m², g·cm² or g·mm²"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --scheme rk4 --step 1m", ["'1m' for '--step", "s, ms or µs"]),
         ("toss --turn 3deg --wobble 1 --speed 3", ["'3deg' for '--turn", "rev/s or rpm"]),
         (
             "probability --rate-x 3m --rate-y x --rate-z 1 --speed 3 --method random",

@@ -49,7 +49,7 @@ mod tests {
     fn the_outcome_changes_at_the_ends_of_the_intervals() {
         for drop in [Some(1.3), Some(-0.4), Some(0.0), None] {
             let heads = thrown_speeds_of_heads(&toss(9.0, drop), 3.0).unwrap().unwrap();
-            assert!(heads.len() > 5, "{heads:?}");
+            assert!(heads.len() > 2, "{heads:?}");
             for speed in (0..=6000).map(|step| 3.0 + f64::from(step) * 1e-3) {
                 let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
                 let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));

@@ -5,12 +5,13 @@ use std::time::Instant;
 
 use serde::Serialize;
 use toss::{
-    ExactSolver, Formulation, InputError, Nanoseconds, Propagation, Registry, Scheme, Settings, SolveError, Solver,
-    Stepping, Toss,
+    Dimension, ExactSolver, Formulation, InputError, Nanoseconds, Propagation, Registry, Scheme, Settings, SolveError,
+    Solver, Stepping, Toss,
 };
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
+use crate::quantity;
 use crate::toss_args::TossArgs;
 
 #[derive(Debug, clap::Args)]
@@ -21,7 +22,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TOL", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_TOLERANCE)]
     tolerance: f64,
     /// Step of the schemes with a fixed step (s)
-    #[arg(long, value_name = "H", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_STEP)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_STEP,
+          value_parser = quantity::of(Dimension::Time))]
     step: f64,
     /// Formulation of the kinematics of the integrators; `all` for every one that a solver has
     #[arg(long, value_name = "NAME|all", default_value = Formulation::default().name())]
