@@ -56,6 +56,29 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["method"], "taylor");
 }
 
+/// Both land some 1e-17 from the edge: on the other side of it for the rounded quaternion, or the rounded moments.
+#[test]
+fn an_outcome_is_proven_for_the_tilt_and_the_cylinder_as_typed() {
+    for (command, outcome, cos_tilt) in [
+        (
+            "toss --rate=-24.064598567199237,-26.566903895330363,49.56448355104628 --speed 2.4107905225673436 \
+             --tilt 2.5150841041292824",
+            "heads",
+            1.083_048_700_603_535_2e-17,
+        ),
+        (
+            "toss --cylinder=0.003,0.01874,0.00114 --rate=-3.2179007895838936,169.2146405840661,-44.3313807416256 \
+             --speed 2.050038069869439",
+            "heads",
+            5.367_562_989_044_33e-16,
+        ),
+    ] {
+        let answer = json(command, 0);
+        assert_eq!((answer["outcome"].as_str(), answer["certified"].as_bool()), (Some(outcome), Some(true)));
+        assert_near(&answer["cos_tilt"], cos_tilt, 1e-30);
+    }
+}
+
 #[test]
 fn schemes_and_norm_errors_keep_their_former_names() {
     for command in ["toss --rate 2,5,1 --time 0.4", "trace --rate 2,5,1 --time 0.4 --points 3"] {

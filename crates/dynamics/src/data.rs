@@ -18,6 +18,7 @@
 use std::fmt;
 
 use nalgebra::Vector3;
+use numerics::{Angle, Quantity};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -97,7 +98,9 @@ impl<'de> Deserialize<'de> for Coin {
 
 impl Serialize for Coin {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        CoinData { moments: Some(vec![self.i1(), self.i3()]), cylinder: None }.serialize(to)
+        let cylinder = self.cylinder().map(|given| given.map(Quantity::to_f64).to_vec());
+        let moments = if cylinder.is_some() { None } else { Some(vec![self.i1(), self.i3()]) };
+        CoinData { moments, cylinder }.serialize(to)
     }
 }
 
@@ -202,8 +205,9 @@ impl From<Launch> for LaunchData {
             }
             TimeOfFlight::Given(t) => time = Some(t),
         }
-        let attitude = Some(launch.attitude().components());
-        Self { rate: launch.rate().into(), speed, gravity, drop, time, tilt: None, attitude, drag: None, bounce: None }
+        let tilt = launch.attitude().tilt().map(Angle::radians);
+        let attitude = if tilt.is_some() { None } else { Some(launch.attitude().given_components()) };
+        Self { rate: launch.rate().into(), speed, gravity, drop, time, tilt, attitude, drag: None, bounce: None }
     }
 }
 
@@ -236,11 +240,12 @@ mod tests {
         ];
         for time in thrown {
             let launch = Launch::new(Vector3::new(0.1, -7.0, 1e-300), time).unwrap().with_tilt(1.1).unwrap();
-            let toss = Toss { coin: Coin::from_moments(0.3, 0.1).unwrap(), launch };
-            let back = read(&toml::to_string(&toss).unwrap()).unwrap();
-            assert_eq!((back.coin, back.launch.rate()), (toss.coin, toss.launch.rate()));
-            assert_eq!(back.launch.time_of_flight(), time);
-            assert!(back.launch.attitude().angle_to(&toss.launch.attitude()) < 1e-15);
+            let attitude = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
+            let coins = [Coin::from_moments(0.3, 0.1), Coin::from_cylinder(0.003, 0.01874, 0.00114)];
+            for (coin, launch) in coins.into_iter().zip([launch, launch.with_attitude(attitude)]) {
+                let toss = Toss { coin: coin.unwrap(), launch };
+                assert_eq!(read(&toml::to_string(&toss).unwrap()), Ok(toss));
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 //! leaves the hand; a [`Toss`] is a launch with its coin, and is all that a solver takes.
 
 use nalgebra::Vector3;
+use numerics::{Angle, AngleUnit};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
@@ -14,6 +15,8 @@ use crate::time_of_flight::TimeOfFlight;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
     rate: Vector3<f64>,
+    /// The rate as it was given, where that was not in rad/s.
+    given_rate: Option<(Vector3<f64>, AngleUnit)>,
     attitude: Attitude,
     time_of_flight: TimeOfFlight,
     /// T (s), stored because every flight needs it.
@@ -32,7 +35,16 @@ impl Launch {
             require(field, value, "finite", true)?;
         }
         let flight_time = time_of_flight.validated_seconds()?;
-        Ok(Self { rate, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
+        Ok(Self { rate, given_rate: None, attitude: Attitude::IDENTITY, time_of_flight, flight_time })
+    }
+
+    /// As [`Launch::new`], with the body rate in a `unit` of angle per second.
+    ///
+    /// # Errors
+    /// As [`Launch::new`].
+    pub fn in_unit(rate: Vector3<f64>, unit: AngleUnit, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        let launch = Self::new(rate.map(|part| unit.times(part).radians()), time_of_flight)?;
+        Ok(Self { given_rate: (unit != AngleUnit::RADIAN).then_some((rate, unit)), ..launch })
     }
 
     /// A launch with the attitude and the body rate of `state`, to continue a flight.
@@ -49,16 +61,24 @@ impl Launch {
         Self { attitude, ..self }
     }
 
-    /// The same launch with the horizontal coin turned by `tilt` (rad) about the x axis of LF (α = γ = 0, β = `tilt`).
+    /// The same launch with the horizontal coin turned by `tilt` about the x axis of LF (α = γ = 0, β = `tilt`). An f64 is in
+    /// radians.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if `tilt` is not finite.
-    pub fn with_tilt(self, tilt: f64) -> Result<Self, InputError> {
-        require("tilt [rad]", tilt, "finite", true)?;
+    pub fn with_tilt(self, tilt: impl Into<Angle>) -> Result<Self, InputError> {
+        let tilt = tilt.into();
+        require("tilt [rad]", tilt.radians(), "finite", true)?;
         Ok(self.with_attitude(Attitude::about_x(tilt)))
     }
 
-    /// ω at launch (BF, rad/s).
+    /// ω at launch as it was given, and in which unit of angle per second.
+    #[inline]
+    pub fn given_rate(&self) -> (Vector3<f64>, AngleUnit) {
+        self.given_rate.unwrap_or((self.rate, AngleUnit::RADIAN))
+    }
+
+    /// ω at launch (BF, rad/s), to rounding where it was given in another unit.
     pub fn rate(&self) -> Vector3<f64> {
         self.rate
     }

@@ -79,6 +79,7 @@ pub use flight::Flight;
 pub use formulation::{Formulation, Frame};
 pub use launch::{Launch, Toss};
 pub use nalgebra::Vector3;
+pub use numerics::{Angle, AngleUnit, Quantity, Unit};
 pub use outcome::Outcome;
 pub use phase::RoughPhases;
 pub use precession::rate_of_precession;

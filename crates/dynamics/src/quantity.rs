@@ -32,25 +32,25 @@ pub enum Dimension {
     Inertia,
 }
 
-/// A unit: `numerator`/`denominator` of the SI unit, times π if `has_pi` is set.
+/// A unit and its name: `numerator`/`denominator` of the SI unit, times π if `has_pi` is set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Unit {
+pub struct NamedUnit {
     name: &'static str,
     numerator: u32,
     denominator: u32,
     has_pi: bool,
 }
 
-const fn unit(name: &'static str, numerator: u32, denominator: u32) -> Unit {
-    Unit { name, numerator, denominator, has_pi: false }
+const fn unit(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+    NamedUnit { name, numerator, denominator, has_pi: false }
 }
 
-const fn unit_of_pi(name: &'static str, numerator: u32, denominator: u32) -> Unit {
-    Unit { name, numerator, denominator, has_pi: true }
+const fn unit_of_pi(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+    NamedUnit { name, numerator, denominator, has_pi: true }
 }
 
 /// What is expected of a quantity, in words, and its units, of which the first is the SI unit.
-type Row = (&'static str, &'static [Unit]);
+type Row = (&'static str, &'static [NamedUnit]);
 
 const ANGLE: Row = (
     "an angle in rad, deg, ° or rev (rad without a unit)",
@@ -87,7 +87,7 @@ const INERTIA: Row = (
     &[unit("kg·m²", 1, 1), unit("g·cm²", 1, 10_000_000), unit("g·mm²", 1, 1_000_000_000)],
 );
 
-impl Unit {
+impl NamedUnit {
     /// The name, such as `rev/s`.
     pub fn name(&self) -> &'static str {
         self.name
@@ -148,7 +148,7 @@ impl Dimension {
     }
 
     /// The units that a quantity of this kind may have. The first one is the SI unit.
-    pub fn units(self) -> &'static [Unit] {
+    pub fn units(self) -> &'static [NamedUnit] {
         self.row().1
     }
 

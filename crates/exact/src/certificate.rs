@@ -31,7 +31,8 @@ impl Stage {
 }
 
 /// A proven outcome and the stage that proved it. The outcome is [`Outcome::Undecided`] only for an exact tie,
-/// which is cos θ = 0 at landing.
+/// which is cos θ = 0 at landing. With rates in
+/// turns per second, |cos θ| < 2^-12000 counts as a tie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Certificate {
     outcome: Outcome,

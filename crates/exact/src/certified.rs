@@ -1,7 +1,10 @@
-//! This file proves the outcome of a toss: whether the ideal flight with exactly the given f64 moments, rates,
-//! attitude, speed and gravity ends in heads or tails. It tries stages from the cheapest to the most accurate and stops
-//! at the first whose error bound is smaller than |cos θ|, so that for nearly all tosses a proof costs little more than
-//! plain f64.
+//! This file proves the outcome of a toss: whether the ideal flight with exactly the numbers that coin and launch were
+//! made from ends in heads or tails. It tries stages from the cheapest to the most accurate and stops at the first whose
+//! error bound is smaller than |cos θ|, so that for nearly all tosses a proof costs little more than plain f64.
+//!
+//! The numbers are the moments or the cylinder, the rates, the tilt or the quaternion, and the time or the speed, gravity
+//! and drop. Values derived from them, as k = 6 r²/(3 r² + h²) or the vertical seen from a tilted coin, are not rounded
+//! before the proof, or the bound covers their rounding.
 //!
 //! The first two stages need little of the motion: `keller.rs` (Keller's coin: flat, without spin) and `trig_free.rs`
 //! (no sine or cosine). The other three use more and more digits, after the adaptive predicates of J. R. Shewchuk,
@@ -21,27 +24,30 @@
 //! ```
 //!
 //! [`f64_bound`] rounds this up, to cover the squares of u and the rounding of the bound itself. Underflow loses less
-//! than 2^-1000, and `size` is above 10^-200.
+//! than 2^-1000, and `size` is above 10^-200. The ratio k is rounded once, and the vertical of
+//! [`Attitude::vertical`](dynamics::Attitude::vertical) is right to the errors that the errors of A, B and C are derived
+//! from, whatever the attitude was made from.
 //!
 //! **2. Double-double.** [`ExactMotion::cos_tilt_parts`] gives cos θ = a + b cos φ + c sin φ. No result goes through
-//! more than some fifteen operations with an error of at most 10 u² each. So a, b, c and their sum are right within
-//! 10³ u², and the phase within 70 u² φ (k 10 u², |L| 20 u², time 25 u², their product 5 u²). Sine and cosine of the
-//! leading part of the phase are those of std (2u each, √2 for both); turning them by the trailing part `lo`, |lo| ≤ ½,
-//! adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which [`double_double_bound`] rounds up.
+//! more than some fifteen operations with an error of at most 10 u² each, and the vertical is right to 2^-67. So a, b, c
+//! and their sum are right within 2^-66, and the phase within 70 u² φ (|L| 37 u², of which k has 25 u²; time 25 u², their
+//! product 5 u²). Sine and cosine of the leading part of the phase are those of std (2u each, √2 for both); turning them
+//! by the trailing part `lo`, |lo| ≤ ½, adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which
+//! [`double_double_bound`] rounds up.
 //!
-//! **3. As many digits as it takes.** The number of digits doubles until the sign is certain. This ends: e^(iφ) is
-//! transcendental for an algebraic φ ≠ 0 (Lindemann), so A + B cos φ + C sin φ = 0 with algebraic A, B, C needs φ = 0
-//! or A = B = C = 0, and exact arithmetic finds these ties first.
+//! Rates that were not given in rad/s are rounded to it, with an error of u each. This turns the landed coin by at most
+//! u φ. The bounds of the stages in f64 have room for it, and the stage in double-double adds it to its bound.
+//!
+//! **3. As many digits as it takes.** The number of digits doubles until the sign is certain: see `multiprecision.rs`.
 
-use dynamics::attitude::vertical_in_body;
-use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
-use numerics::big::{Big, exactly};
+use dynamics::{AngleUnit, Error, Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::keller::{keller_outcome, keller_phase};
 use crate::motion::ExactMotion;
-use crate::tilt_terms::{TiltTerms, terms};
+use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
+use crate::tilt_terms::TiltTerms;
 use crate::trig_free::{phase_in_range, trig_free_by};
 
 /// Proves the outcome of a toss.
@@ -54,6 +60,19 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
         Some(certificate) => Ok(certificate),
         None => with_more_digits(toss),
     }
+}
+
+/// cos θ at landing to the error [`COS_TILT_ERROR`](crate::motion::COS_TILT_ERROR), and of the sign of the proven outcome:
+/// it is 0 for a tie alone. Near 0, where that error would take the leading digits, it is rounded from more digits.
+///
+/// # Errors
+/// As [`certify`].
+pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+    // Above the error of double-double at any phase.
+    const NEAR_0: f64 = 1e-9;
+    let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
+    let is_right = cos_tilt.abs() > NEAR_0 && rate_error(toss) == 0.0;
+    Ok(if is_right { cos_tilt } else { rounded_cos_tilt(toss) })
 }
 
 impl ProvenCounts {
@@ -74,6 +93,9 @@ impl ProvenCounts {
 /// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
+    if rate_error(toss).is_infinite() {
+        return None;
+    }
     let by = |stage| move |outcome| Certificate::new(outcome, stage);
     if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
         return Some(by(Stage::Keller)(outcome));
@@ -102,19 +124,34 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     let motion = ExactMotion::new(toss);
     let time = toss.launch.time_of_flight();
     motion.phase(time)?;
-    Ok(match by_double_double(&motion, time)? {
+    Ok(match by_double_double(&motion, time, rate_error(toss))? {
         Some(outcome) => Certificate::new(outcome, Stage::DoubleDouble),
         None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
     })
 }
 
-/// The stage in double-double. `None` if |cos θ| is within its error bound.
+/// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.
+#[inline]
+fn rate_error(toss: &Toss) -> f64 {
+    const SLOWEST: f64 = 1e-200;
+    if toss.launch.given_rate().1 == AngleUnit::RADIAN {
+        0.0
+    } else if toss.launch.rate().amax() >= SLOWEST {
+        1.01 * UNIT_ROUNDOFF
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// The stage in double-double, for rates with this relative error. `None` if |cos θ| is within its error bound.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-fn by_double_double(motion: &ExactMotion, time: TimeOfFlight) -> Result<Option<Outcome>, SolveError> {
+fn by_double_double(motion: &ExactMotion, time: TimeOfFlight, rate_error: f64) -> Result<Option<Outcome>, SolveError> {
     let (cos_tilt, phase) = motion.cos_tilt_parts(time)?;
-    Ok(match Outcome::of(cos_tilt.hi(), double_double_bound(phase)) {
+    // Of a phase of 0 and lost digits the product is NaN, within which nothing is decided.
+    let bound = double_double_bound(phase) + rate_error * phase.hi();
+    Ok(match Outcome::of(cos_tilt.hi(), bound) {
         Outcome::Undecided => None,
         decided => Some(decided),
     })
@@ -132,95 +169,6 @@ pub fn double_double_bound(phase: DoubleDouble) -> f64 {
 #[inline]
 pub fn f64_bound(phase: f64) -> f64 {
     (34.0 + 7.0 * phase) * UNIT_ROUNDOFF
-}
-
-/// The stage with as many digits as it takes. It decides every toss; an exact tie is undecided.
-pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
-    if is_tie(toss) {
-        return Outcome::Undecided;
-    }
-    let mut digits: isize = 192;
-    loop {
-        let (cos_tilt, bound) = (cos_tilt(toss, digits), multiprecision_bound(digits));
-        if cos_tilt > bound {
-            return Outcome::Heads;
-        }
-        if cos_tilt < -bound {
-            return Outcome::Tails;
-        }
-        digits *= 2;
-    }
-}
-
-/// Error bound of cos θ computed in `digits` binary digits: some twenty operations lose a few bits, and the phase,
-/// which may be 2^53 rad, loses 53 more. 2^80 units leave a margin.
-fn multiprecision_bound(digits: isize) -> Big {
-    Big::ONE >> (digits - 80)
-}
-
-/// The vertical in the body frame (BF) at launch, times |Q|² of the attitude quaternion Q, exactly.
-fn vertical(toss: &Toss) -> [Big; 3] {
-    vertical_in_body(toss.launch.attitude().components().map(exactly)).0
-}
-
-/// Whether cos θ = 0 exactly at landing.
-fn is_tie(toss: &Toss) -> bool {
-    let [m_x, m_y, m_z] = vertical(toss);
-    let zero = exactly(0.0);
-    if m_z != zero {
-        // No tie if mz ≠ 0: at phase 0, cos θ = mz. If B = C = 0, either Ω = 0 and again cos θ = mz, or m is parallel
-        // to L, where A = 0 needs Lz = 0 and thus mz = 0.
-        return false;
-    }
-    let rate = toss.launch.rate();
-    let landed_at_once = !toss.launch.time_of_flight().is_positive();
-    let precesses = rate.x != 0.0 || rate.y != 0.0;
-    let level_momentum = rate.z == 0.0 || toss.coin.i3() == 0.0;
-    landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
-}
-
-/// cos θ at landing, computed in `digits` binary digits.
-fn cos_tilt(toss: &Toss, digits: isize) -> Big {
-    let digits = digits.unsigned_abs();
-    let round = |value: Big| value.with_precision(digits).value();
-    let [x, y, z] = momentum(toss, digits);
-    let across = &x * &x + &y * &y;
-    let squared = &across + &z * &z;
-    let vertical = vertical(toss).map(round);
-    if squared == exactly(0.0) {
-        let [.., m_z] = vertical;
-        return m_z;
-    }
-    let momentum = squared.sqrt();
-    let time = flight_time(toss, digits);
-    let (sin, cos) = (&momentum * time).sin_cos();
-    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
-    let height = mean + cosine * cos + sine * &momentum * sin;
-    // Division by |Q|² is left out: it is 1 to rounding, and only the sign of the result and its scale within a factor
-    // of two matter here.
-    height / squared
-}
-
-/// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
-pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
-    let big = |value: f64| exactly(value).with_precision(digits).value();
-    let rate = toss.launch.rate();
-    [big(rate.x), big(rate.y), big(toss.coin.i3()) / big(toss.coin.i1()) * big(rate.z)]
-}
-
-/// T in `digits` binary digits (s).
-pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
-    let round = |value: Big| value.with_precision(digits).value();
-    let big = |value: f64| round(exactly(value));
-    match toss.launch.time_of_flight() {
-        TimeOfFlight::Given(time) => big(time),
-        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            let (speed, gravity) = (exactly(speed), exactly(gravity));
-            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
-            (round(speed) + round(discriminant).sqrt()) / round(gravity)
-        }
-    }
 }
 
 #[cfg(test)]

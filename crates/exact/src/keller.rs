@@ -50,8 +50,9 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::certified::{by_multiprecision, certify};
+    use crate::certified::certify;
     use crate::motion::ExactMotion;
+    use crate::multiprecision::by_multiprecision;
 
     fn toss(rate: [f64; 3], tilt: f64, time: f64) -> Toss {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();

@@ -10,7 +10,7 @@
 //! | the speeds that land heads, for a landing at any height | [`thrown`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
-//! | outcomes with a proof, and the types that carry the proof | [`certified`], [`certificate`] |
+//! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
 //! | many tosses at once, in SIMD registers | [`batch`] |
 //! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
 //!
@@ -25,6 +25,7 @@ pub mod heads;
 mod keller;
 pub mod margin;
 pub mod motion;
+mod multiprecision;
 mod polar;
 pub mod sensitivity;
 pub mod solver;

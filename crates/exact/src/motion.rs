@@ -21,7 +21,6 @@
 //! of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for every phase up to the
 //! limit of 2^53 rad.
 
-use dynamics::attitude::vertical_in_body;
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
 use dynamics::{Attitude, EulerAngles, SolveError, State, Toss};
@@ -66,7 +65,7 @@ impl ExactMotion {
             momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
             precession_rate,
             spin_rate: (k - 1.0.into()) * (rate.z / scale),
-            tilt: terms(unit_vertical(attitude), direction, s_x * s_x + s_y * s_y),
+            tilt: terms(attitude.exact_vertical(), direction, s_x * s_x + s_y * s_y),
         }
     }
 
@@ -205,15 +204,6 @@ fn unit_momentum(rate: &Vector3<f64>, k: DoubleDouble) -> ([DoubleDouble; 3], Do
     (direction, norm.times_power_of_two(unit_exponent))
 }
 
-/// The vertical in BF, normalised in double-double, so that the rounding of the quaternion's norm does not matter.
-fn unit_vertical(attitude: Attitude) -> [DoubleDouble; 3] {
-    if attitude == Attitude::IDENTITY {
-        return [0.0, 0.0, 1.0].map(DoubleDouble::from);
-    }
-    let (vertical, norm) = vertical_in_body(attitude.components().map(DoubleDouble::from));
-    vertical.map(|part| part / norm)
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -318,17 +308,5 @@ mod tests {
         let fast = motion(Coin::PAPER, [1e300, 1e300, 2.5e300], 0.0);
         let paper = motion(Coin::PAPER, [1.0, 1.0, 2.5], 0.0);
         assert!((fast.cos_tilt(1e-300).unwrap() - paper.cos_tilt(1.0).unwrap()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn the_vertical_in_the_body_is_normalised_in_double_double() {
-        for components in [[0.3, -0.7, 0.5, 0.4], [0.3, 0.7, -0.5, 0.4], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]] {
-            let attitude = Attitude::from_components(components).unwrap();
-            let vertical = unit_vertical(attitude);
-            let rounded = Vector3::from(vertical.map(DoubleDouble::hi));
-            approx::assert_abs_diff_eq!(rounded, attitude.lab_to_body(&Vector3::z()), epsilon = 1e-15);
-            let square = vertical.into_iter().fold(DoubleDouble::ZERO, |sum, part| sum + part * part);
-            assert!((square - 1.0.into()).hi().abs() < 1e-30, "{square:?}");
-        }
     }
 }

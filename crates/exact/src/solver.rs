@@ -3,7 +3,7 @@
 
 use dynamics::{Outcome, Propagation, Settings, SolveError, Solver, SolverEntry, Toss, Work};
 
-use crate::certified::certify;
+use crate::certified::{certify, cos_tilt};
 use crate::motion::{COS_TILT_ERROR, ExactMotion};
 
 /// The solver that evaluates [`ExactMotion`]. It takes no steps, and its outcomes are those of [`certify`].
@@ -28,8 +28,7 @@ impl Solver for ExactSolver {
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
         let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
-        let (state, cos_tilt) = (motion.state(time)?, motion.cos_tilt(time)?);
-        Ok(Propagation::new(state, Work::default()).with_cos_tilt(cos_tilt))
+        Ok(Propagation::new(motion.state(time)?, Work::default()).with_cos_tilt(cos_tilt(toss)?))
     }
 
     fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
@@ -37,7 +36,7 @@ impl Solver for ExactSolver {
     }
 
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
+        cos_tilt(toss)
     }
 
     fn outcome_at(&self, toss: &Toss, _: f64) -> Result<Outcome, SolveError> {

@@ -13,7 +13,6 @@
 //! Below, Ω² = Lx² + Ly². The rate of the spin is q = (k - 1) ωz.
 
 use dynamics::Toss;
-use dynamics::attitude::vertical_in_body;
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 use numerics::{Number, UNIT_ROUNDOFF};
@@ -89,7 +88,7 @@ impl TiltTerms {
     pub(crate) fn of_momentum(toss: &Toss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
         let (x, y, z) = (momentum.x, momentum.y, momentum.z);
         let across = x * x + y * y;
-        let (vertical, norm) = vertical_in_body(toss.launch.attitude().components());
+        let (vertical, norm) = toss.launch.attitude().vertical();
         let spin = ((toss.coin.inertia_ratio() - 1.0) * (toss.launch.rate().z / unit)).abs();
         if squared < SLOWEST_SQUARED {
             // The coin is at rest, or its precession is slower than 1e-100 beside a spin faster than ½ (in the unit of

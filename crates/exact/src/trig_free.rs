@@ -63,7 +63,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::certified::by_multiprecision;
+    use crate::multiprecision::by_multiprecision;
 
     fn trig_free(toss: &Toss) -> Option<Outcome> {
         let terms = TiltTerms::new(toss);

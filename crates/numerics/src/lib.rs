@@ -6,20 +6,25 @@
 //! | numbers of twice the precision of f64, and the exact sums and products that they are made of | [`double_double`] |
 //! | numbers of any precision | [`big`] |
 //! | the trait over which a formula is written once for all kinds of numbers | [`number`] |
+//! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`], [`angle`] |
 //! | powers of two as units | [`scale`] |
 //! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
 //!
 //! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]. Each bound is stated at its operation.
 
+pub mod angle;
 pub mod big;
 pub mod double_double;
 pub mod lanes;
 pub mod number;
+pub mod quantity;
 pub mod scale;
 
+pub use angle::{Angle, AngleUnit};
 pub use big::Big;
 pub use double_double::DoubleDouble;
 pub use number::Number;
+pub use quantity::{Quantity, Unit};
 
 /// u = 2^-53, half of f64's ε: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;

@@ -110,7 +110,8 @@ mod trace;
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3,
+    Angle, AngleUnit, Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss,
+    Tosses, Unit, Vector3,
 };
 
 // Solvers: to choose one, or to write your own.

@@ -6,7 +6,6 @@
 //! q = (k - 1) ωz. A pair is a rounded value and its rest, the part that rounding has lost.
 
 use dynamics::Tosses;
-use dynamics::attitude::vertical_in_body;
 use numerics::DoubleDouble;
 use numerics::lanes::{MOST_TURNS, Real, Simd};
 
@@ -185,7 +184,7 @@ pub(super) struct TiltTerms {
 
 impl TiltTerms {
     pub(super) fn new(tosses: &Tosses<'_>) -> Self {
-        let (vertical, norm) = vertical_in_body(tosses.attitude().components());
+        let (vertical, norm) = tosses.attitude().vertical();
         Self { vertical, norm }
     }
 

@@ -3,13 +3,12 @@
 //! The formula is that of [`height`](super::height), the inputs are those of the toss without a rounding.
 
 use dynamics::Toss;
-use dynamics::attitude::vertical_in_body;
 use numerics::UNIT_ROUNDOFF;
 use numerics::big::{Big, exactly};
 
 use super::height::{Height, Landing, functions_of_phase};
 use super::line::Input;
-use crate::certified::{flight_time, momentum};
+use crate::multiprecision::{flight_time, momentum};
 
 /// Digits to begin with, and after which a height counts as 0. The smallest height that is not 0 and that inputs in f64 can
 /// give has some 2^-2200.
@@ -83,18 +82,16 @@ fn height_and_slope(landing: Landing<Big>, digits: usize) -> [Big; 2] {
 
 /// The vertical seen from the body, of size 1.
 fn vertical(toss: &Toss, digits: usize) -> [Big; 3] {
-    normalised(toss.launch.attitude().components().map(exactly), digits)
+    normalised(toss.launch.attitude().vertical_in_digits(digits), digits)
 }
 
-/// The vertical seen from the body after a quarter of a turn about the lab's x axis: that of the quaternion (1, 1, 0, 0) q.
+/// The vertical seen from the body after a quarter of a turn about the lab's x axis.
 fn quarter_turned_vertical(toss: &Toss, digits: usize) -> [Big; 3] {
-    let [w, x, y, z] = toss.launch.attitude().components().map(exactly);
-    normalised([&w - &x, w + x, &y - &z, y + z], digits)
+    normalised(toss.launch.attitude().quarter_turned_vertical_in_digits(digits), digits)
 }
 
-fn normalised(components: [Big; 4], digits: usize) -> [Big; 3] {
+fn normalised((vertical, norm): ([Big; 3], Big), digits: usize) -> [Big; 3] {
     let round = |value: Big| value.with_precision(digits).value();
-    let (vertical, norm) = vertical_in_body(components);
     let norm = round(norm);
     vertical.map(|part| round(part) / &norm)
 }

@@ -30,7 +30,6 @@
 //! That is 50 + 70 u φ, of which [`error`] makes 64 + 80 u φ; the slope has twice as many operations and twice the bound.
 
 use dynamics::Toss;
-use dynamics::attitude::vertical_in_body;
 use dynamics::time_of_flight::ExactTime;
 use numerics::scale::mantissa_and_exponent;
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
@@ -76,7 +75,7 @@ impl<'a> Line<'a> {
         Self {
             toss,
             input: Input::Rate(axis),
-            vertical: vertical(toss.launch.attitude().components().map(DoubleDouble::from)),
+            vertical: toss.launch.attitude().exact_vertical(),
             direction,
             across,
             across_squared,
@@ -89,7 +88,7 @@ impl<'a> Line<'a> {
         Self {
             toss,
             input: Input::Time,
-            vertical: vertical(toss.launch.attitude().components().map(DoubleDouble::from)),
+            vertical: toss.launch.attitude().exact_vertical(),
             direction: momentum_direction(toss),
             across: [DoubleDouble::ZERO; 3],
             across_squared: DoubleDouble::ZERO,
@@ -140,7 +139,11 @@ impl<'a> Line<'a> {
         let [along, phase] = self.along_and_phase(change);
         let part = |index: usize| self.across[index] + self.direction[index] * along;
         let turn = [part(0), part(1), part(2)];
-        fine_height_of(Landing { vertical: self.vertical, turn, direction: self.direction, along }, phase)
+        let height = fine_height_of(Landing { vertical: self.vertical, turn, direction: self.direction, along }, phase);
+        // The vertical seen from a tilted coin is right to 2^-67, and f' is of at most twice its size.
+        let of_vertical =
+            if self.toss.launch.attitude().tilt().is_some() { f64::EPSILON * 2f64.powi(-14) } else { 0.0 };
+        Height { error: height.error + of_vertical, slope_error: height.slope_error + 2.0 * of_vertical, ..height }
     }
 
     /// A bound of |f''| over a `length` ≥ 0 (rad) from `change` in the direction of `sense`, 1 or -1.
@@ -227,19 +230,11 @@ pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
 /// cos θ of a toss with the turn Φ at landing, and what it becomes after a quarter of a turn of the launch about the lab's x
 /// axis; in f64 or, at `stage` 1, in double-double.
 pub(super) fn tilted_heights(toss: &Toss, turn: [DoubleDouble; 3], stage: usize) -> [Height; 2] {
-    let components = toss.launch.attitude().components().map(DoubleDouble::from);
-    let [w, x, y, z] = components;
-    // The quarter turn is that of the quaternion (1, 1, 0, 0).
-    [components, [w - x, w + x, y - z, y + z]].map(|components| {
-        let line = Line { vertical: vertical(components), ..Line::of_rate(toss, 0, turn) };
+    let attitude = toss.launch.attitude();
+    [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()].map(|vertical| {
+        let line = Line { vertical, ..Line::of_rate(toss, 0, turn) };
         line.height(stage, 0.0)
     })
-}
-
-/// The vertical seen from the body, of size 1, for a quaternion of any norm.
-fn vertical(components: [DoubleDouble; 4]) -> [DoubleDouble; 3] {
-    let (vertical, norm) = vertical_in_body(components);
-    vertical.map(|part| part / norm)
 }
 
 /// f and f' in f64 at a landing with a `phase` (rad).

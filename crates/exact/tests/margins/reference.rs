@@ -24,14 +24,20 @@ pub(crate) fn big(value: f64) -> Big {
 
 /// cos θ at landing, with `change` added to the input.
 pub(crate) fn cos_tilt(toss: &Toss, input: Input, change: &Big) -> Big {
-    let k = big(toss.coin.i3()) / big(toss.coin.i1());
+    let k = toss.coin.inertia_ratio_in_digits(DIGITS);
     let with_change = |value: f64, changed: bool| if changed { big(value) + change } else { big(value) };
     let rate = toss.launch.rate();
     let rate = [0, 1, 2].map(|axis| with_change(rate[axis], input == Input::Rate(axis)));
     let half_time = time(toss, input, change) / big(2.0);
     let [x, y, z] = rate;
     let turn = [x, y, z * k].map(|part| part * &half_time);
-    let mut attitude = toss.launch.attitude().components().map(big);
+    let mut attitude = match toss.launch.attitude().tilt() {
+        Some(tilt) => {
+            let (sin, cos) = (big(tilt.radians()) / big(2.0)).sin_cos();
+            [cos, sin, big(0.0), big(0.0)]
+        }
+        None => toss.launch.attitude().given_components().map(big),
+    };
     if input == Input::Tilt {
         let (sin, cos) = (change / big(2.0)).with_precision(DIGITS).value().sin_cos();
         attitude = product(&[cos, sin, big(0.0), big(0.0)], &attitude);

@@ -40,7 +40,7 @@ enum Command {
     Run(run::Run),
     /// List the checks
     List,
-    Replay(replay::Replay),
+    Replay(Box<replay::Replay>),
     Bench(bench::Bench),
     Work(work::Work),
     /// Measure the planner's table of costs and errors, and write it

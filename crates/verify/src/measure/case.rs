@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, ensure};
-use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, Launch, Quantity, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::subject::Subject;
 
@@ -22,14 +22,11 @@ impl Case {
     pub fn hex(&self) -> String {
         let Toss { coin, launch } = self.toss;
         let rate = launch.rate();
-        let mut fields = vec![
-            ("i1", coin.i1()),
-            ("i3", coin.i3()),
-            ("rate_x", rate.x),
-            ("rate_y", rate.y),
-            ("rate_z", rate.z),
-            ("tilt", self.tilt),
-        ];
+        let mut fields = match coin.cylinder().map(|given| given.map(Quantity::to_f64)) {
+            None => vec![("i1", coin.i1()), ("i3", coin.i3())],
+            Some([mass, radius, thickness]) => vec![("mass", mass), ("radius", radius), ("thickness", thickness)],
+        };
+        fields.extend([("rate_x", rate.x), ("rate_y", rate.y), ("rate_z", rate.z), ("tilt", self.tilt)]);
         match launch.time_of_flight() {
             TimeOfFlight::Given(time) => fields.push(("time", time)),
             TimeOfFlight::Ballistic { speed, gravity } => {
@@ -54,7 +51,10 @@ impl Case {
             ensure!(fields.insert(name, value).is_none(), "{name} is given twice");
         }
         let mut take = |name: &str| fields.remove(name).with_context(|| format!("{name} is missing"));
-        let coin = Coin::from_moments(take("i1")?, take("i3")?)?;
+        let coin = match take("mass") {
+            Ok(mass) => Coin::from_cylinder(mass, take("radius")?, take("thickness")?)?,
+            Err(_) => Coin::from_moments(take("i1")?, take("i3")?)?,
+        };
         let rate = Vector3::new(take("rate_x")?, take("rate_y")?, take("rate_z")?);
         let tilt = take("tilt")?;
         let time_of_flight = match take("time") {
@@ -83,11 +83,12 @@ impl Case {
                 format!("--speed {speed:?} --gravity {gravity:?} --drop {drop:?}")
             }
         };
+        let body = match coin.cylinder().map(|given| given.map(Quantity::to_f64)) {
+            None => format!("--moments {:?},{:?}", coin.i1(), coin.i3()),
+            Some([mass, radius, thickness]) => format!("--cylinder {mass:?},{radius:?},{thickness:?}"),
+        };
         format!(
-            "cargo run -q --release --bin unfair-toss -- toss --moments {:?},{:?} --rate {:?},{:?},{:?} {flight} \
-             --tilt {:?} {}",
-            coin.i1(),
-            coin.i3(),
+            "cargo run -q --release --bin unfair-toss -- toss {body} --rate {:?},{:?},{:?} {flight} --tilt {:?} {}",
             rate.x,
             rate.y,
             rate.z,
@@ -139,8 +140,10 @@ mod tests {
         ];
         for thrown in thrown {
             let launch = Launch::new(Vector3::new(-0.0, 5e-324, f64::MAX), thrown).unwrap();
-            let case = Case { toss: Toss { coin: Coin::DISC, launch }, tilt: 0.0 };
-            assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
+            for coin in [Coin::DISC, Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()] {
+                let case = Case { toss: Toss { coin, launch }, tilt: 0.0 };
+                assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
+            }
         }
         assert_eq!(from_hex_float(&hex_float(-0.0)).unwrap().to_bits(), (-0.0_f64).to_bits());
     }

@@ -1,9 +1,9 @@
 //! This module solves a toss in 256-bit arithmetic; every error in the suite is measured against it. It shares no code
 //! with the solvers, so a mistake in their formulas cannot hide in the reference.
 //!
-//! It takes the f64 inputs of a toss as exact numbers and evaluates `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with
-//! correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
-//! k = I3/I1, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
+//! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
+//! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
+//! k the inertia ratio, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
 //! the attitude. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`]
 //! read.
 
@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use toss::{Attitude, Outcome, TimeOfFlight, Toss, Vector3};
+use toss::{Angle, AngleUnit, Attitude, Coin, Launch, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
 
 /// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
@@ -34,9 +34,8 @@ pub struct Reference {
 impl Reference {
     /// Solves `toss`.
     pub fn new(toss: &Toss) -> Self {
-        let rate = toss.launch.rate();
-        let (x, y, z) = (big(rate.x), big(rate.y), big(rate.z));
-        let k = big(toss.coin.i3()) / big(toss.coin.i1());
+        let [x, y, z] = rates(&toss.launch);
+        let k = inertia_ratio(&toss.coin);
         let momentum_z = &k * &z;
         let precession = (&x * &x + &y * &y + &momentum_z * &momentum_z).sqrt();
         let time = match toss.launch.time_of_flight() {
@@ -57,7 +56,7 @@ impl Reference {
         let half_spin = (k - big(1.0)) * &z * half_time;
         let (sin_half, cos_half) = half_spin.sin_cos();
         let spin = [cos_half, big(0.0), big(0.0), -sin_half];
-        let launch = normalised(toss.launch.attitude().components().map(big));
+        let launch = quaternion(&toss.launch.attitude());
         let (sin_spin, cos_spin) = (half_spin * big(2.0)).sin_cos();
         let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
         Self { attitude: product(&product(&launch, &turn), &spin), rate }
@@ -105,6 +104,37 @@ impl Reference {
         let [w, x, y, z] = &self.attitude;
         w * w + z * z - x * x - y * y
     }
+}
+
+/// ω (rad/s).
+fn rates(launch: &Launch) -> [Big; 3] {
+    let (rate, unit) = launch.given_rate();
+    [rate.x, rate.y, rate.z].map(|part| match unit {
+        AngleUnit::Radians(unit) => quantity(Quantity::new(part, unit)),
+        AngleUnit::Turns(unit) => quantity(Quantity::new(part, unit)) * big(2.0) * Big::pi(PRECISION),
+    })
+}
+
+/// k of the moments, or 6 r²/(3 r² + h²) of the cylinder.
+fn inertia_ratio(coin: &Coin) -> Big {
+    let Some([_, radius, thickness]) = coin.cylinder() else { return big(coin.i3()) / big(coin.i1()) };
+    let squared = |length| quantity(length) * quantity(length);
+    big(6.0) * squared(radius) / (big(3.0) * squared(radius) + squared(thickness))
+}
+
+/// Q0 of the given components, or the half-angle's cosine and sine of the tilt.
+fn quaternion(attitude: &Attitude) -> [Big; 4] {
+    let half = match attitude.tilt() {
+        None => return normalised(attitude.given_components().map(big)),
+        Some(Angle::Radians(radians)) => quantity(radians) / big(2.0),
+        Some(Angle::Turns(turns)) => quantity(turns) * Big::pi(PRECISION),
+    };
+    let (sin, cos) = half.sin_cos();
+    [cos, sin, big(0.0), big(0.0)]
+}
+
+fn quantity(given: Quantity) -> Big {
+    big(given.value()) * big(given.unit().numerator().into()) / big(given.unit().denominator().into())
 }
 
 fn to_f64(value: &Big) -> f64 {

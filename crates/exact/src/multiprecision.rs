@@ -1,0 +1,252 @@
+//! Outcomes and cos θ in as many digits as it takes, from the numbers that coin and launch were made from.
+//!
+//! Digits are doubled until cos θ differs from 0 by more than its error. This ends, because cos θ is never 0 but for
+//! ties that are found by exact arithmetic first. With the numbers of a toss algebraic, so are k, L, T and φ = |L| T.
+//!
+//! - From a quaternion, or a tilt that is a rational part of a turn, A, B and C are algebraic. e^(iφ) is transcendental
+//!   for φ ≠ 0 (Lindemann), so that A + B cos φ + C sin φ = 0 needs φ = 0 and A + B = 0, or A = B = C = 0.
+//! - From a tilt β in radians, there is no tie. With ŝ = L/|L| and Q = 1 - ŝz²,
+//!
+//!   ```text
+//!   cos θ = ŝz² cos β + ŝy ŝz sin β + ½ (Q + ŝx) cos(β + φ) + ½ (Q - ŝx) cos(β - φ)
+//!           - ½ ŝy ŝz sin(β + φ) - ½ ŝy ŝz sin(β - φ)
+//!   ```
+//!
+//!   Sines and cosines of different algebraic angles |β|, |β + φ|, |β - φ| are linearly independent over the algebraic
+//!   numbers (Lindemann and Weierstrass), so that each coefficient has to be 0. If the angles differ, Q = ±ŝx = 0 and
+//!   ŝz = 0, against Q = 1 - ŝz². If φ = 2|β|, two of them are |β| and the third is 3|β|, whose coefficients are 0 if
+//!   Q = ±ŝx and ŝy ŝz = 0; the cosine of β then has the coefficient ŝz² + Q = 1. If φ = |β|, one of them is 0 and
+//!   another 2|β|; Q + ŝx = Q - ŝx = 0 leaves ŝz² = 1 for the cosine of β. If φ = 0, cos θ = cos β, and if β = 0,
+//!   cos θ = ŝz² + Q cos φ: neither is 0.
+//! - With rates in turns, φ is π times an algebraic number, and there are more ties: a coin that is flipped at one turn
+//!   in a second is on edge after a quarter of a second. Such a toss counts as a tie if |cos θ| is below 2^-12000.
+
+use dynamics::{AngleUnit, Outcome, TimeOfFlight, Toss};
+use numerics::big::{Big, exactly};
+
+use crate::tilt_terms::terms;
+
+/// Digits after which a toss with rates in turns counts as a tie.
+const MOST_DIGITS_OF_TURNS: isize = 12_288;
+
+/// The stage of a proof in as many digits as it takes. It always decides, but for exact ties.
+pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
+    match decided_cos_tilt(toss, 0) {
+        None => Outcome::Undecided,
+        Some(cos_tilt) if cos_tilt > Big::ZERO => Outcome::Heads,
+        Some(_) => Outcome::Tails,
+    }
+}
+
+/// cos θ at landing, rounded to f64 so that it keeps its sign. It is 0 for an exact tie alone.
+pub(crate) fn rounded_cos_tilt(toss: &Toss) -> f64 {
+    const SMALLEST: f64 = f64::from_bits(1);
+    let Some(exact) = decided_cos_tilt(toss, 60) else { return 0.0 };
+    let rounded = exact.to_f64().value();
+    match (rounded == 0.0, exact > Big::ZERO) {
+        (false, _) => rounded,
+        (true, true) => SMALLEST,
+        (true, false) => -SMALLEST,
+    }
+}
+
+/// cos θ at landing, right to 2^-`digits` of itself; `None` for an exact tie.
+fn decided_cos_tilt(toss: &Toss, digits: isize) -> Option<Big> {
+    if is_tie(toss) {
+        return None;
+    }
+    let may_be_0 = matches!(toss.launch.given_rate().1, AngleUnit::Turns(_));
+    let mut precision: isize = 192;
+    loop {
+        if may_be_0 && precision > MOST_DIGITS_OF_TURNS {
+            return None;
+        }
+        let (cos_tilt, bound) = (cos_tilt(toss, precision), multiprecision_bound(precision - digits));
+        if cos_tilt > bound || cos_tilt < -bound {
+            return Some(cos_tilt);
+        }
+        precision *= 2;
+    }
+}
+
+/// Bound of the error of cos θ in `digits` binary digits: some thirty operations, the phase's error multiplied by up to 2^53.
+fn multiprecision_bound(digits: isize) -> Big {
+    Big::ONE >> (digits - 80)
+}
+
+/// Whether cos θ = 0 exactly at landing.
+fn is_tie(toss: &Toss) -> bool {
+    // Digits do not matter here: what is 0 is 0 in any number of them.
+    const DIGITS: usize = 80;
+    let ([m_x, m_y, m_z], _) = toss.launch.attitude().vertical_in_digits(DIGITS);
+    if m_z != Big::ZERO {
+        // At a phase of 0, cos θ = mz. Without B and C, either Ω = 0 and cos θ = mz too, or m is along L, where A = 0
+        // needs Lz = 0 and with it mz = 0.
+        return false;
+    }
+    let (rate, _) = toss.launch.given_rate();
+    let landed_at_once = !toss.launch.time_of_flight().is_positive();
+    let precesses = rate.x != 0.0 || rate.y != 0.0;
+    let level_momentum = rate.z == 0.0 || toss.coin.inertia_ratio_in_digits(DIGITS) == Big::ZERO;
+    landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
+}
+
+/// cos θ at landing in `digits` binary digits.
+fn cos_tilt(toss: &Toss, digits: isize) -> Big {
+    let digits = digits.unsigned_abs();
+    let round = |value: Big| value.with_precision(digits).value();
+    let [x, y, z] = given_momentum(toss, digits);
+    let across = &x * &x + &y * &y;
+    let squared = &across + &z * &z;
+    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+    let (vertical, norm) = (vertical.map(round), round(norm));
+    if squared == Big::ZERO {
+        let [.., m_z] = vertical;
+        return m_z / norm;
+    }
+    let momentum = squared.sqrt();
+    // L is in the unit of the rates, whose size only the phase depends on.
+    let (_, unit) = toss.launch.given_rate();
+    let (sin, cos) = (&momentum * unit.in_digits(digits) * flight_time(toss, digits)).sin_cos();
+    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
+    (mean + cosine * cos + sine * &momentum * sin) / (squared * norm)
+}
+
+/// (ωx, ωy, k ωz) in `digits` binary digits, in the unit of the rates.
+fn given_momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let (rate, _) = toss.launch.given_rate();
+    [big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z)]
+}
+
+/// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
+pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+    let unit = toss.launch.given_rate().1.in_digits(digits);
+    given_momentum(toss, digits).map(|part| part * &unit)
+}
+
+/// T in `digits` binary digits (s).
+pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
+    let round = |value: Big| value.with_precision(digits).value();
+    let big = |value: f64| round(exactly(value));
+    match toss.launch.time_of_flight() {
+        TimeOfFlight::Given(time) => big(time),
+        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            let (speed, gravity) = (exactly(speed), exactly(gravity));
+            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
+            (round(speed) + round(discriminant).sqrt()) / round(gravity)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Angle, Attitude, Coin, Launch, Quantity, Unit};
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::certified::{certify, cos_tilt as landed_cos_tilt};
+    use crate::motion::ExactMotion;
+
+    fn toss(coin: Coin, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
+        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        Toss { coin, launch: launch.with_attitude(attitude) }
+    }
+
+    #[test]
+    fn more_digits_change_cos_theta_by_less_than_its_bound() {
+        let coins = [Coin::from_moments(1.0, 0.7).unwrap(), Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()];
+        let attitudes = [Attitude::from_components([0.3, -0.7, 0.5, 0.4]).unwrap(), Attitude::about_x(2.5)];
+        for (coin, attitude) in coins.into_iter().zip(attitudes) {
+            for time in [1.0, 1e15] {
+                let toss = toss(coin, [1.0, -2.0, 3.0], attitude, time);
+                for digits in [192, 384] {
+                    let (rough, fine) = (cos_tilt(&toss, digits), cos_tilt(&toss, 2 * digits));
+                    let difference = if rough > fine { &rough - &fine } else { &fine - &rough };
+                    assert!(difference < multiprecision_bound(digits), "{digits}, {time}");
+                    let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
+                    assert!((fine.to_f64().value() - exact).abs() < 1e-15, "{digits}, {time}");
+                    // And the bound is what the phase's loss of digits makes of the last one.
+                    assert!(multiprecision_bound(digits) < (Big::ONE >> (digits - 81)));
+                }
+            }
+        }
+    }
+
+    fn degrees(value: f64) -> Attitude {
+        Attitude::about_x(Angle::Turns(Quantity::new(value, Unit::ratio(1, 360).unwrap())))
+    }
+
+    #[test]
+    fn a_coin_on_edge_ties_in_degrees_and_never_in_radians() {
+        let landed = |rate, attitude, time| {
+            let toss = toss(Coin::DISC, rate, attitude, time);
+            (certify(&toss).unwrap().outcome(), landed_cos_tilt(&toss).unwrap())
+        };
+        let rad = std::f64::consts::FRAC_PI_2;
+        for (rate, time) in [([1.0, 2.0, 3.0], 0.0), ([0.0, 0.0, 7.0], 1.0), ([0.0; 3], 1.0), ([0.0, 7.0, 0.0], 1.0)] {
+            for edge in [90.0, -90.0, 270.0, 36_090.0] {
+                assert_eq!(landed(rate, degrees(edge), time), (Outcome::Undecided, 0.0), "{rate:?} {edge}");
+            }
+            let (outcome, cos_tilt) = landed(rate, Attitude::about_x(rad), time);
+            // cos of the f64 next to π/2, as S is level and upright.
+            assert_eq!(outcome, Outcome::Heads, "{rate:?}");
+            assert!(cos_tilt > 0.0 && cos_tilt <= 6.123_233_995_736_766e-17, "{rate:?}: {cos_tilt:e}");
+        }
+        assert_eq!(landed([0.0, 7.0, 3.0], degrees(90.0), 1.0).0, Outcome::Heads);
+    }
+
+    #[test]
+    fn cos_theta_keeps_its_sign_below_the_range_of_f64() {
+        let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
+        for (rate, outcome) in [(1e-300, Outcome::Tails), (-1e-300, Outcome::Heads)] {
+            let toss = toss(Coin::DISC, [rate, 7.0, 0.0], edge, 1e-300);
+            assert_eq!(certify(&toss).unwrap().outcome(), outcome);
+            assert_eq!(landed_cos_tilt(&toss), Ok(-rate.signum() * 5e-324));
+        }
+    }
+
+    #[test]
+    fn rates_in_turns_tie_at_quarters_of_a_turn_and_nowhere_near_them() {
+        let turns = AngleUnit::Turns(Unit::ONE);
+        for (rate, time, outcome) in [
+            (1.0, 0.25, Outcome::Undecided),
+            (1.0, 0.25f64.next_up(), Outcome::Tails),
+            (1f64.next_down(), 0.25, Outcome::Heads),
+            (38.0, 38.75 / 38.0, Outcome::Tails),
+            (40.0, 0.993_75, Outcome::Heads),
+            (1024.0, 1024.75 / 1024.0, Outcome::Undecided),
+        ] {
+            let launch = Launch::in_unit(Vector3::new(rate, 0.0, 0.0), turns, TimeOfFlight::Given(time)).unwrap();
+            let toss = Toss { coin: Coin::DISC, launch };
+            assert_eq!(certify(&toss).unwrap().outcome(), outcome, "{rate} {time}");
+            assert_eq!(Outcome::of(landed_cos_tilt(&toss).unwrap(), 0.0), outcome, "{rate} {time}");
+        }
+    }
+
+    /// On edge to rounding, which side it is on is decided by what normalising the quaternion rounds.
+    #[test]
+    fn a_quaternion_of_any_norm_is_taken_as_it_is() {
+        let mut normalised_differs = 0;
+        for index in 0..300 {
+            let part = |irrational: f64| (f64::from(index) * irrational).fract();
+            let [w, y, z] = [1.0 + part(2f64.sqrt()), part(3f64.sqrt()), part(5f64.sqrt())];
+            let x = (w * w + z * z - y * y).sqrt();
+            let cos_tilt = |[w, x, y, z]: [Big; 4]| &w * &w + &z * &z - &x * &x - &y * &y;
+            let outcome = |components: [f64; 4]| match cos_tilt(components.map(exactly)) {
+                zero if zero == Big::ZERO => Outcome::Undecided,
+                cos_tilt if cos_tilt > Big::ZERO => Outcome::Heads,
+                _ => Outcome::Tails,
+            };
+            for size in [1.0, 2f64.powi(1000), 2f64.powi(-1000)] {
+                let given = [w, x, y, z].map(|part| size * part);
+                let attitude = Attitude::from_components(given).unwrap();
+                let landed = certify(&toss(Coin::DISC, [0.0; 3], attitude, 1.0)).unwrap().outcome();
+                assert_eq!(landed, outcome(given), "{given:?}");
+                normalised_differs += u32::from(landed != outcome(attitude.components()));
+            }
+        }
+        assert!(normalised_differs > 100, "{normalised_differs}");
+    }
+}
