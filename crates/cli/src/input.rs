@@ -3,11 +3,10 @@
 use clap::{ArgMatches, Command};
 use serde_json::{Map, Value};
 
+use crate::quantity;
+
 /// What does not change the answer, only where it goes, in which form, and how fast it is there.
 const NO_INPUT: [&str; 5] = ["format", "svg", "threads", "help", "version"];
-
-/// Options that are numbers separated by commas.
-const LISTS: [&str; 3] = ["rate", "moments", "cylinder"];
 
 /// The options of `command` that were `given` or have a default, and the command's name.
 pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value> {
@@ -25,8 +24,8 @@ fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     let number = number::<f64>(name, given).or_else(whole).or_else(|| number::<usize>(name, given));
     number.or_else(|| {
         let text = given.try_get_raw(name).ok()??.next()?.to_string_lossy();
-        let numbers = || text.split(',').map(|part| part.trim().parse::<f64>().ok()).collect::<Option<Vec<_>>>();
-        Some(if LISTS.contains(&name) { numbers().into() } else { text.into_owned().into() })
+        let list = quantity::list(name, &text).map(|numbers| numbers.map_or(Value::Null, Value::from));
+        Some(list.unwrap_or_else(|| text.into_owned().into()))
     })
 }
 

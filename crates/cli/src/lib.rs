@@ -7,18 +7,25 @@
 mod chart;
 mod commands;
 mod failure;
+mod help;
 mod input;
+mod launch_rows;
 mod output;
+mod quantity;
+mod rate_args;
 mod solver_args;
 mod space_args;
 mod toss_args;
 
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{Read, Write};
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{convergence, errors, intervals, inverse, limit, list, map, plan, probability, toss, trace};
+use crate::commands::{
+    compare, convergence, errors, intervals, inverse, limit, list, map, plan, probability, sample, shell, spread, toss,
+    trace,
+};
 use crate::failure::Failure;
 use crate::output::Input;
 
@@ -37,6 +44,12 @@ enum Command {
     Trace(trace::Args),
     /// Estimate the probability of heads over a space of launches
     Probability(probability::Args),
+    /// Print single launches of a space, or of standard input, and how each lands
+    Sample(sample::Args),
+    /// Solve one toss by every solver and scheme
+    Compare(compare::Args),
+    /// Find how precise a hand must be for a wanted probability of heads
+    Spread(spread::Args),
     /// Show how the probability of heads converges as launches are added, by a grid and at random
     Convergence(convergence::Args),
     /// Measure how the error of each sampling method falls with the number of launches
@@ -59,14 +72,21 @@ enum Command {
     Models(list::Args),
     /// List the named spaces of launches
     Spaces(list::Args),
+    /// Print a script that completes the options in a shell
+    Completions(shell::CompletionsArgs),
+    /// Print a manual page
+    Man(shell::ManArgs),
 }
 
 impl Command {
-    fn run(&self, input: &Input) -> Result<String, Failure> {
+    fn run(&self, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
         match self {
             Self::Toss(args) => args.run(input),
             Self::Trace(args) => args.run(input),
             Self::Probability(args) => args.run(input),
+            Self::Sample(args) => args.run(streams),
+            Self::Compare(args) => args.run(input),
+            Self::Spread(args) => args.run(input),
             Self::Convergence(args) => args.run(input),
             Self::Errors(args) => args.run(input),
             Self::Map(args) => args.run(input),
@@ -78,41 +98,53 @@ impl Command {
             Self::Solvers(args) => list::solvers(args, input),
             Self::Models(args) => list::models(args, input),
             Self::Spaces(args) => list::spaces(args, input),
+            Self::Completions(args) => Ok(args.run(program())),
+            Self::Man(args) => args.run(program()),
         }
     }
 }
 
-/// The description of the program's options, from which tests make command lines.
+/// The streams that the program reads and prints to.
 #[doc(hidden)]
-pub fn command() -> clap::Command {
-    Cli::command()
+pub struct Streams<'a> {
+    /// Standard input.
+    pub input: &'a mut (dyn Read + Send),
+    /// Standard output, in colours, which may be stripped.
+    pub out: &'a mut (dyn Write + Send),
+    /// Standard error, likewise.
+    pub err: &'a mut dyn Write,
 }
 
-/// Runs the program with `arguments`, the first of which is its own name, and returns its exit code. Everything that it
-/// prints goes to `out` and `err`, in colours, which a caller may strip.
+/// Runs the program with `arguments`, the first of which is its own name, and returns its exit code.
 #[doc(hidden)]
-pub fn run(arguments: &[OsString], out: &mut (dyn Write + Send), err: &mut dyn Write) -> u8 {
-    let printed = match Cli::command().try_get_matches_from(arguments) {
-        Ok(given) => answer(&given).and_then(|text| output::print(&text, out)),
-        Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), out),
+pub fn run(arguments: &[OsString], mut streams: Streams<'_>) -> u8 {
+    let printed = match program().try_get_matches_from(arguments) {
+        Ok(given) => answer(&given, &mut streams).and_then(|text| output::print(&text, streams.out)),
+        Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
         Err(error) => Err(Failure::Arguments(error)),
     };
     let Err(failure) = printed else { return 0 };
-    failure.report(err);
+    failure.report(streams.err);
     if wants_json(arguments) {
         // If this can't be printed, the message above and the exit code still tell.
-        let _ = output::print(&failure.to_json(), out);
+        let _ = output::print(&failure.to_json(), streams.out);
     }
     failure.exit_code()
 }
 
+/// The program with its commands, options and help texts. Tests make command lines from it.
+#[doc(hidden)]
+pub fn program() -> clap::Command {
+    help::described(Cli::command())
+}
+
 /// The answer of the command that the arguments ask for.
-fn answer(given: &ArgMatches) -> Result<String, Failure> {
+fn answer(given: &ArgMatches, streams: &mut Streams<'_>) -> Result<String, Failure> {
     let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
-    let program = Cli::command();
+    let program = program();
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
-    command.run(&input)
+    command.run(&input, streams)
 }
 
 /// Whether `arguments`, which may be none that the program understands, ask for JSON.

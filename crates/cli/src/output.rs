@@ -82,7 +82,11 @@ pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
+/// Nothing is printed for an answer that is empty because its command has printed it already.
 pub(crate) fn print(text: &str, out: &mut dyn Write) -> Result<(), Failure> {
+    if text.is_empty() {
+        return Ok(());
+    }
     let written = out.write_all(format!("{}\n", text.trim_end()).as_bytes()).and_then(|()| out.flush());
     whole_file::unless_closed(written).map_err(Failure::Print)
 }

@@ -4,9 +4,12 @@
 use clap::Args;
 use dynamics::Frame;
 use dynamics::error::find_named;
-use toss::{Backend, ExactSolver, Formulation, InputError, Registry, Scheme, Settings, SolverEntry, Stepping};
+use toss::{
+    Backend, Dimension, ExactSolver, Formulation, InputError, Registry, Scheme, Settings, SolverEntry, Stepping,
+};
 
 use crate::failure::Failure;
+use crate::quantity;
 
 /// The solver and its settings.
 #[derive(Debug, Args)]
@@ -18,7 +21,7 @@ pub(crate) struct SolverArgs {
     scheme: Option<String>,
     #[arg(long, value_name = "TOL", allow_hyphen_values = true, help = tolerance_help())]
     tolerance: Option<f64>,
-    #[arg(long, value_name = "H", allow_hyphen_values = true,
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time),
           help = format!("Step of {} (s) [default: {}]", schemes_with_a_step(), Stepping::DEFAULT_STEP))]
     step: Option<f64>,
     #[arg(long, value_name = "NAME", alias = "frame", help = formulation_help())]

@@ -4,56 +4,88 @@
 use std::path::Path;
 
 use clap::Args;
-use sampling::{AxisOrTie, Coordinate, DescribedSpace, Plan, Rest, Sampler, Scrambled, Space, named_space};
-use toss::{Coin, Error};
+use sampling::{AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space};
+use toss::{Coin, Dimension, Error};
 
 use crate::failure::Failure;
 use crate::output::progress_bar;
+use crate::quantity;
+use crate::rate_args::TurnArgs;
 use crate::toss_args::CoinArgs;
 
 /// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
 pub(crate) struct SpaceArgs {
     #[command(flatten)]
-    coin: CoinArgs,
+    pub(crate) coin: CoinArgs,
     /// A named space of launches (`spaces` lists them), or a file that ends in .toml
     #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"])]
+          conflicts_with_all = ["rate_x", "rate_y", "rate_z", "turn", "wobble", "speed", "gravity", "tilt"])]
     space: Option<String>,
-    /// Body rate ωx (rad/s): VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; y or z ties it to
+    /// Body rate ωx: VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS; y or z ties it to
     /// that rate
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
     rate_x: Option<String>,
-    /// Body rate ωy (rad/s), likewise; x for ωy = ωx
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    /// Body rate ωy, likewise; x for ωy = ωx
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
     rate_y: Option<String>,
-    /// Body rate ωz about the coin's normal (rad/s), likewise
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    /// Body rate ωz about the coin's normal, likewise
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "turn")]
     rate_z: Option<String>,
-    /// Launch speed v0 (m/s), likewise
+    #[command(flatten)]
+    turn: TurnArgs,
+    /// Upward speed v0 at launch: VALUE, LO:HI or normal:MEAN:SD, each also with :POINTS
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     speed: Option<String>,
-    /// Gravity (m/s²), likewise [default: 9.81]
+    /// Gravity, likewise [default: 9.81]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     gravity: Option<String>,
-    /// Tilt at launch: a turn about the lab's x axis (rad), likewise [default: 0]
+    /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis, likewise. A positive one leans the
+    /// normal towards -y [default: 0]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     tilt: Option<String>,
+    /// Height of the launch above the landing, negative if the coins land higher [default: 0]
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
+    drop: Option<f64>,
+    /// A hand: each rate and the speed that has a single value is normal around it, with the standard deviation S times
+    /// the value; at most 12%
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::part)]
+    spread: Option<f64>,
 }
 
 impl SpaceArgs {
     pub(crate) fn space(&self) -> Result<Space, Failure> {
-        if let Some(name) = &self.space {
-            return space_called(name, &self.coin);
+        let space = match &self.space {
+            Some(name) => space_called(name, &self.coin)?,
+            None => self.space_of_axes()?,
+        };
+        let space = if self.drop.is_some() { space.with_drop(self.drop)? } else { space };
+        let Some(spread) = self.spread else { return Ok(space) };
+        let spreading = space.with_spread(spread, &HAND)?;
+        if spreading == space {
+            return Err(Failure::usage(
+                "spread",
+                "--spread has no effect: no rate and no speed has a single value but 0",
+            ));
         }
-        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
+        Ok(spreading)
+    }
+
+    fn space_of_axes(&self) -> Result<Space, Failure> {
+        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let [x, y, z] = match self.turn.rate(&coin)? {
+            // Display writes the fewest digits that read back as the same number.
+            Some(rate) => [rate.x, rate.y, rate.z].map(|rate| Some(rate.to_string())),
+            None => [self.rate_x.clone(), self.rate_y.clone(), self.rate_z.clone()],
+        };
+        let texts = [&x, &y, &z, &self.speed, &self.gravity, &self.tilt];
         let given: Vec<(Coordinate, &str)> =
             Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| Some((of, text.as_deref()?))).collect();
         if given.is_empty() {
             let message = "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed";
             return Err(Failure::usage("space", message));
         }
-        Ok(Space::parse(self.coin.given()?.unwrap_or(Coin::PAPER), &given)?)
+        Ok(Space::parse(coin, &given)?)
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its
@@ -122,6 +154,17 @@ pub(crate) struct DefaultPoints {
 }
 
 impl PlanArgs {
+    /// Refuses a number or a seed of launches without a method that they are for.
+    pub(crate) fn require_none(&self) -> Result<(), Failure> {
+        match (self.points, self.seed) {
+            (Some(_), _) => Err(Failure::usage("points", "--points needs --method; without, --accuracy decides")),
+            (None, Some(_)) => {
+                Err(Failure::usage("seed", "--seed needs --method; without, the plan has a seed of its own"))
+            }
+            (None, None) => Ok(()),
+        }
+    }
+
     /// The plan for sampling `space`.
     pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: DefaultPoints) -> Result<Plan, Failure> {
         let seed = self.seed.unwrap_or(1);
@@ -207,6 +250,11 @@ impl ThreadArgs {
         let answer = pool.install(|| question(&sampler.on_progress(&progress)));
         bar.finish_and_clear();
         Ok(answer?)
+    }
+
+    /// Runs `job` on these threads.
+    pub(crate) fn run<T: Send>(&self, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+        Ok(self.pool()?.install(job))
     }
 
     fn pool(&self) -> Result<rayon::ThreadPool, Failure> {

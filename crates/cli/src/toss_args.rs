@@ -5,37 +5,25 @@ use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use toss::catalogue::named_coin;
-use toss::{Backend, Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Backend, Coin, Dimension, InputError, Launch, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
+use crate::quantity;
+use crate::rate_args::RateArgs;
 use crate::solver_args::SolverArgs;
 
-/// Parses numbers that are separated by commas.
-fn list(field: &'static str, text: &str, expected: &'static str) -> Result<Vec<f64>, InputError> {
-    let parts: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    parts.map_err(|_| InputError::Malformed { field, value: text.to_owned(), expected })
-}
-
-/// Parses exactly N numbers that are separated by commas.
-pub(crate) fn numbers<const N: usize>(
-    field: &'static str,
-    text: &str,
-    expected: &'static str,
-) -> Result<[f64; N], InputError> {
-    let malformed = |_| InputError::Malformed { field, value: text.to_owned(), expected };
-    list(field, text, expected)?.try_into().map_err(malformed)
-}
-
+/// Options for a coin.
 #[derive(Debug, Args)]
 #[group(multiple = false)]
 pub(crate) struct CoinArgs {
     /// A coin of the catalogue [default: paper]
     #[arg(long, value_name = "NAME")]
     coin: Option<String>,
-    /// A homogeneous cylinder as a coin (kg, m, m)
+    /// A homogeneous cylinder as a coin: kg, m and m, or each with a unit
     #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
     cylinder: Option<String>,
-    /// Moments of inertia about a diameter and about the normal (kg m²); I1,I2,I3 with I2 = I1 is accepted too
+    /// Moments of inertia about a diameter and about the normal: kg m², or each with a unit such as g·cm²; I1,I2,I3 with
+    /// I2 = I1 is accepted too
     #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
     moments: Option<String>,
 }
@@ -44,11 +32,11 @@ impl CoinArgs {
     /// The coin, if one of the options was given.
     pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
         if let Some(text) = &self.cylinder {
-            let [mass, radius, thickness] = numbers("cylinder", text, "MASS,RADIUS,THICKNESS [kg, m, m]")?;
+            let [mass, radius, thickness] = quantity::cylinder(text)?;
             return Coin::from_cylinder(mass, radius, thickness).map(Some);
         }
         if let Some(text) = &self.moments {
-            return Coin::from_listed_moments(&list("moments", text, "I1,I3 [kg m²]")?).map(Some);
+            return Coin::from_listed_moments(&quantity::moments(text)?).map(Some);
         }
         self.coin.as_deref().map(named_coin).transpose()
     }
@@ -59,23 +47,24 @@ impl CoinArgs {
 pub(crate) struct TossArgs {
     #[command(flatten)]
     pub(crate) coin: CoinArgs,
-    /// Body rate at launch, in the body frame (rad/s)
-    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
-    rate: Option<String>,
-    /// Launch speed v0 (m/s)
-    #[arg(long, value_name = "V0", allow_hyphen_values = true)]
+    #[command(flatten)]
+    rate: RateArgs,
+    /// Upward speed v0 at launch
+    #[arg(long, value_name = "V0", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Speed))]
     speed: Option<f64>,
-    /// Time of flight (s), instead of a speed
-    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"])]
+    /// Time of flight, instead of a speed
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"],
+          value_parser = quantity::of(Dimension::Time))]
     time: Option<f64>,
-    /// Gravity (m/s²) [default: 9.81]
-    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    /// Gravity [default: 9.81]
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Acceleration))]
     gravity: Option<f64>,
-    /// Height of the launch above the landing (m), negative if the coin lands higher [default: 0]
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    /// Height of the launch above the landing, negative if the coin lands higher [default: 0]
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
     drop: Option<f64>,
-    /// Tilt at launch: a turn about the lab's x axis (rad) [default: 0]
-    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal
+    /// towards -y [default: 0]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Angle))]
     tilt: Option<f64>,
     /// Air drag is outside the model; the option is refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
@@ -94,15 +83,19 @@ impl TossArgs {
             return Err(NO_BOUNCE.into());
         }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = self.rate.as_deref().ok_or_else(|| Failure::usage("rate", "--rate WX,WY,WZ is needed"))?;
-        let rate = Vector3::from(numbers("rate", rate, "WX,WY,WZ [rad/s]")?);
+        let rate = self.rate.rate(&coin)?;
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time),
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
             (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
-        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt.unwrap_or(0.0))?;
+        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt())?;
         Ok(Toss { coin, launch })
+    }
+
+    /// The tilt at launch (rad).
+    pub(crate) fn tilt(&self) -> f64 {
+        self.tilt.unwrap_or(0.0)
     }
 }
 

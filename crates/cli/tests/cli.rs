@@ -191,7 +191,9 @@ fn missing_and_conflicting_options_end_with_2() {
         "toss --rate 1,1,1 --time 1 --gravity 9.8",
         "toss --rate 1,1,1 --time 1 --coin disc --moments 1,1",
         "probability --space tails --rate-x 1 --method grid",
-        "probability --space tails",
+        "probability --space tails --method grid --accuracy 1e-3",
+        "trace --rate 1,1,1 --time 1 --points 3 --dt 0.1",
+        "trace --rate 1,1,1 --time 1",
     ] {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments}");

@@ -70,7 +70,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
         ],
     ),
-    ("trace", &["--rate 1,1,2.5 --speed 3 --points 3"]),
+    ("trace", &["--rate 1,1,2.5 --speed 3 --points 3", "--turn 3 --wobble 1 --speed 3 --dt 0.3"]),
     (
         "probability",
         &[
@@ -78,6 +78,23 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--space tails --method exact-speed",
             "--space paper-fig4 --method exact-speed",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
+            "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
+        ],
+    ),
+    (
+        "compare",
+        &[
+            "--rate 0.3,0.3,5 --time 5 --tilt 1 --formulation vertical --repeats 1",
+            "--rate 1,1,1 --speed 3 --repeats 0",
+        ],
+    ),
+    (
+        "spread",
+        &[
+            "--rate 20,0,5 --speed 3.5 --heads 0.9 --points 512",
+            "--rate 0.3,0,0.1 --speed 3 --heads 0.9 --points 512",
+            "--rate 2,2,0.5 --speed 3 --heads 0.9",
+            "--rate 1,1,9 --speed 3 --heads 0.9 --points 512",
         ],
     ),
     ("convergence", &["--space tails --steps 3"]),

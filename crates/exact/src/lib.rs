@@ -7,6 +7,7 @@
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
 //! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
 //! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
+//! | the speeds that land heads, for a landing at any height | [`thrown`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
 //! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
@@ -28,6 +29,7 @@ mod multiprecision;
 mod polar;
 pub mod sensitivity;
 pub mod solver;
+pub mod thrown;
 pub mod tilt_terms;
 mod trig_free;
 
@@ -40,4 +42,5 @@ pub use margin::{Margin, margin, speeds_of_heads};
 pub use motion::ExactMotion;
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
+pub use thrown::thrown_speeds_of_heads;
 pub use tilt_terms::TiltTerms;

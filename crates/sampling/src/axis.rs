@@ -5,8 +5,9 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use dynamics::InputError;
 use dynamics::error::require;
+use dynamics::quantity::read_quantities;
+use dynamics::{Dimension, InputError};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::coordinate::Coordinate;
@@ -14,6 +15,9 @@ use crate::coordinate::Coordinate;
 /// Number of standard deviations from the mean within which all values of a normal coordinate lie. A draw is at least
 /// 2^-53, and the quantile of 2^-53 is 8.21 standard deviations below the mean.
 pub const NORMAL_REACH: f64 = 8.3;
+
+/// The forms of an axis as a text.
+const FORMS: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS";
 
 /// A fixed value, a range or a normal distribution, with the number of points that a grid has on it.
 ///
@@ -110,28 +114,44 @@ impl Axis {
         Ok(self)
     }
 
-    /// Reads an axis as [`str::parse`] does, for the coordinate `of`.
+    /// Reads an axis as [`str::parse`] does, for the coordinate `of`, whose units its numbers may have.
     ///
     /// # Errors
     /// [`InputError::Malformed`] that names `of`.
     pub(crate) fn parse(of: Coordinate, text: &str) -> Result<Self, InputError> {
-        Self::read(of.field(), text)
+        let numbers = |texts: &[&str]| {
+            // If a number has a unit that does not fit, the units that fit help more than the forms of an axis.
+            let starts_as_number =
+                |text: &str| text.trim_start_matches(['-', '.']).starts_with(|c: char| c.is_ascii_digit());
+            let has_unit = |text: &&str| text.parse::<f64>().is_err() && starts_as_number(text);
+            let expected = if texts.iter().any(has_unit) { of.dimension().expected() } else { FORMS };
+            let parts: Vec<(Dimension, &str)> = texts.iter().map(|text| (of.dimension(), *text)).collect();
+            read_quantities(of.field(), text, expected, &parts)
+        };
+        Self::read(of.field(), text, numbers)
     }
 
-    fn read(field: &'static str, text: &str) -> Result<Self, InputError> {
-        const EXPECTED: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS";
-        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: EXPECTED };
-        let number = |part: &str| part.parse::<f64>().map_err(|_| malformed());
-        let count = |part: &str| part.parse::<u64>().map_err(|_| malformed());
+    /// Reads an axis, the values of which `numbers` reads.
+    fn read(
+        field: &'static str,
+        text: &str,
+        numbers: impl Fn(&[&str]) -> Result<Vec<f64>, InputError>,
+    ) -> Result<Self, InputError> {
+        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: FORMS };
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-        Ok(match parts[..] {
-            ["normal", mean, sd] => Self::normal(number(mean)?, number(sd)?),
-            ["normal", mean, sd, points] => Self::normal(number(mean)?, number(sd)?).with_points(count(points)?),
-            [value] => Self::fixed(number(value)?),
-            [lo, hi] => Self::range(number(lo)?..=number(hi)?),
-            [lo, hi, points] => Self::range(number(lo)?..=number(hi)?).with_points(count(points)?),
+        let (is_normal, values, points) = match parts[..] {
+            ["normal", mean, sd] => (true, vec![mean, sd], None),
+            ["normal", mean, sd, points] => (true, vec![mean, sd], Some(points)),
+            [value] => (false, vec![value, value], None),
+            [lo, hi] => (false, vec![lo, hi], None),
+            [lo, hi, points] => (false, vec![lo, hi], Some(points)),
             _ => return Err(malformed()),
-        })
+        };
+        let values = numbers(&values)?;
+        let [first, second] = values[..] else { return Err(malformed()) };
+        let axis = if is_normal { Self::normal(first, second) } else { Self::range(first..=second) };
+        let points = points.map(|points| points.parse().map_err(|_| malformed())).transpose()?;
+        Ok(Self { points, ..axis })
     }
 
     /// The distribution of the coordinate.
@@ -196,7 +216,8 @@ impl FromStr for Axis {
     type Err = InputError;
 
     fn from_str(text: &str) -> Result<Self, InputError> {
-        Self::read("axis", text)
+        let malformed = |_| InputError::Malformed { field: "axis", value: text.to_owned(), expected: FORMS };
+        Self::read("axis", text, |texts| texts.iter().map(|text| text.parse().map_err(malformed)).collect())
     }
 }
 

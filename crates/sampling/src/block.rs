@@ -68,8 +68,12 @@ impl Block {
 }
 
 impl Space {
-    /// The launches of a block as tosses for a batch; `None` if gravity or tilt vary in this space.
+    /// The launches of a block as tosses for a batch; `None` if gravity or tilt vary in this space, or if the coins land
+    /// at another height than that of their launch.
     pub(crate) fn tosses<'a>(&self, block: &'a Block) -> Option<Tosses<'a>> {
+        if self.drop().is_some() {
+            return None;
+        }
         let (gravity, tilt) = (self.axis(Coordinate::Gravity).value()?, self.axis(Coordinate::Tilt).value()?);
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(|of| block.column(self.place(of)));
         let tosses = Tosses::new(self.coin(), Attitude::about_x(tilt), gravity, rates, block.column(Coordinate::Speed));

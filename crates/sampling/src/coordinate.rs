@@ -1,8 +1,8 @@
 //! This file names the six coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt. Files,
 //! messages and charts each need a name of their own for them, and all of these are kept together here.
 
-use dynamics::InputError;
 use dynamics::error::find_named;
+use dynamics::{Dimension, InputError};
 
 /// A coordinate of a space of launches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,6 +48,16 @@ impl Coordinate {
             [self as usize]
     }
 
+    /// The kind of quantity that it is, which decides the units that its values may be typed with.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::RateX | Self::RateY | Self::RateZ => Dimension::TurnRate,
+            Self::Speed => Dimension::Speed,
+            Self::Gravity => Dimension::Acceleration,
+            Self::Tilt => Dimension::Angle,
+        }
+    }
+
     /// The symbol and unit on charts, such as `ωx/(rad/s)`.
     pub fn symbol(self) -> &'static str {
         ["ωx/(rad/s)", "ωy/(rad/s)", "ωz/(rad/s)", "v0/(m/s)", "g/(m/s²)", "tilt/rad"][self as usize]
@@ -79,6 +89,7 @@ mod tests {
             assert_eq!(Coordinate::named(of.name()), Ok(of));
             let (name, unit) = of.field().split_once(' ').expect("a name and a unit");
             assert!(of.name().starts_with(name), "{of:?}");
+            assert!(unit.ends_with(&format!("[{}]", of.dimension().units()[0].name())), "{of:?}");
             let (symbol, unit_on_charts) = of.symbol().split_once('/').expect("a symbol and a unit");
             assert!(!symbol.is_empty(), "{of:?}");
             let bare = unit_on_charts.trim_start_matches('(').trim_end_matches(')');

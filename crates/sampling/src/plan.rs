@@ -29,6 +29,13 @@ pub enum Plan {
     ExactSpeed(Rest),
 }
 
+/// Why [`Plan::ExactSpeed`] is refused for a space with a drop.
+const NO_DROP: InputError = InputError::OutsideModel {
+    field: "drop [m]",
+    why: "exact-speed integrates over the speed in closed form, which needs a landing at the height of the launch; other \
+          methods take a drop",
+};
+
 /// How [`Plan::ExactSpeed`] chooses the coordinates other than the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rest {
@@ -77,6 +84,7 @@ impl Plan {
     /// [`InputError`] if the plan does not fit the space.
     pub fn points(&self, space: &Space) -> Result<u64, InputError> {
         match *self {
+            Plan::ExactSpeed(_) if space.drop().is_some() => Err(NO_DROP),
             Plan::Grid => space.grid_points(),
             Plan::Random { points, .. } =>
             {

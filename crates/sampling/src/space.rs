@@ -2,7 +2,8 @@
 //! so that all methods of sampling can be applied to the same space.
 //!
 //! It is a product of independent distributions, one for each of ωx, ωy, ωz, v0, g and the tilt; a rate may also be
-//! tied to another rate, and then has the same value. The coin is caught at the height of its launch: T = 2 v0/g.
+//! tied to another rate, and then has the same value. The coin is caught at the height of its launch, T = 2 v0/g, or at a
+//! fixed drop below it.
 
 use std::fmt;
 
@@ -41,6 +42,8 @@ pub struct Space {
     axes: [AxisOrTie; Coordinate::COUNT],
     /// For each coordinate, the one that its value is taken from: itself, or the one that it is tied to.
     places: [Coordinate; Coordinate::COUNT],
+    /// How far below the launch the coins land (m); `None` for a landing at the height of the launch.
+    drop: Option<f64>,
 }
 
 impl Space {
@@ -56,7 +59,7 @@ impl Space {
                 }
             }
         }
-        let space = Self { coin, axes, places };
+        let space = Self { coin, axes, places, drop: None };
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
         let valid = "speeds >= 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
@@ -74,6 +77,26 @@ impl Space {
         Self { coin, ..self }
     }
 
+    /// The same space for coins that land `drop` (m) below their launch, or above it if `drop` is negative.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] if a coin does not reach the height of its landing, or if the time of a flight
+    /// overflows.
+    pub fn with_drop(self, drop: Option<f64>) -> Result<Self, InputError> {
+        let [speeds, gravities] = [Coordinate::Speed, Coordinate::Gravity].map(|of| self.axis(of).bounds());
+        // The lowest throw is the slowest one under the strongest gravity; the longest flight is the fastest one under
+        // the weakest gravity.
+        for (speed, gravity) in [(speeds[0], gravities[1]), (speeds[1], gravities[0])] {
+            Launch::new(Vector3::zeros(), TimeOfFlight::thrown(speed, gravity, drop))?;
+        }
+        Ok(Self { drop, ..self })
+    }
+
+    /// How far below their launch the coins land (m); `None` for a landing at the height of the launch.
+    pub fn drop(&self) -> Option<f64> {
+        self.drop
+    }
+
     /// The same space with another axis for one coordinate.
     ///
     /// # Errors
@@ -81,7 +104,7 @@ impl Space {
     pub fn with_axis(self, of: Coordinate, axis: impl Into<Axis>) -> Result<Self, InputError> {
         let mut axes = self.axes;
         axes[of as usize] = AxisOrTie::Axis(axis.into());
-        Self::new(self.coin, axes)
+        Self::new(self.coin, axes)?.with_drop(self.drop)
     }
 
     /// The coin.
@@ -122,7 +145,7 @@ impl Space {
     pub(crate) fn toss(&self, values: &Values) -> Toss {
         let value = |of: Coordinate| values[self.place(of) as usize];
         let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
-        let time = TimeOfFlight::Ballistic { speed: value(Coordinate::Speed), gravity: value(Coordinate::Gravity) };
+        let time = TimeOfFlight::thrown(value(Coordinate::Speed), value(Coordinate::Gravity), self.drop);
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
         let tilt = value(Coordinate::Tilt);
         let tilted = if tilt == 0.0 { Ok(launch) } else { launch.with_tilt(tilt) };
@@ -205,6 +228,36 @@ mod tests {
         let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
         assert_eq!(toss.launch.flight_time(), 4.0);
         assert_eq!(toss.launch.attitude(), dynamics::Attitude::about_x(0.5));
+    }
+
+    #[test]
+    fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
+        let space = parse(&BOX).unwrap().with_drop(Some(1.5)).unwrap();
+        let toss = space.with_coin(Coin::DISC).toss(&space.fixed_values());
+        let expected = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: 1.5 };
+        assert_eq!(toss.launch.time_of_flight(), expected);
+        assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(1.5));
+        // A throw at 3 m/s rises by 0.4587 m, and the slowest one has to reach the landing.
+        assert!(space.with_drop(Some(-0.458)).is_ok());
+        for (drop, speed) in [(-0.459, "3:5"), (f64::NAN, "3:5"), (-1.0, "4:5"), (-0.01, "normal:4:0.48")] {
+            let refused = parse(&with(Speed, speed)).unwrap().with_drop(Some(drop)).unwrap_err();
+            assert!(refused.to_string().starts_with("drop [m] = "), "{refused}");
+        }
+        assert_eq!(parse(&BOX).unwrap().with_drop(None), parse(&BOX));
+    }
+
+    #[test]
+    fn axes_of_the_command_line_and_of_files_may_have_units() {
+        let rev = std::f64::consts::TAU;
+        let space = parse(&[BOX.to_vec(), vec![(RateX, "0:10rev/s:5"), (Tilt, "normal:180deg:90°")]].concat()).unwrap();
+        assert_eq!(space.axis(RateX), Axis::range(0.0..=10.0 * rev).with_points(5));
+        assert_eq!(space.axis(Tilt), Axis::normal(rev / 2.0, rev / 4.0));
+        for (text, words) in
+            [("1:10rev/s", "a unit after each"), ("1deg:2deg", "rev/s or rpm"), ("-3m", "rev/s or rpm")]
+        {
+            let error = parse(&with(RateX, text)).unwrap_err().to_string();
+            assert!(error.starts_with("rate x [rad/s] = ") && error.contains(words), "{error}");
+        }
     }
 
     #[test]

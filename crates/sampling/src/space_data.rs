@@ -1,7 +1,7 @@
 //! This file reads and writes spaces as plain data by serde, so that they can be part of any file format. A space is
 //! written as its coin and, for each coordinate by its name, a number or a text.
 
-use dynamics::{Coin, InputError};
+use dynamics::{Coin, Dimension, InputError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -44,6 +44,8 @@ struct SpaceData {
     speed: Option<Entry>,
     gravity: Option<Entry>,
     tilt: Option<Entry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drop: Option<Entry>,
 }
 
 impl<'de> Deserialize<'de> for Space {
@@ -62,11 +64,12 @@ impl TryFrom<SpaceData> for Space {
     type Error = InputError;
 
     fn try_from(data: SpaceData) -> Result<Self, InputError> {
-        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = data;
+        let SpaceData { coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = data;
         let entries = Coordinate::ALL.into_iter().zip([rate_x, rate_y, rate_z, speed, gravity, tilt]);
         let texts: Vec<_> = entries.filter_map(|(of, entry)| Some((of, entry?.text()))).collect();
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
-        Self::parse(coin, &texts)
+        let drop = drop.map(|drop| Dimension::Length.read("drop [m]", &drop.text())).transpose()?;
+        Self::parse(coin, &texts)?.with_drop(drop)
     }
 }
 
@@ -74,7 +77,7 @@ impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
         let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of).to_string()));
         let [rate_x, rate_y, rate_z, speed, gravity, tilt] = Coordinate::ALL.map(entry);
-        Self { coin: space.coin(), rate_x, rate_y, rate_z, speed, gravity, tilt }
+        Self { coin: space.coin(), rate_x, rate_y, rate_z, speed, gravity, tilt, drop: space.drop().map(Entry::Number) }
     }
 }
 
@@ -88,6 +91,8 @@ mod tests {
         for (name, named) in named_spaces() {
             let text = toml::to_string(&named.space).unwrap();
             assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
+            let dropped = named.space.with_drop(Some(1.25)).unwrap();
+            assert_eq!(toml::from_str::<Space>(&toml::to_string(&dropped).unwrap()).unwrap(), dropped);
         }
     }
 
@@ -99,6 +104,7 @@ mod tests {
                 "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1",
                 "unknown field `spin`, expected one of `coin`, `rate_x`",
             ),
+            ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 1\ndrop = '3s'", "drop [m] = '3s'"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),
         ] {
             let found = toml::from_str::<Space>(text).unwrap_err();

@@ -9,13 +9,14 @@
 //! rate_z = 5                       # fixed
 //! speed = "3:5:500"                # a range, with 500 points for a grid
 //! gravity = 9.81                   # this and the next are the defaults
-//! tilt = 0
+//! tilt = "0deg"                    # a text may have a unit
+//! drop = 1.2                       # m, how far below its launch the coin lands; by default at the same height
 //! ```
 
 use std::ops::Range;
 
 use dynamics::error::find_named;
-use dynamics::{Coin, Error, InputError};
+use dynamics::{Coin, Dimension, Error, InputError};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -45,6 +46,7 @@ struct File {
     speed: Option<Spanned<Entry>>,
     gravity: Option<Spanned<Entry>>,
     tilt: Option<Spanned<Entry>>,
+    drop: Option<Spanned<Entry>>,
 }
 
 impl DescribedSpace {
@@ -53,7 +55,7 @@ impl DescribedSpace {
     /// # Errors
     /// [`Error::Text`] with the line and column of the error.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
-        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt } = toml::from_str(text)
+        let File { description, coin, rate_x, rate_y, rate_z, speed, gravity, tilt, drop } = toml::from_str(text)
             .map_err(|error: toml::de::Error| error_at(text, error.span(), error.message().to_owned()))?;
         let entries = [rate_x, rate_y, rate_z, speed, gravity, tilt];
         let given: Vec<(Coordinate, Range<usize>, String)> = Coordinate::ALL
@@ -66,6 +68,10 @@ impl DescribedSpace {
             let blamed = given.iter().find(|(of, ..)| of.field() == error.field());
             error_at(text, blamed.map(|(_, span, _)| span.clone()), error.to_string())
         })?;
+        let Some(drop) = drop else { return Ok(Self { description, space }) };
+        let (span, drop) = (drop.span(), drop.into_inner().text());
+        let dropped = Dimension::Length.read("drop [m]", &drop).and_then(|drop| space.with_drop(Some(drop)));
+        let space = dropped.map_err(|error| error_at(text, Some(span), error.to_string()))?;
         Ok(Self { description, space })
     }
 }
@@ -116,12 +122,12 @@ mod tests {
     #[test]
     fn a_file_can_set_the_coin_and_every_coordinate() {
         let text = "description = 'd'\ncoin = { cylinder = [0.00567, 0.01213, 0.00175] }\nrate_x = 'normal:20:2'\n\
-                    rate_y = 'x'\nrate_z = -5e0\nspeed = '3:5:7'\ngravity = '9.78:9.83'\ntilt = 0.1";
+                    rate_y = 'x'\nrate_z = -5e0\nspeed = '3:5:7'\ngravity = '9.78:9.83'\ntilt = 0.1\ndrop = '50cm'";
         let described = DescribedSpace::from_toml(text).unwrap();
         let texts = ["normal:20:2", "x", "-5", "3:5:7", "9.78:9.83", "0.1"];
         let texts: Vec<_> = Coordinate::ALL.into_iter().zip(texts).collect();
         let coin = Coin::from_cylinder(0.00567, 0.01213, 0.00175).unwrap();
-        assert_eq!(described.space, Space::parse(coin, &texts).unwrap());
+        assert_eq!(described.space, Space::parse(coin, &texts).unwrap().with_drop(Some(0.5)).unwrap());
         assert_eq!(described.description, "d");
     }
 
@@ -143,6 +149,9 @@ mod tests {
             (format!("{valid}coin = {{ moments = [1, 3] }}"), 5, 8, "I3 [kg m²] = 3.0"),
             (format!("{valid}coin = {{ mass = 1 }}"), 5, 10, "unknown field `mass`, expected `moments` or `cylinder`"),
             (format!("{valid}tilt = nan"), 5, 8, "tilt [rad] = NaN"),
+            (format!("{valid}tilt = '3m'"), 5, 8, "an angle in rad, deg"),
+            (format!("{valid}drop = '3s'"), 5, 8, "drop [m] = '3s'"),
+            (format!("{valid}drop = -0.459"), 5, 8, "drop [m] = -0.459"),
             (String::new(), 1, 1, "rate x [rad/s] is missing"),
         ] {
             let error = DescribedSpace::from_toml(&text).unwrap_err();

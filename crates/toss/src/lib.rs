@@ -110,8 +110,8 @@ mod trace;
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Angle, AngleUnit, Attitude, Coin, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss, Tosses, Unit,
-    Vector3,
+    Angle, AngleUnit, Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss,
+    Tosses, Unit, Vector3,
 };
 
 // Solvers: to choose one, or to write your own.
@@ -125,6 +125,7 @@ pub use registry::{Backend, Registry};
 // The exact motion, and what follows from it.
 pub use exact::{
     Batch, Certificate, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify, margin, speeds_of_heads,
+    thrown_speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 
@@ -138,7 +139,7 @@ pub use model::{MODELS, Model};
 pub use plan::Solution;
 pub use reason::{Nanoseconds, Reason};
 pub use scene::{Integrator, Scene, Want, WantKind};
-pub use trace::{MOST_POINTS, TracePoint, trace};
+pub use trace::{MOST_POINTS, TracePoint, trace, trace_every};
 
 // Errors.
 pub use dynamics::{Error, InputError, SolveError};

@@ -97,14 +97,22 @@ pub static MODELS: [Model; 11] = [
         "share",
         "that at most the speed is free",
         "probability, to rounding",
-        |space| (free(space) != [Coordinate::Speed] && !free(space).is_empty()).then_some(Reason::MoreIsFree),
+        |space| match free(space)[..] {
+            _ if space.drop().is_some() => Some(Reason::HasDrop),
+            [] | [Coordinate::Speed] => None,
+            _ => Some(Reason::MoreIsFree),
+        },
         |_, _| Plan::ExactSpeed(Rest::Grid),
     ),
     sample(
         "share-sobol",
         "that the speed is free",
         "probability, with an interval",
-        |space| (!free(space).contains(&Coordinate::Speed)).then_some(Reason::SpeedIsFixed),
+        |space| match free(space).contains(&Coordinate::Speed) {
+            _ if space.drop().is_some() => Some(Reason::HasDrop),
+            true => None,
+            false => Some(Reason::SpeedIsFixed),
+        },
         |points, seed| Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, seed))),
     ),
     sample(

@@ -28,6 +28,8 @@ pub enum Reason {
     MoreIsFree,
     /// The model has no error estimate.
     TellsNoError,
+    /// The coins land below or above their launch.
+    HasDrop,
 }
 
 impl fmt::Display for Reason {
@@ -41,6 +43,7 @@ impl fmt::Display for Reason {
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
             Self::TellsNoError => f.write_str("has no error estimate"),
+            Self::HasDrop => f.write_str("needs a landing at the height of the launch"),
         }
     }
 }

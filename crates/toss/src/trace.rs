@@ -4,6 +4,7 @@
 //! BF is the body frame, whose z axis is the coin's normal n. LF is the laboratory frame, whose z axis ẑ points up; θ
 //! is the angle between n and ẑ.
 
+use dynamics::error::require;
 use dynamics::{Attitude, Checked, Error, EulerAngles, InputError, Launch, Solver, State, TimeOfFlight, Toss, Vector3};
 use exact::ExactMotion;
 
@@ -36,14 +37,32 @@ pub struct TracePoint {
 /// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
 pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
     require_points(points)?;
+    #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
+    let time = |index: usize| toss.launch.flight_time() * (index as f64 / (points - 1) as f64);
+    trace_at(solver, toss, (0..points).map(time))
+}
+
+/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing.
+///
+/// # Errors
+/// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
+/// solver says.
+pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
+    let landing = toss.launch.flight_time();
+    let valid = "> 0 s, and at least a millionth of the time of flight";
+    require("dt [s]", step, valid, step > 0.0 && landing / step < (MOST_POINTS - 2) as f64)?;
+    let steps = (0_u32..).map(|index| f64::from(index) * step).take_while(|time| *time < landing);
+    trace_at(solver, toss, steps.chain([landing]))
+}
+
+/// The flight of `toss` by `solver` at `times`, which ascend from 0.
+fn trace_at(solver: &dyn Solver, toss: &Toss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
     let solver = Checked::new(solver);
     let motion = ExactMotion::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let mut last = (0.0, launch);
-    let mut trace = Vec::with_capacity(points);
-    for index in 0..points {
-        #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
-        let time = toss.launch.flight_time() * (index as f64 / (points - 1) as f64);
+    let mut trace = Vec::with_capacity(times.size_hint().0);
+    for time in times {
         let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
         let leg = Toss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
         let state = solver.propagate(&leg).map_err(|error| error.later(since))?.state;
@@ -99,6 +118,24 @@ mod tests {
                 assert!(point.normal.dot(&point.face).abs() < 1e-15);
             }
         }
+    }
+
+    #[test]
+    fn a_trace_by_steps_of_time_ends_at_the_landing() {
+        let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
+        let toss = Toss { coin: Coin::PAPER, launch };
+        let times = |step: f64| -> Vec<f64> {
+            trace_every(&ExactSolver, &toss, step).unwrap().iter().map(|point| point.time).collect()
+        };
+        assert_eq!(times(0.3), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
+        assert_eq!((times(0.25), times(1.0)), (vec![0.0, 0.25, 0.5, 0.75, 1.0], vec![0.0, 1.0]));
+        assert_eq!(times(7.0), [0.0, 1.0]);
+        assert_eq!(trace_every(&ExactSolver, &toss, 0.25).unwrap(), trace(&ExactSolver, &toss, 5).unwrap());
+        for step in [0.0, -0.1, f64::NAN, 1e-6] {
+            assert_eq!(trace_every(&ExactSolver, &toss, step).unwrap_err().field(), Some("dt [s]"));
+        }
+        let still = Toss { launch: Launch::new(Vector3::x(), TimeOfFlight::Given(0.0)).unwrap(), ..toss };
+        assert_eq!(trace_every(&ExactSolver, &still, 0.1).unwrap().len(), 1);
     }
 
     /// An integrator that fails in the middle of every leg but the first.

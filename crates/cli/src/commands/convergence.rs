@@ -9,13 +9,17 @@ use crate::output::{self, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
+/// Number of steps if none is given and the grid is large enough.
+const DEFAULT_STEPS: u64 = 500;
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// Number of equal steps, of which the last one contains the whole grid
-    #[arg(long, value_name = "N", default_value_t = 500)]
-    steps: u64,
+    /// Number of equal steps, of which the last one contains the whole grid [default: 500, or the number of launches if there
+    /// are fewer]
+    #[arg(long, value_name = "N")]
+    steps: Option<u64>,
     /// Seed of the random launches, which are as many as the grid has
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -32,9 +36,10 @@ impl Args {
         self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend()?;
-        let launches = (space.grid_points()?.saturating_mul(2), "launches");
-        let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, self.steps, self.seed);
-        let steps = self.threads.ask(backend.sampler(), launches, ask)?;
+        let points = space.grid_points()?;
+        let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
+        let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);
+        let steps = self.threads.ask(backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
         self.series.answer(
             |format| output::series(input, format, &steps),
             || Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?),

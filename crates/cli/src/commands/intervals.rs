@@ -4,11 +4,13 @@
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3, speeds_of_heads};
+use toss::{Coin, Dimension, ExactMotion, Launch, TimeOfFlight, Toss, thrown_speeds_of_heads};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
-use crate::toss_args::{CoinArgs, numbers};
+use crate::quantity;
+use crate::rate_args::RateArgs;
+use crate::toss_args::CoinArgs;
 
 /// The largest number of turns, with one interval each. A longer list would be of no use.
 const MOST_TURNS: f64 = 10_000.0;
@@ -17,17 +19,22 @@ const MOST_TURNS: f64 = 10_000.0;
 pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
-    /// Body rate at launch, in the body frame (rad/s)
-    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true)]
-    rate: String,
-    /// Range of launch speeds (m/s)
+    #[command(flatten)]
+    rate: RateArgs,
+    /// Range of launch speeds
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     speed: String,
-    /// Gravity (m/s²)
-    #[arg(long, value_name = "G", allow_hyphen_values = true, default_value_t = DEFAULT_GRAVITY)]
+    /// Gravity
+    #[arg(long, value_name = "G", allow_hyphen_values = true, default_value_t = DEFAULT_GRAVITY,
+          value_parser = quantity::of(Dimension::Acceleration))]
     gravity: f64,
-    /// Tilt at launch: a turn about the lab's x axis (rad)
-    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0)]
+    /// Height of the launch above the landing, negative if the coin lands higher [default: 0]
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
+    drop: Option<f64>,
+    /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal
+    /// towards -y
+    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0,
+          value_parser = quantity::of(Dimension::Angle))]
     tilt: f64,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -45,19 +52,21 @@ struct Answer {
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = Vector3::from(numbers("rate", &self.rate, "WX,WY,WZ [rad/s]")?);
+        let rate = self.rate.rate(&coin)?;
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
             return Err(Failure::usage("speed", "--speed: a range LO:HI of more than one speed is needed"));
         }
-        let thrown = TimeOfFlight::Ballistic { speed: fastest, gravity: self.gravity };
+        // The slowest throw has to reach the landing, too.
+        Launch::new(rate, TimeOfFlight::thrown(slowest, self.gravity, self.drop))?;
+        let thrown = TimeOfFlight::thrown(fastest, self.gravity, self.drop);
         let toss = Toss { coin, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
         let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
             let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");
             return Err(Failure::usage("speed", message));
         }
-        let heads: Vec<[f64; 2]> = speeds_of_heads(&toss, slowest)?.into_iter().flatten().collect();
+        let heads: Vec<[f64; 2]> = thrown_speeds_of_heads(&toss, slowest)?.unwrap_or_default();
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };

@@ -1,6 +1,7 @@
 //! The commands of `unfair-toss`, with one file for each. A command parses its options, calls the libraries and formats
 //! their answer.
 
+pub(crate) mod compare;
 pub(crate) mod convergence;
 pub(crate) mod errors;
 pub(crate) mod intervals;
@@ -10,5 +11,9 @@ pub(crate) mod list;
 pub(crate) mod map;
 pub(crate) mod plan;
 pub(crate) mod probability;
+pub(crate) mod sample;
+pub(crate) mod sample_rows;
+pub(crate) mod shell;
+pub(crate) mod spread;
 pub(crate) mod toss;
 pub(crate) mod trace;

@@ -3,13 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sampling::Plan;
 use serde::Serialize;
 use toss::{
     Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, Reason, Scene, Scheme, SolverEntry,
     StepControl, Want,
 };
 
+use crate::commands::probability::name_of;
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
 use crate::solver_args;
@@ -35,7 +35,7 @@ pub(crate) struct Args {
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml
     #[arg(long, value_name = "NAME|FILE.toml",
-          conflicts_with_all = ["rate", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
+          conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
     #[arg(long, value_name = "NAME",
           help = format!("An integrator that is used as a cross-check: {}",
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     scheme: Option<String>,
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
-          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate", "turn", "wobble",
                                 "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
     /// Output format
@@ -176,7 +176,7 @@ impl Answer {
                 };
             }
             (How::Sampling(plan), Want::Probability(space)) => {
-                answer.method = Some(way_to_sample(*plan));
+                answer.method = Some(name_of(*plan));
                 answer.points = Some(plan.points(space)?);
             }
             _ => {}
@@ -205,15 +205,5 @@ impl Answer {
 impl PassedOver {
     fn new((candidate, reason): &(Candidate, Reason)) -> Self {
         Self { model: candidate.to_string(), why: reason.to_string() }
-    }
-}
-
-/// The name of the method, as `probability --method` takes it.
-fn way_to_sample(plan: Plan) -> &'static str {
-    match plan {
-        Plan::Grid => "grid",
-        Plan::Random { .. } => "random",
-        Plan::Sobol(_) => "sobol",
-        Plan::ExactSpeed(_) => "exact-speed",
     }
 }

@@ -2,13 +2,17 @@
 //! interval of the estimate with it, as far as the method has one.
 
 use exact::{ProvenCounts, Stage};
-use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled};
+use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
+use toss::{Answer as Answered, Backend, How, Scene, Want};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
+
+/// Largest error if neither a method nor an accuracy is given.
+const DEFAULT_ACCURACY: f64 = 1e-4;
 
 const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 << 18 };
 
@@ -16,9 +20,12 @@ const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 
 pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
-    /// How launches are chosen
+    /// How launches are chosen [default: the cheapest one that serves, with as many launches as it takes]
     #[arg(long, value_enum)]
-    method: MethodArg,
+    method: Option<MethodArg>,
+    /// Largest acceptable error of the probability, if no method is given [default: 1e-4]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, conflicts_with = "method")]
+    accuracy: Option<f64>,
     #[command(flatten)]
     plan: PlanArgs,
     #[command(flatten)]
@@ -46,6 +53,8 @@ struct Answer {
     #[serde(skip_serializing_if = "Option::is_none")]
     proven_by: Option<ProvenBy>,
     seed: Option<u64>,
+    /// The method by which launches were chosen.
+    method: &'static str,
 }
 
 #[derive(Serialize)]
@@ -69,15 +78,58 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = self.space.space()?;
         let backend = self.solver.backend()?;
-        let plan = self.plan.plan(self.method, &space, DEFAULT_POINTS)?;
-        self.space.require_grid_where_points_are(&space, |of| lays_grid(plan, of))?;
-        let launches = (plan.points(&space)?, "launches");
-        let ask = |sampler: &Sampler<'_>| sampler.estimate(&space, plan);
-        let found = self.threads.ask(backend.sampler(), launches, ask)?;
+        let (plan, found) = match self.method {
+            Some(method) => self.by_method(method, &space, &backend)?,
+            None => self.by_plan(&space, &backend)?,
+        };
         Ok(match self.format {
-            Format::Json => output::json(input, &Answer::new(&found, seed_of(plan))),
-            Format::Text => text(&found, backend.solver().name()),
+            Format::Json => output::json(input, &Answer::new(&found, plan)),
+            Format::Text => {
+                let chosen = format!("\nmethod       {}, chosen for an error of {:e}", name_of(plan), self.accuracy());
+                text(&found, backend.solver().name()) + if self.method.is_none() { &chosen } else { "" }
+            }
         })
+    }
+
+    fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+        let plan = self.plan.plan(method, space, DEFAULT_POINTS)?;
+        self.space.require_grid_where_points_are(space, |of| lays_grid(plan, of))?;
+        let launches = (plan.points(space)?, "launches");
+        let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
+        Ok((plan, self.threads.ask(backend.sampler(), launches, ask)?))
+    }
+
+    /// The estimate by the method and with the launches that the planner chooses for the accuracy.
+    fn by_plan(&self, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+        if !backend.sampler().is_exact() {
+            return Err(Failure::usage("solver", "--solver needs --method: a plan takes the exact motion"));
+        }
+        self.plan.require_none()?;
+        self.space.require_grid_where_points_are(space, |_| false)?;
+        let scene = Scene::new(Want::Probability(*space), self.accuracy());
+        let choice = scene.plan()?.choice;
+        let How::Sampling(plan) = choice.how else { return Err(no_sample()) };
+        let Answered::Probability(found) = self.threads.run(|| choice.run(&scene))?? else { return Err(no_sample()) };
+        Ok((plan, *found))
+    }
+
+    fn accuracy(&self) -> f64 {
+        self.accuracy.unwrap_or(DEFAULT_ACCURACY)
+    }
+}
+
+/// The error of a planner that answers a probability by something else than a sample.
+fn no_sample() -> Failure {
+    Failure::usage("accuracy", "--accuracy: the plan for this space is no sample; --method chooses one")
+}
+
+/// The name of the method of `plan`, as `--method` takes it.
+pub(crate) fn name_of(plan: Plan) -> &'static str {
+    match plan {
+        Plan::Grid => "grid",
+        Plan::Random { .. } => "random",
+        Plan::Sobol(_) => "sobol",
+        Plan::ExactSpeed(_) => "exact-speed",
     }
 }
 
@@ -91,7 +143,7 @@ fn seed_of(plan: Plan) -> Option<u64> {
 }
 
 impl Answer {
-    fn new(found: &Estimate, seed: Option<u64>) -> Self {
+    fn new(found: &Estimate, plan: Plan) -> Self {
         let (counts, error_bound) = match found.found {
             Found::Counts(counts) => (Some(counts), None),
             Found::Shares { .. } => (None, found.half_width()),
@@ -106,7 +158,8 @@ impl Answer {
             interval_kind: found.interval_kind.to_string(),
             certified: proven.is_some(),
             proven_by: proven.map(ProvenBy::from),
-            seed,
+            seed: seed_of(plan),
+            method: name_of(plan),
         }
     }
 }

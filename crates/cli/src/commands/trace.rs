@@ -2,20 +2,24 @@
 //! laboratory frame, whose z axis points up.
 
 use serde::Serialize;
-use toss::{TracePoint, trace};
+use toss::{Dimension, TracePoint, trace, trace_every};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
+use crate::quantity;
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     flight: FlightArgs,
-    /// Number of times, launch and landing included
-    #[arg(long, value_name = "N")]
-    points: usize,
+    /// Number of times, equally spaced, launch and landing included
+    #[arg(long, value_name = "N", conflicts_with = "dt")]
+    points: Option<usize>,
+    /// Step of time from launch on; the last time is the landing
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time))]
+    dt: Option<f64>,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -63,7 +67,11 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let (toss, backend) = self.flight.parts()?;
-        let flight = trace(backend.solver(), &toss, self.points)?;
+        let flight = match (self.points, self.dt) {
+            (_, Some(step)) => trace_every(backend.solver(), &toss, step)?,
+            (Some(points), None) => trace(backend.solver(), &toss, points)?,
+            (None, None) => return Err(Failure::usage("points", "one of --points N and --dt H is needed")),
+        };
         let data = |format| match format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs;
+use std::io::Write;
 use std::os::unix::ffi::OsStrExt;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, mpsc};
 use std::time::{Duration, Instant};
+
+use unfair_toss::Streams;
 
 use crate::check::{Ran, violations};
 use crate::command_line::Case;
@@ -38,12 +41,14 @@ pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
     // For a case that ends the whole process, as a failed allocation does.
     fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/fuzz-case"), pasted(case)).unwrap();
     forget_peak_of_memory();
+    let input = case.input.clone();
     let began = Instant::now();
     let (send, receive) = mpsc::channel();
     // A thread of its own, which can be given up.
     let runs = std::thread::spawn(move || {
         let (mut out, mut err) = (Vec::new(), Vec::new());
-        let code = panic::catch_unwind(AssertUnwindSafe(|| unfair_toss::run(&arguments, &mut out, &mut err)));
+        let streams = Streams { input: &mut input.as_slice(), out: &mut out, err: &mut err };
+        let code = panic::catch_unwind(AssertUnwindSafe(|| unfair_toss::run(&arguments, streams)));
         _ = send.send(());
         (code.ok().map(i32::from), out, err)
     });
@@ -65,7 +70,11 @@ pub(crate) fn the_program(case: &Case, folder: &Path) -> Ran {
     let limited = format!("ulimit -v {ADDRESS_SPACE} && ulimit -t {} && exec \"$@\"", GIVEN_UP.as_secs());
     let mut program = Command::new("sh");
     program.args(["-c", &limited, "sh", env!("CARGO_BIN_EXE_unfair-toss")]).args(case.flat()).current_dir(folder);
-    let output = program.stdin(Stdio::null()).output().unwrap();
+    program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = program.spawn().unwrap();
+    // A program may end before it has read all.
+    _ = child.stdin.take().unwrap().write_all(&case.input);
+    let output = child.wait_with_output().unwrap();
     let (code, wall) = (output.status.code(), began.elapsed());
     Ran {
         code,
@@ -141,7 +150,9 @@ pub(crate) fn pasted(case: &Case) -> String {
         if !text.is_empty() && text.bytes().all(|byte| plain(&byte)) { text } else { format!("$'{text}'") }
     });
     let files: String = case.files.iter().map(file).collect();
-    format!("{files}unfair-toss {}", arguments.collect::<Vec<_>>().join(" "))
+    let input = quoted(&case.input, |byte| format!("\\0{byte:03o}"));
+    let piped = if input.is_empty() { String::new() } else { format!("printf %b '{input}' | ") };
+    format!("{files}{piped}unfair-toss {}", arguments.collect::<Vec<_>>().join(" "))
 }
 
 /// Bytes as a word of bash, with the escapes of `$'..'` and of `printf %b`. Long ones are cut in the middle.

@@ -69,7 +69,10 @@ fn standard_streams(case: &Case, ran: &Ran) -> Option<String> {
         (false, _) if err.trim().len() < "error: ".len() => Some("failed without a message".to_owned()),
         (false, _) if err.contains("panicked") => Some("failed by a panic".to_owned()),
         (true, true) if asks_for_help(case) || draws_on_standard_output(case) => None,
-        (_, true) if in_rows => out.lines().find_map(|line| json_value(line, !answered)),
+        (_, true) if in_rows => {
+            let rows = out.lines().count() - usize::from(!answered);
+            out.lines().enumerate().find_map(|(at, line)| json_value(line, at == rows))
+        }
         (_, true) => json_value(out, !answered),
         (false, false) if !out.is_empty() && !in_rows => Some("failed and printed an answer".to_owned()),
         (true, false) => {

@@ -24,7 +24,7 @@ use command_line::Case;
 
 /// Runs `number` cases from the one with the number `first`, and panics with those in which something does not hold.
 fn fuzz(runner: Runner, first: u64, number: u64) {
-    let program = unfair_toss::command();
+    let program = unfair_toss::program();
     let folder = tempfile::tempdir().unwrap();
     let (mut failures, mut codes) = (Vec::new(), BTreeMap::<(String, Option<i32>), u64>::new());
     for index in first..first + number {

@@ -1,0 +1,158 @@
+//! `unfair-toss spread` finds how precise a hand must be for a wanted probability of heads. It prints the largest
+//! relative spread of the launch with which heads is still as probable, and that of each input alone.
+
+use sampling::{Coordinate, Estimate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space};
+use serde::Serialize;
+use toss::{Error, TimeOfFlight, Toss};
+
+use crate::failure::Failure;
+use crate::output::{self, Format, Input};
+use crate::quantity;
+use crate::space_args::ThreadArgs;
+use crate::toss_args::TossArgs;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    toss: TossArgs,
+    /// Wanted probability of heads, such as 0.95 or 95%
+    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::part)]
+    heads: f64,
+    /// Number of launches of each estimate, a multiple of 8
+    #[arg(long, value_name = "N", default_value_t = 1 << 14, value_parser = clap::value_parser!(u64).range(8..=1 << 24))]
+    points: u64,
+    /// Seed of the scrambles
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    threads: ThreadArgs,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    answer: &'static str,
+    /// The largest relative spread; the largest one that was tried where any will do.
+    spread: Option<f64>,
+    /// P(heads) at this spread.
+    probability: Option<f64>,
+    interval: Option<[f64; 2]>,
+    interval_kind: Option<String>,
+    alone: Vec<Alone>,
+}
+
+/// The answer if a single input spreads.
+#[derive(Serialize)]
+struct Alone {
+    input: &'static str,
+    answer: &'static str,
+    spread: Option<f64>,
+    probability: Option<f64>,
+}
+
+impl Args {
+    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+        let space = self.space()?;
+        let (together, alone) = self.threads.run(|| self.answers(&space))??;
+        Ok(match self.format {
+            Format::Json => output::json(input, &Answer::new(&together, &alone)),
+            Format::Text => text(&together, &alone),
+        })
+    }
+
+    /// The space that consists of the toss alone.
+    fn space(&self) -> Result<Space, Failure> {
+        let Toss { coin, launch } = self.toss.toss()?;
+        let (speed, gravity, drop) = match launch.time_of_flight() {
+            TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, None),
+            TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, Some(drop)),
+            TimeOfFlight::Given(_) => {
+                return Err(Failure::usage("time", "--time: a hand spreads in its speed, so that --speed is needed"));
+            }
+        };
+        let rate = launch.rate();
+        let space = Space::builder(coin).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
+        Ok(space.tilt(self.toss.tilt()).build()?.with_drop(drop)?)
+    }
+
+    /// The largest spreads of all inputs together, and of each of them alone.
+    fn answers(&self, space: &Space) -> Result<(LargestSpread, Vec<(Coordinate, LargestSpread)>), Error> {
+        let sampler = sampling::Sampler::exact();
+        let scrambled = Scrambled::new(self.points, self.seed);
+        let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
+        let alone = HAND.into_iter().map(|of| Ok((of, largest(&[of])?)));
+        Ok((largest(&HAND)?, alone.collect::<Result<_, Error>>()?))
+    }
+}
+
+/// The parts of an answer: its name, the spread, and the estimate there.
+fn parts(found: &LargestSpread) -> (&'static str, Option<f64>, Option<&Estimate>) {
+    match found {
+        LargestSpread::UpTo(spread, estimate) => ("up_to", Some(*spread), Some(estimate)),
+        LargestSpread::Any(estimate) => ("any", Some(LARGEST_SPREAD), Some(estimate)),
+        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None, None),
+        LargestSpread::BelowSmallest(_) => ("below_smallest", None, None),
+    }
+}
+
+impl Answer {
+    fn new(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Self {
+        let (answer, spread, estimate) = parts(together);
+        let alone = alone.iter().map(|(of, found)| {
+            let (answer, spread, estimate) = parts(found);
+            Alone { input: of.name(), answer, spread, probability: estimate.map(|found| found.probability) }
+        });
+        Self {
+            answer,
+            spread,
+            probability: estimate.map(|found| found.probability),
+            interval: estimate.and_then(|found| found.interval).map(|interval| [interval.lo, interval.hi]),
+            interval_kind: estimate.map(|found| found.interval_kind.to_string()),
+            alone: alone.collect(),
+        }
+    }
+}
+
+fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
+    let mut lines = vec![format!("spread       {}", in_words(together))];
+    if let (_, _, Some(found)) = parts(together) {
+        lines.push(format!("P(heads)     {:.6} at this spread", found.probability));
+        let interval = found.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
+        lines.push(format!("interval     {}({})", interval.unwrap_or_default(), found.interval_kind));
+        let each = alone.iter().zip(["ωx", "ωy", "ωz", "v0"]);
+        let each: Vec<String> = each.map(|((_, found), name)| format!("{name} {}", in_short(found))).collect();
+        lines.push(format!("each alone   {}", each.join(", ")));
+        let assumed = "independent normal inputs, with the standard deviation spread·|value|";
+        lines.push(format!("assumed      {assumed}"));
+    }
+    lines.join("\n")
+}
+
+fn in_words(found: &LargestSpread) -> String {
+    match found {
+        LargestSpread::UpTo(..) => format!("{} of each rate and of the speed", in_short(found)),
+        LargestSpread::Any(_) => format!("any up to {:.0} %, the largest that is tried", 100.0 * LARGEST_SPREAD),
+        LargestSpread::TossIsNotHeads(landing) => {
+            format!("none is small enough: the toss itself lands {landing}, and P(heads) goes to 0 with the spread")
+        }
+        LargestSpread::BelowSmallest(_) => {
+            format!("below {SMALLEST_SPREAD:e}, the smallest that is tried: the toss lands next to tails")
+        }
+    }
+}
+
+/// The spread in percent, to three digits.
+fn in_short(found: &LargestSpread) -> String {
+    match parts(found) {
+        ("any", ..) => "any".to_owned(),
+        (_, Some(spread), _) => {
+            let percent = 100.0 * spread;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 12")]
+            let digits = (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize;
+            format!("{percent:.digits$} %")
+        }
+        _ => format!("below {:e} %", 100.0 * SMALLEST_SPREAD),
+    }
+}

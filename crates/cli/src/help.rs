@@ -1,0 +1,174 @@
+//! What `--help` says beside the options themselves: the usage line of each command with what it requires, the groups of
+//! options, an example, and what the words and columns of its answer mean. It is kept here in one table, so that all
+//! commands say it in the same way.
+
+use clap::Command;
+
+/// The groups of options, each with its heading and the names of its options.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Coin (SI units without a unit; with one as in 5.67g, 24mm or 1.7g·cm²)", &["coin", "cylinder", "moments"]),
+    (
+        "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
+        &[
+            "rate", "turn", "wobble", "rate_x", "rate_y", "rate_z", "speed", "time", "gravity", "drop", "tilt",
+            "space", "spread", "drag", "bounce", "from", "scene",
+        ],
+    ),
+    ("Solver", &["solver", "scheme", "tolerance", "step", "formulation"]),
+    (
+        "Sampling",
+        &[
+            "method",
+            "accuracy",
+            "points",
+            "seed",
+            "steps",
+            "replicates",
+            "up_to",
+            "reference",
+            "across",
+            "up",
+            "threads",
+            "heads",
+        ],
+    ),
+    ("Output", &["format", "svg", "dt", "repeats", "want", "probability", "shell", "command"]),
+];
+
+/// What heads is, for commands whose answer has an outcome.
+const HEADS: &str = "Heads: the coin lands with cos θ > 0, where θ is the angle between the normal of its heads side and the \
+vertical. It is thrown with heads up, unless it is tilted.";
+
+/// What a command requires, and what stands after its options: an example, and what its answer means.
+struct Text {
+    command: &'static str,
+    usage: &'static str,
+    example: &'static str,
+    meaning: &'static str,
+}
+
+const TEXTS: &[Text] = &[
+    Text {
+        command: "toss",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) [OPTIONS]",
+        example: "unfair-toss toss --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s",
+        meaning: "",
+    },
+    Text {
+        command: "trace",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) (--points N | --dt H) [OPTIONS]",
+        example: "unfair-toss trace --rate 1,1,2.5 --speed 3 --dt 50ms",
+        meaning: "Columns: time (s); w, x, y, z, the quaternion from the body to the laboratory; alpha, beta, gamma, its Euler \
+                  angles (rad): precession, nutation, spin; normal_x to normal_z, the normal of the heads side, and face_x to \
+                  face_z, the body's x axis, both in the laboratory; cos_tilt, cos θ.",
+    },
+    Text {
+        command: "probability",
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --wobble PSI --speed AXIS) \
+                [OPTIONS]",
+        example: "unfair-toss probability --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s --spread 1%",
+        meaning: "",
+    },
+    Text {
+        command: "sample",
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS | --turn RATE --wobble PSI --speed AXIS) \
+                --points N [OPTIONS]\n       unfair-toss sample - [OPTIONS] < LAUNCHES.csv",
+        example: "unfair-toss sample --space paper-fig4 --points 1000",
+        meaning: "Columns: wx, wy, wz, the body rate (rad/s); speed (m/s) or time (s), gravity (m/s²), drop (m) and tilt (rad) as \
+                  they were given; flight_time (s); cos_tilt, cos θ at landing; outcome; certified, whether the outcome is \
+                  proven. With --format json each line is an object with these fields.",
+    },
+    Text {
+        command: "compare",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) [OPTIONS]",
+        example: "unfair-toss compare --rate 20,5,3 --speed 3 --repeats 0",
+        meaning: "Columns: cos θ at landing; error, its distance from that of the exact motion; attitude/rad, the angle between \
+                  the attitude at landing and that of the exact motion; outcome; calls of the right-hand side; steps; time, the \
+                  median of several measurements of one flight.",
+    },
+    Text {
+        command: "spread",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) --speed V0 --heads P [OPTIONS]",
+        example: "unfair-toss spread --coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.4m/s --heads 95%",
+        meaning: "Spread: with a spread S each rate and the speed is normal around its value x, with the standard deviation S·|x|, \
+                  independent of the others. The answer is the largest S, up to 12 %, such that heads has at least the \
+                  probability P at S and at every smaller spread.",
+    },
+    Text {
+        command: "convergence",
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
+        example: "unfair-toss convergence --space paper-fig4 --steps 50",
+        meaning: "Columns: launches so far; grid, the share of heads among the first launches of the grid; random, the share among \
+                  the first random launches, with its 95 % interval from random_lo to random_hi.",
+    },
+    Text {
+        command: "errors",
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
+        example: "unfair-toss errors --space paper-fig4 --up-to 10 --replicates 4",
+        meaning: "Columns: method; launches; rms_error, the root mean square of the errors of the replicates; replicates, their \
+                  number; reference, the probability that is taken as true; reference_error, half the width of its interval.",
+    },
+    Text {
+        command: "map",
+        usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
+        example: "unfair-toss map --rate-x 0:40:5 --rate-y 0 --rate-z 20:60:3 --speed 3:5",
+        meaning: "Columns: the coordinate across, the coordinate up, and the probability of heads at this node.",
+    },
+    Text {
+        command: "intervals",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) --speed LO:HI [OPTIONS]",
+        example: "unfair-toss intervals --rate 20,5,3 --speed 3:4",
+        meaning: "",
+    },
+    Text {
+        command: "inverse",
+        usage: "--probability P [OPTIONS]",
+        example: "unfair-toss inverse --probability 0.7 --coin us-quarter",
+        meaning: "",
+    },
+    Text {
+        command: "limit",
+        usage: "[OPTIONS]",
+        example: "unfair-toss limit --coin us-quarter --points 100",
+        meaning: "Columns: cone_angle, the angle ψ between the normal and the angular momentum (rad); limit, the probability of \
+                  heads in the limit of long flights; launches, the number of long flights; share, that of heads among them, \
+                  with its 95 % interval from share_lo to share_hi.",
+    },
+    Text {
+        command: "plan",
+        usage: "--want WANT --accuracy EPS (--rate WX,WY,WZ --speed V0 | --space NAME) [OPTIONS]\n       \
+                unfair-toss plan --scene FILE [OPTIONS]",
+        example: "unfair-toss plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-9",
+        meaning: "",
+    },
+    Text { command: "coins", usage: "[OPTIONS]", example: "unfair-toss coins", meaning: "" },
+    Text { command: "solvers", usage: "[OPTIONS]", example: "unfair-toss solvers", meaning: "" },
+    Text { command: "models", usage: "[OPTIONS]", example: "unfair-toss models", meaning: "" },
+    Text { command: "spaces", usage: "[OPTIONS]", example: "unfair-toss spaces", meaning: "" },
+    Text { command: "completions", usage: "SHELL", example: "unfair-toss completions bash", meaning: "" },
+    Text { command: "man", usage: "[COMMAND]", example: "unfair-toss man toss", meaning: "" },
+];
+
+/// `program` with its help texts.
+pub(crate) fn described(program: Command) -> Command {
+    TEXTS.iter().fold(program, |program, text| program.mut_subcommand(text.command, |command| text.added_to(command)))
+}
+
+impl Text {
+    fn added_to(&self, command: Command) -> Command {
+        let has_outcome = !matches!(
+            self.command,
+            "inverse" | "plan" | "coins" | "solvers" | "models" | "spaces" | "completions" | "man"
+        );
+        let paragraphs = [self.meaning, if has_outcome { HEADS } else { "" }];
+        let after = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
+        let after: String = after.map(|paragraph| format!("\n\n{paragraph}")).collect();
+        let grouped = command.mut_args(|argument| {
+            let group = GROUPS.iter().find(|(_, names)| names.contains(&argument.get_id().as_str()));
+            group.map_or(argument.clone(), |(heading, _)| argument.help_heading(*heading))
+        });
+        grouped
+            .override_usage(format!("unfair-toss {} {}", self.command, self.usage))
+            .after_help(format!("Example:\n  {}{after}", self.example))
+    }
+}

@@ -1,0 +1,125 @@
+//! Quantities may be typed with a unit, and a toss may be described by what can be seen of it.
+
+mod common;
+
+use std::f64::consts::{PI, TAU};
+
+use common::{assert_near, assert_refused, json};
+use serde_json::json as value;
+
+/// The input of a toss as its answer repeats it: in SI units.
+fn input(options: &str) -> serde_json::Value {
+    json(&format!("toss {options}"), 0)["input"].clone()
+}
+
+#[test]
+fn a_toss_is_the_same_in_any_units() {
+    let with_units = "--cylinder 5.67g,12.13mm,1.75mm --rate 10rev/s,0,-300rpm --speed 240cm/s --gravity 981cm/s² --drop 50cm \
+                      --tilt 15deg";
+    let found = input(with_units);
+    assert_eq!(found["cylinder"], value!([0.005_67, 0.012_13, 0.001_75]));
+    assert_eq!(found["rate"], value!([10.0 * TAU, 0.0, -10.0 * PI]));
+    for (name, expected) in [("speed", 2.4), ("gravity", 9.81), ("drop", 0.5), ("tilt", 0.261_799_387_799_149_46)] {
+        assert_eq!(found[name], value!(expected), "{name}");
+    }
+    assert_eq!(input("--moments 5g·cm²,1e-7kg·m² --rate 1,1,1 --time 500ms")["moments"], value!([5e-7, 1e-7]));
+    let si = "--cylinder 0.00567,0.01213,0.00175 --rate 62.83185307179586,0,-31.41592653589793 --speed 2.4 --gravity 9.81 \
+              --drop 0.5 --tilt 0.26179938779914946";
+    let landing = |options: &str| json(&format!("toss {options}"), 0)["cos_tilt"].clone();
+    assert_eq!(landing(with_units), landing(si));
+}
+
+#[test]
+fn axes_take_units_on_the_command_line_and_in_files() {
+    let si = "probability --rate-x 0:62.83185307179586 --rate-y x --rate-z 3 --speed normal:4:0.1 --tilt 0.5235987755982988 \
+              --method random --points 999";
+    let units = "probability --rate-x 0:10rev/s --rate-y x --rate-z 3rad/s --speed normal:400cm/s:10cm/s --tilt 30deg \
+                 --method random --points 999";
+    assert_eq!(json(si, 0)["heads"], json(units, 0)["heads"]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let text = "rate_x = '0:10rev/s'\nrate_y = 'x'\nrate_z = 3\nspeed = 'normal:4m/s:10cm/s'\ntilt = '30deg'\n";
+    std::fs::write(&path, text).unwrap();
+    let file = format!("probability --space {} --method random --points 999", path.display());
+    assert_eq!(json(si, 0)["heads"], json(&file, 0)["heads"]);
+    let intervals = json("intervals --rate 20,5,3 --speed 300cm/s:4m/s --tilt 10deg", 0);
+    assert_eq!(intervals["heads"], json("intervals --rate 20,5,3 --speed 3:4 --tilt 0.17453292519943295", 0)["heads"]);
+}
+
+#[test]
+fn a_wrong_unit_is_refused_with_the_units_that_fit() {
+    assert_refused(&[
+        ("toss --rate 1,1,1 --speed 3deg", ["'3deg' for '--speed", "m/s, cm/s, km/h, ft/s or mph"]),
+        ("toss --rate 1,1,1 --speed 3x", ["'3x' for '--speed", "m/s, cm/s, km/h, ft/s or mph"]),
+        ("toss --rate 1,1,1 --time 3m", ["'3m' for '--time", "s, ms or µs"]),
+        ("toss --rate 1,1,1 --speed 3 --tilt 3m", ["'3m' for '--tilt", "rad, deg, ° or rev"]),
+        ("toss --rate 1,1,1 --speed 3 --gravity 9.81m/s", ["--gravity", "m/s², cm/s² or ft/s²"]),
+        ("toss --rate 1,1,1 --speed 3 --drop 1s", ["--drop", "m, cm, mm, in or ft"]),
+        ("toss --rate 1deg,1deg,1deg --speed 3", ["rate = '1deg,1deg,1deg'", "rad/s, deg/s, °/s, rev/s or rpm"]),
+        ("toss --rate 1,2,3rev/s --speed 3", ["rate = '1,2,3rev/s'", "a unit after each of the numbers"]),
+        ("toss --rate 1,1,1 --speed 3 --cylinder 5g,1g,1g", ["cylinder = '5g,1g,1g'", "m, cm, mm, in or ft"]),
+        ("toss --rate 1,1,1 --speed 3 --cylinder 5g,0.01,1mm", ["cylinder = '5g,0.01,1mm'", "a unit after each"]),
+        ("toss --rate 1,1,1 --speed 3 --moments 1g,1g", ["moments = '1g,1g'", "kg·m², g·cm² or g·mm²"]),
+        ("toss --rate 1,1,1 --time 1 --solver gamma --scheme rk4 --step 1m", ["'1m' for '--step", "s, ms or µs"]),
+        ("toss --turn 3deg --wobble 1 --speed 3", ["'3deg' for '--turn", "rev/s or rpm"]),
+        (
+            "probability --rate-x 3m --rate-y x --rate-z 1 --speed 3 --method random",
+            ["rate x [rad/s] = '3m'", "rad/s, deg/s, °/s, rev/s or rpm"],
+        ),
+        (
+            "probability --rate-x 1:3rev/s --rate-y x --rate-z 1 --speed 3 --method random",
+            ["rate x [rad/s] = '1:3rev/s'", "a unit after each of the numbers"],
+        ),
+        ("toss --rate 1,1,1 --speed 1e308km/s --gravity 1", ["--speed", "m/s"]),
+        ("toss --rate 1e308rev/s,0,0 --speed 1", ["rate x [rad/s] = inf", "finite"]),
+    ]);
+}
+
+#[test]
+fn turn_and_wobble_stand_for_the_rate_that_they_give() {
+    // ωL = 2π, ψ = 60°, k = 0.5: Ω = 2π sin 60° and ωz = 2π cos 60°/0.5 = 2π.
+    let seen = json("toss --turn 1rev/s --wobble 60deg --speed 3", 0);
+    let rate = format!("toss --rate {},0,{} --speed 3", TAU * 0.75_f64.sqrt(), TAU);
+    assert_near(&seen["cos_tilt"], json(&rate, 0)["cos_tilt"].as_f64().unwrap(), 1e-14);
+    // cos θ = cos²ψ + sin²ψ cos(ωL T).
+    let expected = 0.25 + 0.75 * (TAU * 6.0 / 9.81).cos();
+    assert_near(&seen["cos_tilt"], expected, 1e-14);
+    assert_eq!(seen["input"]["turn"], value!(TAU));
+    let commands = [
+        "trace --points 3 --speed 3",
+        "plan --want tilt --accuracy 1e-9 --speed 3",
+        "compare --repeats 0 --speed 3",
+        "spread --heads 0.9 --speed 3 --points 64",
+        "intervals --speed 3:4",
+        "probability --speed 3:4",
+        "sample --speed 3:4 --points 2",
+        "map --speed 1:2:2 --tilt 0:1:2 --across speed --up tilt --method random --points 64",
+    ];
+    for command in commands {
+        let output = common::run(&format!("{command} --turn 1rev/s --wobble 60deg"));
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", common::stderr(&output));
+    }
+    let share = |options: &str| json(&format!("intervals --speed 3:4 {options}"), 0)["probability"].clone();
+    assert_near(
+        &share("--turn 40 --wobble 60deg"),
+        share(&format!("--rate {},0,40", 40.0 * 0.75_f64.sqrt())).as_f64().unwrap(),
+        1e-12,
+    );
+}
+
+#[test]
+fn turn_and_wobble_are_refused_alone_beside_a_rate_and_out_of_range() {
+    assert_refused(&[
+        ("toss --turn 3 --speed 3", ["--wobble", "required"]),
+        ("toss --wobble 3 --speed 3", ["--turn", "required"]),
+        ("toss --rate 1,1,1 --turn 3 --wobble 1 --speed 3", ["--rate", "cannot be used with"]),
+        ("toss --turn -3 --wobble 1 --speed 3", ["turn [rad/s] = -3.0", ">= 0"]),
+        ("toss --turn 3 --wobble 181deg --speed 3", ["wobble [rad] = 3.159", "0 to π"]),
+        ("toss --turn 3 --wobble nan --speed 3", ["wobble [rad] = NaN", "0 to π"]),
+        ("toss --turn 3 --wobble 1 --speed 3 --moments 1,0", ["wobble [rad] is outside the model", "a rod"]),
+        ("toss --speed 3", ["--rate WX,WY,WZ is needed", "--turn RATE with --wobble PSI"]),
+        ("probability --turn 3 --wobble 1 --rate-x 3 --speed 3", ["--turn", "cannot be used with"]),
+        ("probability --turn 3 --wobble 1 --space tails", ["--space", "cannot be used with"]),
+        ("plan --scene x.toml --turn 3 --wobble 1", ["--scene", "cannot be used with"]),
+    ]);
+}

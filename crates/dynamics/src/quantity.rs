@@ -1,0 +1,298 @@
+//! This file reads physical quantities that are typed with a unit, such as `15deg` or `24mm`, and converts them to SI
+//! units. It holds the one table of units, so that the command line and files of spaces accept the same ones.
+//!
+//! A number without a unit is in the SI unit, which for angles is the radian. Every unit is a rational multiple of the
+//! SI unit, or such a multiple of π.
+
+use std::f64::consts::PI;
+
+use numerics::double_double::{DoubleDouble, two_sum};
+use numerics::scale::mantissa_and_exponent;
+
+use crate::error::InputError;
+
+/// The kind of a physical quantity, which decides the units that it may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// An angle, in rad.
+    Angle,
+    /// A rate of turning, in rad/s.
+    TurnRate,
+    /// A speed, in m/s.
+    Speed,
+    /// A time, in s.
+    Time,
+    /// An acceleration, in m/s².
+    Acceleration,
+    /// A length, in m.
+    Length,
+    /// A mass, in kg.
+    Mass,
+    /// A moment of inertia, in kg m².
+    Inertia,
+}
+
+/// A unit and its name: `numerator`/`denominator` of the SI unit, times π if `has_pi` is set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NamedUnit {
+    name: &'static str,
+    numerator: u32,
+    denominator: u32,
+    has_pi: bool,
+}
+
+const fn unit(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+    NamedUnit { name, numerator, denominator, has_pi: false }
+}
+
+const fn unit_of_pi(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+    NamedUnit { name, numerator, denominator, has_pi: true }
+}
+
+/// What is expected of a quantity, in words, and its units, of which the first is the SI unit.
+type Row = (&'static str, &'static [NamedUnit]);
+
+const ANGLE: Row = (
+    "an angle in rad, deg, ° or rev (rad without a unit)",
+    &[unit("rad", 1, 1), unit_of_pi("deg", 1, 180), unit_of_pi("°", 1, 180), unit_of_pi("rev", 2, 1)],
+);
+const TURN_RATE: Row = (
+    "a rate in rad/s, deg/s, °/s, rev/s or rpm (rad/s without a unit)",
+    &[
+        unit("rad/s", 1, 1),
+        unit_of_pi("deg/s", 1, 180),
+        unit_of_pi("°/s", 1, 180),
+        unit_of_pi("rev/s", 2, 1),
+        unit_of_pi("rpm", 1, 30),
+    ],
+);
+const SPEED: Row = (
+    "a speed in m/s, cm/s, km/h, ft/s or mph (m/s without a unit)",
+    &[unit("m/s", 1, 1), unit("cm/s", 1, 100), unit("km/h", 5, 18), unit("ft/s", 381, 1250), unit("mph", 1397, 3125)],
+);
+const TIME: Row =
+    ("a time in s, ms or µs (s without a unit)", &[unit("s", 1, 1), unit("ms", 1, 1000), unit("µs", 1, 1_000_000)]);
+const ACCELERATION: Row = (
+    "an acceleration in m/s², cm/s² or ft/s² (m/s² without a unit)",
+    &[unit("m/s²", 1, 1), unit("cm/s²", 1, 100), unit("ft/s²", 381, 1250)],
+);
+const LENGTH: Row = (
+    "a length in m, cm, mm, in or ft (m without a unit)",
+    &[unit("m", 1, 1), unit("cm", 1, 100), unit("mm", 1, 1000), unit("in", 127, 5000), unit("ft", 381, 1250)],
+);
+const MASS: Row =
+    ("a mass in kg, g or mg (kg without a unit)", &[unit("kg", 1, 1), unit("g", 1, 1000), unit("mg", 1, 1_000_000)]);
+const INERTIA: Row = (
+    "a moment of inertia in kg·m², g·cm² or g·mm² (kg·m² without a unit)",
+    &[unit("kg·m²", 1, 1), unit("g·cm²", 1, 10_000_000), unit("g·mm²", 1, 1_000_000_000)],
+);
+
+impl NamedUnit {
+    /// The name, such as `rev/s`.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// `value` of this unit in the SI unit, rounded once: the f64 nearest to the exact product.
+    ///
+    /// The product is computed in twice the precision of f64, where its error is below 40 u² with u = 2^-53.
+    pub fn to_si(&self, value: f64) -> f64 {
+        if !value.is_finite() {
+            return value;
+        }
+        let (mantissa, exponent) = mantissa_and_exponent(value);
+        let product = DoubleDouble::product(mantissa, f64::from(self.numerator));
+        // The difference between π and its nearest f64.
+        const REST_OF_PI: f64 = 1.224_646_799_147_353_2e-16;
+        let product = if self.has_pi { product * two_sum(PI, REST_OF_PI) } else { product };
+        let si = product / DoubleDouble::from(f64::from(self.denominator));
+        si.times_power_of_two(exponent).hi()
+    }
+
+    /// Whether `text` names this unit. Blanks, `·`, `*` and `^` between the parts of a unit make no difference, and
+    /// neither does `2` in place of `²`, or `u` in place of `µ`.
+    fn is_called(&self, text: &str) -> bool {
+        fn plain(text: &str) -> impl Iterator<Item = char> {
+            let parts = text.chars().filter(|part| !part.is_whitespace() && !['·', '*', '^'].contains(part));
+            parts.map(|part| match part {
+                '²' => '2',
+                'µ' | 'μ' => 'u',
+                same => same,
+            })
+        }
+        plain(self.name).eq(plain(text))
+    }
+}
+
+/// A quantity as it was read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Read {
+    /// A number without a unit.
+    Plain(f64),
+    /// A number with a unit, converted to the SI unit.
+    Converted(f64),
+}
+
+impl Dimension {
+    fn row(self) -> Row {
+        match self {
+            Self::Angle => ANGLE,
+            Self::TurnRate => TURN_RATE,
+            Self::Speed => SPEED,
+            Self::Time => TIME,
+            Self::Acceleration => ACCELERATION,
+            Self::Length => LENGTH,
+            Self::Mass => MASS,
+            Self::Inertia => INERTIA,
+        }
+    }
+
+    /// The units that a quantity of this kind may have. The first one is the SI unit.
+    pub fn units(self) -> &'static [NamedUnit] {
+        self.row().1
+    }
+
+    /// What is expected, in words that name every unit.
+    pub fn expected(self) -> &'static str {
+        self.row().0
+    }
+
+    /// Reads a quantity into its SI unit.
+    ///
+    /// # Errors
+    /// [`InputError::Malformed`] that names `field` and the units that fit.
+    pub fn read(self, field: &'static str, text: &str) -> Result<f64, InputError> {
+        match self.read_typed(text) {
+            Some(Read::Plain(value) | Read::Converted(value)) => Ok(value),
+            None => Err(InputError::Malformed { field, value: text.to_owned(), expected: self.expected() }),
+        }
+    }
+
+    /// The number and its unit; `None` if there is no number, or another unit.
+    fn read_typed(self, text: &str) -> Option<Read> {
+        let text = text.trim();
+        if let Ok(value) = text.parse() {
+            return Some(Read::Plain(value));
+        }
+        // The longest start of the text that is a number: `1e3` of `1e3m/s`.
+        let (value, name) =
+            text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
+        let unit = self.units().iter().find(|unit| unit.is_called(name))?;
+        Some(Read::Converted(unit.to_si(value)))
+    }
+}
+
+/// Reads several quantities that belong together into their SI units. Either all of them have a unit or none has, since
+/// a unit after the last number alone could be meant for all. A 0 needs no unit.
+///
+/// # Errors
+/// [`InputError::Malformed`] that names `field`, with `expected` for a text that is no quantity of its kind.
+pub fn read_quantities(
+    field: &'static str,
+    whole: &str,
+    expected: &'static str,
+    parts: &[(Dimension, &str)],
+) -> Result<Vec<f64>, InputError> {
+    let malformed = |expected| InputError::Malformed { field, value: whole.to_owned(), expected };
+    let read = parts.iter().map(|(dimension, text)| dimension.read_typed(text).ok_or_else(|| malformed(expected)));
+    let read = read.collect::<Result<Vec<Read>, _>>()?;
+    let has_unit = |of: &Read| matches!(of, Read::Converted(_));
+    let lacks_unit = |of: &Read| matches!(of, Read::Plain(value) if *value != 0.0);
+    if read.iter().any(has_unit) && read.iter().any(lacks_unit) {
+        return Err(malformed("a unit after each of the numbers, or after none"));
+    }
+    Ok(read.into_iter().map(|(Read::Plain(value) | Read::Converted(value))| value).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use Dimension::{Acceleration, Angle, Inertia, Length, Mass, Speed, Time, TurnRate};
+
+    use super::*;
+
+    const ALL: [Dimension; 8] = [Angle, TurnRate, Speed, Time, Acceleration, Length, Mass, Inertia];
+
+    #[test]
+    fn what_is_expected_names_every_unit() {
+        for dimension in ALL {
+            let words = dimension.expected();
+            for unit in dimension.units() {
+                assert!(words.contains(unit.name()), "{words}: {}", unit.name());
+            }
+            let si = dimension.units()[0];
+            assert!(words.ends_with(&format!("({} without a unit)", si.name())), "{words}");
+            assert_eq!((si.numerator, si.denominator, si.has_pi), (1, 1, false));
+        }
+    }
+
+    /// The expected numbers are the exact products, computed in 80 decimal digits and rounded once. Two roundings, as in
+    /// 181.04 × (π/180) in f64, give another number for every thirteenth angle.
+    #[test]
+    fn conversions_are_rounded_once() {
+        for (dimension, text, expected) in [
+            (Angle, "15deg", 0.261_799_387_799_149_46),
+            (Angle, "-44°", -0.767_944_870_877_505),
+            (Angle, "181.04deg", 3.159_744_077_810_534_3),
+            (Angle, "0.1rev", 0.628_318_530_717_958_7),
+            (TurnRate, "38rev/s", 238.761_041_672_824_3),
+            (TurnRate, "600rpm", 62.831_853_071_795_86),
+            (TurnRate, "33.3 deg/s", 0.581_194_640_914_111_7),
+            (TurnRate, " 1e3rpm", 104.719_755_119_659_78),
+            (Speed, "2.4m/s", 2.4),
+            (Speed, "100km/h", 27.777_777_777_777_78),
+            (Speed, "7.3mph", 3.263_392),
+            (Time, "3us", 3e-6),
+            (Acceleration, "981cm/s2", 9.81),
+            (Acceleration, "32.174ft/s^2", 9.806_635_2),
+            (Length, "24mm", 0.024),
+            (Length, "0.955in", 0.024_256_999_999_999_997),
+            (Mass, "5.67g", 0.005_67),
+            (Inertia, "1.7 g cm²", 1.7e-7),
+            (Inertia, "5e-7kg*m^2", 5e-7),
+        ] {
+            assert_eq!(dimension.read("x", text), Ok(expected), "{text}");
+        }
+        assert_eq!(181.04 * PI / 180.0, 3.159_744_077_810_534);
+    }
+
+    #[test]
+    fn numbers_without_a_unit_and_out_of_the_range_of_f64_stay_what_they_are() {
+        for text in ["3", "-0.5", "1e-300", "inf", "0"] {
+            assert_eq!(Speed.read("x", text), Ok(text.parse().unwrap()));
+        }
+        assert!(Speed.read("x", "NaN").unwrap().is_nan() && Angle.read("x", "nandeg").unwrap().is_nan());
+        assert_eq!(Angle.read("x", "1e308rev"), Ok(f64::INFINITY));
+        assert_eq!(Length.read("x", "-infmm"), Ok(f64::NEG_INFINITY));
+        assert_eq!(Length.read("x", "0mm"), Ok(0.0));
+    }
+
+    #[test]
+    fn other_units_and_other_texts_are_refused_with_the_units_that_fit() {
+        for (dimension, text) in [
+            (Speed, "3deg"),
+            (Angle, "15d"),
+            (Angle, "deg"),
+            (Length, ""),
+            (Mass, "5..1g"),
+            (Time, "3 s s"),
+            (Speed, "3m"),
+        ] {
+            let error = dimension.read("x [u]", text).unwrap_err();
+            let expected =
+                InputError::Malformed { field: "x [u]", value: text.to_owned(), expected: dimension.expected() };
+            assert_eq!(error, expected);
+        }
+    }
+
+    #[test]
+    fn numbers_that_belong_together_have_units_all_or_none() {
+        let read = |text: &str| {
+            let parts: Vec<_> = text.split(',').map(|part| (TurnRate, part)).collect();
+            read_quantities("rate", text, "rates", &parts).map_err(|error| error.to_string())
+        };
+        assert_eq!(read("1,2.5,-3"), Ok(vec![1.0, 2.5, -3.0]));
+        assert_eq!(read("1rev/s,0,30rpm"), Ok(vec![std::f64::consts::TAU, 0.0, PI]));
+        assert!(read("1,2,3rev/s").unwrap_err().contains("a unit after each of the numbers, or after none"));
+        assert!(read("1m,2m,3m").unwrap_err().contains("expected rates"));
+    }
+}
