@@ -131,19 +131,36 @@ fn options(source: &mut Source, command: &Command) -> Vec<Vec<OsString>> {
     }
     let mut arguments: Vec<_> = given.into_iter().map(|argument| option(source, argument)).collect();
     if source.careful {
-        leave_out_idle(&mut arguments);
+        leave_out_idle(command, &mut arguments);
     }
-    let gives = |option: &[OsString], name: &str| option[0].to_string_lossy().split('=').next() == Some(name);
-    // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
-    if command.get_name() == "limit" && arguments.iter().any(|option| gives(option, "--solver")) {
-        arguments.retain(|option| !["--points", "--formulation"].iter().any(|name| gives(option, name)));
-        arguments.push(vec!["--points".into(), "1".into()]);
-    }
+    keep_short(source, command, &mut arguments);
     arguments
 }
 
+/// Whether `option` is the one with this name.
+fn gives(option: &[OsString], name: &str) -> bool {
+    option[0].to_string_lossy().split('=').next() == Some(name)
+}
+
+/// Changes options with which a command rightly takes long.
+fn keep_short(source: &mut Source, command: &Command, arguments: &mut Vec<Vec<OsString>>) {
+    let has = |name: &str| arguments.iter().any(|option| gives(option, name));
+    let (others, replacement): (&[&str], [&str; 2]) = match command.get_name() {
+        // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
+        "limit" if has("--solver") => (&["--points", "--formulation"], ["--points", "1"]),
+        // A plan takes as many launches as the accuracy needs.
+        "probability" if !has("--method") => {
+            let accuracy = *source.pick(&["1e-2", "1e-3", "0", "nan", "2"]);
+            (&["--accuracy"], ["--accuracy", accuracy])
+        }
+        _ => return,
+    };
+    arguments.retain(|option| !others.iter().any(|name| gives(option, name)));
+    arguments.push(replacement.map(OsString::from).to_vec());
+}
+
 /// Leaves out options that have no effect with others, and are refused for that.
-fn leave_out_idle(arguments: &mut Vec<Vec<OsString>>) {
+fn leave_out_idle(command: &Command, arguments: &mut Vec<Vec<OsString>>) {
     let has = |option: &str, values: &[&str]| {
         arguments.iter().any(|given| {
             values
@@ -151,20 +168,22 @@ fn leave_out_idle(arguments: &mut Vec<Vec<OsString>>) {
                 .any(|value| *given == [option, value] || *given == [OsString::from(format!("{option}={value}"))])
         })
     };
-    let integrates = has("--solver", &["gamma", "euler", "quaternion"]);
+    let plans = command.get_name() == "probability" && !arguments.iter().any(|option| gives(option, "--method"));
+    let integrates = !plans && has("--solver", &["gamma", "euler", "quaternion"]);
     let idle = [
-        ("--points", has("--method", &["grid"]) || has("--want", &["outcome", "tilt", "attitude", "probability"])),
-        ("--seed", has("--method", &["grid"])),
+        (
+            "--points",
+            plans || has("--method", &["grid"]) || has("--want", &["outcome", "tilt", "attitude", "probability"]),
+        ),
+        ("--seed", plans || has("--method", &["grid"])),
+        ("--solver", plans),
         ("--space", has("--want", &["outcome", "tilt", "attitude", "trace"])),
         ("--step", !has("--scheme", &["rk4"])),
         ("--tolerance", !integrates || has("--scheme", &["rk4"])),
         ("--scheme", !integrates),
         ("--formulation", !has("--solver", &["gamma", "euler"])),
     ];
-    arguments.retain(|given| {
-        let name = given[0].to_string_lossy();
-        !idle.iter().any(|(option, idle)| *idle && name.split('=').next() == Some(option))
-    });
+    arguments.retain(|given| !idle.iter().any(|(option, idle)| *idle && gives(given, option)));
 }
 
 /// An option, or a positional argument, with its value.
