@@ -1,12 +1,14 @@
 //! What holds for every run of the program, whatever its input is.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::{LazyLock, Mutex};
 use std::time::Duration;
 
 use serde_json::Value;
 
 use crate::command_line::Case;
+use crate::fields::{Fields, collect, documented};
 
 /// A run may take this long. Most take some milliseconds; the commands of the cases ask for little.
 const LONGEST: Duration = Duration::from_secs(5);
@@ -71,9 +73,9 @@ fn standard_streams(case: &Case, ran: &Ran) -> Option<String> {
         (true, true) if asks_for_help(case) || draws_on_standard_output(case) => None,
         (_, true) if in_rows => {
             let rows = out.lines().count() - usize::from(!answered);
-            out.lines().enumerate().find_map(|(at, line)| json_value(line, at == rows))
+            out.lines().enumerate().find_map(|(at, line)| json_value(case, line, at == rows))
         }
-        (_, true) => json_value(out, !answered),
+        (_, true) => json_value(case, out, !answered),
         (false, false) if !out.is_empty() && !in_rows => Some("failed and printed an answer".to_owned()),
         (true, false) => {
             out.split(|letter: char| letter.is_whitespace() || ",;()".contains(letter)).find_map(no_number)
@@ -98,7 +100,7 @@ fn draws_on_standard_output(case: &Case) -> bool {
 }
 
 /// What is wrong with the JSON of an answer, or of an error if there is one.
-fn json_value(text: &str, failed: bool) -> Option<String> {
+fn json_value(case: &Case, text: &str, failed: bool) -> Option<String> {
     let value: Value = match serde_json::from_str(text) {
         Ok(value) => value,
         Err(error) => {
@@ -112,7 +114,31 @@ fn json_value(text: &str, failed: bool) -> Option<String> {
     if failed && (error["message"].as_str().is_none_or(str::is_empty) || !error["kind"].is_string()) {
         return Some(format!("an error without words: {text}"));
     }
-    has_negative_zero(&value).then(|| "JSON with -0".to_owned())
+    if has_negative_zero(&value) {
+        return Some("JSON with -0".to_owned());
+    }
+    let section = match case.command() {
+        _ if failed => "`error`".to_owned(),
+        command if command == "sample" => "`sample`, each line".to_owned(),
+        command => format!("`{command}`"),
+    };
+    undocumented(&value, section)
+}
+
+/// A field that the document of the JSON does not have, or has with another type. A number that is none is null.
+fn undocumented(value: &Value, section: String) -> Option<String> {
+    static DOCUMENTED: LazyLock<Mutex<BTreeMap<String, Fields>>> = LazyLock::new(Mutex::default);
+    let mut known = DOCUMENTED.lock().unwrap();
+    let known = known
+        .entry(section)
+        .or_insert_with_key(|section| ["Every answer", "`input`", section].into_iter().flat_map(documented).collect());
+    let mut found = Fields::new();
+    collect(value, "", &mut found);
+    let is_known = |(path, types): &(String, BTreeSet<String>)| {
+        let is_empty_list = || known.keys().any(|other| other.starts_with(&format!("{path}[]")));
+        known.get(path).is_some_and(|known| types.is_subset(known)) || is_empty_list()
+    };
+    found.into_iter().find(|field| !is_known(field)).map(|field| format!("undocumented {field:?}"))
 }
 
 fn has_negative_zero(value: &Value) -> bool {

@@ -12,6 +12,8 @@
 mod case_run;
 mod check;
 mod command_line;
+#[path = "../common/fields.rs"]
+mod fields;
 mod files;
 mod source;
 mod values;
