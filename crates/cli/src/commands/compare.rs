@@ -1,7 +1,7 @@
 //! `unfair-toss compare` solves one toss by every solver and scheme. It prints how far each is off the exact motion and
 //! what it costs, so that a solver can be chosen for a toss at hand.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use toss::{
@@ -216,9 +216,10 @@ impl Answer {
 }
 
 /// The median of the time (ns) of a call of `job`, from `repeats` measurements; `None` for 0. A measurement repeats the
-/// call until it takes long enough for the clock.
+/// call until it takes long enough for the clock. Where they take long together, there are fewer.
 fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
     const LONG_ENOUGH_NS: f64 = 2e5;
+    const LONG: Duration = Duration::from_millis(500);
     let measured = |calls: u32| {
         let start = Instant::now();
         (0..calls).for_each(|_| _ = std::hint::black_box(job()));
@@ -228,7 +229,9 @@ fn median_ns(repeats: u32, job: impl Fn() -> bool) -> Option<f64> {
     while repeats > 0 && measured(calls) < LONG_ENOUGH_NS && calls < 1 << 20 {
         calls *= 2;
     }
-    let mut times: Vec<f64> = (0..repeats).map(|_| measured(calls) / f64::from(calls)).collect();
+    let began = Instant::now();
+    let goes_on = |done: &u32| *done == 0 || began.elapsed() < LONG;
+    let mut times: Vec<f64> = (0..repeats).take_while(goes_on).map(|_| measured(calls) / f64::from(calls)).collect();
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied()
 }

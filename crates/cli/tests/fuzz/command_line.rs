@@ -147,7 +147,7 @@ fn keep_short(source: &mut Source, command: &Command, arguments: &mut Vec<Vec<Os
     let has = |name: &str| arguments.iter().any(|option| gives(option, name));
     let (others, replacement): (&[&str], [&str; 2]) = match command.get_name() {
         // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
-        "limit" if has("--solver") => (&["--points", "--formulation"], ["--points", "1"]),
+        "limit" if has("--solver") => (&["--points", "--formulation", "--scheme", "--tolerance"], ["--points", "1"]),
         // A plan takes as many launches as the accuracy needs.
         "probability" if !has("--method") => {
             let accuracy = *source.pick(&["1e-2", "1e-3", "0", "nan", "2"]);
