@@ -63,13 +63,18 @@ impl Row {
 /// Writes rows to standard output as they come.
 pub(crate) struct Writer {
     format: DataFormat,
-    has_heading: bool,
+    rows: u64,
     is_closed: bool,
 }
 
 impl Writer {
     pub(crate) fn new(format: DataFormat) -> Self {
-        Self { format, has_heading: false, is_closed: false }
+        Self { format, rows: 0, is_closed: false }
+    }
+
+    /// Number of rows that were written.
+    pub(crate) fn rows(&self) -> u64 {
+        self.rows
     }
 
     /// Whether the reader of standard output has gone, so that no more rows are wanted.
@@ -82,6 +87,7 @@ impl Writer {
             DataFormat::Csv => self.csv(rows),
             DataFormat::Json => rows.iter().map(|row| plain_json(row) + "\n").collect::<String>().into_bytes(),
         };
+        self.rows += rows.len() as u64;
         self.print(&text)
     }
 
@@ -91,9 +97,8 @@ impl Writer {
         whole_file::unless_closed(out.flush()).map_err(Failure::Print)
     }
 
-    fn csv(&mut self, rows: &[Row]) -> Vec<u8> {
-        let is_first = !std::mem::replace(&mut self.has_heading, true);
-        let mut writer = csv::WriterBuilder::new().has_headers(is_first).from_writer(Vec::new());
+    fn csv(&self, rows: &[Row]) -> Vec<u8> {
+        let mut writer = csv::WriterBuilder::new().has_headers(self.rows == 0).from_writer(Vec::new());
         for row in rows {
             writer.serialize(row).expect("a row of plain data always fits into memory");
         }
