@@ -47,7 +47,7 @@ pub(super) fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'st
     Ok(CertainLine { pieces, angles })
 }
 
-/// A quantity p[0] u + p[1] v + p[2], where u and v are the values of the two axes.
+/// A quantity `p[0] u + p[1] v + p[2]`, where u and v are the values of the two axes.
 type Linear = [f64; 3];
 
 fn value(p: Linear, (u, v): (f64, f64)) -> f64 {
