@@ -26,7 +26,8 @@ fn a_toss_is_the_same_in_any_units() {
     let si = "--cylinder 0.00567,0.01213,0.00175 --rate 62.83185307179586,0,-31.41592653589793 --speed 2.4 --gravity 9.81 \
               --drop 0.5 --tilt 0.26179938779914946";
     let landing = |options: &str| json(&format!("toss {options}"), 0)["cos_tilt"].clone();
-    assert_eq!(landing(with_units), landing(si));
+    // With units fewer numbers are rounded, so that the last digits may differ, by up to u for each of 70 rad.
+    assert_near(&landing(with_units), landing(si).as_f64().unwrap(), 1e-14);
 }
 
 #[test]
