@@ -1,6 +1,7 @@
 //! The input of a command as its JSON answer repeats it: every option that was given or has a default, by its name.
 
 use clap::{ArgMatches, Command};
+use dynamics::quantity::Given;
 use serde_json::{Map, Value};
 
 use crate::quantity;
@@ -22,7 +23,8 @@ pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value>
 fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     let whole = || number::<u64>(name, given).or_else(|| number::<u32>(name, given));
     let number = number::<f64>(name, given).or_else(whole).or_else(|| number::<usize>(name, given));
-    number.or_else(|| {
+    let quantity = || Some(given.try_get_one::<Given>(name).ok()??.si().into());
+    number.or_else(quantity).or_else(|| {
         let text = given.try_get_raw(name).ok()??.next()?.to_string_lossy();
         let list = quantity::list(name, &text).map(|numbers| numbers.map_or(Value::Null, Value::from));
         Some(list.unwrap_or_else(|| text.into_owned().into()))

@@ -2,7 +2,7 @@
 //! number that a person types with a unit is converted here and in the axes of spaces, nowhere else.
 
 use dynamics::Dimension;
-use dynamics::quantity::read_quantities;
+use dynamics::quantity::{Given, read_quantities};
 use toss::InputError;
 
 /// What is expected of three rates.
@@ -19,6 +19,11 @@ pub(crate) fn of(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> +
     move |text| dimension.read("", text).map_err(|_| format!("expected {}", dimension.expected()))
 }
 
+/// As [`of`], but in the unit that was given, so that nothing is rounded.
+pub(crate) fn given(dimension: Dimension) -> impl Fn(&str) -> Result<Given, String> + Clone + Send + Sync + 'static {
+    move |text| dimension.given("", text).map_err(|_| format!("expected {}", dimension.expected()))
+}
+
 /// A probability or another part of a whole, such as `0.95` or `95%`.
 pub(crate) fn part(text: &str) -> Result<f64, String> {
     let (number, whole) = text.trim().strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
@@ -28,27 +33,28 @@ pub(crate) fn part(text: &str) -> Result<f64, String> {
 
 /// An option that is a list of quantities, in SI units; `None` for any other option.
 pub(crate) fn list(option: &str, text: &str) -> Option<Result<Vec<f64>, InputError>> {
-    match option {
-        "rate" => Some(rates(text).map(Vec::from)),
-        "cylinder" => Some(cylinder(text).map(Vec::from)),
-        "moments" => Some(moments(text)),
-        _ => None,
-    }
+    let list = match option {
+        "rate" => rates(text).map(Vec::from),
+        "cylinder" => cylinder(text).map(Vec::from),
+        "moments" => moments(text),
+        _ => return None,
+    };
+    Some(list.map(|numbers| numbers.into_iter().map(Given::si).collect()))
 }
 
-/// Three rates (rad/s).
-pub(crate) fn rates(text: &str) -> Result<[f64; 3], InputError> {
+/// Three rates.
+pub(crate) fn rates(text: &str) -> Result<[Given; 3], InputError> {
     each("rate", text, RATES, &[Dimension::TurnRate; 3])?.try_into().map_err(|_| malformed("rate", text, RATES))
 }
 
-/// Mass (kg), radius (m) and thickness (m) of a cylinder.
-pub(crate) fn cylinder(text: &str) -> Result<[f64; 3], InputError> {
+/// Mass, radius and thickness of a cylinder.
+pub(crate) fn cylinder(text: &str) -> Result<[Given; 3], InputError> {
     let of = [Dimension::Mass, Dimension::Length, Dimension::Length];
     each("cylinder", text, CYLINDER, &of)?.try_into().map_err(|_| malformed("cylinder", text, CYLINDER))
 }
 
-/// Moments of inertia (kg m²), two or three.
-pub(crate) fn moments(text: &str) -> Result<Vec<f64>, InputError> {
+/// Moments of inertia, two or three.
+pub(crate) fn moments(text: &str) -> Result<Vec<Given>, InputError> {
     let number = text.split(',').count();
     each("moments", text, MOMENTS, &vec![Dimension::Inertia; number])
 }
@@ -59,7 +65,7 @@ fn each(
     text: &str,
     expected: &'static str,
     dimensions: &[Dimension],
-) -> Result<Vec<f64>, InputError> {
+) -> Result<Vec<Given>, InputError> {
     let parts: Vec<(Dimension, &str)> = dimensions.iter().copied().zip(text.split(',')).collect();
     if text.split(',').count() != dimensions.len() {
         return Err(malformed(field, text, expected));

@@ -2,8 +2,9 @@
 //! coin's normal n turns, and its angle ψ to the angular momentum S.
 
 use clap::Args;
-use dynamics::rate_of_precession;
-use toss::{Coin, Dimension, Vector3};
+use dynamics::quantity::{Given, NamedUnit};
+use dynamics::{AngleUnit, rate_of_precession};
+use toss::{Coin, Dimension, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::failure::Failure;
 use crate::quantity;
@@ -46,7 +47,36 @@ impl RateArgs {
         if let Some(rate) = self.turn.rate(coin)? {
             return Ok(rate);
         }
-        let missing = || Failure::usage("rate", "--rate WX,WY,WZ is needed, or --turn RATE with --wobble PSI");
-        Ok(quantity::rates(self.rate.as_deref().ok_or_else(missing)?)?.into())
+        Ok(Vector3::from(self.components()?.map(Given::si)))
     }
+
+    /// The launch of `coin` with this body rate. Components in one unit are not converted, so that proofs start from them.
+    pub(crate) fn launch(&self, coin: &Coin, time_of_flight: TimeOfFlight) -> Result<Launch, Failure> {
+        let unit = if self.rate.is_some() { common_unit(&self.components()?) } else { None };
+        let Some(unit) = unit else { return Ok(Launch::new(self.rate(coin)?, time_of_flight)?) };
+        let rate = Vector3::from(self.components()?.map(Given::value));
+        Ok(Launch::in_unit(rate, unit, time_of_flight)?)
+    }
+
+    /// Whether the rate of [`RateArgs::launch`] is rounded from what was given.
+    pub(crate) fn is_rounded(&self) -> Result<bool, Failure> {
+        if self.rate.is_none() {
+            return Ok(true);
+        }
+        let components = self.components()?;
+        Ok(common_unit(&components).is_none() && !components.into_iter().all(Given::is_exact_in_si))
+    }
+
+    fn components(&self) -> Result<[Given; 3], Failure> {
+        let missing = || Failure::usage("rate", "--rate WX,WY,WZ is needed, or --turn RATE with --wobble PSI");
+        let read = |text: &String| quantity::rates(text).map_err(|error: InputError| Failure::from(error));
+        self.rate.as_ref().ok_or_else(missing).and_then(read)
+    }
+}
+
+/// The unit of all components; one that is 0 may have any. `None` if they differ.
+fn common_unit(components: &[Given; 3]) -> Option<AngleUnit> {
+    let mut units = components.iter().filter(|given| given.value() != 0.0).map(|given| given.unit());
+    let Some(first) = units.next() else { return Some(AngleUnit::RADIAN) };
+    units.all(|unit: NamedUnit| unit == first).then(|| first.angle_unit())
 }

@@ -3,9 +3,10 @@
 
 use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
+use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use toss::catalogue::named_coin;
-use toss::{Backend, Coin, Dimension, InputError, Launch, TimeOfFlight, Toss};
+use toss::{Backend, Coin, Dimension, ExactMotion, InputError, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
 use crate::quantity;
@@ -32,13 +33,20 @@ impl CoinArgs {
     /// The coin, if one of the options was given.
     pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
         if let Some(text) = &self.cylinder {
-            let [mass, radius, thickness] = quantity::cylinder(text)?;
+            let [mass, radius, thickness] = quantity::cylinder(text)?.map(Given::quantity);
             return Coin::from_cylinder(mass, radius, thickness).map(Some);
         }
         if let Some(text) = &self.moments {
-            return Coin::from_listed_moments(&quantity::moments(text)?).map(Some);
+            let moments: Vec<f64> = quantity::moments(text)?.into_iter().map(Given::si).collect();
+            return Coin::from_listed_moments(&moments).map(Some);
         }
         self.coin.as_deref().map(named_coin).transpose()
+    }
+
+    /// Whether the coin is rounded from what was given.
+    fn is_rounded(&self) -> Result<bool, InputError> {
+        let moments = self.moments.as_deref().map_or(Ok(Vec::new()), quantity::moments)?;
+        Ok(!moments.into_iter().all(Given::is_exact_in_si))
     }
 }
 
@@ -50,22 +58,22 @@ pub(crate) struct TossArgs {
     #[command(flatten)]
     rate: RateArgs,
     /// Upward speed v0 at launch
-    #[arg(long, value_name = "V0", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Speed))]
-    speed: Option<f64>,
+    #[arg(long, value_name = "V0", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Speed))]
+    speed: Option<Given>,
     /// Time of flight, instead of a speed
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["speed", "gravity", "drop"],
-          value_parser = quantity::of(Dimension::Time))]
-    time: Option<f64>,
+          value_parser = quantity::given(Dimension::Time))]
+    time: Option<Given>,
     /// Gravity [default: 9.81]
-    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Acceleration))]
-    gravity: Option<f64>,
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Acceleration))]
+    gravity: Option<Given>,
     /// Height of the launch above the landing, negative if the coin lands higher [default: 0]
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Length))]
-    drop: Option<f64>,
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Length))]
+    drop: Option<Given>,
     /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal
     /// towards -y [default: 0]
-    #[arg(long, value_name = "B", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Angle))]
-    tilt: Option<f64>,
+    #[arg(long, value_name = "B", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Angle))]
+    tilt: Option<Given>,
     /// Air drag is outside the model; the option is refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     drag: Option<String>,
@@ -83,19 +91,40 @@ impl TossArgs {
             return Err(NO_BOUNCE.into());
         }
         let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = self.rate.rate(&coin)?;
+        let gravity = self.gravity.map_or(DEFAULT_GRAVITY, Given::si);
         let time_of_flight = match (self.speed, self.time) {
-            (_, Some(time)) => TimeOfFlight::Given(time),
-            (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
+            (_, Some(time)) => TimeOfFlight::Given(time.si()),
+            (Some(speed), None) => TimeOfFlight::thrown(speed.si(), gravity, self.drop.map(Given::si)),
             (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
-        let launch = Launch::new(rate, time_of_flight)?.with_tilt(self.tilt())?;
+        let mut launch = self.rate.launch(&coin, time_of_flight)?;
+        if let Some(tilt) = self.tilt {
+            launch = launch.with_tilt(tilt.angle())?;
+        }
         Ok(Toss { coin, launch })
     }
 
     /// The tilt at launch (rad).
     pub(crate) fn tilt(&self) -> f64 {
-        self.tilt.unwrap_or(0.0)
+        self.tilt.map_or(0.0, Given::si)
+    }
+
+    /// Whether the outcome of `toss`, whose cos θ is `cos_tilt`, is the same for the numbers as they were typed: `false` if
+    /// numbers were rounded when their units were converted, and cos θ is so near to 0 that this could have changed it.
+    pub(crate) fn is_beyond_rounding(&self, toss: &Toss, cos_tilt: f64) -> Result<bool, Failure> {
+        let times = [self.speed, self.time, self.gravity, self.drop];
+        let is_time_rounded = !times.into_iter().flatten().all(Given::is_exact_in_si);
+        if !is_time_rounded && !self.coin.is_rounded()? && !self.rate.is_rounded()? {
+            return Ok(true);
+        }
+        // A landing above the launch may end the flight near its top, where the time depends on the speed without a bound.
+        if is_time_rounded && self.drop.is_some_and(|drop| drop.si() < 0.0) {
+            return Ok(false);
+        }
+        // cos θ changes by no more than the turn Φ = (ωx, ωy, k ωz) T does. With u = 2^-53, conversions change the rates by up
+        // to 8 u of themselves, k by 3 u and T by 4 u; 32 u leaves a margin.
+        let turn = ExactMotion::new(toss).precession_rate() * toss.launch.flight_time();
+        Ok(cos_tilt.abs() > 16.0 * f64::EPSILON * turn)
     }
 }
 
@@ -110,6 +139,11 @@ pub(crate) struct FlightArgs {
 }
 
 impl FlightArgs {
+    /// The options of the toss.
+    pub(crate) fn toss(&self) -> &TossArgs {
+        &self.toss
+    }
+
     pub(crate) fn parts(&self) -> Result<(Toss, Backend), Failure> {
         Ok((self.toss.toss()?, self.solver.backend()?))
     }

@@ -155,6 +155,12 @@ fn options_that_do_not_fit_are_refused() {
     let failing =
         json("sample --rate-x 9 --rate-y x --rate-z 0 --speed 3 --points 1 --solver gamma --formulation vertical", 1);
     assert_eq!(failing["error"]["launch"]["rate"][0], 9.0);
+    // The launch is counted from the first one, however many are solved together, and those before it are printed.
+    let mut text = "wx,wy,wz,speed\n".to_owned() + &"1,1,2.5,3\n".repeat(20_001);
+    text += "1,1,1e17,3\n1,1,2.5,3\n";
+    let output = fed("sample -", &text);
+    assert_eq!((output.status.code(), stdout(&output).lines().count()), (Some(1), 20_002));
+    assert!(stderr(&output).contains("launch 20001 (rate 1.0, 1.0, 1e17 rad/s"), "{}", stderr(&output));
 }
 
 #[test]

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use numerics::double_double::{DoubleDouble, two_sum};
 use numerics::scale::mantissa_and_exponent;
+use numerics::{Angle, AngleUnit, Quantity, Unit};
 
 use crate::error::InputError;
 
@@ -36,16 +37,23 @@ pub enum Dimension {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedUnit {
     name: &'static str,
-    numerator: u32,
+    numerator: u16,
     denominator: u32,
     has_pi: bool,
 }
 
-const fn unit(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+/// A number and the unit that it was given in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Given {
+    value: f64,
+    unit: NamedUnit,
+}
+
+const fn unit(name: &'static str, numerator: u16, denominator: u32) -> NamedUnit {
     NamedUnit { name, numerator, denominator, has_pi: false }
 }
 
-const fn unit_of_pi(name: &'static str, numerator: u32, denominator: u32) -> NamedUnit {
+const fn unit_of_pi(name: &'static str, numerator: u16, denominator: u32) -> NamedUnit {
     NamedUnit { name, numerator, denominator, has_pi: true }
 }
 
@@ -109,6 +117,17 @@ impl NamedUnit {
         si.times_power_of_two(exponent).hi()
     }
 
+    /// The factor to the SI unit, without π.
+    fn ratio(&self, halves: u32) -> Unit {
+        // No unit of the table has a 0 in it.
+        Unit::ratio(self.numerator, self.denominator * halves).unwrap_or(Unit::ONE)
+    }
+
+    /// The unit as one of an angle, or of an angle per second. A unit with π is a part of a turn of 2π.
+    pub fn angle_unit(&self) -> AngleUnit {
+        if self.has_pi { AngleUnit::Turns(self.ratio(2)) } else { AngleUnit::Radians(self.ratio(1)) }
+    }
+
     /// Whether `text` names this unit. Blanks, `·`, `*` and `^` between the parts of a unit make no difference, and
     /// neither does `2` in place of `²`, or `u` in place of `µ`.
     fn is_called(&self, text: &str) -> bool {
@@ -124,13 +143,41 @@ impl NamedUnit {
     }
 }
 
-/// A quantity as it was read.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Read {
-    /// A number without a unit.
-    Plain(f64),
-    /// A number with a unit, converted to the SI unit.
-    Converted(f64),
+impl Given {
+    /// The number in the SI unit, rounded once.
+    pub fn si(self) -> f64 {
+        self.unit.to_si(self.value)
+    }
+
+    /// Whether [`Given::si`] is the number that was given, without a rounding.
+    pub fn is_exact_in_si(self) -> bool {
+        let NamedUnit { numerator, denominator, has_pi, .. } = self.unit;
+        let (given, si) = (self.value, self.si());
+        let product = |number: f64, factor: f64| DoubleDouble::product(number, factor);
+        given == 0.0
+            || numerator == 1 && denominator == 1 && !has_pi
+            || !has_pi && product(given, f64::from(numerator)) == product(si, f64::from(denominator))
+    }
+
+    /// The number as an angle, or as an angle per second. Nothing is rounded.
+    pub fn angle(self) -> Angle {
+        self.unit.angle_unit().times(self.value)
+    }
+
+    /// The number in the SI unit, of a unit without π. Nothing is rounded.
+    pub fn quantity(self) -> Quantity {
+        Quantity::new(self.value, self.unit.ratio(1))
+    }
+
+    /// The number in its unit.
+    pub fn value(self) -> f64 {
+        self.value
+    }
+
+    /// The unit.
+    pub fn unit(self) -> NamedUnit {
+        self.unit
+    }
 }
 
 impl Dimension {
@@ -162,28 +209,34 @@ impl Dimension {
     /// # Errors
     /// [`InputError::Malformed`] that names `field` and the units that fit.
     pub fn read(self, field: &'static str, text: &str) -> Result<f64, InputError> {
-        match self.read_typed(text) {
-            Some(Read::Plain(value) | Read::Converted(value)) => Ok(value),
-            None => Err(InputError::Malformed { field, value: text.to_owned(), expected: self.expected() }),
-        }
+        self.given(field, text).map(Given::si)
     }
 
-    /// The number and its unit; `None` if there is no number, or another unit.
-    fn read_typed(self, text: &str) -> Option<Read> {
+    /// Reads a quantity in the unit that it is given in, which without one is the SI unit.
+    ///
+    /// # Errors
+    /// As [`Dimension::read`].
+    pub fn given(self, field: &'static str, text: &str) -> Result<Given, InputError> {
+        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: self.expected() };
+        self.parsed(text).map(|(given, _)| given).ok_or_else(malformed)
+    }
+
+    /// The quantity, and whether it has a unit of its own; `None` if there is no number, or another unit.
+    fn parsed(self, text: &str) -> Option<(Given, bool)> {
         let text = text.trim();
         if let Ok(value) = text.parse() {
-            return Some(Read::Plain(value));
+            return Some((Given { value, unit: self.units()[0] }, false));
         }
         // The longest start of the text that is a number: `1e3` of `1e3m/s`.
         let (value, name) =
             text.char_indices().rev().find_map(|(end, _)| Some((text[..end].parse().ok()?, &text[end..])))?;
         let unit = self.units().iter().find(|unit| unit.is_called(name))?;
-        Some(Read::Converted(unit.to_si(value)))
+        Some((Given { value, unit: *unit }, true))
     }
 }
 
-/// Reads several quantities that belong together into their SI units. Either all of them have a unit or none has, since
-/// a unit after the last number alone could be meant for all. A 0 needs no unit.
+/// Reads several quantities that belong together. Either all of them have a unit or none has, since a unit after the last
+/// number alone could be meant for all. A 0 needs no unit.
 ///
 /// # Errors
 /// [`InputError::Malformed`] that names `field`, with `expected` for a text that is no quantity of its kind.
@@ -192,16 +245,15 @@ pub fn read_quantities(
     whole: &str,
     expected: &'static str,
     parts: &[(Dimension, &str)],
-) -> Result<Vec<f64>, InputError> {
+) -> Result<Vec<Given>, InputError> {
     let malformed = |expected| InputError::Malformed { field, value: whole.to_owned(), expected };
-    let read = parts.iter().map(|(dimension, text)| dimension.read_typed(text).ok_or_else(|| malformed(expected)));
-    let read = read.collect::<Result<Vec<Read>, _>>()?;
-    let has_unit = |of: &Read| matches!(of, Read::Converted(_));
-    let lacks_unit = |of: &Read| matches!(of, Read::Plain(value) if *value != 0.0);
-    if read.iter().any(has_unit) && read.iter().any(lacks_unit) {
+    let parsed = parts.iter().map(|(dimension, text)| dimension.parsed(text).ok_or_else(|| malformed(expected)));
+    let parsed = parsed.collect::<Result<Vec<(Given, bool)>, _>>()?;
+    let lacks_unit = |(given, has_unit): &(Given, bool)| !has_unit && given.value != 0.0;
+    if parsed.iter().any(|(_, has_unit)| *has_unit) && parsed.iter().any(lacks_unit) {
         return Err(malformed("a unit after each of the numbers, or after none"));
     }
-    Ok(read.into_iter().map(|(Read::Plain(value) | Read::Converted(value))| value).collect())
+    Ok(parsed.into_iter().map(|(given, _)| given).collect())
 }
 
 #[cfg(test)]
@@ -256,6 +308,32 @@ mod tests {
     }
 
     #[test]
+    fn a_conversion_is_exact_if_nothing_was_rounded() {
+        for (dimension, text, is_exact) in [
+            (Speed, "2.4", true),
+            (Speed, "2.4m/s", true),
+            (Speed, "250cm/s", true),
+            (Speed, "240cm/s", false),
+            (Speed, "18km/h", true),
+            (Speed, "1km/h", false),
+            (Angle, "15deg", false),
+            (Angle, "0deg", true),
+        ] {
+            assert_eq!(dimension.given("x", text).unwrap().is_exact_in_si(), is_exact, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_angle_in_its_unit_is_the_converted_one_to_rounding() {
+        for text in ["1", "15deg", "-44°", "0.1rev", "181.04deg"] {
+            let given = Angle.given("x", text).unwrap();
+            assert_eq!(given.angle().radians(), given.si(), "{text}");
+        }
+        let millimetres = Length.given("x", "24.26mm").unwrap();
+        assert_eq!(millimetres.quantity().to_f64(), millimetres.si());
+    }
+
+    #[test]
     fn numbers_without_a_unit_and_out_of_the_range_of_f64_stay_what_they_are() {
         for text in ["3", "-0.5", "1e-300", "inf", "0"] {
             assert_eq!(Speed.read("x", text), Ok(text.parse().unwrap()));
@@ -288,7 +366,8 @@ mod tests {
     fn numbers_that_belong_together_have_units_all_or_none() {
         let read = |text: &str| {
             let parts: Vec<_> = text.split(',').map(|part| (TurnRate, part)).collect();
-            read_quantities("rate", text, "rates", &parts).map_err(|error| error.to_string())
+            let read = read_quantities("rate", text, "rates", &parts);
+            read.map(|read| read.into_iter().map(Given::si).collect::<Vec<f64>>()).map_err(|error| error.to_string())
         };
         assert_eq!(read("1,2.5,-3"), Ok(vec![1.0, 2.5, -3.0]));
         assert_eq!(read("1rev/s,0,30rpm"), Ok(vec![std::f64::consts::TAU, 0.0, PI]));

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use dynamics::error::require;
-use dynamics::quantity::read_quantities;
+use dynamics::quantity::{Given, read_quantities};
 use dynamics::{Dimension, InputError};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -126,7 +126,8 @@ impl Axis {
             let has_unit = |text: &&str| text.parse::<f64>().is_err() && starts_as_number(text);
             let expected = if texts.iter().any(has_unit) { of.dimension().expected() } else { FORMS };
             let parts: Vec<(Dimension, &str)> = texts.iter().map(|text| (of.dimension(), *text)).collect();
-            read_quantities(of.field(), text, expected, &parts)
+            let numbers = read_quantities(of.field(), text, expected, &parts)?;
+            Ok(numbers.into_iter().map(Given::si).collect())
         };
         Self::read(of.field(), text, numbers)
     }

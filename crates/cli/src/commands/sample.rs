@@ -88,7 +88,7 @@ impl Args {
                 return Ok(());
             }
             let valid = chunk.iter().map_while(|row| row.as_ref().ok()).copied().collect::<Vec<Given>>();
-            writer.write(&solved(backend, &valid)?)?;
+            answer(backend, &valid, writer)?;
             chunk.into_iter().find_map(Result::err).map_or(Ok(()), Err)?;
         }
     }
@@ -105,7 +105,7 @@ impl Args {
             if chunk.is_empty() {
                 return Ok(());
             }
-            writer.write(&solved(backend, &chunk)?)?;
+            answer(backend, &chunk, writer)?;
         }
         Ok(())
     }
@@ -142,23 +142,28 @@ fn given(space: &Space, drawn: &Drawn) -> Given {
     }
 }
 
-/// The launches with their landings, in their order.
+/// Solves the launches, and writes them with their landings in their order.
 ///
 /// # Errors
-/// That of the first launch that fails, with its rate and time of flight.
-fn solved(backend: &Backend, launches: &[Given]) -> Result<Vec<Row>, Failure> {
-    let one = |given: &Given| landed(backend, given);
-    let rows: Vec<Result<Row, Error>> = launches.par_iter().with_min_len(64).map(one).collect();
-    Ok(rows.into_iter().collect::<Result<_, _>>()?)
+/// That of the first launch that fails, with its number. Those before it are written.
+fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<(), Failure> {
+    let first = writer.rows();
+    let one = |(given, index): (&Given, u64)| landed(backend, given, first + index);
+    let numbered: Vec<(&Given, u64)> = launches.iter().zip(0..).collect();
+    let rows: Vec<Result<Row, Error>> = numbered.into_par_iter().with_min_len(64).map(one).collect();
+    let failed = rows.iter().position(Result::is_err).unwrap_or(rows.len());
+    let mut rows = rows.into_iter();
+    writer.write(&rows.by_ref().take(failed).filter_map(Result::ok).collect::<Vec<Row>>())?;
+    rows.next().map_or(Ok(()), |row| row.map(drop).map_err(Failure::from))
 }
 
 /// A launch with its landing. Launches are solved one by one: cos θ of a batch is not right to the last bit, so that near
 /// 0 its sign could contradict the outcome.
-fn landed(backend: &Backend, given: &Given) -> Result<Row, Error> {
+fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
     let toss: &Toss = &given.toss;
     let cos_tilt = backend.solver().cos_tilt(toss);
     let landed = cos_tilt.and_then(|cos_tilt| Ok((cos_tilt, backend.verdict(toss, cos_tilt)?)));
-    let failed = |source| Error::Launch { index: 0, toss: Box::new(*toss), source };
+    let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
     let (cos_tilt, verdict) = landed.map_err(failed)?;
     Ok(Row::new(given, cos_tilt, verdict))
 }

@@ -64,13 +64,18 @@ impl Row {
 pub(crate) struct Writer<'a> {
     out: &'a mut (dyn Write + Send),
     format: DataFormat,
-    has_heading: bool,
+    rows: u64,
     is_closed: bool,
 }
 
 impl<'a> Writer<'a> {
     pub(crate) fn new(out: &'a mut (dyn Write + Send), format: DataFormat) -> Self {
-        Self { out, format, has_heading: false, is_closed: false }
+        Self { out, format, rows: 0, is_closed: false }
+    }
+
+    /// Number of rows that were written.
+    pub(crate) fn rows(&self) -> u64 {
+        self.rows
     }
 
     /// Whether the reader of standard output has gone, so that no more rows are wanted.
@@ -83,6 +88,7 @@ impl<'a> Writer<'a> {
             DataFormat::Csv => self.csv(rows),
             DataFormat::Json => rows.iter().map(|row| plain_json(row) + "\n").collect::<String>().into_bytes(),
         };
+        self.rows += rows.len() as u64;
         self.print(&text)
     }
 
@@ -91,9 +97,8 @@ impl<'a> Writer<'a> {
         whole_file::unless_closed(self.out.flush()).map_err(Failure::Print)
     }
 
-    fn csv(&mut self, rows: &[Row]) -> Vec<u8> {
-        let is_first = !std::mem::replace(&mut self.has_heading, true);
-        let mut writer = csv::WriterBuilder::new().has_headers(is_first).from_writer(Vec::new());
+    fn csv(&self, rows: &[Row]) -> Vec<u8> {
+        let mut writer = csv::WriterBuilder::new().has_headers(self.rows == 0).from_writer(Vec::new());
         for row in rows {
             writer.serialize(row).expect("a row of plain data always fits into memory");
         }

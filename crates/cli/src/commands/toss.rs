@@ -23,6 +23,9 @@ struct Answer {
     cos_tilt: f64,
     outcome: &'static str,
     certified: bool,
+    /// What the text adds to the outcome.
+    #[serde(skip)]
+    remark: &'static str,
     margin: MarginAnswer,
     attitude: [f64; 4],
     rate: [f64; 3],
@@ -68,7 +71,10 @@ struct MarginAnswer {
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
-        let answer = Answer::new(&toss, &backend)?;
+        let mut answer = Answer::new(&toss, &backend)?;
+        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss, answer.cos_tilt)? {
+            (answer.certified, answer.remark) = (false, ", not proven: the conversion of a unit may have changed it");
+        }
         Ok(match self.format {
             Format::Json => output::json(input, &answer),
             Format::Text => answer.text(toss.coin.inertia_ratio()),
@@ -90,6 +96,7 @@ impl Answer {
             cos_tilt: without_sign_of_zero(cos_tilt),
             outcome: verdict.outcome().name(),
             certified: verdict.is_proven(),
+            remark: if verdict.is_proven() { ", proven" } else { "" },
             margin: MarginAnswer::new(toss)?,
             attitude: state.attitude.components().map(without_sign_of_zero),
             rate: state.rate.into(),
@@ -106,8 +113,8 @@ impl Answer {
         let [w, x, y, z] = self.attitude;
         let scheme = self.scheme.map(|name| format!(", {name}")).unwrap_or_default();
         let mut lines = vec![
-            format!("outcome      {}{}", self.outcome, if self.certified { ", proven" } else { "" }),
-            format!("cos θ        {}", self.cos_tilt),
+            format!("outcome      {}{}", self.outcome, self.remark),
+            format!("cos θ        {}", shortest(self.cos_tilt)),
             format!("flight time  {} s", self.flight_time),
             format!("attitude     w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}"),
             format!("coin         I1 {:e} kg m², I3 {:e} kg m², k = {inertia_ratio}", self.coin.i1, self.coin.i3),
@@ -125,6 +132,11 @@ impl Answer {
         }
         lines.join("\n")
     }
+}
+
+/// The shortest digits that read back as the same number, with an exponent if it is tiny.
+fn shortest(number: f64) -> String {
+    if number != 0.0 && number.abs() < 1e-4 { format!("{number:e}") } else { number.to_string() }
 }
 
 impl MarginAnswer {
