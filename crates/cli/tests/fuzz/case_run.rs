@@ -33,13 +33,14 @@ static PANICS: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 /// Runs the case by the library of the program.
 pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
-    let _alone = ALONE.lock().unwrap();
+    let _alone = ALONE.lock().expect("no case ends this thread");
     write_files(case, folder);
-    std::env::set_current_dir(folder).unwrap();
-    panic::set_hook(Box::new(|what| PANICS.lock().unwrap().push(what.to_string())));
+    std::env::set_current_dir(folder).expect("the folder is there");
+    panic::set_hook(Box::new(|what| PANICS.lock().expect("no panic while one is noted").push(what.to_string())));
     let arguments: Vec<OsString> = std::iter::once("unfair-toss".into()).chain(case.flat().cloned()).collect();
     // For a case that ends the whole process, as a failed allocation does.
-    fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/fuzz-case"), pasted(case)).unwrap();
+    fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/fuzz-case"), pasted(case))
+        .expect("the folder of the build is writable");
     forget_peak_of_memory();
     let input = case.input.clone();
     let began = Instant::now();
@@ -57,9 +58,9 @@ pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
         std::process::exit(101);
     }
     let wall = began.elapsed();
-    let (code, out, err) = runs.join().unwrap();
+    let (code, out, err) = runs.join().expect("panics of the program are caught");
     _ = panic::take_hook();
-    let panics = std::mem::take(&mut *PANICS.lock().unwrap());
+    let panics = std::mem::take(&mut *PANICS.lock().expect("no panic while one is noted"));
     Ran { code, out, err, panics, wall, memory: peak_of_memory(), files: taken_files(folder) }
 }
 
@@ -71,10 +72,10 @@ pub(crate) fn the_program(case: &Case, folder: &Path) -> Ran {
     let mut program = Command::new("sh");
     program.args(["-c", &limited, "sh", env!("CARGO_BIN_EXE_unfair-toss")]).args(case.flat()).current_dir(folder);
     program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = program.spawn().unwrap();
+    let mut child = program.spawn().expect("the program starts");
     // A program may end before it has read all.
-    _ = child.stdin.take().unwrap().write_all(&case.input);
-    let output = child.wait_with_output().unwrap();
+    _ = child.stdin.take().expect("it is piped").write_all(&case.input);
+    let output = child.wait_with_output().expect("the program ends");
     let (code, wall) = (output.status.code(), began.elapsed());
     Ran {
         code,
@@ -101,17 +102,18 @@ fn forget_peak_of_memory() {
 
 fn write_files(case: &Case, folder: &Path) {
     for (name, content) in &case.files {
-        fs::write(folder.join(name), content).unwrap();
+        fs::write(folder.join(name), content).expect("the folder is writable");
     }
 }
 
 /// The files in the folder, which is empty afterwards.
 fn taken_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let entries =
+        fs::read_dir(folder).expect("the folder is there").map(|entry| entry.expect("the folder is readable"));
     entries
         .map(|entry| {
-            let content = fs::read(entry.path()).unwrap();
-            fs::remove_file(entry.path()).unwrap();
+            let content = fs::read(entry.path()).expect("files are readable");
+            fs::remove_file(entry.path()).expect("files can be removed");
             (entry.file_name().to_string_lossy().into_owned(), content)
         })
         .collect()

@@ -133,7 +133,7 @@ fn json_value(case: &Case, text: &str, failed: bool) -> Option<String> {
 /// A field that the document of the JSON does not have, or has with another type. A number that is none is null.
 fn undocumented(value: &Value, section: String) -> Option<String> {
     static DOCUMENTED: LazyLock<Mutex<BTreeMap<String, Fields>>> = LazyLock::new(Mutex::default);
-    let mut known = DOCUMENTED.lock().unwrap();
+    let mut known = DOCUMENTED.lock().expect("a section that is missing ends the test");
     let known = known
         .entry(section)
         .or_insert_with_key(|section| ["Every answer", "`input`", section].into_iter().flat_map(documented).collect());

@@ -3,8 +3,9 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::lists::EXTREME;
 use crate::source::Source;
-use crate::values::{EXTREME, axis, number};
+use crate::values::{axis, number};
 
 /// The file `name` with some content, a scene if that is wanted. The end of the name tells its format.
 pub(crate) fn file(source: &mut Source, name: &str, scene_wanted: bool) -> (String, Vec<u8>) {

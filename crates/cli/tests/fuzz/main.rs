@@ -2,7 +2,8 @@
 //! and checks what has to hold for every input: the exit code is 0, 1 or 2, nothing panics, an answer in JSON is one object,
 //! a chart is written whole or not at all, and time and memory are bounded.
 //!
-//! The cases are the same in every run. Those that are run by default are the first of the full number:
+//! The cases are the same in every run, and those that are run by default are part of the full number. A case that fails is
+//! printed as a command for bash. One that ends the whole process stands in the file `tmp/fuzz-case` of the build's folder.
 //!
 //! ```sh
 //! cargo test --release -p unfair-toss --test fuzz -- --include-ignored --nocapture
@@ -15,6 +16,7 @@ mod command_line;
 #[path = "../common/fields.rs"]
 mod fields;
 mod files;
+mod lists;
 mod source;
 mod values;
 
@@ -27,7 +29,7 @@ use command_line::Case;
 /// Runs `number` cases from the one with the number `first`, and panics with those in which something does not hold.
 fn fuzz(runner: Runner, first: u64, number: u64) {
     let program = unfair_toss::program();
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let (mut failures, mut codes) = (Vec::new(), BTreeMap::<(String, Option<i32>), u64>::new());
     for index in first..first + number {
         let case = Case::new(&program, index);
