@@ -145,6 +145,7 @@ fn bad_input_of_every_kind_is_json_with_the_message_of_standard_error() {
         (&scene, 2),
         ("trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg", 2),
         ("toss --rate 1,1,1e300 --time 1", 1),
+        ("toss --rate 1e308,0,1 --time 4", 1),
         ("toss --rate 0.3,0.3,5 --time 5 --tilt 1 --solver gamma --formulation vertical", 1),
         ("toss --rate 1,1,1 --time 1 --solver quaternion --scheme rk4 --step 1e-9", 1),
         (
