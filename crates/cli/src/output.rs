@@ -133,6 +133,12 @@ pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
     value + 0.0
 }
 
+/// A number with its sign and so many decimal places; what is rounded to 0 has the sign of 0.
+pub(crate) fn fixed(value: f64, places: usize) -> String {
+    let text = format!("{value:+.places$}");
+    if text.contains(|digit: char| matches!(digit, '1'..='9')) { text } else { text.replace('-', "+") }
+}
+
 /// Formats lines of plain data as CSV with a heading.
 pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -180,6 +180,8 @@ fn no_answer_has_a_negative_zero() {
         assert!(!answer.contains("-0.0,") && !answer.contains("-0.0]") && !answer.contains("-0.0}"), "{answer}");
         assert!(!answer.is_empty() && !answer.contains("\"error\""), "{answer}");
     }
+    // What the text rounds to 0 has no sign of its own.
+    assert!(!stdout(&run("toss --rate=-1e-11,0,0 --time 1")).contains("-0.000"));
     for no_flight in ["--speed -0", "--time -0", "--speed -0 --drop -0"] {
         let text = stdout(&run(&format!("toss --rate 2,1,3 {no_flight}")));
         assert!(text.contains("\nflight time  0 s\n") && text.contains("none in ωx within ±1000 rad/s"), "{text}");

@@ -10,7 +10,7 @@ use toss::{
 };
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input, table};
+use crate::output::{self, Format, Input, fixed, table};
 use crate::quantity;
 use crate::toss_args::TossArgs;
 
@@ -189,7 +189,7 @@ impl Row {
             or_dash(self.formulation.map(str::to_owned)),
         ];
         cells.extend([
-            or_dash(self.cos_tilt.map(|value| format!("{value:+.12}"))),
+            or_dash(self.cos_tilt.map(|value| fixed(value, 12))),
             or_dash(self.cos_tilt_error.map(|value| format!("{value:.1e}"))),
             or_dash(self.attitude_error.map(|value| format!("{value:.1e}"))),
             or_dash(self.outcome.map(str::to_owned)),

@@ -4,7 +4,7 @@ use serde::Serialize;
 use toss::{Backend, Margin, Propagation, TimeOfFlight, Toss, Work, margin};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input, without_sign_of_zero};
+use crate::output::{self, Format, Input, fixed, without_sign_of_zero};
 use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
@@ -110,13 +110,13 @@ impl Answer {
     }
 
     fn text(&self, inertia_ratio: f64) -> String {
-        let [w, x, y, z] = self.attitude;
+        let [w, x, y, z] = self.attitude.map(|part| fixed(part, 9));
         let scheme = self.scheme.map(|name| format!(", {name}")).unwrap_or_default();
         let mut lines = vec![
             format!("outcome      {}{}", self.outcome, self.remark),
             format!("cos θ        {}", shortest(self.cos_tilt)),
             format!("flight time  {} s", self.flight_time),
-            format!("attitude     w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}"),
+            format!("attitude     w {w}  x {x}  y {y}  z {z}"),
             format!("coin         I1 {:e} kg m², I3 {:e} kg m², k = {inertia_ratio}", self.coin.i1, self.coin.i3),
             format!("solver       {}{scheme}", self.solver),
         ];
