@@ -5,8 +5,9 @@ use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
 use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use exact::certified::holds_within;
 use toss::catalogue::named_coin;
-use toss::{Backend, Coin, Dimension, ExactMotion, InputError, TimeOfFlight, Toss};
+use toss::{Backend, Coin, Dimension, InputError, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
 use crate::quantity;
@@ -109,9 +110,9 @@ impl TossArgs {
         self.tilt.map_or(0.0, Given::si)
     }
 
-    /// Whether the outcome of `toss`, whose cos θ is `cos_tilt`, is the same for the numbers as they were typed: `false` if
-    /// numbers were rounded when their units were converted, and cos θ is so near to 0 that this could have changed it.
-    pub(crate) fn is_beyond_rounding(&self, toss: &Toss, cos_tilt: f64) -> Result<bool, Failure> {
+    /// Whether the outcome of `toss` is the same for the numbers as they were typed: `false` if numbers were rounded when
+    /// their units were converted, and cos θ is so near to 0 that this could have changed it.
+    pub(crate) fn is_beyond_rounding(&self, toss: &Toss) -> Result<bool, Failure> {
         let times = [self.speed, self.time, self.gravity, self.drop];
         let is_time_rounded = !times.into_iter().flatten().all(Given::is_exact_in_si);
         if !is_time_rounded && !self.coin.is_rounded()? && !self.rate.is_rounded()? {
@@ -121,10 +122,8 @@ impl TossArgs {
         if is_time_rounded && self.drop.is_some_and(|drop| drop.si() < 0.0) {
             return Ok(false);
         }
-        // cos θ changes by no more than the turn Φ = (ωx, ωy, k ωz) T does. With u = 2^-53, conversions change the rates by up
-        // to 8 u of themselves, k by 3 u and T by 4 u; 32 u leaves a margin.
-        let turn = ExactMotion::new(toss).precession_rate() * toss.launch.flight_time();
-        Ok(cos_tilt.abs() > 16.0 * f64::EPSILON * turn)
+        // With u = 2^-53, conversions change the rates by up to 8 u of themselves, k by 3 u and T by 4 u.
+        Ok(holds_within(toss, 4.0 * f64::EPSILON)?)
     }
 }
 

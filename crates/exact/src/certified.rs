@@ -36,7 +36,8 @@
 //! [`double_double_bound`] rounds up.
 //!
 //! Rates that were not given in rad/s are rounded to it, with an error of u each. This turns the landed coin by at most
-//! u φ. The bounds of the stages in f64 have room for it, and the stage in double-double adds it to its bound.
+//! u φ. The bounds in f64 have no room for it, so such a toss starts with the stage in double-double, which adds it to its
+//! bound.
 //!
 //! **3. As many digits as it takes.** The number of digits doubles until the sign is certain: see `multiprecision.rs`.
 
@@ -90,10 +91,24 @@ impl ProvenCounts {
     }
 }
 
+/// Whether all tosses land as `toss` does whose rates, inertia ratio k and time of flight differ from its own by up to
+/// `relative`, a small part of each. For `false` nothing is known.
+///
+/// cos θ is the height of ẑ, turned by Φ = (ωx, ωy, k ωz) T and seen from the attitude at launch, and so changes by no more
+/// than Φ does. Three factors change Φ by up to 3.1 `relative` |Φ|, where |Φ| is the phase; 4 covers the rounding of cos θ and
+/// of the bound, for a `relative` of 4 u or more.
+///
+/// # Errors
+/// As [`certify`].
+pub fn holds_within(toss: &Toss, relative: f64) -> Result<bool, SolveError> {
+    let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    Ok(cos_tilt(toss)?.abs() > 4.0 * relative * phase)
+}
+
 /// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
-    if rate_error(toss).is_infinite() {
+    if rate_error(toss) != 0.0 {
         return None;
     }
     let by = |stage| move |outcome| Certificate::new(outcome, stage);

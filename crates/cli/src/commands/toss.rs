@@ -72,7 +72,7 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let (toss, backend) = self.flight.parts()?;
         let mut answer = Answer::new(&toss, &backend)?;
-        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss, answer.cos_tilt)? {
+        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss)? {
             (answer.certified, answer.remark) = (false, ", not proven: the conversion of a unit may have changed it");
         }
         Ok(match self.format {

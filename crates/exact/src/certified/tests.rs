@@ -141,3 +141,31 @@ fn the_stage_in_f64_decides_beyond_its_bound_in_parts_of_the_size() {
         assert_eq!(by_terms(&terms, 0.0), outcome, "{units}");
     }
 }
+
+/// Rates of 1 to 30 rad/s about each axis turn the coin by up to some 60 rad; a part in a thousand of that decides a few
+/// of a hundred tosses.
+#[test]
+fn an_outcome_that_holds_within_a_part_of_the_numbers_is_that_of_all_tosses_around() {
+    const RELATIVE: f64 = 1e-3;
+    let part = |index: u32, irrational: f64| (f64::from(index) * irrational).fract();
+    let [mut held, mut changed] = [0, 0];
+    for index in 1..2000 {
+        let rate = [0.618_034, 0.732_051, 0.414_214].map(|of| 1.0 + 29.0 * part(index, of));
+        let (k, time) = (0.1 + 1.8 * part(index, 0.236_068), 0.5 + 1.5 * part(index, 0.645_751));
+        let attitude = Attitude::about_x(3.0 * part(index, 0.316_625));
+        let outcome_of = |signs: [f64; 5]| {
+            let [x, y, z, of_k, of_time] = signs.map(|sign| 1.0 + sign * RELATIVE);
+            let rate = [rate[0] * x, rate[1] * y, rate[2] * z];
+            certify(&toss(k * of_k, rate, attitude, time * of_time)).unwrap().outcome()
+        };
+        let own = outcome_of([0.0; 5]);
+        // The corners in which all numbers grow, all shrink, and each grows or shrinks against the others.
+        let corners = (0..32_u32).map(|bits| [0, 1, 2, 3, 4].map(|bit| if bits >> bit & 1 == 1 { 1.0 } else { -1.0 }));
+        let changes = corners.map(outcome_of).any(|outcome| outcome != own);
+        let holds = holds_within(&toss(k, rate, attitude, time), RELATIVE).unwrap();
+        assert!(!(holds && changes), "{index}");
+        held += u32::from(holds);
+        changed += u32::from(changes);
+    }
+    assert!(held > 1500 && changed > 20, "{held} hold, {changed} change");
+}

@@ -1,0 +1,112 @@
+//! Tests of spaces: their coordinates, ties and drops, and what is refused.
+
+use Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
+
+use super::*;
+
+fn parse(texts: &[(Coordinate, &str)]) -> Result<Space, InputError> {
+    Space::parse(Coin::PAPER, texts)
+}
+
+const BOX: [(Coordinate, &str); 4] = [(RateX, "0:50"), (RateY, "x"), (RateZ, "30"), (Speed, "3:5")];
+
+fn with(of: Coordinate, text: &'static str) -> Vec<(Coordinate, &'static str)> {
+    BOX.into_iter().filter(|(given, _)| *given != of).chain([(of, text)]).collect()
+}
+
+#[test]
+fn a_tied_rate_follows_its_partner() {
+    let space = parse(&BOX).unwrap();
+    let rate = space.toss(&[12.5, 99.0, 30.0, 3.0, 9.81, 0.0]).launch.rate();
+    assert_eq!((rate.x, rate.y, rate.z), (12.5, 12.5, 30.0));
+    assert_eq!(space.free().collect::<Vec<_>>(), [RateX, Speed]);
+    let all_alike = parse(&[(RateX, "z"), (RateY, "z"), (RateZ, "1:2"), (Speed, "3")]).unwrap();
+    assert_eq!(all_alike.free().collect::<Vec<_>>(), [RateZ]);
+}
+
+#[test]
+fn with_coin_keeps_the_launches() {
+    let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_coin(Coin::DISC));
+    let toss = disc.toss(&paper.fixed_values());
+    assert_eq!((toss.coin, toss.launch), (Coin::DISC, paper.toss(&paper.fixed_values()).launch));
+    assert_ne!(paper.coin(), disc.coin());
+}
+
+#[test]
+fn launches_have_the_gravity_and_the_tilt() {
+    let space = parse(&[BOX.to_vec(), vec![(Gravity, "1:9"), (Tilt, "0:3")]].concat()).unwrap();
+    let toss = space.toss(&[1.0, 1.0, 30.0, 4.0, 2.0, 0.5]);
+    assert_eq!(toss.launch.flight_time(), 4.0);
+    assert_eq!(toss.launch.attitude(), dynamics::Attitude::about_x(0.5));
+}
+
+#[test]
+fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
+    let space = parse(&BOX).unwrap().with_drop(Some(1.5)).unwrap();
+    let toss = space.with_coin(Coin::DISC).toss(&space.fixed_values());
+    let expected = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: 1.5 };
+    assert_eq!(toss.launch.time_of_flight(), expected);
+    assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(1.5));
+    // A throw at 3 m/s rises by 0.4587 m, and the slowest one has to reach the landing.
+    assert!(space.with_drop(Some(-0.458)).is_ok());
+    for (drop, speed) in [(-0.459, "3:5"), (f64::NAN, "3:5"), (-1.0, "4:5"), (-0.01, "normal:4:0.48")] {
+        let refused = parse(&with(Speed, speed)).unwrap().with_drop(Some(drop)).unwrap_err();
+        assert!(refused.to_string().starts_with("drop [m] = "), "{refused}");
+    }
+    assert_eq!(parse(&BOX).unwrap().with_drop(None), parse(&BOX));
+}
+
+#[test]
+fn axes_of_the_command_line_and_of_files_may_have_units() {
+    let rev = std::f64::consts::TAU;
+    let space = parse(&[BOX.to_vec(), vec![(RateX, "0:10rev/s:5"), (Tilt, "normal:180deg:90°")]].concat()).unwrap();
+    assert_eq!(space.axis(RateX), Axis::range(0.0..=10.0 * rev).with_points(5));
+    assert_eq!(space.axis(Tilt), Axis::normal(rev / 2.0, rev / 4.0));
+    for (text, words) in [("1:10rev/s", "a unit after each"), ("1deg:2deg", "rev/s or rpm"), ("-3m", "rev/s or rpm")] {
+        let error = parse(&with(RateX, text)).unwrap_err().to_string();
+        assert!(error.starts_with("rate x [rad/s] = ") && error.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn a_cube_has_a_dimension_for_each_free_coordinate() {
+    let space = parse(&with(Gravity, "9:10")).unwrap();
+    let cube = Cube::new(&space, space.free());
+    assert_eq!(cube.axes(), [RateX, Speed, Gravity].map(|of| (of, space.axis(of))));
+}
+
+#[test]
+fn rejects_invalid_values_and_names_the_coordinate() {
+    for (texts, message) in [
+        (with(Speed, "-1:5"), "speed [m/s] = -1.0"),
+        (with(Speed, "normal:4:0.5"), "speed [m/s] = -0.15"),
+        (with(Gravity, "0"), "gravity [m/s²] = 0.0"),
+        (with(Gravity, "-9:9"), "gravity [m/s²] = -9.0"),
+        (with(Gravity, "1e-308"), "time of flight"),
+        (with(RateX, "0:inf"), "rate x [rad/s] = inf"),
+        (with(Tilt, "nan"), "tilt [rad] = NaN"),
+    ] {
+        let error = parse(&texts).unwrap_err().to_string();
+        assert!(error.starts_with(message), "'{error}' for '{message}'");
+    }
+}
+
+#[test]
+fn a_tie_needs_a_partner_with_an_axis_of_its_own() {
+    for (texts, field) in [
+        (vec![(RateY, "x"), (RateZ, "30"), (Speed, "3:5")], "rate y"),
+        (with(RateX, "x"), "rate x"),
+        (with(RateX, "y"), "rate x"),
+        (with(RateX, "0:1").into_iter().chain([(Gravity, "x")]).collect(), "gravity"),
+        (with(Speed, "x"), "speed"),
+    ] {
+        let error = parse(&texts).unwrap_err().to_string();
+        assert!(error.starts_with(field) && error.contains("tie"), "'{error}' for {field}");
+    }
+}
+
+#[test]
+fn a_missing_coordinate_is_named() {
+    let error = parse(&BOX[..3]).unwrap_err().to_string();
+    assert!(error.starts_with("speed [m/s] is missing"), "{error}");
+}
