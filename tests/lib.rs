@@ -3,9 +3,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use toss::{
-    Coin, ExactMotion, Launch, Registry, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3,
-};
+use toss::{Coin, ExactMotion, Launch, Registry, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight, Toss};
 
 /// Tolerance of the adaptive schemes under test.
 pub const TOLERANCE: f64 = 1e-11;
@@ -64,7 +62,7 @@ pub fn phase(toss: &Toss) -> f64 {
 
 /// A toss from plain numbers: k = I3/I1, body rate (rad/s), tilt at launch (rad) and time of flight (s).
 pub fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.expect("valid") }
 }
 
@@ -97,3 +95,8 @@ pub fn rates() -> impl Strategy<Value = f64> {
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The Rust of the page for authors of integrators compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/your-integrator.md")]
+pub struct YourIntegrator;

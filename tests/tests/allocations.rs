@@ -72,3 +72,25 @@ fn allocations_of_integrators_grow_with_the_logarithm_of_the_steps() {
         }
     }
 }
+
+/// A flight of a Runge-Kutta scheme allocates, so that a second, needless flight for cos θ or the outcome shows here.
+#[test]
+fn cos_tilt_and_the_outcome_take_no_more_allocations_than_the_landing() {
+    let toss = blackbox::toss(0.5, [9.0, 4.0, 3.0], 0.2, 2.0);
+    let stepping = |scheme: &Scheme| {
+        let adaptive = scheme.is_adaptive().then(|| Stepping::adaptive(*scheme, 1e-10));
+        adaptive.unwrap_or_else(|| Stepping::fixed(*scheme, 1e-3)).unwrap()
+    };
+    for entry in integrators() {
+        for stepping in entry.schemes().iter().map(stepping) {
+            let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
+            let landing = measure(|| _ = solver.propagate(&toss).unwrap()).count_total;
+            for found in [
+                measure(|| _ = solver.cos_tilt(&toss).unwrap()).count_total,
+                measure(|| _ = solver.outcome(&toss).unwrap()).count_total,
+            ] {
+                assert!(found <= landing, "{} {stepping:?}: {found}, a landing {landing}", entry.name());
+            }
+        }
+    }
+}

@@ -4,13 +4,13 @@
 use blackbox::{entries, integrators, name, solvers, tilt_error, toss};
 use toss::{
     Attitude, Coin, ExactMotion, ExactSolver, Formulation, InputError, Launch, Outcome, Registry, Scheme, Settings,
-    SolveError, Solver, Stepping, TAYLOR, TimeOfFlight, Vector3,
+    SolveError, Solver, Stepping, TAYLOR, TimeOfFlight,
 };
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 fn launch(rate: [f64; 3], time_of_flight: TimeOfFlight) -> Result<Launch, InputError> {
-    Launch::new(Vector3::from(rate), time_of_flight)
+    Launch::new(rate, time_of_flight)
 }
 
 #[test]

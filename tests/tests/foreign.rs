@@ -91,13 +91,13 @@ fn exact_speed_refuses_any_solver_but_the_exact_motion() {
 #[test]
 fn a_plan_by_an_unmeasured_solver_is_an_error_that_says_so() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
-    let scene = Scene::new(Want::Attitude(toss), 1e-6).by("quaternion", None);
+    let scene = Scene::new(Want::Attitude(toss.into()), 1e-6).by("quaternion", None);
     assert!(scene.plan_with(&registry()).is_ok());
-    let error = Scene::new(Want::Outcome(toss), 1e-6).by(NAME, None).plan_with(&registry()).unwrap_err();
+    let error = Scene::new(Want::Outcome(toss.into()), 1e-6).by(NAME, None).plan_with(&registry()).unwrap_err();
     assert_eq!(error.field(), Some("solver"));
     assert!(error.to_string().contains("'liar'") && error.to_string().contains("measured"), "{error}");
     // A plan without an integrator does not depend on the other solvers of the registry.
-    let outcome = Scene::new(Want::Outcome(toss), 1e-6).plan_with(&registry()).unwrap();
+    let outcome = Scene::new(Want::Outcome(toss.into()), 1e-6).plan_with(&registry()).unwrap();
     assert_eq!(outcome.choice.model.name, "outcome");
 }
 
@@ -168,7 +168,7 @@ fn an_impossible_answer_is_an_error_that_names_the_solver() {
         assert_names_it(long, "long flights");
         // A trace does not use the error estimate.
         if matches!(misdeed, Misdeed::AnswersNan | Misdeed::Panics) {
-            assert_names_it(trace(&Broken(misdeed), &one, 3), "trace");
+            assert_names_it(trace(&Broken(misdeed), one, 3), "trace");
         }
     }
 }

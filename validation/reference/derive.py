@@ -60,6 +60,16 @@ def flight(name, i1, i3, rate, t, tilt="0.0", time=None):
     print(f'attitude = [{", ".join(chr(34) + show(c) + chr(34) for c in q)}]\n')
 
 
+def thrown(name, i1, i3, rate, speed, gravity, drop=None, tilt="0.0"):
+    """A flight of which the speed, gravity and the drop (m) to the height of the catch are given."""
+    v, g, h = mpf(speed), mpf(gravity), mpf(drop or 0)
+    t = (v + sqrt(v*v + 2*g*h))/g
+    # The height at that time, by the parabola and not by the formula: the catch is on the way down.
+    assert abs(v*t - g*t*t/2 + h) < mpf(10)**-45 and g*t >= v
+    clock = f"speed = {speed}\ngravity = {gravity}" + (f"\ndrop = {drop}" if drop else "")
+    flight(name, i1, i3, rate, t, tilt=tilt, time=clock)
+
+
 def flights():
     for name, i3, rate in [("cheated", "2.5e-7", "1 1 2.5"), ("tails", "2.5e-7", "2 2 0.5"), ("cheated disc", "1e-6", "1 1 2.5")]:
         for speed in "345":
@@ -74,6 +84,11 @@ def flights():
     flight("sphere", "1.0", "1.0", ["1.0", "-2.0", "3.0"], "3.0", tilt="2.0")
     flight("rod", "1.0", "0.0", ["1.0", "-2.0", "3.0"], "3.0", tilt="0.25")
     flight("fast coin, upside down", "1.0", "1.96875", ["-35.0", "40.0", "-52.5"], "0.75", tilt="3.0")
+    thrown("weak gravity, caught below", "5e-10", "2.5e-10", ["1.0", "1.0", "2.5"], "1.0", "1.625", "1.0")
+    thrown("weak gravity, caught above", "64.0", "126.0", ["-3.0", "2.0", "5.0"], "2.0", "1.625", "-1.0")
+    thrown("strong gravity, same height", "1e-12", "1.5e-12", ["6.0", "-2.5", "4.0"], "12.0", "24.75", tilt="1.5")
+    thrown("strong gravity, caught below", "1000.0", "250.0", ["8.0", "15.0", "-12.0"], "6.0", "24.75", "7.5", tilt="2.5")
+    thrown("let go, caught below", "1e-12", "2e-12", ["4.0", "-7.0", "20.0"], "0.0", "9.81", "1.25", tilt="0.5")
 
 
 def flips():

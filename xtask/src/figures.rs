@@ -29,6 +29,16 @@ const VERIFY: &str = "verify";
 const FIGURES: &[Figure] = &[
     Figure { file: "fig2-cheated.svg", program: TOSS, arguments: "trace --rate 1,1,2.5 --speed 3 --points 121" },
     Figure { file: "fig3-tails.svg", program: TOSS, arguments: "trace --rate 2,2,0.5 --speed 3 --points 121" },
+    Figure {
+        file: "racket.svg",
+        program: TOSS,
+        arguments: "trace --coin racket --rate 0.12,12,0 --time 1.0472 --points 121",
+    },
+    Figure {
+        file: "engraved.svg",
+        program: TOSS,
+        arguments: "trace --coin us-quarter-engraved --rate 20,5,20 --speed 3 --points 121",
+    },
     Figure { file: "fig4-convergence.svg", program: TOSS, arguments: "convergence --space paper-fig4" },
     Figure {
         file: "map.svg",

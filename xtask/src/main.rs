@@ -4,11 +4,13 @@
 //!
 //! Exit codes are those of the task; 2 for bad usage, 4 if the task could not be built or started.
 
+mod contest;
 mod figures;
 mod mutants;
 mod output;
 mod program;
 mod verify;
+mod web;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,7 +31,9 @@ enum Task {
     Bench(verify::Bench),
     History(verify::History),
     Figures(figures::Figures),
+    Contest(contest::Contest),
     Mutants(mutants::Mutants),
+    Web(web::Web),
 }
 
 fn main() -> ExitCode {
@@ -38,7 +42,9 @@ fn main() -> ExitCode {
         Ok(Task::Bench(task)) => task.run(),
         Ok(Task::History(task)) => task.run(),
         Ok(Task::Figures(task)) => task.run(),
+        Ok(Task::Contest(task)) => task.run(),
         Ok(Task::Mutants(task)) => task.run(),
+        Ok(Task::Web(task)) => task.run(),
         Err(asked) if !asked.use_stderr() => output::printed(asked.print()).map(|()| ExitCode::SUCCESS),
         // Without a standard error there is nobody to say it to.
         Err(error) => {
@@ -92,6 +98,12 @@ mod tests {
             "verify --format json --verbose",
             "verify --only a --bless",
             "bench --bless",
+            "verify --claim 1e-9",
+            "verify --list --command a",
+            "verify --fit --command a",
+            "contest --quick --bless",
+            "contest --check --quick",
+            "contest --draw --bless",
         ] {
             let arguments: Vec<&str> = line.split(' ').collect();
             let error = error_of(&arguments);
@@ -103,7 +115,7 @@ mod tests {
     #[test]
     fn refuses_unknown_tasks_and_flags() {
         assert_eq!(error_of(&["nonsense"]), Some(ErrorKind::InvalidSubcommand));
-        for task in ["verify", "bench", "history", "figures"] {
+        for task in ["verify", "bench", "history", "figures", "contest", "web"] {
             assert_eq!(error_of(&[task, "--nonsense"]), Some(ErrorKind::UnknownArgument), "{task}");
         }
     }

@@ -12,7 +12,8 @@ const PROGRAM: &str = "verify";
 
 /// Run the verification suite: one line a check, and in full what fails
 ///
-/// Writes report.html, report.json, junit.xml and charts to target/verify.
+/// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts to
+/// target/verify.
 ///
 /// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
 /// within bounds; 4 could not run.
@@ -36,18 +37,57 @@ pub(crate) struct Verify {
     /// Print one line a row instead of one a check
     #[arg(long)]
     verbose: bool,
+    /// Multiply the time limit of every check, for a slow machine or a slow solver
+    #[arg(long, value_name = "FACTOR")]
+    time_factor: Option<String>,
+    #[command(flatten)]
+    foreign: Foreign,
     #[command(flatten)]
     instead: Instead,
 }
 
+/// A program in another language, in place of the solvers.
+#[derive(Debug, Args)]
+struct Foreign {
+    /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-integrator.md
+    #[arg(long, value_name = "LINE", conflicts_with_all = ["list", "fit"])]
+    command: Option<String>,
+    /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
+    #[arg(long, value_name = "ERROR", requires = "command")]
+    claim: Option<String>,
+    /// End the program if it takes longer for an answer; the first of a process may take six times as long [default: 10]
+    #[arg(long, value_name = "S", requires = "command")]
+    answer_seconds: Option<String>,
+    /// Ask the program no more after so much time for all answers [default: 1800]
+    #[arg(long, value_name = "S", requires = "command")]
+    total_seconds: Option<String>,
+    /// End the program if it uses more memory with its children; on Linux only [default: 2048]
+    #[arg(long, value_name = "MB", requires = "command")]
+    memory_mb: Option<String>,
+}
+
+impl Foreign {
+    fn arguments(&self) -> impl Iterator<Item = String> {
+        let given = [
+            ("--command", &self.command),
+            ("--claim", &self.claim),
+            ("--answer-seconds", &self.answer_seconds),
+            ("--total-seconds", &self.total_seconds),
+            ("--memory-mb", &self.memory_mb),
+        ];
+        given.into_iter().flat_map(|(flag, value)| value.iter().flat_map(|value| [flag.to_owned(), value.clone()]))
+    }
+}
+
 /// What the task does instead of running the checks.
 #[derive(Debug, Args)]
-#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose"])]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor"])]
 struct Instead {
     /// List the checks and what they claim
     #[arg(long)]
     list: bool,
-    /// Fly one toss, given as the hex floats of a worst input, by every solver, scheme and formulation
+    /// Fly one toss, given as the hex floats of a worst input, by every solver, scheme and formulation, and take every
+    /// measure of proofs, batches and margins on it
     #[arg(long, value_name = "INPUT")]
     replay: Option<String>,
     /// Measure the planner's table, which --bless does too
@@ -60,6 +100,7 @@ enum Format {
     Text,
     Json,
     Junit,
+    Github,
 }
 
 impl Verify {
@@ -71,7 +112,7 @@ impl Verify {
     fn arguments(&self) -> Vec<String> {
         let Instead { list, replay, fit } = &self.instead;
         match replay {
-            Some(input) => vec!["replay".into(), input.clone()],
+            Some(input) => ["replay".into(), input.clone()].into_iter().chain(self.foreign.arguments()).collect(),
             None if *list => vec!["list".into()],
             None if *fit => vec!["fit".into()],
             None => self.run_arguments(),
@@ -85,9 +126,10 @@ impl Verify {
         arguments.extend(flags.iter().filter(|(_, given)| *given).map(|(flag, _)| (*flag).to_owned()));
         let format = self.format.and_then(|format| format.to_possible_value());
         let format = format.map(|value| value.get_name().to_owned());
-        for (flag, value) in [("--only", &self.only), ("--format", &format)] {
+        for (flag, value) in [("--only", &self.only), ("--format", &format), ("--time-factor", &self.time_factor)] {
             arguments.extend(value.iter().flat_map(|value| [flag.to_owned(), value.clone()]));
         }
+        arguments.extend(self.foreign.arguments());
         arguments
     }
 }
@@ -143,12 +185,23 @@ mod tests {
             ("--quick --bless", "run --quick --bless"),
             ("--deep --verbose", "run --deep --verbose"),
             ("--only rounding --format junit", "run --only rounding --format junit"),
+            ("--quick --format github --time-factor 3", "run --quick --format github --time-factor 3"),
             ("--list", "list"),
+            ("--only margins --quick", "run --quick --only margins"),
             ("--replay i1=0x1p0", "replay i1=0x1p0"),
+            ("--replay i1=0x1p0 --command a", "replay i1=0x1p0 --command a"),
+            ("--quick --command a --claim 1e-9 --memory-mb 9", "run --quick --command a --claim 1e-9 --memory-mb 9"),
+            (
+                "--command a --answer-seconds 1 --total-seconds 2",
+                "run --command a --answer-seconds 1 --total-seconds 2",
+            ),
             ("--fit", "fit"),
         ] {
             let line = Line::try_parse_from(std::iter::once("verify").chain(given.split_whitespace())).unwrap();
             assert_eq!(line.verify.arguments().join(" "), passed);
         }
+        // A worst input is one argument with spaces, and may begin a field with a minus sign.
+        let line = Line::try_parse_from(["verify", "--replay", "rate_x=-0x1p0 tilt=0x0p+0"]).unwrap();
+        assert_eq!(line.verify.arguments(), ["replay", "rate_x=-0x1p0 tilt=0x0p+0"]);
     }
 }

@@ -23,6 +23,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("unfair-toss", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
     ("xtask", &[]),
     ("blackbox", &["toss"]),
+    ("unfair-toss-python", &["toss", "sampling", "exact", "dynamics"]),
 ];
 
 /// The packages of the workspace, as `cargo metadata` describes them.
@@ -59,5 +60,38 @@ fn every_crate_depends_only_on_those_that_the_table_allows() {
             .collect();
         let forbidden: Vec<&&str> = found.iter().filter(|dependency| !allowed.contains(dependency)).collect();
         assert!(forbidden.is_empty(), "{} must not depend on {forbidden:?}", name(package));
+    }
+}
+
+/// The crates in the tree of `toss` with these features, itself included. Crates that are shown more than once, marked by
+/// `(*)`, count as often as they are shown differently.
+fn tree_of_toss(features: &[&str]) -> BTreeSet<String> {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--package", "toss", "--edges", "normal", "--prefix", "none"])
+        .args(features)
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")))
+        .output()
+        .expect("cargo starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn toss_without_features_depends_on_few_crates_and_each_feature_on_its_own() {
+    let bare = tree_of_toss(&["--no-default-features"]);
+    assert!(bare.len() <= 45, "{}: {bare:#?}", bare.len());
+    let has = |tree: &BTreeSet<String>, name: &str| tree.iter().any(|line| line.starts_with(&format!("{name} ")));
+    for (feature, crates) in [
+        ("integrators", &["ode_solvers", "kinematics-euler", "kinematics-quat"][..]),
+        ("sampling", &["sampling", "statrs", "rand"]),
+        ("planner", &["toml", "sampling"]),
+        ("serde", &["serde"]),
+        ("sampling,rayon", &["rayon"]),
+    ] {
+        let tree = tree_of_toss(&["--no-default-features", "--features", feature]);
+        for name in crates {
+            assert!(has(&tree, name) && !has(&bare, name), "{name} with {feature}");
+        }
+        assert!(feature.contains("rayon") || !has(&tree, "rayon"), "rayon with {feature}");
     }
 }

@@ -43,6 +43,14 @@ pub(crate) enum Failure {
         /// The error, with its line and column.
         source: Error,
     },
+    /// A file of a part that is none, or does not fit.
+    #[error("{path}: {message}")]
+    Part {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        message: String,
+    },
     /// Standard output that can't be written.
     #[error("cannot write standard output: {0}")]
     Print(std::io::Error),
@@ -77,6 +85,11 @@ impl Failure {
         Self::Usage { field, message: message.into() }
     }
 
+    /// The part in the file at `path` can't be used, as `message` says.
+    pub(crate) fn part(path: &str, message: String) -> Self {
+        Self::Part { path: path.to_owned(), message }
+    }
+
     /// Says on `err` what is wrong. If that can't be written there is nowhere left to say so.
     pub(crate) fn report(&self, err: &mut dyn Write) {
         let _ = match self {
@@ -98,7 +111,7 @@ impl Failure {
     fn kind(&self) -> &'static str {
         match self {
             Self::Unanswered(error) | Self::Text { source: error, .. } => error.kind(),
-            Self::Arguments(_) | Self::Usage { .. } => "input",
+            Self::Arguments(_) | Self::Usage { .. } | Self::Part { .. } => "input",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
@@ -120,7 +133,7 @@ impl Failure {
         match self {
             Self::Unanswered(error) => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
-            Self::Read { path, .. } => json!({"path": path}),
+            Self::Read { path, .. } | Self::Part { path, .. } => json!({"path": path}),
             Self::Arguments(error) => option_of(error).map_or_else(|| json!({}), |field| json!({"field": field})),
             Self::Usage { field, .. } => json!({"field": field}),
             Self::Write { target, .. } => json!({"path": target}),

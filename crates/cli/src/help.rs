@@ -6,7 +6,10 @@ use clap::Command;
 
 /// The groups of options, each with its heading and the names of its options.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Coin (SI units without a unit; with one as in 5.67g, 24mm or 1.7g·cm²)", &["coin", "cylinder", "moments"]),
+    (
+        "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
+        &["coin", "cylinder", "moments", "inertia"],
+    ),
     (
         "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
         &[
@@ -14,7 +17,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
             "space", "spread", "drag", "bounce", "from", "scene",
         ],
     ),
-    ("Solver", &["solver", "scheme", "tolerance", "step", "formulation"]),
+    ("Solver", &["solver", "scheme", "tolerance", "step", "formulation", "prove"]),
     (
         "Sampling",
         &[
@@ -30,9 +33,10 @@ const GROUPS: [(&str, &[&str]); 5] = [
             "up",
             "threads",
             "heads",
+            "shard",
         ],
     ),
-    ("Output", &["format", "svg", "dt", "repeats", "want", "probability", "shell", "command"]),
+    ("Output", &["format", "margin", "out", "svg", "dt", "repeats", "want", "probability", "shell", "command"]),
 ];
 
 /// What heads is, for commands whose answer has an outcome.
@@ -113,6 +117,14 @@ const TEXTS: &[Text] = &[
         usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
         example: "unfair-toss map --rate-x 0:40:5 --rate-y 0 --rate-z 20:60:3 --speed 3:5",
         meaning: "Columns: the coordinate across, the coordinate up, and the probability of heads at this node.",
+    },
+    Text {
+        command: "merge",
+        usage: "PART... [OPTIONS]",
+        example: "unfair-toss merge part-1.json part-2.json",
+        meaning: "The parts are those of one space, method, number of launches and seed, each written by \
+                  unfair-toss probability --shard I/N --out PART. Together they have every launch once. The sum has the counts \
+                  and the interval of the whole; its outcomes do not count as proven, because a file proves nothing.",
     },
     Text {
         command: "intervals",

@@ -22,8 +22,19 @@ pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value>
 /// A number where the option is one, else the text as it was given.
 fn value(name: &str, given: &ArgMatches) -> Option<Value> {
     let whole = || number::<u64>(name, given).or_else(|| number::<u32>(name, given));
+    if let Ok(Some(flag)) = given.try_get_one::<bool>(name) {
+        return flag.then(|| true.into());
+    }
     let number = number::<f64>(name, given).or_else(whole).or_else(|| number::<usize>(name, given));
     let quantity = || Some(given.try_get_one::<Given>(name).ok()??.si().into());
+    if name == "parts" {
+        let paths = given.try_get_raw(name).ok()??.map(|path| Value::from(path.to_string_lossy().into_owned()));
+        return Some(paths.collect());
+    }
+    if let Ok(Some(flag)) = given.try_get_one::<bool>(name) {
+        // A flag that was not given is no input.
+        return flag.then_some(Value::Bool(true));
+    }
     number.or_else(quantity).or_else(|| {
         let text = given.try_get_raw(name).ok()??.next()?.to_string_lossy();
         let list = quantity::list(name, &text).map(|numbers| numbers.map_or(Value::Null, Value::from));

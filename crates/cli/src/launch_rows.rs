@@ -5,7 +5,7 @@ use std::io::Read;
 
 use csv::StringRecord;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use toss::{Coin, Dimension, Error, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Body, Dimension, Error, InputError, Launch, RigidToss, TimeOfFlight};
 
 use crate::commands::sample_rows::Given;
 use crate::failure::Failure;
@@ -25,11 +25,11 @@ const COLUMNS: [(&str, &str, Dimension); 8] = [
 /// The columns of an answer, which may be there and are passed over, so that an output can be read again.
 const ANSWERS: [&str; 4] = ["flight_time", "cos_tilt", "outcome", "certified"];
 
-/// The launches of `coin` in a text of CSV.
+/// The launches of `body` in a text of CSV.
 ///
 /// # Errors
 /// [`Failure::Text`] for a heading that is unknown, missing or there twice. Each launch has its own errors.
-pub(crate) fn read<R: Read>(text: R, coin: Coin) -> Result<impl Iterator<Item = Result<Given, Failure>>, Failure> {
+pub(crate) fn read<R: Read>(text: R, body: Body) -> Result<impl Iterator<Item = Result<Given, Failure>>, Failure> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
     let headings = reader.headers().map_err(|error| unreadable(&error))?.clone();
     let places = places(&headings)?;
@@ -37,7 +37,7 @@ pub(crate) fn read<R: Read>(text: R, coin: Coin) -> Result<impl Iterator<Item = 
     Ok(reader.into_records().map(move |record| {
         let record = record.map_err(|error| unreadable(&error))?;
         let line = record.position().map_or(0, csv::Position::line);
-        launch(&record, &places, coin).map_err(|error| {
+        launch(&record, &places, body).map_err(|error| {
             let column = COLUMNS.iter().position(|(_, field, _)| *field == error.field()).and_then(|of| places[of]);
             at(line, column.unwrap_or(width - 1), error.to_string())
         })
@@ -63,7 +63,7 @@ fn places(headings: &StringRecord) -> Result<[Option<usize>; 8], Failure> {
 }
 
 /// The launch in a record.
-fn launch(record: &StringRecord, places: &[Option<usize>; 8], coin: Coin) -> Result<Given, InputError> {
+fn launch(record: &StringRecord, places: &[Option<usize>; 8], body: Body) -> Result<Given, InputError> {
     let mut values = [None; 8];
     for (value, ((_, field, dimension), place)) in values.iter_mut().zip(COLUMNS.iter().zip(places)) {
         let cell = place.and_then(|place| record.get(place)).filter(|cell| !cell.is_empty());
@@ -88,9 +88,9 @@ fn launch(record: &StringRecord, places: &[Option<usize>; 8], coin: Coin) -> Res
             return Err(InputError::Malformed { field: "time [s]", value, expected });
         }
     };
-    let launch = Launch::new(Vector3::from(rate), time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
+    let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
     let gravity = speed.map(|_| gravity.unwrap_or(DEFAULT_GRAVITY));
-    Ok(Given { rate, speed, time, gravity, drop, tilt: tilt.unwrap_or(0.0), toss: Toss { coin, launch } })
+    Ok(Given { rate, speed, time, gravity, drop, tilt: tilt.unwrap_or(0.0), toss: RigidToss { body, launch } })
 }
 
 /// The error of a place in the text: a line from 1, and a column of the table from 0.

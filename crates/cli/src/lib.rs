@@ -13,18 +13,21 @@ mod launch_rows;
 mod output;
 mod quantity;
 mod rate_args;
+mod shard_args;
 mod solver_args;
 mod space_args;
 mod toss_args;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
+use std::process::ExitCode;
 
+use ::toss::Registry;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    compare, convergence, errors, intervals, inverse, limit, list, map, plan, probability, sample, shell, spread, toss,
-    trace,
+    compare, convergence, errors, intervals, inverse, limit, list, map, merge, plan, probability, sample, shell,
+    spread, toss, trace,
 };
 use crate::failure::Failure;
 use crate::output::Input;
@@ -56,6 +59,8 @@ enum Command {
     Errors(errors::Args),
     /// Map the probability of heads over two coordinates of a space
     Map(map::Args),
+    /// Add the parts of a probability that `probability --shard` has written
+    Merge(merge::Args),
     /// Find the ranges of speed that land heads
     Intervals(intervals::Args),
     /// Find the launch that lands heads with a wanted probability
@@ -79,33 +84,33 @@ enum Command {
 }
 
 impl Command {
-    fn run(&self, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
+    fn run(&self, registry: &Registry, input: &Input, streams: &mut Streams<'_>) -> Result<String, Failure> {
         match self {
-            Self::Toss(args) => args.run(input),
-            Self::Trace(args) => args.run(input),
-            Self::Probability(args) => args.run(input),
-            Self::Sample(args) => args.run(streams),
-            Self::Compare(args) => args.run(input),
+            Self::Toss(args) => args.run(registry, input),
+            Self::Trace(args) => args.run(registry, input),
+            Self::Probability(args) => args.run(registry, input),
+            Self::Sample(args) => args.run(registry, streams),
+            Self::Compare(args) => args.run(registry, input),
             Self::Spread(args) => args.run(input),
-            Self::Convergence(args) => args.run(input),
+            Self::Convergence(args) => args.run(registry, input),
             Self::Errors(args) => args.run(input),
-            Self::Map(args) => args.run(input),
+            Self::Map(args) => args.run(registry, input),
+            Self::Merge(args) => args.run(input),
             Self::Intervals(args) => args.run(input),
             Self::Inverse(args) => args.run(input),
-            Self::Limit(args) => args.run(input),
-            Self::Plan(args) => args.run(input),
+            Self::Limit(args) => args.run(registry, input),
+            Self::Plan(args) => args.run(registry, input),
             Self::Coins(args) => list::coins(args, input),
-            Self::Solvers(args) => list::solvers(args, input),
+            Self::Solvers(args) => list::solvers(args, registry, input),
             Self::Models(args) => list::models(args, input),
             Self::Spaces(args) => list::spaces(args, input),
-            Self::Completions(args) => Ok(args.run(program())),
-            Self::Man(args) => args.run(program()),
+            Self::Completions(args) => Ok(args.run(program_with(registry))),
+            Self::Man(args) => args.run(program_with(registry)),
         }
     }
 }
 
 /// The streams that the program reads and prints to.
-#[doc(hidden)]
 pub struct Streams<'a> {
     /// Standard input.
     pub input: &'a mut (dyn Read + Send),
@@ -115,11 +120,26 @@ pub struct Streams<'a> {
     pub err: &'a mut dyn Write,
 }
 
-/// Runs the program with `arguments`, the first of which is its own name, and returns its exit code.
-#[doc(hidden)]
-pub fn run(arguments: &[OsString], mut streams: Streams<'_>) -> u8 {
-    let printed = match program().try_get_matches_from(arguments) {
-        Ok(given) => answer(&given, &mut streams).and_then(|text| output::print(&text, streams.out)),
+/// The program with the solvers of `registry`, the arguments and the standard streams of the process. A program of yours
+/// offers its own solver by calling this: `unfair_toss::main(&Registry::standard().with(entry)?)`.
+#[must_use]
+pub fn main(registry: &Registry) -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    // The two of anstream leave the colours out where there is no terminal.
+    let (mut input, mut out, mut err) = (std::io::stdin(), anstream::stdout(), anstream::stderr());
+    ExitCode::from(run_with(registry, &arguments, Streams { input: &mut input, out: &mut out, err: &mut err }))
+}
+
+/// As [`run_with`], with the solvers of this workspace.
+pub fn run(arguments: &[OsString], streams: Streams<'_>) -> u8 {
+    run_with(Registry::standard(), arguments, streams)
+}
+
+/// Runs the program with the solvers of `registry` and with `arguments`, the first of which is its own name, and returns
+/// its exit code.
+pub fn run_with(registry: &Registry, arguments: &[OsString], mut streams: Streams<'_>) -> u8 {
+    let printed = match program_with(registry).try_get_matches_from(arguments) {
+        Ok(given) => answer(registry, &given, &mut streams).and_then(|text| output::print(&text, streams.out)),
         Err(asked) if !asked.use_stderr() => output::print(&asked.render().ansi().to_string(), streams.out),
         Err(error) => Err(Failure::Arguments(error)),
     };
@@ -135,16 +155,34 @@ pub fn run(arguments: &[OsString], mut streams: Streams<'_>) -> u8 {
 /// The program with its commands, options and help texts. Tests make command lines from it.
 #[doc(hidden)]
 pub fn program() -> clap::Command {
-    help::described(Cli::command())
+    program_with(Registry::standard())
+}
+
+/// The same, with help texts that name the solvers of `registry`.
+fn program_with(registry: &Registry) -> clap::Command {
+    help::described(Cli::command()).mut_subcommands(|command| {
+        let of_plan = command.get_name() == "plan";
+        if !command.get_arguments().any(|argument| argument.get_id() == "solver") {
+            return command;
+        }
+        command.mut_args(|argument| {
+            let name = argument.get_id().as_str();
+            let help = if of_plan { plan::help(registry, name) } else { solver_args::help(registry, name) };
+            match help {
+                Some(help) => argument.help(help),
+                None => argument,
+            }
+        })
+    })
 }
 
 /// The answer of the command that the arguments ask for.
-fn answer(given: &ArgMatches, streams: &mut Streams<'_>) -> Result<String, Failure> {
+fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) -> Result<String, Failure> {
     let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
-    let program = program();
+    let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
     let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
-    command.run(&input, streams)
+    command.run(registry, &input, streams)
 }
 
 /// Whether `arguments`, which may be none that the program understands, ask for JSON.

@@ -12,7 +12,10 @@ const RATES: &str = "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, 
 const CYLINDER: &str = "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft";
 
 /// What is expected of moments of inertia.
-const MOMENTS: &str = "I1,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";
+const MOMENTS: &str = "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";
+
+/// What is expected of an inertia tensor.
+const INERTIA: &str = "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";
 
 /// A reader of an option that is a quantity of this kind, in the SI unit.
 pub(crate) fn of(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
@@ -37,6 +40,7 @@ pub(crate) fn list(option: &str, text: &str) -> Option<Result<Vec<f64>, InputErr
         "rate" => rates(text).map(Vec::from),
         "cylinder" => cylinder(text).map(Vec::from),
         "moments" => moments(text),
+        "inertia" => inertia(text).map(Vec::from),
         _ => return None,
     };
     Some(list.map(|numbers| numbers.into_iter().map(Given::si).collect()))
@@ -57,6 +61,13 @@ pub(crate) fn cylinder(text: &str) -> Result<[Given; 3], InputError> {
 pub(crate) fn moments(text: &str) -> Result<Vec<Given>, InputError> {
     let number = text.split(',').count();
     each("moments", text, MOMENTS, &vec![Dimension::Inertia; number])
+}
+
+/// Elements of an inertia tensor.
+pub(crate) fn inertia(text: &str) -> Result<[Given; 6], InputError> {
+    each("inertia", text, INERTIA, &[Dimension::Inertia; 6])?
+        .try_into()
+        .map_err(|_| malformed("inertia", text, INERTIA))
 }
 
 /// Quantities of these kinds, separated by commas.
@@ -88,6 +99,7 @@ mod tests {
             (CYLINDER, Dimension::Mass),
             (CYLINDER, Dimension::Length),
             (MOMENTS, Dimension::Inertia),
+            (INERTIA, Dimension::Inertia),
         ] {
             assert!(dimension.units().iter().all(|unit| expected.contains(unit.name())), "{expected}");
         }

@@ -4,7 +4,7 @@
 use clap::Args;
 use dynamics::quantity::{Given, NamedUnit};
 use dynamics::{AngleUnit, rate_of_precession};
-use toss::{Coin, Dimension, InputError, Launch, TimeOfFlight, Vector3};
+use toss::{Body, Dimension, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::failure::Failure;
 use crate::quantity;
@@ -24,10 +24,13 @@ pub(crate) struct TurnArgs {
 }
 
 impl TurnArgs {
-    /// The body rate (rad/s) of `coin`, if these options were given.
-    pub(crate) fn rate(&self, coin: &Coin) -> Result<Option<Vector3<f64>>, Failure> {
+    /// The body rate (rad/s) of `body`, if these options were given.
+    pub(crate) fn rate(&self, body: &Body) -> Result<Option<Vector3<f64>>, Failure> {
         let (Some(turn), Some(wobble)) = (self.turn, self.wobble) else { return Ok(None) };
-        Ok(Some(rate_of_precession(coin, turn, wobble)?))
+        let uneven =
+            || Failure::usage("turn", "--turn: n of a body with I1 ≠ I2 turns unevenly; use the body rate instead");
+        let coin = body.symmetric().ok_or_else(uneven)?;
+        Ok(Some(rate_of_precession(&coin, turn, wobble)?))
     }
 }
 
@@ -42,18 +45,18 @@ pub(crate) struct RateArgs {
 }
 
 impl RateArgs {
-    /// The body rate (rad/s) of `coin`.
-    pub(crate) fn rate(&self, coin: &Coin) -> Result<Vector3<f64>, Failure> {
-        if let Some(rate) = self.turn.rate(coin)? {
+    /// The body rate (rad/s) of `body`.
+    pub(crate) fn rate(&self, body: &Body) -> Result<Vector3<f64>, Failure> {
+        if let Some(rate) = self.turn.rate(body)? {
             return Ok(rate);
         }
         Ok(Vector3::from(self.components()?.map(Given::si)))
     }
 
-    /// The launch of `coin` with this body rate. Components in one unit are not converted, so that proofs start from them.
-    pub(crate) fn launch(&self, coin: &Coin, time_of_flight: TimeOfFlight) -> Result<Launch, Failure> {
+    /// The launch of `body` with this body rate. Components in one unit are not converted, so that proofs start from them.
+    pub(crate) fn launch(&self, body: &Body, time_of_flight: TimeOfFlight) -> Result<Launch, Failure> {
         let unit = if self.rate.is_some() { common_unit(&self.components()?) } else { None };
-        let Some(unit) = unit else { return Ok(Launch::new(self.rate(coin)?, time_of_flight)?) };
+        let Some(unit) = unit else { return Ok(Launch::new(self.rate(body)?, time_of_flight)?) };
         let rate = Vector3::from(self.components()?.map(Given::value));
         Ok(Launch::in_unit(rate, unit, time_of_flight)?)
     }

@@ -72,8 +72,8 @@ impl SpaceArgs {
     }
 
     fn space_of_axes(&self) -> Result<Space, Failure> {
-        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let [x, y, z] = match self.turn.rate(&coin)? {
+        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let [x, y, z] = match self.turn.rate(&body)? {
             // Display writes the fewest digits that read back as the same number.
             Some(rate) => [rate.x, rate.y, rate.z].map(|rate| Some(rate.to_string())),
             None => [self.rate_x.clone(), self.rate_y.clone(), self.rate_z.clone()],
@@ -85,7 +85,7 @@ impl SpaceArgs {
             let message = "a space is needed: --space, or the axes --rate-x, --rate-y, --rate-z and --speed";
             return Err(Failure::usage("space", message));
         }
-        Ok(Space::parse(coin, &given)?)
+        Ok(Space::parse(body, &given)?)
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its
@@ -107,11 +107,11 @@ impl SpaceArgs {
     }
 }
 
-/// The space with this name or in this file. A coin that is given replaces the coin of the space.
+/// The space with this name or in this file. A coin or body that is given replaces that of the space.
 pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
-    let coin = coin.given()?;
+    let body = coin.given()?;
     let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
-    Ok(coin.map_or(space, |coin| space.with_coin(coin)))
+    Ok(body.map_or(space, |body| space.with_body(body)))
 }
 
 fn space_file(path: &Path) -> Result<Space, Failure> {
@@ -124,8 +124,8 @@ fn space_file(path: &Path) -> Result<Space, Failure> {
 /// Options for the number and the seed of launches.
 #[derive(Debug, Args)]
 pub(crate) struct PlanArgs {
-    /// Number of launches [default: 250000 for random, 262144 for sobol, 1024 per node of a map; exact-speed takes the
-    /// grid of the other axes if all have points, else as many launches as sobol]
+    /// Number of launches [default: 250000 for random, 262144 for sobol, 1024 per node of a map, at most 65536 of a body
+    /// with I1 ≠ I2; exact-speed takes the grid of the other axes if all have points, else as many launches as sobol]
     #[arg(long, value_name = "N")]
     points: Option<u64>,
     /// Seed of the random launches or of the scrambles [default: 1]
@@ -144,14 +144,29 @@ pub(crate) enum MethodArg {
     Sobol,
     /// Integrates over the speed in closed form; the other coordinates by their grid or by Sobol points
     ExactSpeed,
+    /// Integrates over the speed in closed form and over one or two other coordinates by quadrature; from horizontal, uniform
+    /// rates x and y count as one
+    Quadrature,
 }
 
-/// The numbers of launches that are used if no `--points` is given.
+/// The numbers of launches that are used if no `--points` is given, and the accuracy of quadrature.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct DefaultPoints {
+pub(crate) struct Defaults {
     pub(crate) random: u64,
     pub(crate) sobol: u64,
+    pub(crate) accuracy: f64,
 }
+
+impl Defaults {
+    /// Those for bodies with I1 ≠ I2, whose launches are proven one by one.
+    fn of_bodies(self) -> Self {
+        const MOST: u64 = 1 << 16;
+        Self { random: self.random.min(MOST), sobol: self.sobol.min(MOST), ..self }
+    }
+}
+
+/// The accuracy of quadrature if none is given.
+pub(crate) const DEFAULT_QUADRATURE: f64 = 1e-10;
 
 impl PlanArgs {
     /// Refuses a number or a seed of launches without a method that they are for.
@@ -166,13 +181,15 @@ impl PlanArgs {
     }
 
     /// The plan for sampling `space`.
-    pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: DefaultPoints) -> Result<Plan, Failure> {
+    pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: Defaults) -> Result<Plan, Failure> {
         let seed = self.seed.unwrap_or(1);
+        let default = if space.coin().is_some() { default } else { default.of_bodies() };
         let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
         let plan = match method {
             MethodArg::Grid => Plan::Grid,
             MethodArg::Random => Plan::Random { points: self.points.unwrap_or(default.random), seed },
             MethodArg::Sobol => Plan::Sobol(scrambled()),
+            MethodArg::Quadrature => Plan::Quadrature { accuracy: default.accuracy },
             MethodArg::ExactSpeed => {
                 let grid = Plan::ExactSpeed(Rest::Grid);
                 let only_the_speed_is_free = space.free().all(|of| of == Coordinate::Speed);
@@ -191,6 +208,7 @@ impl PlanArgs {
             Plan::ExactSpeed(Rest::Grid) if space.free().all(|of| of == Coordinate::Speed) => {
                 "exact-speed needs no sample where at most the speed is free"
             }
+            Plan::Quadrature { .. } => "quadrature takes as many shares as its accuracy needs, at places of its own",
             Plan::Grid | Plan::ExactSpeed(Rest::Grid) => "a grid takes its points from the axes, LO:HI:POINTS",
         };
         match (self.points, self.seed) {
@@ -206,7 +224,7 @@ pub(crate) fn lays_grid(plan: Plan, of: Coordinate) -> bool {
     match plan {
         Plan::Grid => true,
         Plan::ExactSpeed(Rest::Grid) => of != Coordinate::Speed,
-        Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) => false,
+        Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) | Plan::Quadrature { .. } => false,
     }
 }
 

@@ -6,48 +6,100 @@ use dynamics::data::{NO_BOUNCE, NO_DRAG};
 use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use exact::certified::holds_within;
-use toss::catalogue::named_coin;
-use toss::{Backend, Coin, Dimension, InputError, TimeOfFlight, Toss};
+use toss::{
+    Backend, Body, Coin, Dimension, InputError, Outcome, QuaternionSolver, Registry, RigidToss, TimeOfFlight,
+    certify_rigid,
+};
 
 use crate::failure::Failure;
 use crate::quantity;
 use crate::rate_args::RateArgs;
 use crate::solver_args::SolverArgs;
 
-/// Options for a coin.
+/// Options for a coin or another rigid body.
 #[derive(Debug, Args)]
 #[group(multiple = false)]
 pub(crate) struct CoinArgs {
-    /// A coin of the catalogue [default: paper]
+    /// A coin or another body of the catalogue, which `coins` lists [default: paper]
     #[arg(long, value_name = "NAME")]
     coin: Option<String>,
     /// A homogeneous cylinder as a coin: kg, m and m, or each with a unit
     #[arg(long, value_name = "MASS,RADIUS,THICKNESS", allow_hyphen_values = true)]
     cylinder: Option<String>,
-    /// Moments of inertia about a diameter and about the normal: kg m², or each with a unit such as g·cm²; I1,I2,I3 with
-    /// I2 = I1 is accepted too
+    /// Moments of inertia about a diameter and about the normal, or I1,I2,I3 about the axes x, y and z = n of any body:
+    /// kg m², or each with a unit such as g·cm²
     #[arg(long, value_name = "I1,I3", allow_hyphen_values = true)]
     moments: Option<String>,
+    /// Inertia tensor of any body about its centre of mass, in axes of which z is the normal n: kg m², or each with a
+    /// unit; Jxy is -∫ x y dm
+    #[arg(long, value_name = "JXX,JYY,JZZ,JXY,JXZ,JYZ", allow_hyphen_values = true)]
+    inertia: Option<String>,
 }
 
 impl CoinArgs {
-    /// The coin, if one of the options was given.
-    pub(crate) fn given(&self) -> Result<Option<Coin>, InputError> {
+    /// The body, if one of the options was given.
+    pub(crate) fn given(&self) -> Result<Option<Body>, InputError> {
         if let Some(text) = &self.cylinder {
             let [mass, radius, thickness] = quantity::cylinder(text)?.map(Given::quantity);
-            return Coin::from_cylinder(mass, radius, thickness).map(Some);
+            return Coin::from_cylinder(mass, radius, thickness).map(|coin| Some(coin.into()));
         }
-        if let Some(text) = &self.moments {
-            let moments: Vec<f64> = quantity::moments(text)?.into_iter().map(Given::si).collect();
-            return Coin::from_listed_moments(&moments).map(Some);
+        match self.elements()? {
+            Some(elements) => self.of_elements(elements.into_iter().map(Given::si).collect()).map(Some),
+            None => self.coin.as_deref().map(str::parse).transpose(),
         }
-        self.coin.as_deref().map(named_coin).transpose()
     }
 
-    /// Whether the coin is rounded from what was given.
+    /// The coin, or the paper's if none of the options was given. A body with I1 ≠ I2 is refused because of what `why`
+    /// says.
+    pub(crate) fn coin(&self, why: &str) -> Result<Coin, Failure> {
+        let Some(body) = self.given()? else { return Ok(Coin::PAPER) };
+        body.symmetric().ok_or_else(|| self.refused(why))
+    }
+
+    /// The error of a body with I1 ≠ I2 where a coin is needed.
+    pub(crate) fn refused(&self, why: &str) -> Failure {
+        let option = if self.inertia.is_some() {
+            "inertia"
+        } else if self.moments.is_some() {
+            "moments"
+        } else {
+            "coin"
+        };
+        Failure::usage(option, format!("--{option}: this body has I1 ≠ I2, and {why}"))
+    }
+
+    /// The moments or the elements of the tensor as they were given.
+    fn elements(&self) -> Result<Option<Vec<Given>>, InputError> {
+        match (&self.moments, &self.inertia) {
+            (Some(text), _) => quantity::moments(text).map(Some),
+            (_, Some(text)) => quantity::inertia(text).map(|elements| Some(elements.into())),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// The body with these moments or elements of the tensor, in any unit: they decide its motion by their ratios.
+    fn of_elements(&self, elements: Vec<f64>) -> Result<Body, InputError> {
+        match (<[f64; 6]>::try_from(elements), self.inertia.is_some()) {
+            (Ok(elements), true) => Body::from_inertia(elements),
+            (Ok(elements), false) => Body::from_listed_moments(&elements),
+            (Err(elements), _) => Body::from_listed_moments(&elements),
+        }
+    }
+
+    /// Whether the body is rounded from what was given.
     fn is_rounded(&self) -> Result<bool, InputError> {
-        let moments = self.moments.as_deref().map_or(Ok(Vec::new()), quantity::moments)?;
-        Ok(!moments.into_iter().all(Given::is_exact_in_si))
+        Ok(!self.elements()?.unwrap_or_default().into_iter().all(Given::is_exact_in_si))
+    }
+
+    /// The body in the unit that its moments or its tensor were given in, if that is one.
+    fn in_own_unit(&self) -> Result<Option<Body>, InputError> {
+        let elements = self.elements()?.unwrap_or_default();
+        let mut units = elements.iter().filter(|given| given.value() != 0.0).map(|given| given.unit());
+        let Some(first) = units.next() else { return Ok(None) };
+        if units.any(|unit| unit != first) {
+            return Ok(None);
+        }
+        Ok(self.of_elements(elements.into_iter().map(Given::value).collect()).ok())
     }
 }
 
@@ -84,25 +136,25 @@ pub(crate) struct TossArgs {
 }
 
 impl TossArgs {
-    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
+    pub(crate) fn toss(&self) -> Result<RigidToss, Failure> {
         if self.drag.is_some() {
             return Err(NO_DRAG.into());
         }
         if self.bounce.is_some() {
             return Err(NO_BOUNCE.into());
         }
-        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
         let gravity = self.gravity.map_or(DEFAULT_GRAVITY, Given::si);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time.si()),
             (Some(speed), None) => TimeOfFlight::thrown(speed.si(), gravity, self.drop.map(Given::si)),
             (None, None) => return Err(Failure::usage("speed", "one of --speed and --time is needed")),
         };
-        let mut launch = self.rate.launch(&coin, time_of_flight)?;
+        let mut launch = self.rate.launch(&body, time_of_flight)?;
         if let Some(tilt) = self.tilt {
             launch = launch.with_tilt(tilt.angle())?;
         }
-        Ok(Toss { coin, launch })
+        Ok(RigidToss { body, launch })
     }
 
     /// The tilt at launch (rad).
@@ -111,21 +163,32 @@ impl TossArgs {
     }
 
     /// Whether the outcome of `toss` is the same for the numbers as they were typed: `false` if numbers were rounded when
-    /// their units were converted, and cos θ is so near to 0 that this could have changed it.
-    pub(crate) fn is_beyond_rounding(&self, toss: &Toss) -> Result<bool, Failure> {
+    /// their units were converted, and cos θ is so near to 0 that this could have changed it. `outcome` is the proven one.
+    pub(crate) fn is_beyond_rounding(&self, toss: &RigidToss, outcome: Outcome) -> Result<bool, Failure> {
         let times = [self.speed, self.time, self.gravity, self.drop];
         let is_time_rounded = !times.into_iter().flatten().all(Given::is_exact_in_si);
         if !is_time_rounded && !self.coin.is_rounded()? && !self.rate.is_rounded()? {
             return Ok(true);
         }
+        let Some(coin_toss) = toss.symmetric() else {
+            // How much a rounding of the launch changes has no simple bound next to the separatrix.
+            let is_launch_rounded = is_time_rounded || self.rate.is_rounded()?;
+            let as_given = if is_launch_rounded { None } else { self.coin.in_own_unit()? };
+            let proven = as_given.map(|body| certify_rigid(&RigidToss { body, ..*toss })).transpose()?;
+            return Ok(proven.is_some_and(|proven| proven.outcome() == outcome));
+        };
         // A landing above the launch may end the flight near its top, where the time depends on the speed without a bound.
         if is_time_rounded && self.drop.is_some_and(|drop| drop.si() < 0.0) {
             return Ok(false);
         }
         // With u = 2^-53, conversions change the rates by up to 8 u of themselves, k by 3 u and T by 4 u.
-        Ok(holds_within(toss, 4.0 * f64::EPSILON)?)
+        Ok(holds_within(&coin_toss, 4.0 * f64::EPSILON)?)
     }
 }
+
+/// Why `--prove` refuses a body with I1 ≠ I2.
+pub(crate) const ONLY_COINS: &str =
+    "it proves the flights of coins alone; without --prove it estimates, and exact proves";
 
 /// Options for one toss and the solver that flies it.
 #[derive(Debug, Args)]
@@ -143,7 +206,12 @@ impl FlightArgs {
         &self.toss
     }
 
-    pub(crate) fn parts(&self) -> Result<(Toss, Backend), Failure> {
-        Ok((self.toss.toss()?, self.solver.backend()?))
+    /// The solver that proves by integration.
+    pub(crate) fn prover(&self, registry: &Registry) -> Result<QuaternionSolver, Failure> {
+        self.solver.prover(registry)
+    }
+
+    pub(crate) fn parts(&self, registry: &Registry) -> Result<(RigidToss, Backend), Failure> {
+        Ok((self.toss.toss()?, self.solver.backend(registry)?))
     }
 }

@@ -28,11 +28,12 @@ fn every_solver_and_scheme_reproduces_the_reference_value_of_cos_tilt() {
 fn the_answer_has_the_fields_of_the_contract() {
     let answer = json("toss --moments 0.04,0.02 --rate 2,4,6 --time 1", 0);
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
-    let toss = ["schema", "input", "coin", "flight_time", "cos_tilt", "outcome", "certified", "margin", "attitude"];
+    let toss =
+        ["schema", "input", "coin", "flight_time", "cos_tilt", "outcome", "certified", "proof", "margin", "attitude"];
     for field in toss.into_iter().chain(["rate", "norm_error", "defect", "solver", "scheme", "method", "work"]) {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 16);
+    assert_eq!(fields.len(), 19);
     // Kane's body, with its reference values.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -51,9 +52,30 @@ fn the_answer_has_the_fields_of_the_contract() {
     }
     assert_eq!(answer["method"], Value::Null);
     assert_eq!(answer["certified"], true);
-    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler", 0)["certified"], false);
+    assert_eq!((&answer["proof"], &answer["error_bound"]), (&"exact".into(), &Value::Null));
+    let euler = json("toss --rate 1,1,1 --time 1 --solver euler", 0);
+    assert_eq!((&euler["certified"], &euler["proof"]), (&false.into(), &Value::Null));
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --scheme rk4", 0)["method"], "rk4");
     assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["method"], "taylor");
+}
+
+#[test]
+fn an_integrated_outcome_is_proven_with_bounds_that_hold() {
+    let toss = "--moments 0.04,0.02 --rate 2,4,6 --time 1";
+    let answer = json(&format!("toss {toss} --solver quaternion --prove"), 0);
+    assert_eq!((&answer["certified"], &answer["proof"]), (&true.into(), &"integrated".into()));
+    assert_eq!((&answer["outcome"], &answer["scheme"]), (&"heads".into(), &"taylor".into()));
+    let bound = answer["error_bound"].as_f64().unwrap();
+    assert!(bound < 1e-10 && answer["attitude_error_bound"].as_f64().unwrap() < bound);
+    assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, bound);
+    let text = stdout(&run(&format!("toss {toss} --solver quaternion --prove")));
+    assert!(text.contains("heads, proven by integration in f64") && text.contains("\nerror bound  "), "{text}");
+    let csv = stdout(&run(&format!("trace {toss} --solver quaternion --prove --points 3")));
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines[0].ends_with(",cos_tilt,error_bound,attitude_error_bound") && lines.len() == 4, "{csv}");
+    assert!(!stdout(&run(&format!("trace {toss} --points 3"))).contains("error_bound"));
+    let near = json("toss --rate 1,0,0 --time 1.5707963267948966 --solver quaternion --prove", 0);
+    assert_eq!((&near["outcome"], &near["certified"]), (&"heads".into(), &true.into()));
 }
 
 /// Both land some 1e-17 from the edge: on the other side of it for the rounded quaternion, or the rounded moments.

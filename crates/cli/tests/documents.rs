@@ -1,9 +1,13 @@
-//! Runs every command that README.md and docs/paper-audit.md show, and compares its output with the output shown there.
+//! Runs every command that README.md, docs/paper-audit.md and docs/engraved.md show, and compares its output with the output shown there.
 //! So the numbers in these documents cannot become outdated.
 
 use std::process::Command;
 
-const DOCUMENTS: [&str; 2] = [include_str!("../../../README.md"), include_str!("../../../docs/paper-audit.md")];
+const DOCUMENTS: [&str; 3] = [
+    include_str!("../../../README.md"),
+    include_str!("../../../docs/paper-audit.md"),
+    include_str!("../../../docs/engraved.md"),
+];
 const PREFIX: &str = "$ unfair-toss ";
 
 #[test]

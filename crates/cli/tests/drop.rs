@@ -110,7 +110,7 @@ fn a_probability_without_a_method_is_as_accurate_as_was_asked_for() {
         (&format!("{space} --points 9"), ["--points needs --method", "--accuracy"]),
         (&format!("{space} --seed 9"), ["--seed needs --method", "plan"]),
         (&format!("{space} --solver gamma"), ["--solver needs --method", "exact motion"]),
-        (&format!("{space} --accuracy 1e-3 --method random"), ["--accuracy", "cannot be used with"]),
+        (&format!("{space} --accuracy 1e-3 --method random"), ["--accuracy", "can't be used with this --method"]),
     ]);
 }
 

@@ -134,7 +134,7 @@ fn a_solver_that_fails_says_why_in_its_row() {
     assert_eq!(json("compare --rate 1,1,1e300 --time 1", 1)["error"]["kind"], "phase_too_large");
 }
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "toss",
     "trace",
     "probability",
@@ -144,6 +144,7 @@ const COMMANDS: [&str; 19] = [
     "convergence",
     "errors",
     "map",
+    "merge",
     "intervals",
     "inverse",
     "limit",
@@ -158,12 +159,20 @@ const COMMANDS: [&str; 19] = [
 
 #[test]
 fn the_example_of_every_help_text_runs() {
+    // The parts that the example of `merge` names.
+    let folder = tempfile::tempdir().unwrap();
+    for part in 1..=2 {
+        let path = folder.path().join(format!("part-{part}.json"));
+        let output =
+            run(&format!("probability --space paper-fig4 --method random --shard {part}/2 --out {}", path.display()));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
     for command in COMMANDS {
         let help = stdout(&run(&format!("{command} --help")));
         let (_, after) = help.split_once("\nExample:\n  unfair-toss ").unwrap_or_else(|| panic!("{command}: {help}"));
         let example = after.lines().next().unwrap();
         assert!(example.starts_with(command), "{example}");
-        let output = run(example);
+        let output = run(&example.replace("part-", &format!("{}/part-", folder.path().display())));
         assert_eq!(output.status.code(), Some(0), "{example}: {}", stderr(&output));
         assert!(!output.stdout.is_empty(), "{example}");
     }

@@ -32,19 +32,28 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate 2,2,0.5 --speed 3 --moments 1,1",
             "--rate 1,1,2.5 --time 1 --cylinder 1,1,1 --solver gamma --scheme rk4 --step 1e-3 --formulation vertical",
             "--rate 1,1,2.5 --time 1 --solver quaternion --tolerance 1e-9",
+            "--rate 1,1,2.5 --time 1 --inertia 2,3,4,0.1,0.2,0.3",
+            "--coin racket --rate 1,12,3 --speed 3 --margin",
+            "--rate 1,1,2.5 --time 1 --solver quaternion --prove",
         ],
     ),
-    ("trace", &["--rate 1,1,2.5 --speed 3 --points 3", "--turn 3 --wobble 1 --speed 3 --dt 0.3"]),
+    (
+        "trace",
+        &["--rate 1,1,2.5 --speed 3 --points 3", "--turn 3 --wobble 1 --speed 3 --dt 0.3 --solver quaternion --prove"],
+    ),
     (
         "probability",
         &[
             "--space tails --method grid",
+            "--space tails --method grid --solver quaternion --prove",
             "--space tails --method exact-speed",
             "--space paper-fig4 --method exact-speed",
+            "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method quadrature --accuracy 1e-6",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
         ],
     ),
+    ("merge", &["PART-OF-RANDOM", "PART-OF-GRID", "PART-OF-EXACT-SPEED"]),
     (
         "compare",
         &[
@@ -86,11 +95,19 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
     std::fs::write(&scene, "accuracy = 1e-9\n[want.tilt]\nlaunch = { rate = [1, 1, 2], speed = 3 }\n").unwrap();
+    let parts = ["RANDOM", "GRID", "EXACT-SPEED"].map(|method| {
+        let path = folder.path().join(format!("{method}.json")).display().to_string();
+        let space = if method == "EXACT-SPEED" { "tails" } else { "paper-fig4" };
+        let options = format!("--space {space} --method {} --shard 1/1 --out {path}", method.to_lowercase());
+        assert_eq!(run(&format!("probability {options}")).status.code(), Some(0));
+        (format!("PART-OF-{method}"), path)
+    });
     let (mut every, mut inputs) = (Fields::new(), Fields::new());
     for (command, runs) in ANSWERS {
         let mut found = Fields::new();
         for options in *runs {
             let options = options.replace("SCENE", &scene.display().to_string());
+            let options = parts.iter().fold(options, |options, (name, path)| options.replace(name, path));
             let answer = json(&format!("{command} {options}"), 0);
             assert_eq!((&answer["schema"], &answer["input"]["command"]), (&1.into(), &(*command).into()));
             collect(&answer, "", &mut found);

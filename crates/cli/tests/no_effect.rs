@@ -39,6 +39,32 @@ fn options_without_effect_with_the_solver_are_refused_and_say_whom_they_are_for(
 }
 
 #[test]
+fn what_proves_nothing_refuses_to_prove_and_says_why() {
+    for command in [
+        "toss --rate 1,1,1 --time 1",
+        "trace --rate 1,1,1 --time 1 --points 3",
+        "probability --space tails --method grid",
+    ] {
+        for (options, words) in [
+            ("", ["--prove has no effect with --solver exact", "it is for quaternion"]),
+            ("--solver gamma", ["gamma proves nothing", "no bound of its own error; quaternion has one"]),
+            ("--solver euler", ["euler proves nothing", "no bound of its own error; quaternion has one"]),
+            ("--solver quaternion --scheme dop853", ["proves nothing", "only taylor bounds its own error"]),
+            ("--solver quaternion --formulation raw", ["proves nothing", "division by the norm"]),
+        ] {
+            assert_refused(&[(&format!("{command} {options} --prove"), words)]);
+        }
+    }
+    assert_refused(&[
+        ("probability --space tails --solver quaternion --prove", ["--prove needs --method", "exact motion"]),
+        (
+            "probability --space tails --method random --shard 1/2 --out x --solver quaternion --prove",
+            ["--shard has no effect with --prove", "exact motion"],
+        ),
+    ]);
+}
+
+#[test]
 fn points_and_seeds_without_effect_are_refused() {
     let free = "--rate-y x --rate-z 1 --speed 3:5";
     assert_refused(&[
@@ -46,6 +72,9 @@ fn points_and_seeds_without_effect_are_refused() {
         ("probability --space tails --method exact-speed --points 64", ["--points: exact-speed", "at most the speed"]),
         ("probability --space tails --method exact-speed --seed 2", ["--seed: no launch", "at most the speed"]),
         ("probability --space paper-fig4 --method exact-speed --seed 2", ["--seed: no launch", "a grid"]),
+        ("probability --space tails --method quadrature --points 64", ["--points: quadrature takes", "shares"]),
+        ("probability --space tails --method quadrature --seed 2", ["--seed: no launch", "quadrature"]),
+        ("probability --space tails --method sobol --accuracy 1e-3", ["--accuracy can't be used", "quadrature"]),
         (&format!("probability --rate-x 0:9:5 {free} --method random"), ["rate x [rad/s] = '0:9:5'", "no grid"]),
         (&format!("probability --rate-x 0:9:5 {free}:7 --method exact-speed"), ["speed [m/s] = '3:5:7'", "no grid"]),
         ("errors --rate-x 0:9:5 --rate-y x --rate-z 1 --speed 3:5", ["rate x [rad/s] = '0:9:5'", "no grid"]),

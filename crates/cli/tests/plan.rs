@@ -74,7 +74,7 @@ fn input_outside_the_model_is_refused_with_the_reason() {
     for (options, kind, words) in [
         ("--drag 0.4", "outside_model", "free of torque and drag"),
         ("--bounce 0.5", "outside_model", "ends at the first landing"),
-        ("--moments 1,1.2,2", "outside_model", "no body of revolution"),
+        ("--moments 1,1.2,2.3", "input", "larger than I1 + I2"),
         ("--drop -9", "input", "drop [m] = -9.0"),
         ("--drop nan", "input", "drop [m] = NaN"),
     ] {

@@ -34,6 +34,25 @@ fn probabilities_are_counts_that_do_not_depend_on_threads() {
 }
 
 #[test]
+fn quadrature_reports_a_probability_within_the_accuracy() {
+    let found =
+        json("probability --rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method quadrature --accuracy 1e-9", 0);
+    assert!((found["probability"].as_f64().unwrap() - 0.661_452_104_190_6).abs() < 1e-9, "{found}");
+    assert!(found["error_bound"].as_f64().unwrap() <= 1e-9 && found["points"].as_u64().unwrap() < 1000, "{found}");
+    assert_eq!((&found["method"], &found["seed"]), (&"quadrature".into(), &serde_json::Value::Null));
+    for (line, parts) in [
+        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3", ["speed [m/s]", "quadrature needs a range"]),
+        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3:5 --drop 1", ["drop [m]", "quadrature"]),
+        ("--rate-x 0:9 --rate-y 0:9 --rate-z 0:9 --tilt 0.1 --speed 3:5", ["method", "at most two coordinates"]),
+        ("--space tails --shard 1/2 --out part.json", ["method", "cannot be numbered"]),
+        ("--space tails --solver gamma", ["solver = 'gamma'", "quadrature"]),
+    ] {
+        let text = stderr(&run(&format!("probability {line} --method quadrature")));
+        assert!(parts.iter().all(|part| text.contains(part)), "{line}: {text}");
+    }
+}
+
+#[test]
 fn exact_speed_reports_a_probability_and_an_error_bound() {
     let exact = json("probability --space tails --method exact-speed", 0);
     assert_eq!((&exact["probability"], &exact["heads"], &exact["seed"]), (&0.0.into(), &Value::Null, &Value::Null));
@@ -188,7 +207,7 @@ fn limit_prints_the_share_of_long_flights_and_its_limit() {
 fn charts_are_written_whole() {
     let folder = tempfile::tempdir().unwrap();
     for (command, word) in [
-        ("convergence --space paper-fig4 --steps 20", "B, random: 0.6609"),
+        ("convergence --space paper-fig4 --steps 20", "B, random: 0.6616"),
         ("errors --space paper-fig4 --up-to 9 --replicates 2", "exact-speed, 8 scrambles"),
         ("limit --points 50", "share of 50 flights"),
         ("map --rate-x 0:40:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5", "ωz/(rad/s)"),

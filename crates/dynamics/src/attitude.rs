@@ -72,6 +72,18 @@ impl Attitude {
         Ok(if is_unit { unit } else { Self { origin: Origin::Components(wxyz), ..unit } })
     }
 
+    /// The attitude of the quaternion (w, x, y, z) as it is, without a division by its norm, which is 1 to rounding.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] if the norm differs from 1 by more than 1e-14.
+    #[cfg(feature = "serde")]
+    pub(crate) fn from_unit_components([w, x, y, z]: [f64; 4]) -> Result<Self, InputError> {
+        let quaternion = Quaternion::new(w, x, y, z);
+        let norm = quaternion.norm();
+        require("unit_quaternion (norm)", norm, "1 to within 1e-14", (norm - 1.0).abs() <= 1e-14)?;
+        Ok(Self::of(UnitQuaternion::new_unchecked(quaternion)))
+    }
+
     /// A turn by a finite `angle` about the lab's x axis; an f64 is in radians.
     pub fn about_x(angle: impl Into<Angle>) -> Self {
         let angle = angle.into();

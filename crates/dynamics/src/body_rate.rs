@@ -11,8 +11,11 @@
 //! out of this crate, in `exact`, so that no integrator can use it.
 
 use nalgebra::Vector3;
+use numerics::scale::power_of_two_scale;
 
+use crate::attitude::Attitude;
 use crate::coin::Coin;
+use crate::launch::Toss;
 use crate::state::State;
 
 /// q = (k - 1) ωz (rad/s): the rate at which (ωx, ωy) turns in BF by (2)-(4). `inertia_ratio` is k, `rate_z` is ωz
@@ -26,6 +29,13 @@ pub fn transverse_acceleration(q: f64, rate_x: f64, rate_y: f64) -> (f64, f64) {
     (-q * rate_y, q * rate_x)
 }
 
+/// Euler's equations of any rigid body in its principal axes: ω' (rad/s²) from ω (rad/s) and the
+/// [couplings](crate::Body::couplings).
+#[inline]
+pub fn principal_acceleration([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> [f64; 3] {
+    [a * second * third, b * third * first, c * first * second]
+}
+
 /// Angular momentum S of a coin with body rate `rate` (BF, kg m²/s). |S| is conserved.
 pub fn angular_momentum(coin: &Coin, rate: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(coin.i1() * rate.x, coin.i1() * rate.y, coin.i3() * rate.z)
@@ -34,6 +44,18 @@ pub fn angular_momentum(coin: &Coin, rate: &Vector3<f64>) -> Vector3<f64> {
 /// Angular momentum S of a coin in this state (TF, kg m²/s). S is conserved as a vector.
 pub fn angular_momentum_tf(coin: &Coin, state: &State) -> Vector3<f64> {
     state.attitude.body_to_lab(&angular_momentum(coin, &state.rate))
+}
+
+/// The body rate at landing (BF, rad/s) of a coin that lands with `attitude`: its component along n is that of the launch,
+/// and with the others the angular momentum across n is that of the launch.
+pub fn rate_by_momentum(toss: &Toss, attitude: &Attitude) -> Vector3<f64> {
+    let launched = toss.launch.rate();
+    // Of the largest finite rates, a sum of two may overflow.
+    let scale = power_of_two_scale(launched.amax());
+    let mut momentum = launched / scale;
+    momentum.z *= toss.coin.inertia_ratio();
+    let landed = attitude.lab_to_body(&toss.launch.attitude().body_to_lab(&momentum));
+    Vector3::new(landed.x * scale, landed.y * scale, launched.z)
 }
 
 /// Kinetic energy of the rotation (J) of a coin with body rate `rate` (BF, rad/s). It is conserved.

@@ -3,10 +3,17 @@
 //!
 //! The real coins are taken as homogeneous cylinders. A relief, a rim or a second metal changes k = I3/I1 by less than
 //! the difference between two denominations, but no published figure says by how much. Coins with notches (20 euro
-//! cent) or straight sides are left out.
+//! cent) or straight sides are left out. [`BODIES`] has bodies that are not symmetric about their normal, among them a
+//! coin with a model of its relief.
+
+mod bodies;
+
+use std::str::FromStr;
 
 use crate::coin::Coin;
 use crate::error::{InputError, find_named};
+
+pub use bodies::{BODIES, BodyEntry, Relief, Shape, named_body};
 
 const US_MINT: &str = "United States Mint, Coin Specifications, \
                        https://www.usmint.gov/learn/coins-and-medals/circulating-coins/coin-specifications";
@@ -95,9 +102,21 @@ pub const CATALOGUE: &[CatalogueEntry] = &[
 /// The coin called `name`.
 ///
 /// # Errors
-/// [`InputError::UnknownName`] with the list of known names.
+/// [`InputError::UnknownName`] with the list of known names; [`InputError::OutsideModel`] for one of [`BODIES`].
 pub fn named_coin(name: &str) -> Result<Coin, InputError> {
+    if BODIES.iter().any(|entry| entry.name == name) {
+        return Err(crate::coin::NO_COIN);
+    }
     find_named("coin", name, CATALOGUE, |entry| entry.name)?.coin()
+}
+
+/// Finds a coin of the catalogue by its name.
+impl FromStr for Coin {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        named_coin(name)
+    }
 }
 
 #[cfg(test)]
@@ -123,7 +142,7 @@ mod tests {
     #[test]
     fn grams_and_millimetres_are_converted_to_si_units() {
         // 5.670 g, 24.26 mm: m r²/2 = 0.00567 · 0.01213² / 2 kg m²
-        let quarter = named_coin("us-quarter").unwrap();
+        let quarter: Coin = "us-quarter".parse().unwrap();
         approx::assert_relative_eq!(quarter.i3(), 4.171_331_115e-7, max_relative = 1e-9);
     }
 }

@@ -8,6 +8,7 @@ use crate::error::{Fault, SolveError};
 use crate::failure::Error;
 use crate::launch::Toss;
 use crate::outcome::Outcome;
+use crate::rigid_toss::RigidToss;
 use crate::solver::{Propagation, Solver};
 use crate::stepping::Stepping;
 
@@ -52,6 +53,25 @@ impl<S: Solver> Checked<S> {
     fn require_cosine(&self, cos_tilt: f64) -> Result<f64, SolveError> {
         self.require("cos θ", cos_tilt, cos_tilt.abs() <= LARGEST_COSINE)
     }
+
+    fn checked_landing(&self, landing: Propagation) -> Result<Propagation, SolveError> {
+        self.require_cosine(landing.cos_tilt)?;
+        for part in landing.state.attitude.components() {
+            self.require("a component of the attitude", part, part.is_finite())?;
+        }
+        for part in landing.state.rate.iter() {
+            self.require("a component of the body rate", *part, part.is_finite())?;
+        }
+        self.require("the norm error", landing.norm_error, landing.norm_error.is_finite())?;
+        Ok(landing)
+    }
+
+    fn checked_claim(&self, claim: Option<f64>) -> Result<Option<f64>, SolveError> {
+        match claim {
+            Some(error) if !(error.is_finite() && error >= 0.0) => Err(self.misbehaved(Fault::Claim(error))),
+            estimate => Ok(estimate),
+        }
+    }
 }
 
 impl<S: Solver> Solver for Checked<S> {
@@ -64,23 +84,11 @@ impl<S: Solver> Solver for Checked<S> {
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let landing = self.guarded(|solver| solver.propagate(toss))?;
-        self.require_cosine(landing.cos_tilt)?;
-        for part in landing.state.attitude.components() {
-            self.require("a component of the attitude", part, part.is_finite())?;
-        }
-        for part in landing.state.rate.iter() {
-            self.require("a component of the body rate", *part, part.is_finite())?;
-        }
-        self.require("the norm error", landing.norm_error, landing.norm_error.is_finite())?;
-        Ok(landing)
+        self.checked_landing(self.guarded(|solver| solver.propagate(toss))?)
     }
 
     fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        match self.guarded(|solver| solver.error_estimate(toss))? {
-            Some(error) if !(error.is_finite() && error >= 0.0) => Err(self.misbehaved(Fault::Claim(error))),
-            estimate => Ok(estimate),
-        }
+        self.checked_claim(self.guarded(|solver| solver.error_estimate(toss))?)
     }
 
     fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
@@ -108,6 +116,28 @@ impl<S: Solver> Solver for Checked<S> {
     /// The outcome is decided from the checked cos θ, not by the solver's own `outcome`.
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
         self.outcome_at(toss, self.cos_tilt(toss)?)
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        self.checked_landing(self.guarded(|solver| solver.propagate_rigid(toss))?)
+    }
+
+    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        self.checked_claim(self.guarded(|solver| solver.error_estimate_rigid(toss))?)
+    }
+
+    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
+        self.require_cosine(self.guarded(|solver| solver.cos_tilt_rigid(toss))?)
+    }
+
+    fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+        self.require_cosine(cos_tilt)?;
+        self.error_estimate_rigid(toss)?;
+        self.guarded(|solver| solver.outcome_at_rigid(toss, cos_tilt))
+    }
+
+    fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
+        self.outcome_at_rigid(toss, self.cos_tilt_rigid(toss)?)
     }
 }
 

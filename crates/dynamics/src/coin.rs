@@ -31,6 +31,12 @@ enum Origin {
     Cylinder([Quantity; 3]),
 }
 
+/// Why a body with I1 ≠ I2 is refused where a coin is needed.
+pub const NO_COIN: InputError = InputError::OutsideModel {
+    field: "coin",
+    why: "with I1 ≠ I2 the body is not symmetric about its normal, and this is a question about coins with I1 = I2",
+};
+
 impl Coin {
     /// The coin of the paper's figures, with the paper's own moments: I1 = 5e-7 kg m², I3 = I1/2.
     ///
@@ -40,6 +46,7 @@ impl Coin {
     /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
     pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6, ratio: DoubleDouble::exactly(2.0), origin: Origin::Moments };
 
+    #[cfg(feature = "serde")]
     pub(crate) fn paper() -> Self {
         Self::PAPER
     }
@@ -77,26 +84,6 @@ impl Coin {
         let ((m1, e1), (m3, e3)) = (mantissa_and_exponent(i1), mantissa_and_exponent(i3));
         let ratio = DoubleDouble::quotient(m3, m1).times_power_of_two(e3 - e1);
         Ok(Self { i1, i3, ratio, origin: Origin::Moments })
-    }
-
-    /// A body with the principal moments `[I1, I3]` or `[I1, I2, I3]` (kg m²).
-    ///
-    /// # Errors
-    /// As [`Coin::from_moments`]; [`InputError::OutsideModel`] for I1 ≠ I2.
-    pub fn from_listed_moments(moments: &[f64]) -> Result<Self, InputError> {
-        match *moments {
-            [i1, i3] => Self::from_moments(i1, i3),
-            [i1, i2, i3] if i1 == i2 => Self::from_moments(i1, i3),
-            [_, _, _] => Err(InputError::OutsideModel {
-                field: "moments [kg m²]",
-                why: "with I1 ≠ I2 the coin is no body of revolution; its motion is different and is not approximated",
-            }),
-            _ => Err(InputError::Malformed {
-                field: "moments [kg m²]",
-                value: format!("{moments:?}"),
-                expected: "I1,I3 or I1,I2,I3",
-            }),
-        }
     }
 
     /// Mass (kg), radius (m) and thickness (m) of the cylinder that it was made from, if it was.

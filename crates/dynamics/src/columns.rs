@@ -103,6 +103,6 @@ impl<'a> Tosses<'a> {
     /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
     pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
         let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
-        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss), source })
+        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss.into()), source })
     }
 }

@@ -84,9 +84,9 @@ impl SolverEntry {
         &self.summary
     }
 
-    /// The solver's colour on charts; grey if none was set.
-    pub fn color(&self) -> [u8; 3] {
-        self.color.unwrap_or([110, 110, 110])
+    /// The solver's colour on charts (red, green, blue); `None` leaves it to the chart.
+    pub fn color(&self) -> Option<[u8; 3]> {
+        self.color
     }
 
     /// The formulations among which the solver's results differ; none for a closed form.
@@ -110,6 +110,13 @@ impl SolverEntry {
     /// [`InputError::UnknownName`] with the names of the solver's schemes.
     pub fn scheme(&self, name: &str) -> Result<Scheme, InputError> {
         find_named("scheme of this solver", name, &self.schemes, |offered| offered.name()).copied()
+    }
+
+    /// The scheme that the solver integrates by if none is chosen: that of [`Stepping::DEFAULT`] if the solver offers it,
+    /// else its first one. `None` for a closed form.
+    pub fn default_scheme(&self) -> Option<Scheme> {
+        let default = self.schemes.iter().find(|scheme| **scheme == Stepping::DEFAULT.scheme());
+        default.or(self.schemes.first()).copied()
     }
 
     /// Makes the solver with `settings` and wraps it in [`Checked`]. A closed form accepts any stepping and ignores it.
@@ -174,6 +181,17 @@ mod tests {
         let own = Scheme::new("own", None).adaptive();
         let by_own = Settings { stepping: Stepping::adaptive(own, 1e-9).unwrap(), ..Settings::default() };
         assert_eq!(entry.solver(&by_own).err().map(|error| error.field()), Some("scheme of this solver"));
+    }
+
+    #[test]
+    fn a_solver_without_the_default_scheme_uses_its_first_scheme() {
+        let offers = |schemes: &[Scheme]| {
+            let still = SolverEntry::new("still", "", |settings| Box::new(Still("still", settings.stepping)));
+            still.with_schemes(schemes).default_scheme()
+        };
+        assert_eq!(offers(&[Scheme::RK4, Scheme::DOP853]), Some(Scheme::DOP853));
+        assert_eq!(offers(&[Scheme::RK4, Scheme::DOPRI5]), Some(Scheme::RK4));
+        assert_eq!(offers(&[]), None);
     }
 
     #[test]

@@ -47,6 +47,18 @@ pub enum InputError {
         /// The reason, in a sentence.
         why: &'static str,
     },
+    /// A moment of inertia that is larger than the sum of the other two.
+    #[error("{field} = {value:?} is larger than {limit} by {excess:?}: no body has such moments")]
+    NoBody {
+        /// The largest moment, with its unit.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// The sum that limits it.
+        limit: &'static str,
+        /// How far it is above that sum (kg m²).
+        excess: f64,
+    },
     /// A name that is not in the list of known names.
     #[error("{field} = '{value}' is unknown; known: {known}")]
     UnknownName {
@@ -67,6 +79,7 @@ impl InputError {
             | Self::Malformed { field, .. }
             | Self::Missing { field, .. }
             | Self::OutsideModel { field, .. }
+            | Self::NoBody { field, .. }
             | Self::UnknownName { field, .. } => field,
         }
     }
@@ -144,6 +157,22 @@ pub enum SolveError {
         /// The scheme's name.
         scheme: &'static str,
     },
+    /// The solver is for bodies that are symmetric about their normal n, and this one has I1 ≠ I2.
+    #[error("solver '{solver}' is for bodies with I1 = I2 only: {why}")]
+    NotSymmetric {
+        /// The solver's name.
+        solver: String,
+        /// What in its equations supposes the symmetry.
+        why: &'static str,
+    },
+    /// A proof was asked of a solver, or of a scheme or a formulation of it, that has no bound of its own error.
+    #[error("solver '{solver}' proves nothing: {why}")]
+    NotProven {
+        /// The solver's name.
+        solver: String,
+        /// Why it has no bound.
+        why: &'static str,
+    },
     /// The flight needs more steps than the limit.
     #[error("more than {limit} steps needed, stopped at t = {time} s")]
     StepLimit {
@@ -214,6 +243,12 @@ impl Reason {
     }
 }
 
+impl From<Box<dyn std::error::Error + Send + Sync>> for Reason {
+    fn from(error: Box<dyn std::error::Error + Send + Sync>) -> Self {
+        Self(error.into())
+    }
+}
+
 impl PartialEq for Reason {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
@@ -242,7 +277,12 @@ impl SolveError {
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
         match &mut self {
-            Self::PhaseTooLarge { .. } | Self::NotOffered { .. } | Self::Misbehaved { .. } | Self::Failed { .. } => {}
+            Self::PhaseTooLarge { .. }
+            | Self::NotOffered { .. }
+            | Self::NotSymmetric { .. }
+            | Self::NotProven { .. }
+            | Self::Misbehaved { .. }
+            | Self::Failed { .. } => {}
             Self::Singular { time, .. }
             | Self::StepLimit { time, .. }
             | Self::StepSizeUnderflow { time }
@@ -262,6 +302,8 @@ impl SolveError {
             Self::NotFinite { .. } => "not_finite",
             Self::Misbehaved { .. } => "misbehaved",
             Self::Failed { .. } => "failed",
+            Self::NotSymmetric { .. } => "not_symmetric",
+            Self::NotProven { .. } => "not_proven",
         }
     }
 }

@@ -2,7 +2,7 @@
 //! it alone, by its kind, its field and its source.
 
 use crate::error::{InputError, SolveError};
-use crate::launch::Toss;
+use crate::rigid_toss::RigidToss;
 
 /// The reason why a question has no answer: either its input is at fault, or the solver failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -21,7 +21,7 @@ pub enum Error {
         /// The index of the launch, from 0.
         index: u64,
         /// The toss.
-        toss: Box<Toss>,
+        toss: Box<RigidToss>,
         /// Why the solver failed.
         source: SolveError,
     },

@@ -5,15 +5,21 @@
 //! multiplied by σ, so that integrators solve dy/d(σ t) = f(y). A flight whose phase max(ωL, |q|) T exceeds 2^53 rad is
 //! refused (ωL is the rate of the precession, q the rate at which ω turns in the body frame, T the time of flight).
 
-use nalgebra::{SVector, Vector3};
+#[cfg(feature = "integrators")]
+use nalgebra::SVector;
+use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
+#[cfg(feature = "integrators")]
 use crate::integrate::{OdeSystem, integrate};
-use crate::launch::Toss;
+use crate::launch::{Launch, Toss};
 use crate::phase::RoughPhases;
+#[cfg(feature = "integrators")]
 use crate::solver::Work;
-use crate::stepping::{Stepping, tightened};
+#[cfg(any(feature = "integrators", doc))]
+use crate::stepping::Stepping;
+use crate::stepping::tightened;
 
 /// Phase (rad) above which the tolerance of the steps is divided by phase/`LONG_FLIGHT`.
 ///
@@ -43,11 +49,20 @@ impl Flight {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the phase exceeds 2^53 rad.
     pub fn new(toss: &Toss) -> Result<Self, SolveError> {
-        let duration = toss.launch.flight_time();
-        let launched = toss.launch.rate();
+        Self::turning_by(&toss.launch, |rate, time| {
+            RoughPhases::dimensionless(toss.coin.inertia_ratio(), rate, time).largest()
+        })
+    }
+
+    /// The flight from `launch`, with the phase (rad) that follows from the dimensionless rate and time.
+    pub(crate) fn turning_by(
+        launch: &Launch,
+        phase: impl FnOnce(&Vector3<f64>, f64) -> Result<f64, SolveError>,
+    ) -> Result<Self, SolveError> {
+        let (launched, duration) = (launch.rate(), launch.flight_time());
         let scale = power_of_two_scale(launched.amax());
         let rate = launched / scale;
-        let phase = RoughPhases::dimensionless(toss.coin.inertia_ratio(), &rate, duration * scale).largest()?;
+        let phase = phase(&rate, duration * scale)?;
         Ok(Self { rate, rate_z: launched.z, scale, duration, phase })
     }
 
@@ -56,6 +71,7 @@ impl Flight {
     ///
     /// # Errors
     /// As [`integrate`].
+    #[cfg(feature = "integrators")]
     pub fn integrate<const N: usize>(
         &self,
         system: &impl OdeSystem<N>,
@@ -91,6 +107,11 @@ impl Flight {
         Vector3::new(x * self.scale, y * self.scale, self.rate_z)
     }
 
+    /// The body rate (BF, rad/s) that is `rate` in units of σ.
+    pub(crate) fn in_rad_per_s(&self, rate: &Vector3<f64>) -> Vector3<f64> {
+        rate * self.scale
+    }
+
     /// The error for a landing state that is not finite.
     pub fn not_finite(&self) -> SolveError {
         SolveError::NotFinite { time: self.duration }
@@ -106,7 +127,7 @@ mod tests {
     use crate::time_of_flight::TimeOfFlight;
 
     fn flight(rate: [f64; 3], time: f64) -> Flight {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
         Flight::new(&Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch }).unwrap()
     }
 

@@ -1,6 +1,9 @@
 //! [`Formulation`], the choice of how the kinematics are set up for integration. The motion is the same in each
 //! formulation, but the equations are singular at other points, and the guards at these points differ.
 
+use std::fmt;
+use std::str::FromStr;
+
 use crate::error::{InputError, find_named};
 
 /// The frame in which Euler angles α, β, γ are taken. Both move with the centre of mass, without turning.
@@ -65,6 +68,22 @@ impl Default for Formulation {
     }
 }
 
+/// Writes the name.
+impl fmt::Display for Formulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name)
+    }
+}
+
+/// Finds a formulation by its name.
+impl FromStr for Formulation {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        Self::named(name)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,6 +92,7 @@ mod tests {
     fn formulations_are_found_by_their_names() {
         for (formulation, name) in Formulation::ALL.into_iter().zip(["momentum", "vertical", "raw"]) {
             assert_eq!((formulation.name(), Formulation::named(name)), (name, Ok(formulation)));
+            assert_eq!((formulation.to_string().as_str(), name.parse()), (name, Ok(formulation)));
         }
         assert_eq!(Formulation::named("spin").map_err(|error| error.field()), Err("formulation"));
         assert_eq!((Formulation::RAW.frame(), Formulation::RAW.is_guarded()), (Frame::Vertical, false));

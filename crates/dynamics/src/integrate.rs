@@ -15,10 +15,8 @@ use ode_solvers::{Dop853, Dopri5, Rk4};
 use crate::error::{Singularity, SolveError};
 use crate::scheme::Scheme;
 use crate::solver::Work;
-use crate::stepping::{StepControl, Stepping};
-
-/// The largest number of steps of a flight. It is limited because all steps are held in memory during the integration.
-pub const STEP_LIMIT: u32 = 1_000_000;
+pub use crate::stepping::STEP_LIMIT;
+use crate::stepping::{StepControl, Stepping, step_count};
 
 /// An autonomous system of N first-order equations.
 pub trait OdeSystem<const N: usize> {
@@ -100,11 +98,7 @@ impl Steps {
         match control {
             StepControl::Tolerance(tolerance) => Ok(Self { tolerance, first: 0.0, largest: end }),
             StepControl::Step(step) => {
-                // A step that divides the duration up to rounding must not become one step more.
-                let count = (duration / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
-                if count > f64::from(STEP_LIMIT) {
-                    return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
-                }
+                let count = step_count(duration, step)?;
                 // With a tolerance that no error exceeds, an adaptive scheme keeps to its largest step. It is no larger
                 // than 1e60 so that the square of its inverse does not underflow.
                 Ok(Self { tolerance: 1e60, first: end / count, largest: end / count })

@@ -3,7 +3,6 @@
 
 use nalgebra::Vector3;
 use numerics::{Angle, AngleUnit};
-use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
@@ -24,13 +23,15 @@ pub struct Launch {
 }
 
 impl Launch {
-    /// A launch from horizontal with heads up, with the body rate `rate` (BF, the body frame; rad/s).
+    /// A launch from horizontal with heads up, with the body rate `rate` (BF, the body frame; rad/s), as a vector or as an
+    /// array.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a component of the rate that is not finite, and for an impossible
     /// time of flight (see [`TimeOfFlight`] for the valid ranges).
     #[inline]
-    pub fn new(rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+    pub fn new(rate: impl Into<Vector3<f64>>, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        let rate = rate.into();
         for (field, value) in [("rate x [rad/s]", rate.x), ("rate y [rad/s]", rate.y), ("rate z [rad/s]", rate.z)] {
             require(field, value, "finite", true)?;
         }
@@ -43,7 +44,12 @@ impl Launch {
     ///
     /// # Errors
     /// As [`Launch::new`].
-    pub fn in_unit(rate: Vector3<f64>, unit: AngleUnit, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+    pub fn in_unit(
+        rate: impl Into<Vector3<f64>>,
+        unit: AngleUnit,
+        time_of_flight: TimeOfFlight,
+    ) -> Result<Self, InputError> {
+        let rate = rate.into();
         let launch = Self::new(rate.map(|part| unit.times(part).radians()), time_of_flight)?;
         Ok(Self { given_rate: (unit != AngleUnit::RADIAN).then_some((rate, unit)), ..launch })
     }
@@ -79,7 +85,7 @@ impl Launch {
         self.given_rate.unwrap_or((self.rate, AngleUnit::RADIAN))
     }
 
-    /// ω at launch (BF, rad/s), to rounding where it was given in another unit.
+    /// ω at launch (BF, rad/s), to rounding where it was given in another unit. `<[f64; 3]>::from` makes an array of it.
     pub fn rate(&self) -> Vector3<f64> {
         self.rate
     }
@@ -107,11 +113,11 @@ impl Launch {
 }
 
 /// A coin and its launch: all that a flight depends on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Toss {
     /// The coin. When a toss is read from data without a coin, it is [`Coin::PAPER`].
-    #[serde(default = "Coin::paper")]
+    #[cfg_attr(feature = "serde", serde(default = "Coin::paper"))]
     pub coin: Coin,
     /// The launch of the coin.
     pub launch: Launch,

@@ -8,13 +8,15 @@
 //! | what | module |
 //! |---|---|
 //! | the coin's moments of inertia, from its geometry or by its name | [`coin`], [`catalogue`] |
+//! | any rigid body, by its moments or its inertia tensor, and its toss | [`body`], [`rigid_toss`] |
 //! | the toss: coin, body rate, attitude and time of flight | [`launch`], [`mod@time_of_flight`], [`state`] |
 //! | a toss as plain data in a file, many tosses as columns of numbers | [`data`], [`columns`] |
 //! | Euler's equations and what they conserve; how far a motion turns | [`body_rate`], [`phase`] |
 //! | the attitude as a quaternion and as Euler angles | [`attitude`], [`euler_angles`] |
 //! | heads or tails | [`outcome`] |
-//! | the solver trait, the check of a solver's answers, solvers by name | [`solver`], [`checked`], [`entry`] |
+//! | the solver trait, the check of a solver's answers, solvers by name | [`solver`], [`checked`], [`entry`], [`config`] |
 //! | how integrators step | [`scheme`], [`stepping`], [`formulation`], [`flight`], [`integrate`] |
+//! | a function or a stepper from elsewhere as a solver | [`adapter`], [`free_rotation`] |
 //! | errors | [`error`], [`failure`] |
 //!
 //! # Frames
@@ -41,13 +43,20 @@
 //! All quantities are f64 in SI units. This crate uses no random numbers, no clock, no input and no output. It does not
 //! contain the closed form of the motion either, which is in the crate `exact`: integrators do not
 //! depend on that crate, and so cannot use the solution that they are compared with.
+//!
+//! # Features
+//! Both are on by default. `integrators` has the Runge-Kutta driver ([`integrate`]). `serde` reads and writes coins, launches,
+//! states, settings and outcomes as plain data ([`data`]).
 
+pub mod adapter;
 pub mod attitude;
+pub mod body;
 pub mod body_rate;
 pub mod catalogue;
 pub mod checked;
 pub mod coin;
 pub mod columns;
+pub mod config;
 pub mod data;
 pub mod entry;
 pub mod error;
@@ -55,35 +64,47 @@ pub mod euler_angles;
 pub mod failure;
 pub mod flight;
 pub mod formulation;
+pub mod free_rotation;
+#[cfg(feature = "integrators")]
 pub mod integrate;
 pub mod launch;
 pub mod outcome;
 pub mod phase;
 pub mod precession;
 pub mod quantity;
+pub mod rigid_flight;
+pub mod rigid_phase;
+pub mod rigid_toss;
 pub mod scheme;
 pub mod solver;
 pub mod state;
 pub mod stepping;
 pub mod time_of_flight;
 
+pub use adapter::ForeignError;
 pub use attitude::Attitude;
+pub use body::{Body, PrincipalAxes};
 pub use checked::Checked;
 pub use coin::Coin;
 pub use columns::Tosses;
+pub use config::SolverConfig;
 pub use entry::{Settings, SolverEntry};
 pub use error::{Fault, InputError, Singularity, SolveError};
 pub use euler_angles::EulerAngles;
 pub use failure::Error;
 pub use flight::Flight;
 pub use formulation::{Formulation, Frame};
+pub use free_rotation::FreeRotation;
 pub use launch::{Launch, Toss};
-pub use nalgebra::Vector3;
+pub use nalgebra::{self, Vector3};
 pub use numerics::{Angle, AngleUnit, Quantity, Unit};
 pub use outcome::Outcome;
 pub use phase::RoughPhases;
 pub use precession::rate_of_precession;
 pub use quantity::Dimension;
+pub use rigid_flight::RigidFlight;
+pub use rigid_phase::RigidPhase;
+pub use rigid_toss::RigidToss;
 pub use scheme::Scheme;
 pub use solver::{Propagation, Solver, Work};
 pub use state::State;

@@ -2,6 +2,9 @@
 //! normal and the vertical. A third value, undecided, is needed because the computed cos θ has an error.
 
 use std::fmt;
+use std::str::FromStr;
+
+use crate::error::{InputError, find_named};
 
 /// How the coin lands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +19,9 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// All outcomes.
+    pub const ALL: [Self; 3] = [Self::Heads, Self::Tails, Self::Undecided];
+
     /// Heads or tails by the sign of `cos_tilt` if |`cos_tilt`| exceeds `error`, else undecided.
     #[inline]
     pub fn of(cos_tilt: f64, error: f64) -> Self {
@@ -45,6 +51,15 @@ impl fmt::Display for Outcome {
     }
 }
 
+/// Finds an outcome by its name.
+impl FromStr for Outcome {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        find_named("outcome", name, &Self::ALL, |outcome| outcome.name()).copied()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,8 +76,9 @@ mod tests {
 
     #[test]
     fn outcomes_are_named() {
-        let names = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(Outcome::name);
-        assert_eq!(names, ["heads", "tails", "undecided"]);
+        assert_eq!(Outcome::ALL.map(Outcome::name), ["heads", "tails", "undecided"]);
+        assert_eq!(Outcome::ALL.map(|outcome| outcome.name().parse()), Outcome::ALL.map(Ok));
+        assert_eq!("edge".parse::<Outcome>().unwrap_err().field(), "outcome");
         assert_eq!(format!("{:>6}", Outcome::Tails), " tails");
     }
 }

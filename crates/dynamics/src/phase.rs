@@ -71,7 +71,7 @@ mod tests {
     use crate::time_of_flight::TimeOfFlight;
 
     fn phases(k: f64, rate: [f64; 3], time: f64) -> RoughPhases {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
         RoughPhases::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
     }
 

@@ -96,6 +96,11 @@ const INERTIA: Row = (
 );
 
 impl NamedUnit {
+    /// So many of this unit.
+    pub fn times(self, value: f64) -> Given {
+        Given { value, unit: self }
+    }
+
     /// The name, such as `rev/s`.
     pub fn name(&self) -> &'static str {
         self.name
@@ -164,6 +169,11 @@ impl Given {
         self.unit.angle_unit().times(self.value)
     }
 
+    /// Whether [`Given::quantity`] is this number, which it is of a unit without π.
+    pub fn is_exact_quantity(self) -> bool {
+        !self.unit.has_pi
+    }
+
     /// The number in the SI unit, of a unit without π. Nothing is rounded.
     pub fn quantity(self) -> Quantity {
         Quantity::new(self.value, self.unit.ratio(1))
@@ -202,6 +212,23 @@ impl Dimension {
     /// What is expected, in words that name every unit.
     pub fn expected(self) -> &'static str {
         self.row().0
+    }
+
+    /// All kinds of quantities.
+    pub const ALL: [Self; 8] = [
+        Self::Angle,
+        Self::TurnRate,
+        Self::Speed,
+        Self::Time,
+        Self::Acceleration,
+        Self::Length,
+        Self::Mass,
+        Self::Inertia,
+    ];
+
+    /// `value` in the SI unit.
+    pub fn in_si(self, value: f64) -> Given {
+        self.units()[0].times(value)
     }
 
     /// Reads a quantity into its SI unit.
@@ -256,5 +283,6 @@ pub fn read_quantities(
     Ok(parsed.into_iter().map(|(given, _)| given).collect())
 }
 
+mod given;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,11 @@
 //! [`Scheme`], a scheme of integration: its name, its order, and how its steps can be controlled. A scheme is a value
 //! and not an enum, so that an integrator from elsewhere can bring its own.
 
+use std::fmt;
+use std::str::FromStr;
+
+use crate::error::{InputError, find_named};
+
 /// A scheme by which an integrator steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scheme {
@@ -19,9 +24,16 @@ impl Scheme {
     /// The classical method of order 4, without an error estimate.
     pub const RK4: Self = Self::new("rk4", Some(4)).with_fixed_steps();
 
+    /// Taylor series of an order that follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
+    pub const TAYLOR: Self = Self::new("taylor", None).adaptive();
+
     /// The schemes that [`integrate`](crate::integrate::integrate()) can run for any system, since they need nothing
     /// but its right-hand side.
     pub const RUNGE_KUTTA: [Self; 3] = [Self::DOP853, Self::DOPRI5, Self::RK4];
+
+    /// All schemes of this workspace. An integrator from elsewhere may have others, which
+    /// [`SolverEntry::scheme`](crate::SolverEntry::scheme) finds.
+    pub const ALL: [Self; 4] = [Self::DOP853, Self::DOPRI5, Self::RK4, Self::TAYLOR];
 
     /// A scheme called `name` whose global error has this `order`, or `None` if the order depends on the tolerance. How
     /// its steps can be controlled is added by [`adaptive`](Self::adaptive) and
@@ -63,6 +75,22 @@ impl Scheme {
     }
 }
 
+/// Writes the name.
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name)
+    }
+}
+
+/// Finds one of [`Scheme::ALL`] by its name.
+impl FromStr for Scheme {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        find_named("scheme", name, &Self::ALL, |scheme| scheme.name).copied()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,5 +103,14 @@ mod tests {
         }
         let own = Scheme::new("own", None).adaptive();
         assert_eq!((own.name(), own.order(), own.is_adaptive(), own.takes_steps()), ("own", None, true, false));
+    }
+
+    #[test]
+    fn a_scheme_is_written_by_its_name_and_read_by_it() {
+        for scheme in Scheme::ALL {
+            assert_eq!(scheme.to_string().parse(), Ok(scheme));
+        }
+        let error = "heun".parse::<Scheme>().unwrap_err().to_string();
+        assert_eq!(error, "scheme = 'heun' is unknown; known: dop853, dopri5, rk4, taylor");
     }
 }

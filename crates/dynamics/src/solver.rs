@@ -2,9 +2,14 @@
 //! landing, with an estimate of its error. All tests, checks and programs use solvers through it, so that any two can
 //! be compared.
 //!
+//! The toss of a coin is a [`Toss`], that of any rigid body a [`RigidToss`]. A solver has to solve the first and may
+//! solve the second: without methods of its own for it, it solves bodies with I1 = I2 as the coins that they are, and
+//! refuses the rest.
+//!
 //! A solver is chosen at compile time by its type, or at run time by its [`SolverEntry`](crate::SolverEntry). A solver
 //! cannot prove an outcome. It states an error estimate, and the outcome is undecided where cos θ is not larger. Only
-//! the crate `exact` makes proofs.
+//! the crate `exact`, by the closed form, and `kinematics-quat`, by a bound of its Taylor series, make proofs, as types
+//! that nothing else can make.
 
 use std::sync::Arc;
 
@@ -13,6 +18,7 @@ use crate::error::SolveError;
 use crate::failure::Error;
 use crate::launch::Toss;
 use crate::outcome::Outcome;
+use crate::rigid_toss::RigidToss;
 use crate::state::State;
 use crate::stepping::Stepping;
 
@@ -123,7 +129,59 @@ pub trait Solver: Send + Sync {
     fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
         self.outcome_at(toss, self.cos_tilt(toss)?)
     }
+
+    /// The state at landing of any rigid body. Override it if the solver integrates three body rates.
+    ///
+    /// # Errors
+    /// [`SolveError::NotSymmetric`] for a body with I1 ≠ I2 where the solver does not solve it; else as
+    /// [`Solver::propagate`].
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        self.propagate(&toss.require_symmetric(self.name(), COINS_ALONE)?)
+    }
+
+    /// An estimate of the error of cos θ for any rigid body, as [`Solver::error_estimate`] is one for a coin.
+    ///
+    /// # Errors
+    /// As [`Solver::error_estimate`]; [`SolveError::NotSymmetric`] as for [`Solver::propagate_rigid`].
+    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        self.error_estimate(&toss.require_symmetric(self.name(), COINS_ALONE)?)
+    }
+
+    /// cos θ at landing of any rigid body. Override it if cos θ can be computed more cheaply than the attitude.
+    ///
+    /// # Errors
+    /// As [`Solver::propagate_rigid`].
+    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
+        match toss.symmetric() {
+            Some(toss) => self.cos_tilt(&toss),
+            None => self.propagate_rigid(toss).map(|landing| landing.cos_tilt),
+        }
+    }
+
+    /// The outcome of any rigid body by `cos_tilt`, as [`Solver::outcome_at`] is that of a coin.
+    ///
+    /// # Errors
+    /// As [`Solver::error_estimate_rigid`].
+    fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+        match toss.symmetric() {
+            Some(toss) => self.outcome_at(&toss, cos_tilt),
+            None => {
+                Ok(self.error_estimate_rigid(toss)?.map_or(Outcome::Undecided, |error| Outcome::of(cos_tilt, error)))
+            }
+        }
+    }
+
+    /// How any rigid body lands.
+    ///
+    /// # Errors
+    /// As [`Solver::propagate_rigid`].
+    fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
+        self.outcome_at_rigid(toss, self.cos_tilt_rigid(toss)?)
+    }
 }
+
+/// Why a solver without methods for rigid bodies refuses one.
+const COINS_ALONE: &str = "it has no method for other rigid bodies";
 
 /// Implements [`Solver`] for a pointer to a solver.
 macro_rules! by_pointer {
@@ -153,6 +211,21 @@ macro_rules! by_pointer {
             fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
                 (**self).outcome(toss)
             }
+            fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+                (**self).propagate_rigid(toss)
+            }
+            fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+                (**self).error_estimate_rigid(toss)
+            }
+            fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
+                (**self).cos_tilt_rigid(toss)
+            }
+            fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+                (**self).outcome_at_rigid(toss, cos_tilt)
+            }
+            fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
+                (**self).outcome_rigid(toss)
+            }
         }
     };
 }
@@ -163,10 +236,14 @@ by_pointer!(Arc<S>);
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
     use nalgebra::Vector3;
 
     use super::*;
     use crate::attitude::Attitude;
+    use crate::body::Body;
+    use crate::checked::Checked;
     use crate::coin::Coin;
     use crate::launch::Launch;
     use crate::time_of_flight::TimeOfFlight;
@@ -225,6 +302,63 @@ mod tests {
             assert_eq!((solver.name(), solver.stepping()), ("still", None));
             assert_eq!(solver.error_estimate(&toss(0.3)), Ok(Some(0.5)));
             assert_eq!(solver.outcome(&toss(0.3)), Ok(Outcome::Heads));
+        }
+    }
+
+    /// Counts the flights of the solver within.
+    struct Counted(Still, AtomicU32);
+
+    impl Solver for Counted {
+        fn name(&self) -> &str {
+            self.0.name()
+        }
+
+        fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            self.0.propagate(toss)
+        }
+
+        fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+            self.0.error_estimate(toss)
+        }
+    }
+
+    #[test]
+    fn every_question_about_a_toss_takes_one_flight_also_through_pointers_and_the_guard() {
+        let [zeros, rates, speeds] = [[0.0; 3], [2.0; 3], [1.0; 3]];
+        let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 9.81, [&zeros, &zeros, &rates], &speeds).unwrap();
+        let counted = Arc::new(Counted(Still(Some(0.5)), AtomicU32::new(0)));
+        let checked: Box<dyn Solver> = Box::new(Checked::new(Arc::clone(&counted)));
+        for solver in [&*checked, &counted, &*counted] {
+            let flights = |ask: &dyn Fn()| {
+                counted.1.store(0, Ordering::Relaxed);
+                ask();
+                counted.1.load(Ordering::Relaxed)
+            };
+            assert_eq!(flights(&|| _ = solver.propagate(&toss(0.3)).unwrap()), 1);
+            assert_eq!(flights(&|| _ = solver.cos_tilt(&toss(0.3)).unwrap()), 1);
+            assert_eq!(flights(&|| _ = solver.outcome(&toss(0.3)).unwrap()), 1);
+            assert_eq!(flights(&|| _ = solver.outcome_at(&toss(0.3), 1.0).unwrap()), 0);
+            assert_eq!(flights(&|| solver.cos_tilts(&tosses, &mut [0.0; 3]).unwrap()), 3);
+        }
+    }
+
+    #[test]
+    fn a_solver_for_coins_solves_bodies_that_are_coins_and_refuses_others() {
+        let rigid = |moments| RigidToss { body: Body::from_moments(moments).unwrap(), launch: toss(0.3).launch };
+        let still: Arc<dyn Solver> = Arc::new(Still(Some(0.5)));
+        let (coin, brick) = (rigid([1.0, 1.0, 2.0]), rigid([1.0, 1.5, 2.0]));
+        for solver in [Box::new(Still(Some(0.5))) as Box<dyn Solver>, Box::new(Checked::new(still))] {
+            assert_eq!(solver.propagate_rigid(&coin), solver.propagate(&toss(0.3)));
+            assert_eq!(solver.cos_tilt_rigid(&coin), Ok(Attitude::about_x(0.3).cos_tilt()));
+            assert_eq!(solver.error_estimate_rigid(&coin), Ok(Some(0.5)));
+            assert_eq!(solver.outcome_rigid(&coin), Ok(Outcome::Heads));
+            let refused =
+                SolveError::NotSymmetric { solver: "still".to_owned(), why: "it has no method for other rigid bodies" };
+            assert_eq!(solver.propagate_rigid(&brick), Err(refused.clone()));
+            assert_eq!(solver.cos_tilt_rigid(&brick), Err(refused.clone()));
+            assert_eq!(solver.error_estimate_rigid(&brick), Err(refused.clone()));
+            assert_eq!(solver.outcome_rigid(&brick), Err(refused));
         }
     }
 

@@ -13,3 +13,10 @@ pub struct State {
     /// Body rate ω (BF, rad/s).
     pub rate: Vector3<f64>,
 }
+
+impl State {
+    /// The state with this attitude and body rate ω (BF, rad/s), as a vector or as an array.
+    pub fn new(attitude: Attitude, rate: impl Into<Vector3<f64>>) -> Self {
+        Self { attitude, rate: rate.into() }
+    }
+}

@@ -4,10 +4,20 @@
 //! Steps either keep the local error below a tolerance, or have a given length. See
 //! [`error_estimate`](Stepping::error_estimate) for the error of cos θ at landing that follows from either.
 
+use std::f64::consts::SQRT_2;
+use std::fmt;
+use std::str::FromStr;
+
 use crate::error::{InputError, SolveError, require};
 use crate::launch::Toss;
 use crate::phase::RoughPhases;
+use crate::quantity::Dimension;
+use crate::rigid_phase::RigidPhase;
+use crate::rigid_toss::RigidToss;
 use crate::scheme::Scheme;
+
+/// The largest number of steps of a flight. It is limited because integrators hold all steps in memory.
+pub const STEP_LIMIT: u32 = 1_000_000;
 
 /// What sets the size of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +81,31 @@ impl Stepping {
         Ok(Self { scheme, control: StepControl::Step(step) })
     }
 
+    /// `scheme` with the step control that it takes by default: [`DEFAULT_TOLERANCE`](Self::DEFAULT_TOLERANCE), or
+    /// [`DEFAULT_STEP`](Self::DEFAULT_STEP) for a scheme without an error estimate.
+    ///
+    /// # Errors
+    /// [`InputError`] for a scheme that takes neither a tolerance nor a step.
+    pub fn of(scheme: Scheme) -> Result<Self, InputError> {
+        if scheme.is_adaptive() {
+            Self::adaptive(scheme, Self::DEFAULT_TOLERANCE)
+        } else {
+            Self::fixed(scheme, Self::DEFAULT_STEP)
+        }
+    }
+
+    /// `scheme` with this control, or with the one of [`Stepping::of`] if there is none.
+    ///
+    /// # Errors
+    /// As [`Stepping::adaptive`] and [`Stepping::fixed`].
+    pub fn new(scheme: Scheme, control: Option<StepControl>) -> Result<Self, InputError> {
+        match control {
+            None => Self::of(scheme),
+            Some(StepControl::Tolerance(tolerance)) => Self::adaptive(scheme, tolerance),
+            Some(StepControl::Step(step)) => Self::fixed(scheme, step),
+        }
+    }
+
     /// The scheme.
     pub fn scheme(&self) -> Scheme {
         self.scheme
@@ -82,12 +117,19 @@ impl Stepping {
     }
 
     /// The same stepping with its tolerance [divided](tightened) by `factor`. Fixed steps are left unchanged.
+    #[cfg(feature = "integrators")]
     #[must_use]
     pub(crate) fn tightened(self, factor: f64) -> Self {
         let control = match self.control {
             StepControl::Tolerance(tolerance) => StepControl::Tolerance(tightened(tolerance, factor)),
             fixed @ StepControl::Step(_) => fixed,
         };
+        self.controlled_by(control)
+    }
+
+    /// The same scheme with another value of its step control.
+    #[must_use]
+    pub(crate) fn controlled_by(self, control: StepControl) -> Self {
         Self { control, ..self }
     }
 
@@ -95,24 +137,96 @@ impl Stepping {
     /// (rad) it is
     ///
     /// - 100 × tolerance × (1 + φ) with a tolerance;
-    /// - (|ω| h)^order × (1 + φ) + 4 ε (1 + φ + n) with n fixed steps of h (s). The first term is the truncation error
-    ///   of a regular motion, the second one allows for rounding. Nothing is measured, so that the error near a
-    ///   singular point may be larger.
+    /// - ((|ω| h)^order + 4 ε (1 + n)) × (1 + φ) with n fixed steps of h (s). The first term is the truncation error of
+    ///   a regular motion. The second one allows for rounding: each step rounds angles of up to φ, and body rates whose
+    ///   error grows with the phase; the largest factor that was measured is 1, where 4 stands. Nothing is measured
+    ///   during a flight, so that the error near a singular point may be larger.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
     pub fn error_estimate(&self, toss: &Toss) -> Result<f64, SolveError> {
-        let turned = 1.0 + RoughPhases::new(toss).largest()?;
-        Ok(match self.control {
+        Ok(self.estimate(RoughPhases::new(toss).largest()?, toss.launch.turn_rate(), toss.launch.flight_time()))
+    }
+
+    /// Estimate of the error of cos θ at the landing of any rigid body: that of [`error_estimate`](Self::error_estimate)
+    /// with the angle through which the body turns at most as φ, times the [growth](RigidPhase::growth) of a
+    /// disturbance. `None` from 1 on: such an estimate says nothing about a cosine.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
+    pub fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        if let Some(toss) = toss.symmetric() {
+            return self.error_estimate(&toss).map(Some);
+        }
+        let phase = RigidPhase::new(toss)?;
+        let fastest = SQRT_2 * toss.launch.turn_rate();
+        let estimate = phase.growth * self.estimate(phase.angle, fastest, toss.launch.flight_time());
+        Ok(Some(estimate).filter(|estimate| *estimate < 1.0))
+    }
+
+    /// The estimate for a flight of `time` (s) that turns by `phase` (rad), at most at the rate `turn_rate` (rad/s).
+    fn estimate(&self, phase: f64, turn_rate: f64, time: f64) -> f64 {
+        let turned = 1.0 + phase;
+        match self.control {
             StepControl::Tolerance(tolerance) => 100.0 * tolerance * turned,
             StepControl::Step(step) => {
                 // Schemes without an order take no fixed steps, so that the default is never used.
                 let order = self.scheme.order().unwrap_or(0);
-                let truncation = (toss.launch.turn_rate() * step).powf(f64::from(order));
-                truncation * turned + 4.0 * f64::EPSILON * (turned + toss.launch.flight_time() / step)
+                let truncation = (turn_rate * step).powf(f64::from(order));
+                let steps = time / step;
+                (truncation + 4.0 * f64::EPSILON * (1.0 + steps)) * turned
             }
-        })
+        }
     }
+}
+
+/// The default stepping, [`Stepping::DEFAULT`].
+impl Default for Stepping {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Writes the stepping as it is read: `dop853 tolerance=1e-10`, or `rk4 step=1e-3s`.
+impl fmt::Display for Stepping {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.control {
+            StepControl::Tolerance(tolerance) => write!(f, "{} tolerance={tolerance:e}", self.scheme),
+            StepControl::Step(step) => write!(f, "{} step={step:e}s", self.scheme),
+        }
+    }
+}
+
+/// Reads the name of one of [`Scheme::ALL`], alone or with `tolerance=NUMBER` or `step=TIME` after it. A time without a
+/// unit is in seconds.
+impl FromStr for Stepping {
+    type Err = InputError;
+
+    fn from_str(text: &str) -> Result<Self, InputError> {
+        let text = text.trim();
+        let Some((scheme, control)) = text.split_once(char::is_whitespace) else { return Self::of(text.parse()?) };
+        let expected = "a scheme, alone or with tolerance=NUMBER or step=TIME, such as dop853 tolerance=1e-9";
+        let malformed = || InputError::Malformed { field: "stepping", value: text.to_owned(), expected };
+        let control = match control.trim().split_once('=').ok_or_else(malformed)? {
+            ("tolerance", number) => StepControl::Tolerance(number.trim().parse().map_err(|_| malformed())?),
+            ("step", time) => StepControl::Step(Dimension::Time.read("step [s]", time)?),
+            _ => return Err(malformed()),
+        };
+        Self::new(scheme.parse()?, Some(control))
+    }
+}
+
+/// The number of equal steps of at most `step` that make up `duration`, at least 1.
+///
+/// # Errors
+/// [`SolveError::StepLimit`] if it is more than [`STEP_LIMIT`].
+pub(crate) fn step_count(duration: f64, step: f64) -> Result<f64, SolveError> {
+    // A step that divides the duration up to rounding must not become one step more.
+    let count = (duration / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
+    if count > f64::from(STEP_LIMIT) {
+        return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
+    }
+    Ok(count)
 }
 
 /// `tolerance` divided by `factor`, but at least ε. A `factor` below 1 leaves it unchanged.
@@ -139,7 +253,39 @@ mod tests {
         let adaptive = Stepping::adaptive(Scheme::DOPRI5, 1e-8).unwrap();
         near(adaptive.error_estimate(&toss).unwrap(), 100.0 * 1e-8 * 7.0);
         let fixed = Stepping::fixed(Scheme::RK4, 0.01).unwrap();
-        near(fixed.error_estimate(&toss).unwrap(), 0.02_f64.powi(4) * 7.0 + 4.0 * f64::EPSILON * (7.0 + 300.0));
+        near(fixed.error_estimate(&toss).unwrap(), (0.02_f64.powi(4) + 4.0 * f64::EPSILON * 301.0) * 7.0);
+    }
+
+    /// The documented defaults, on which the figures of every flight without settings rest.
+    #[test]
+    fn the_defaults_are_dop853_at_a_tolerance_of_1e_10_and_steps_of_a_millisecond() {
+        let default = (Stepping::DEFAULT.scheme(), Stepping::DEFAULT.control());
+        assert_eq!(default, (Scheme::DOP853, StepControl::Tolerance(1e-10)));
+        assert_eq!([Stepping::DEFAULT_TOLERANCE, Stepping::DEFAULT_STEP], [1e-10, 1e-3]);
+    }
+
+    #[test]
+    fn a_stepping_that_was_written_is_read_back_and_others_are_refused_by_name() {
+        let (fine, own_step) =
+            (Stepping::adaptive(Scheme::TAYLOR, 1.0 / 3e9), Stepping::fixed(Scheme::DOPRI5, 1.0 / 3.0));
+        for stepping in [Stepping::DEFAULT, fine.unwrap(), own_step.unwrap(), Stepping::of(Scheme::RK4).unwrap()] {
+            assert_eq!(stepping.to_string().parse(), Ok(stepping));
+        }
+        assert_eq!(Stepping::of(Scheme::RK4).unwrap().to_string(), "rk4 step=1e-3s");
+        assert_eq!("dopri5".parse(), Stepping::adaptive(Scheme::DOPRI5, Stepping::DEFAULT_TOLERANCE));
+        assert_eq!(" rk4  step = 2 ms ".replace(" = ", "=").parse(), Stepping::fixed(Scheme::RK4, 0.002));
+        for (text, message) in [
+            ("heun", "scheme = 'heun' is unknown"),
+            ("rk4 tolerance=1e-9", "scheme with a tolerance = 'rk4'"),
+            ("taylor step=1e-3", "scheme with a step = 'taylor'"),
+            ("dop853 tolerance=2", "tolerance = 2.0 is outside"),
+            ("dop853 tolerance=small", "stepping = 'dop853 tolerance=small'"),
+            ("dop853 1e-9", "stepping = 'dop853 1e-9'"),
+            ("rk4 step=3m", "step [s] = '3m'"),
+        ] {
+            let error = text.parse::<Stepping>().unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
     }
 
     #[test]

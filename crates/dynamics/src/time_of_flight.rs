@@ -6,6 +6,7 @@
 //! T = (v0 + √(v0² + 2 g h))/g        caught at h below the launch
 //! ```
 
+use numerics::big::{Big, exactly};
 use numerics::double_double::DoubleDouble;
 use numerics::scale::mantissa_and_exponent;
 
@@ -75,6 +76,21 @@ impl TimeOfFlight {
                 ExactTime::new((speed + discriminant.sqrt()) / gravity.into(), exponent - e_gravity)
             }
             Self::Given(time) => time.into(),
+        }
+    }
+
+    /// T (s) in so many binary digits.
+    pub fn in_digits(&self, digits: usize) -> Big {
+        let round = |value: Big| value.with_precision(digits).value();
+        let big = |value: f64| round(exactly(value));
+        match *self {
+            Self::Given(time) => big(time),
+            Self::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
+            Self::BallisticTo { speed, gravity, drop } => {
+                let (speed, gravity) = (exactly(speed), exactly(gravity));
+                let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
+                (round(speed) + round(discriminant).sqrt()) / round(gravity)
+            }
         }
     }
 

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{Coin, Launch, Outcome, Solver, TimeOfFlight, Toss, Vector3};
+use dynamics::{Coin, Launch, Outcome, Solver, TimeOfFlight, Toss};
 use exact::{ExactMotion, ExactSolver, Stage, TiltTerms, certify, margin};
 
 /// Launches with rates of 1 to 60 rad/s about each axis and speeds of 3 to 5 m/s, from Weyl's sequence.
@@ -14,7 +14,7 @@ fn tosses() -> Vec<Toss> {
     let toss = |index| {
         let rate = [2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt()].map(|root| 1.0 + 59.0 * part(index, root));
         let thrown = TimeOfFlight::Ballistic { speed: 3.0 + 2.0 * part(index, 7f64.sqrt()), gravity: 9.81 };
-        Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::from(rate), thrown).expect("a valid launch") }
+        Toss { coin: Coin::PAPER, launch: Launch::new(rate, thrown).expect("a valid launch") }
     };
     (0..10_000).map(toss).collect()
 }

@@ -2,7 +2,11 @@
 //! fields are private and only this crate can construct them, so that no other code can pass off an estimated outcome
 //! as a proven one.
 
-use dynamics::Outcome;
+use std::fmt;
+use std::str::FromStr;
+
+use dynamics::error::find_named;
+use dynamics::{InputError, Outcome};
 
 /// The stage of the proof that decided an outcome, from the cheapest to the most accurate; see
 /// [`certified`](crate::certified).
@@ -27,6 +31,22 @@ impl Stage {
     /// Name of the stage, in words.
     pub fn name(self) -> &'static str {
         ["Keller's cosine", "no trigonometry", "f64", "double-double", "more digits"][self as usize]
+    }
+}
+
+/// Writes the [name](Stage::name).
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Finds a stage by its name.
+impl FromStr for Stage {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        find_named("stage", name, &Self::ALL, |stage| stage.name()).copied()
     }
 }
 

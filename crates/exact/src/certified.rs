@@ -85,7 +85,7 @@ impl ProvenCounts {
         let mut counts = Self::default();
         for (index, toss) in (0..).zip(tosses) {
             let certificate = certify(&toss);
-            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss.into()), source })?);
         }
         Ok(counts)
     }

@@ -142,7 +142,7 @@ mod tests {
         ]);
         for (time, rate) in times.flat_map(|time| rates.map(|rate| (time, rate))) {
             for (k, tilt) in [0.0, 0.3, 1.0, 1.9].into_iter().flat_map(|k| [0.0, 0.7, 3.0].map(|tilt| (k, tilt))) {
-                let launch = Launch::new(Vector3::from(rate), time).unwrap().with_tilt(tilt).unwrap();
+                let launch = Launch::new(rate, time).unwrap().with_tilt(tilt).unwrap();
                 // The inertia ratio k/1.1 has no exact f64, except for k = 0.
                 let toss = Toss { coin: Coin::from_moments(1.1, k).unwrap(), launch };
                 let (landing, motion) = (compensated_landing(&toss).unwrap(), ExactMotion::new(&toss));

@@ -47,7 +47,6 @@ pub(crate) fn keller_outcome(phase: f64) -> Option<Outcome> {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Launch, TimeOfFlight};
-    use nalgebra::Vector3;
 
     use super::*;
     use crate::certified::certify;
@@ -55,7 +54,7 @@ mod tests {
     use crate::multiprecision::by_multiprecision;
 
     fn toss(rate: [f64; 3], tilt: f64, time: f64) -> Toss {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
         Toss { coin: Coin::DISC, launch: launch.with_tilt(tilt).unwrap() }
     }
 

@@ -11,22 +11,28 @@
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
 //! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
+//! | the motion of any rigid body, and its outcomes with a proof | [`rigid`] |
 //! | many tosses at once, in SIMD registers | [`batch`] |
 //! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
 //!
 //! Symbols and frames are those of the crate [`dynamics`]: BF is the body frame, LF the laboratory frame. The crates of
 //! the integrators do not depend on this crate.
+//!
+//! The feature `serde`, on by default, writes certificates, margins and sensitivities as plain data.
 
 pub mod batch;
 pub mod certificate;
 pub mod certified;
 pub mod compensated;
+#[cfg(feature = "serde")]
+mod data;
 pub mod heads;
 mod keller;
 pub mod margin;
 pub mod motion;
 mod multiprecision;
 mod polar;
+pub mod rigid;
 pub mod sensitivity;
 pub mod solver;
 pub mod thrown;
@@ -40,6 +46,7 @@ pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use heads::HeadsPhases;
 pub use margin::{Margin, margin, speeds_of_heads};
 pub use motion::ExactMotion;
+pub use rigid::{RigidMargin, RigidMotion, certify_rigid, margin_rigid, rigid_speeds_of_heads};
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
 pub use thrown::thrown_speeds_of_heads;

@@ -26,6 +26,7 @@ use dynamics::time_of_flight::ExactTime;
 use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
+pub(crate) use self::flight::speed_and_gravity;
 use self::line::Line;
 use self::search::{MOST_WORK, Walk};
 use crate::certified::certify;

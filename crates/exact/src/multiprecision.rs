@@ -21,7 +21,7 @@
 //! - With rates in turns, φ is π times an algebraic number, and there are more ties: a coin that is flipped at one turn
 //!   in a second is on edge after a quarter of a second. Such a toss counts as a tie if |cos θ| is below 2^-12000.
 
-use dynamics::{AngleUnit, Outcome, TimeOfFlight, Toss};
+use dynamics::{AngleUnit, Outcome, Toss};
 use numerics::big::{Big, exactly};
 
 use crate::tilt_terms::terms;
@@ -127,22 +127,12 @@ pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
 
 /// T in `digits` binary digits (s).
 pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
-    let round = |value: Big| value.with_precision(digits).value();
-    let big = |value: f64| round(exactly(value));
-    match toss.launch.time_of_flight() {
-        TimeOfFlight::Given(time) => big(time),
-        TimeOfFlight::Ballistic { speed, gravity } => big(2.0) * big(speed) / big(gravity),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            let (speed, gravity) = (exactly(speed), exactly(gravity));
-            let discriminant = &speed * &speed + exactly(2.0) * &gravity * exactly(drop);
-            (round(speed) + round(discriminant).sqrt()) / round(gravity)
-        }
-    }
+    toss.launch.time_of_flight().in_digits(digits)
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Angle, Attitude, Coin, Launch, Quantity, Unit};
+    use dynamics::{Angle, Attitude, Coin, Launch, Quantity, TimeOfFlight, Unit};
     use nalgebra::Vector3;
 
     use super::*;
@@ -150,7 +140,7 @@ mod tests {
     use crate::motion::ExactMotion;
 
     fn toss(coin: Coin, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
         Toss { coin, launch: launch.with_attitude(attitude) }
     }
 

@@ -57,7 +57,7 @@ mod tests {
                 assert!(found == expected || nearest < 1e-11, "{drop:?}, {speed} m/s");
             }
         }
-        let given = Toss { launch: Launch::new(Vector3::x(), TimeOfFlight::Given(1.0)).unwrap(), coin: Coin::PAPER };
+        let given = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap(), coin: Coin::PAPER };
         assert_eq!(thrown_speeds_of_heads(&given, 0.0), Ok(None));
     }
 }

@@ -131,7 +131,7 @@ mod tests {
         for (rate, tilt, half_width) in
             [([0.0; 3], 0.3, std::f64::consts::PI), ([0.0; 3], 2.0, 0.0), ([1e-160, 0.0, 1.0], 2.0, 0.0)]
         {
-            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
             let terms = TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch });
             assert_eq!((terms.phases(1.0)[0], terms.heads().half_width), (0.0, half_width), "{rate:?} {tilt}");
             assert!((terms.height(0.0) / terms.size - tilt.cos()).abs() < 1e-15);
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn phases_are_rates_of_precession_and_spin_times_the_time() {
         let terms = |k: f64, rate: [f64; 3]| {
-            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap();
+            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
             TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
         };
         assert_eq!(terms(0.5, [30.0, 0.0, -80.0]).phases(2.0), [100.0, 80.0]);

@@ -60,7 +60,6 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
     use dynamics::{Coin, Launch, TimeOfFlight};
-    use nalgebra::Vector3;
 
     use super::*;
     use crate::multiprecision::by_multiprecision;
@@ -71,7 +70,7 @@ mod tests {
     }
 
     fn toss(k: f64, rate: [f64; 3], tilt: f64, time: f64) -> Toss {
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
         Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
     }
 

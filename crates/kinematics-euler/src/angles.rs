@@ -10,19 +10,26 @@
 //! Here ω = (ωx, ωy, ωz) is the body rate. At sin β = 0 the equation for α' reads 0/0. A flight may start there, with
 //! the limit α' cos β = k ωz / 2, where k is the inertia ratio I3/I1. A return to sin β = 0 is a typed error in the
 //! vertical frame. In the momentum frame β is constant, so that no flight gets there.
+//!
+//! Any other rigid body has angles of its own (`rigid.rs`), except in [`Formulation::RAW`]: the paper's equations suppose
+//! a coin.
 
 use std::f64::consts::PI;
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Propagation, Scheme, Settings, Singularity, SolveError, Solver, SolverEntry,
-    Stepping, Toss,
+    EulerAngles, Flight, Formulation, Propagation, RigidToss, Scheme, Settings, Singularity, SolveError, Solver,
+    SolverEntry, Stepping, Toss,
 };
 use nalgebra::SVector;
 
 use crate::initial::InitialConditions;
 use crate::raw::RawAngles;
+use crate::rigid;
+
+/// Why the paper's equations solve coins alone.
+const RAW_IS_FOR_COINS: &str = "the paper's equations suppose I1 = I2 and a constant ωz";
 
 /// The solver that integrates the three Euler angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +84,21 @@ impl Solver for EulerAnglesSolver {
         };
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
         start.landing(&flight, &angles, [end[3], end[4]], work)
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        match toss.symmetric() {
+            Some(toss) => self.propagate(&toss),
+            None if self.formulation.is_guarded() => rigid::propagate(toss, &self.stepping, self.formulation),
+            None => self.propagate(&toss.require_symmetric(Self::NAME, RAW_IS_FOR_COINS)?),
+        }
+    }
+
+    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        if !self.formulation.is_guarded() {
+            toss.require_symmetric(Self::NAME, RAW_IS_FOR_COINS)?;
+        }
+        self.stepping.error_estimate_rigid(toss)
     }
 }
 
@@ -135,7 +157,7 @@ mod tests {
     fn the_derivatives_are_those_of_the_exact_motion() {
         for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)]
         {
-            let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
             let motion = ExactMotion::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch });
             let h = 1e-4;
             for step in 1..10 {

@@ -17,13 +17,16 @@
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Propagation, Scheme, Settings, Singularity, SolveError, Solver, SolverEntry,
-    Stepping, Toss,
+    EulerAngles, Flight, Formulation, Propagation, RigidToss, Scheme, Settings, Singularity, SolveError, Solver,
+    SolverEntry, Stepping, Toss,
 };
 use nalgebra::SVector;
 
 use crate::initial::InitialConditions;
 use crate::raw::RawGamma;
+
+/// Why the γ-ODE solves coins alone.
+const FOR_COINS: &str = "its equation supposes I1 = I2 and a constant ωz";
 
 /// If |D| is below this fraction of |β'|, about √ε, rounding errors leave no correct digit of (10).
 const CANCELLATION_THRESHOLD: f64 = 1.5e-8;
@@ -89,6 +92,14 @@ impl Solver for GammaSolver {
         }
         let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        self.propagate(&toss.require_symmetric(Self::NAME, FOR_COINS)?)
+    }
+
+    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        self.error_estimate(&toss.require_symmetric(Self::NAME, FOR_COINS)?)
     }
 }
 

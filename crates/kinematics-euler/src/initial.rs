@@ -21,7 +21,7 @@ use dynamics::{
 
 /// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π), which changes its attitude by
 /// at most 2 ε = 4.4e-16 rad.
-const VERTICAL: f64 = f64::EPSILON;
+pub(crate) const VERTICAL: f64 = f64::EPSILON;
 
 /// The frame of the angles, and their values and rates at launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +111,7 @@ mod tests {
 
     fn start(rate: [f64; 3], components: [f64; 4], formulation: Formulation) -> InitialConditions {
         let attitude = Attitude::from_components(components).unwrap();
-        let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
+        let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
         InitialConditions::new(&Toss { coin: Coin::PAPER, launch }, &Vector3::from(rate), formulation)
     }
 

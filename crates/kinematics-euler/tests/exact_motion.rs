@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use dynamics::{
-    Attitude, Coin, EulerAngles, Formulation, Launch, Scheme, SolveError, Solver, Stepping, TimeOfFlight, Toss, Vector3,
+    Attitude, Coin, EulerAngles, Formulation, Launch, Scheme, SolveError, Solver, Stepping, TimeOfFlight, Toss,
 };
 use exact::ExactMotion;
 use kinematics_euler::{EulerAnglesSolver, GammaSolver};
@@ -19,7 +19,7 @@ fn solvers(formulation: Formulation) -> [Box<dyn Solver>; 2] {
 
 /// A toss with this attitude at launch.
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).expect("valid");
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).expect("valid");
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_attitude(attitude) }
 }
 

@@ -38,6 +38,20 @@ fn launches(criterion: &mut Criterion) {
         let name = format!("taylor in lanes, {}", level.name());
         group.bench_function(name, |bencher| bencher.iter(|| taylor.propagate_all(black_box(&tosses), level)));
     }
+    for tolerance in [TAYLOR_TOLERANCE, 1e-12] {
+        let (solver, level) = (solver(TAYLOR, tolerance), SimdLevel::widest());
+        for (name, proves) in [("plain", false), ("proven", true)] {
+            group.bench_function(format!("taylor in lanes, {tolerance:e}, {name}"), |bencher| {
+                bencher.iter(|| {
+                    if proves {
+                        solver.certify_all(black_box(&tosses), level).len()
+                    } else {
+                        solver.propagate_all(black_box(&tosses), level).len()
+                    }
+                });
+            });
+        }
+    }
     for (name, solver) in [("taylor", taylor), ("dop853", dop853)] {
         let fly = || black_box(&tosses).iter().filter(|toss| solver.propagate(toss).is_ok()).count();
         group.bench_function(name, |bencher| bencher.iter(fly));

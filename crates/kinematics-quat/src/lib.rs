@@ -8,26 +8,47 @@
 //! paper; their closed-form solution is never used. Rates are dimensionless, as in a [`Flight`].
 //!
 //! The Runge-Kutta schemes are those of `dynamics::integrate`. Taylor series are in this crate, because they need the
-//! recurrences of the coefficients in addition to the right-hand side: `taylor.rs` computes one step, and `lockstep.rs`
-//! runs the flights.
+//! recurrences of the coefficients in addition to the right-hand side: `taylor.rs` computes one step, `plan.rs` chooses
+//! its length, `coins.rs` keeps the states, and `lockstep.rs` runs the flights.
+//!
+//! Any other rigid body has three rates that change, about its principal axes (`bodies.rs`). The formulations mean the
+//! same for it: in [`Formulation::RAW`] the quaternion is not projected.
 
+mod bodies;
+mod coins;
+mod defect;
+mod digits;
+mod enclosure;
+mod integration;
 mod lockstep;
+mod plan;
 mod product;
+mod proven;
+mod proving;
 mod taylor;
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
+use dynamics::phase::RoughPhases;
 use dynamics::{
-    Attitude, Error, Flight, Formulation, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, State,
-    StepControl, Stepping, Toss, Tosses, Work,
+    Attitude, Error, Flight, Formulation, Propagation, RigidFlight, RigidPhase, RigidToss, Scheme, Settings,
+    SolveError, Solver, SolverEntry, State, StepControl, Stepping, Toss, Tosses, Vector3, Work,
 };
 use nalgebra::SVector;
 use numerics::lanes::SimdLevel;
 
-use crate::lockstep::Plans;
+use crate::bodies::Bodies;
+pub use crate::bodies::RigidSystem;
+use crate::coins::Coins;
+use crate::enclosure::Record;
+pub use crate::integration::Integration;
+use crate::lockstep::fly;
+use crate::plan::Plans;
+pub use crate::proven::IntegratedCertificate;
+pub use crate::proving::{IntegratedCounts, Proving};
 
-/// The scheme by Taylor series, whose order follows from the tolerance (Jorba & Zou, Exp. Math. 14 (2005), 99).
-pub const TAYLOR: Scheme = Scheme::new("taylor", None).adaptive();
+/// The scheme by Taylor series, [`Scheme::TAYLOR`].
+pub const TAYLOR: Scheme = Scheme::TAYLOR;
 
 /// The solver that integrates the quaternion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +57,15 @@ pub struct QuaternionSolver {
     /// Whether cos θ is that of the quaternion projected onto unit norm.
     projects: bool,
     /// The plans of the steps by Taylor series; `None` for a Runge-Kutta scheme.
-    taylor: Option<Plans>,
+    taylor: Option<Taylor>,
+}
+
+/// The plans of the steps by Taylor series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Taylor {
+    tolerance: f64,
+    coins: Plans,
+    bodies: Plans,
 }
 
 impl QuaternionSolver {
@@ -45,11 +74,10 @@ impl QuaternionSolver {
 
     /// The solver's entry for the registry.
     pub fn entry() -> SolverEntry {
-        let [dop853, dopri5, rk4] = Scheme::RUNGE_KUTTA;
         let build =
             |settings: &Settings| -> Box<dyn Solver> { Box::new(Self::new(settings.stepping, settings.formulation)) };
         SolverEntry::new(Self::NAME, "Q' = ½ Q ⊗ (0, ω): no singular attitude", build)
-            .with_schemes(&[dop853, dopri5, rk4, TAYLOR])
+            .with_schemes(&Scheme::ALL)
             .with_formulations(&[Formulation::MOMENTUM, Formulation::RAW])
             .with_color([0, 158, 115])
     }
@@ -58,7 +86,10 @@ impl QuaternionSolver {
     /// computed from the quaternion as it was integrated, without projection onto unit norm.
     pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
         let taylor = match (stepping.scheme(), stepping.control()) {
-            (TAYLOR, StepControl::Tolerance(tolerance)) => Some(Plans::new(tolerance)),
+            (TAYLOR, StepControl::Tolerance(tolerance)) => {
+                let (coins, bodies) = (Plans::of_coins(tolerance), Plans::of_bodies(tolerance));
+                Some(Taylor { tolerance, coins, bodies })
+            }
             _ => None,
         };
         Self { stepping, projects: formulation.is_guarded(), taylor }
@@ -68,36 +99,44 @@ impl QuaternionSolver {
     /// as many flights are computed at once as a register at the SIMD `level` has lanes; with the other schemes, one
     /// after the other.
     pub fn propagate_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
-        let Some(plans) = &self.taylor else {
+        let Some(taylor) = &self.taylor else {
             return tosses.iter().map(|toss| self.propagate(toss)).collect();
         };
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        self.fly(tosses, plans, level, |index, landing| landings[index] = landing);
+        fly::<Coins>(&taylor.coins, tosses, level, |index, landed| {
+            landings[index] = landed.and_then(|landed| self.landing(tosses[index].launch.attitude(), &landed));
+        });
         landings
     }
 
-    /// Solves `tosses` by Taylor series, and calls `land` with the index and the landing of each, in any order.
-    fn fly(
-        &self,
-        tosses: &[Toss],
-        plans: &Plans,
-        level: SimdLevel,
-        mut land: impl FnMut(usize, Result<Propagation, SolveError>),
-    ) {
-        plans.fly(tosses, level, |index, landed| {
-            land(index, landed.and_then(|landed| self.landing(&tosses[index], &landed)));
+    /// The landings of any rigid bodies, as [`QuaternionSolver::propagate_all`] returns those of coins.
+    pub fn propagate_all_rigid(&self, tosses: &[RigidToss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
+        let Some(taylor) = &self.taylor else {
+            return tosses.iter().map(|toss| self.propagate_rigid(toss)).collect();
+        };
+        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        let is_coin = |index: &usize| tosses[*index].symmetric().is_some();
+        let (coins, bodies): (Vec<usize>, Vec<usize>) = (0..tosses.len()).partition(is_coin);
+        let flown: Vec<Toss> = coins.iter().filter_map(|index| tosses[*index].symmetric()).collect();
+        for (index, landing) in coins.into_iter().zip(self.propagate_all(&flown, level)) {
+            landings[index] = landing;
+        }
+        let flown: Vec<RigidToss> = bodies.iter().map(|index| tosses[*index]).collect();
+        fly::<Bodies>(&taylor.bodies, &flown, level, |index, landed| {
+            landings[bodies[index]] = landed.and_then(|landed| self.landing(flown[index].launch.attitude(), &landed));
         });
+        landings
     }
 
-    /// The landing of `toss` from the integrated end state.
-    fn landing(&self, toss: &Toss, landed: &Landed) -> Result<Propagation, SolveError> {
-        let &Landed { flight, turn, rate: [rate_x, rate_y], work } = landed;
+    /// The landing of a launch with the attitude `launched` from the integrated end state.
+    fn landing(&self, launched: Attitude, landed: &Landed) -> Result<Propagation, SolveError> {
+        let &Landed { flight, turn, rate, work, .. } = landed;
         // Rounding and truncation change the norm, but the attitude is the direction of the quaternion alone. One
         // projection at the end is enough: the equation is linear in the quaternion, and so each step keeps a wrong
         // norm as a factor.
         let norm = SVector::from(turn).norm();
         let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
-        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(rate_x, rate_y) };
+        let state = State { attitude: launched * turn, rate };
         let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
         Ok(Propagation::new(state, work).with_cos_tilt(cos_tilt).with_norm_error((norm - 1.0).abs()))
     }
@@ -112,14 +151,22 @@ impl Solver for QuaternionSolver {
         Some(self.stepping)
     }
 
+    /// That of the [stepping](Stepping::error_estimate); by Taylor series (tolerance + ε (1 + φ)) × (1 + φ) if it is
+    /// less, with the phase φ (rad). Series keep all omitted terms together below the tolerance, so that the rest is
+    /// rounding.
     fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
+        let estimate = self.stepping.error_estimate(toss)?;
+        let Some(Taylor { tolerance, .. }) = self.taylor else { return Ok(Some(estimate)) };
+        let turned = 1.0 + RoughPhases::new(toss).largest()?;
+        Ok(Some(estimate.min((tolerance + f64::EPSILON * turned) * turned)))
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        if let Some(plans) = &self.taylor {
+        if let Some(taylor) = &self.taylor {
             let mut landing = Err(SolveError::NotFinite { time: 0.0 });
-            self.fly(std::slice::from_ref(toss), plans, SimdLevel::for_one_lane(), |_, found| landing = found);
+            fly::<Coins>(&taylor.coins, std::slice::from_ref(toss), SimdLevel::for_one_lane(), |_, landed| {
+                landing = landed.and_then(|landed| self.landing(toss.launch.attitude(), &landed));
+            });
             return landing;
         }
         let flight = Flight::new(toss)?;
@@ -127,7 +174,43 @@ impl Solver for QuaternionSolver {
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.stepping)?;
         let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
-        self.landing(toss, &Landed { flight, turn: [w, x, y, z], rate: [rate_x, rate_y], work })
+        let landed = Landed { flight, turn: [w, x, y, z], rate: flight.rate_at(rate_x, rate_y), work, record: None };
+        self.landing(toss.launch.attitude(), &landed)
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        if let Some(toss) = toss.symmetric() {
+            return self.propagate(&toss);
+        }
+        if let Some(taylor) = &self.taylor {
+            let mut landing = Err(SolveError::NotFinite { time: 0.0 });
+            fly::<Bodies>(&taylor.bodies, std::slice::from_ref(toss), SimdLevel::for_one_lane(), |_, landed| {
+                landing = landed.and_then(|landed| self.landing(toss.launch.attitude(), &landed));
+            });
+            return landing;
+        }
+        let flight = RigidFlight::new(toss)?;
+        let [first, second, third] = flight.rates;
+        let start = SVector::from([1.0, 0.0, 0.0, 0.0, first, second, third]);
+        let system = RigidSystem::new(flight.couplings);
+        let (end, work) = flight.timing().integrate(&system, start, &self.stepping)?;
+        let &[w, x, y, z, first, second, third] = &end.data.0[0];
+        let (turn, rate) = (flight.turn_in_body([w, x, y, z]), flight.rate_at([first, second, third]));
+        self.landing(toss.launch.attitude(), &Landed { flight: *flight.timing(), turn, rate, work, record: None })
+    }
+
+    /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
+    /// [growth](RigidPhase::growth) of a disturbance, if it is less.
+    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        if let Some(toss) = toss.symmetric() {
+            return self.error_estimate(&toss);
+        }
+        let estimate = self.stepping.error_estimate_rigid(toss)?;
+        let Some(Taylor { tolerance, .. }) = self.taylor else { return Ok(estimate) };
+        let RigidPhase { angle, growth } = RigidPhase::new(toss)?;
+        let of_series = growth * (tolerance + f64::EPSILON * (1.0 + angle)) * (1.0 + angle);
+        // From 1 on an estimate says nothing about a cosine.
+        Ok(Some(estimate.unwrap_or(1.0).min(of_series)).filter(|estimate| *estimate < 1.0))
     }
 
     /// With Taylor series, computes as many flights at once as a register has lanes.
@@ -148,9 +231,11 @@ struct Landed {
     flight: Flight,
     /// P, before it is normalised.
     turn: [f64; 4],
-    /// ωx and ωy in the flight's unit.
-    rate: [f64; 2],
+    /// ω (BF, rad/s).
+    rate: Vector3<f64>,
     work: Work,
+    /// What a bound of the error has to know of the steps; `None` of flights that have no bound.
+    record: Option<Record>,
 }
 
 /// The system over the state (w, x, y, z, ωx, ωy), where (w, x, y, z) is P. Rates may be in any unit; its inverse is
@@ -173,17 +258,22 @@ impl QuaternionSystem {
 impl OdeSystem<6> for QuaternionSystem {
     fn derivative(&self, y: &SVector<f64, 6>) -> SVector<f64, 6> {
         let &[w, x, y, z, rate_x, rate_y] = &y.data.0[0];
-        let (half_x, half_y, half_z) = (0.5 * rate_x, 0.5 * rate_y, 0.5 * self.rate_z);
         let (rate_x_dot, rate_y_dot) = transverse_acceleration(self.q, rate_x, rate_y);
-        SVector::from([
-            -(x * half_x + y * half_y + z * half_z),
-            w * half_x + y * half_z - z * half_y,
-            w * half_y + z * half_x - x * half_z,
-            w * half_z + x * half_y - y * half_x,
-            rate_x_dot,
-            rate_y_dot,
-        ])
+        let [w, x, y, z] = half_product([w, x, y, z], [rate_x, rate_y, self.rate_z]);
+        SVector::from([w, x, y, z, rate_x_dot, rate_y_dot])
     }
+}
+
+/// ½ P ⊗ (0, ω).
+#[inline(always)]
+pub(crate) fn half_product([w, x, y, z]: [f64; 4], [rate_x, rate_y, rate_z]: [f64; 3]) -> [f64; 4] {
+    let (half_x, half_y, half_z) = (0.5 * rate_x, 0.5 * rate_y, 0.5 * rate_z);
+    [
+        -(x * half_x + y * half_y + z * half_z),
+        w * half_x + y * half_z - z * half_y,
+        w * half_y + z * half_x - x * half_z,
+        w * half_z + x * half_y - y * half_x,
+    ]
 }
 
 #[cfg(test)]

@@ -33,10 +33,10 @@ pub(crate) const LARGEST_ORDER: usize = 26;
 
 /// Number of coefficients of η, from the first on, that have twice as many digits if η is compensated. Later terms are
 /// so small that their rounding does not matter.
-const COMPENSATED: usize = 10;
+pub(crate) const COMPENSATED: usize = 10;
 
 /// 1/(k + 1) for each k.
-const INVERSES: [Double<f64>; LARGEST_ORDER] = {
+pub(crate) const INVERSES: [Double<f64>; LARGEST_ORDER] = {
     let mut inverses = [[1.0, 0.0]; LARGEST_ORDER];
     let mut k = 0;
     while k < LARGEST_ORDER {
@@ -50,9 +50,9 @@ const INVERSES: [Double<f64>; LARGEST_ORDER] = {
 /// loads.
 #[repr(align(64))]
 pub(crate) struct Series<S: Simd> {
-    u: [Real<S>; LARGEST_ORDER + 1],
-    w: [Real<S>; LARGEST_ORDER + 1],
-    r: [Real<S>; LARGEST_ORDER + 1],
+    pub(crate) u: [Real<S>; LARGEST_ORDER + 1],
+    pub(crate) w: [Real<S>; LARGEST_ORDER + 1],
+    pub(crate) r: [Real<S>; LARGEST_ORDER + 1],
     /// The rounding errors of the first coefficients in `r`.
     r_low: [Real<S>; COMPENSATED],
 }

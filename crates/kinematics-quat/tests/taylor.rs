@@ -2,7 +2,7 @@
 //! have the same bits whichever flights are solved with it and at every SIMD level, so that batches can be repeated.
 
 use dynamics::{
-    Attitude, Coin, Formulation, Launch, Propagation, SolveError, Solver, Stepping, TimeOfFlight, Toss, Vector3, Work,
+    Attitude, Coin, Formulation, Launch, Propagation, SolveError, Solver, Stepping, TimeOfFlight, Toss, Work,
 };
 use exact::ExactMotion;
 use kinematics_quat::{QuaternionSolver, TAYLOR};
@@ -13,7 +13,7 @@ fn taylor(tolerance: f64) -> QuaternionSolver {
 }
 
 fn toss(k: f64, rate: [f64; 3], time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).expect("valid");
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).expect("valid");
     Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_tilt(0.3).expect("valid") }
 }
 

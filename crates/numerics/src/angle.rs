@@ -63,14 +63,15 @@ impl From<f64> for Angle {
 const TURN: [f64; 2] = [std::f64::consts::TAU, 2.449_293_598_294_706_4e-16];
 
 /// π/2 in three parts, to 2^-163.
-const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+pub(crate) const QUARTER: [f64; 3] =
+    [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
 /// Largest angle that is reduced in double-double (rad).
 const LARGEST: f64 = 1_048_576.0;
 
 /// Sine and cosine of 0, 1/16, 2/16, ... up to the first above π/4.
 #[rustfmt::skip]
-const SIXTEENTHS: [[[f64; 2]; 2]; 14] = [
+pub(crate) const SIXTEENTHS: [[[f64; 2]; 2]; 14] = [
     [[0.0, 0.0], [1.0, 0.0]],
     [[0.062_459_317_842_380_2, -2.040_259_504_585_711e-18], [0.998_047_510_700_099_1, 3.323_229_167_414_134_6e-17]],
     [[0.124_674_733_385_227_69, -2.925_947_496_057_858e-18], [0.992_197_667_229_329, 4.754_870_575_189_364e-17]],
@@ -122,10 +123,7 @@ impl Angle {
         if angle.hi().abs() <= LARGEST {
             return sin_cos(angle);
         }
-        self.sin_cos_in_digits(256).map(|part| {
-            let hi = part.to_f64().value();
-            DoubleDouble::exactly(hi) + (part - exactly(hi)).to_f64().value().into()
-        })
+        self.sin_cos_in_digits(256).map(|part| DoubleDouble::nearest(&part))
     }
 
     /// Sine and cosine to so many binary digits after the point, at least 80. They are 0 only where they are exactly 0.
@@ -153,7 +151,7 @@ impl Angle {
 }
 
 #[inline]
-fn double_double([hi, lo]: [f64; 2]) -> DoubleDouble {
+pub(crate) fn double_double([hi, lo]: [f64; 2]) -> DoubleDouble {
     DoubleDouble::exactly(hi) + lo.into()
 }
 

@@ -6,6 +6,8 @@
 //! M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44 (2017), 15 (algorithms 6, 12, 17 and their
 //! bounds); V. Lefèvre et al., ACM Trans. Math. Softw. 49 (2023), 12 (√).
 
+mod functions;
+
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number hi + lo, where hi is the nearest f64 and lo the remainder.

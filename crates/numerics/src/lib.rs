@@ -7,22 +7,33 @@
 //! | numbers of any precision | [`big`] |
 //! | the trait over which a formula is written once for all kinds of numbers | [`number`] |
 //! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`], [`angle`] |
+//! | the trait of the numbers that also have roots, exponentials and angles | [`elementary`] |
+//! | numbers with a bound of their error, which grows with each operation | [`ball`] |
+//! | numbers with a derivative | [`dual`] |
+//! | elliptic integrals of the first kind and theta functions | [`elliptic`] |
 //! | powers of two as units | [`scale`] |
 //! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
 //!
 //! Errors are bounded in units of u = 2^-53, the [`UNIT_ROUNDOFF`]. Each bound is stated at its operation.
 
 pub mod angle;
+pub mod ball;
 pub mod big;
 pub mod double_double;
+pub mod dual;
+pub mod elementary;
+pub mod elliptic;
 pub mod lanes;
 pub mod number;
 pub mod quantity;
 pub mod scale;
 
 pub use angle::{Angle, AngleUnit};
+pub use ball::Ball;
 pub use big::Big;
 pub use double_double::DoubleDouble;
+pub use dual::Dual;
+pub use elementary::Elementary;
 pub use number::Number;
 pub use quantity::{Quantity, Unit};
 

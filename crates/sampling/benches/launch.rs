@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{Formulation, Solver, Stepping, Toss};
+use dynamics::{Formulation, RigidToss, Solver, Stepping, Toss};
 use exact::ExactMotion;
 use kinematics_quat::QuaternionSolver;
 use sampling::{Found, Plan, Sampler, Space, named_space, random_tosses};
@@ -23,7 +23,8 @@ fn fig4(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").expect("it exists");
     // Phases of launches from the same space, because the cost of a sine depends on their range.
     let phase = |toss: &Toss| ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
-    let phases: Vec<f64> = random_tosses(&space, 1, 0..250_000).iter().map(phase).collect();
+    let phases: Vec<f64> =
+        random_tosses(&space, 1, 0..250_000).iter().filter_map(RigidToss::symmetric).map(|toss| phase(&toss)).collect();
     let mut group = criterion.benchmark_group("fig4 grid");
     group.sample_size(20);
     group.bench_function("exact", |bencher| bencher.iter(|| heads(black_box(&space), Plan::Grid, &Sampler::exact())));
@@ -37,7 +38,7 @@ fn quaternion(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").and_then(|space| space.with_grid_of(400)).expect("it exists");
     let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
     let plan = Plan::Random { points: 400, seed: 1 };
-    let tosses = random_tosses(&space, 1, 0..400);
+    let tosses: Vec<Toss> = random_tosses(&space, 1, 0..400).iter().filter_map(RigidToss::symmetric).collect();
     let mut group = criterion.benchmark_group("quaternion");
     group.sample_size(50);
     group.bench_function("estimate", |bencher| bencher.iter(|| heads(black_box(&space), plan, &Sampler::by(&solver))));

@@ -189,6 +189,11 @@ impl Axis {
         }
     }
 
+    /// Replaces each part, 0 < part < 1, by its quantile.
+    pub(crate) fn to_quantiles(self, parts: &mut [f64]) {
+        parts.iter_mut().for_each(|part| *part = self.quantile(*part));
+    }
+
     /// Grid point number `index` of `points`. The last one of a range is exactly its upper bound.
     #[expect(clippy::cast_precision_loss, reason = "indices stay far below 2^53")]
     pub(crate) fn grid_point(&self, index: u64, points: u64) -> f64 {

@@ -16,19 +16,20 @@ struct Column([f64; BLOCK]);
 
 /// Memory for up to [`BLOCK`] launches of a space, which a thread reuses.
 pub(crate) struct Block {
-    /// A column for each coordinate, in the order of [`Coordinate::ALL`].
+    /// A column for each coordinate, in the order of [`Coordinate::ALL`], and a spare one.
     columns: Vec<Column>,
     /// Number of launches that the columns hold now.
     length: usize,
-    /// Random numbers, launch by launch, from which the columns are made.
-    pub(crate) words: Vec<u64>,
 }
+
+/// The place of the spare column, for numbers that nobody reads.
+const SPARE: usize = Coordinate::COUNT;
 
 impl Block {
     /// A block in which every coordinate has its fixed value of `space`, until its column is written.
     pub(crate) fn new(space: &Space) -> Self {
-        let columns = space.fixed_values().map(|value| Column([value; BLOCK])).to_vec();
-        Self { columns, length: 0, words: Vec::new() }
+        let values = space.fixed_values().into_iter().chain([0.0]);
+        Self { columns: values.map(|value| Column([value; BLOCK])).collect(), length: 0 }
     }
 
     /// Sets the number of launches to `length` ≤ [`BLOCK`].
@@ -51,9 +52,11 @@ impl Block {
         &mut self.columns[of as usize].0[..self.length]
     }
 
-    /// The column of a coordinate, to be written, and the random numbers.
-    pub(crate) fn column_and_words(&mut self, of: Coordinate) -> (&mut [f64], &[u64]) {
-        (&mut self.columns[of as usize].0[..self.length], &self.words)
+    /// The columns of two different coordinates, to be written. The spare column stands for one that is `None`.
+    pub(crate) fn two_columns_mut(&mut self, of: [Option<Coordinate>; 2]) -> [&mut [f64]; 2] {
+        let places = of.map(|of| of.map_or(SPARE, |of| of as usize));
+        let columns = self.columns.get_disjoint_mut(places).expect("two different columns");
+        columns.map(|column| &mut column.0[..self.length])
     }
 
     /// The values of launch number `index` of the block.
@@ -68,7 +71,7 @@ impl Block {
 }
 
 impl Space {
-    /// The launches of a block as tosses for a batch; `None` if gravity or tilt vary in this space, or if the coins land
+    /// The launches of a block as tosses for a batch; `None` if the body is no coin, if gravity or tilt vary in this space, or if the coins land
     /// at another height than that of their launch.
     pub(crate) fn tosses<'a>(&self, block: &'a Block) -> Option<Tosses<'a>> {
         if self.drop().is_some() {
@@ -76,7 +79,8 @@ impl Space {
         }
         let (gravity, tilt) = (self.axis(Coordinate::Gravity).value()?, self.axis(Coordinate::Tilt).value()?);
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(|of| block.column(self.place(of)));
-        let tosses = Tosses::new(self.coin(), Attitude::about_x(tilt), gravity, rates, block.column(Coordinate::Speed));
+        let coin = self.coin()?;
+        let tosses = Tosses::new(coin, Attitude::about_x(tilt), gravity, rates, block.column(Coordinate::Speed));
         Some(tosses.expect("every axis was checked when the space was made"))
     }
 }

@@ -1,6 +1,9 @@
 //! This file names the six coordinates that can vary from launch to launch: ωx, ωy, ωz, v0, g and the tilt. Files,
 //! messages and charts each need a name of their own for them, and all of these are kept together here.
 
+use std::fmt;
+use std::str::FromStr;
+
 use dynamics::error::find_named;
 use dynamics::{Dimension, InputError};
 
@@ -19,6 +22,22 @@ pub enum Coordinate {
     Gravity,
     /// Angle by which the coin is turned about the x axis of the laboratory frame at launch (rad).
     Tilt,
+}
+
+/// Writes the [name](Coordinate::name).
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Finds a coordinate by its name.
+impl FromStr for Coordinate {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        Self::named(name)
+    }
 }
 
 impl Coordinate {
@@ -86,7 +105,7 @@ mod tests {
     #[test]
     fn names_fields_and_symbols_agree_in_name_and_unit() {
         for of in Coordinate::ALL {
-            assert_eq!(Coordinate::named(of.name()), Ok(of));
+            assert_eq!((Coordinate::named(of.name()), of.to_string().parse()), (Ok(of), Ok(of)));
             let (name, unit) = of.field().split_once(' ').expect("a name and a unit");
             assert!(of.name().starts_with(name), "{of:?}");
             assert!(unit.ends_with(&format!("[{}]", of.dimension().units()[0].name())), "{of:?}");

@@ -4,11 +4,11 @@
 
 use std::ops::Range;
 
-use dynamics::{Checked, Error, Outcome, Solver};
+use dynamics::{Checked, Error, Outcome, Solver, Toss};
 use exact::{Batch, ProvenCounts};
 
 use crate::block::Block;
-use crate::fold::{Progress, Tally, fold};
+use crate::fold::{Progress, Sum, fold};
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -73,13 +73,14 @@ impl Counts {
         }
     }
 
-    #[cfg(test)]
+    /// Counts of outcomes of which none is proven.
+    #[cfg(any(test, feature = "serde"))]
     pub(crate) fn estimated(heads: u64, tails: u64, undecided: u64) -> Self {
         Self { estimated: Estimated { heads, tails, undecided }, proven: ProvenCounts::default() }
     }
 }
 
-impl Tally for Counts {
+impl Sum for Counts {
     fn merge(self, other: Self) -> Self {
         let (one, two) = (self.estimated, other.estimated);
         let estimated = Estimated {
@@ -125,11 +126,15 @@ impl Decider<'_> {
     }
 }
 
-/// Proves the outcomes of a block: as a batch if its launches differ in rates and speed alone, else one by one.
+/// Proves the outcomes of a block: as a batch if it is of a coin and its launches differ in rates and speed alone, else
+/// one by one.
 fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
-    match space.tosses(block) {
-        Some(tosses) => Batch::new(tosses).count(),
-        None => ProvenCounts::of(block.all_values().map(|values| space.toss(&values))),
+    if let Some(tosses) = space.tosses(block) {
+        return Batch::new(tosses).count();
+    }
+    match space.coin() {
+        Some(coin) => ProvenCounts::of(block.all_values().map(|values| Toss { coin, launch: space.launch(&values) })),
+        None => ProvenCounts::of_rigid(block.all_values().map(|values| space.toss(&values))),
     }
 }
 
@@ -146,7 +151,7 @@ fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts
     }
     for (index, values) in (0..).zip(block.all_values()) {
         let toss = space.toss(&values);
-        let outcome = solver.outcome(&toss);
+        let outcome = solver.outcome_rigid(&toss);
         counts.add(outcome.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
     }
     Ok(counts)
@@ -193,6 +198,35 @@ mod tests {
         assert_eq!((batch.points(), batch.proven().by(Stage::F64), batch.proven().by(Stage::Keller)), (400, 400, 0));
         let one_by_one = counted("0:1e-9:2", &Decider::Exact);
         assert!(one_by_one.are_certified() && one_by_one.proven().by(Stage::F64) < 800, "{one_by_one:?}");
+    }
+
+    #[test]
+    fn outcomes_of_a_body_are_proven_one_by_one_and_a_solver_for_coins_refuses_them() {
+        struct ForCoins;
+        impl Solver for ForCoins {
+            fn name(&self) -> &str {
+                "for coins"
+            }
+            fn propagate(&self, toss: &Toss) -> Result<dynamics::Propagation, dynamics::SolveError> {
+                ExactSolver.propagate(toss)
+            }
+            fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, dynamics::SolveError> {
+                ExactSolver.error_estimate(toss)
+            }
+        }
+        let texts = [(RateX, "1:20:7"), (RateY, "2"), (RateZ, "3"), (Speed, "3:5:5")];
+        let racket = dynamics::catalogue::named_body("racket").unwrap();
+        let space = Space::parse(racket, &texts).unwrap();
+        let launches = Launches::Grid(Grid::new(&space).unwrap());
+        let count = |decider: &Decider<'_>| decider.count(&space, &launches, 0..35, &|_| {});
+        let (proven, solved) =
+            (count(&Decider::Exact).unwrap(), count(&Decider::Solver(Checked::new(&ExactSolver))).unwrap());
+        assert!(proven.are_certified() && !solved.are_certified());
+        assert_eq!((proven.points(), proven.heads(), proven.tails()), (35, solved.heads(), solved.tails()));
+        let as_coin = Decider::Exact.count(&space.with_body(Coin::PAPER), &launches, 0..35, &|_| {}).unwrap();
+        assert_ne!(as_coin.heads(), proven.heads());
+        let refused = count(&Decider::Solver(Checked::new(&ForCoins))).unwrap_err();
+        assert!(matches!(refused, Error::Launch { index: 0, source: dynamics::SolveError::NotSymmetric { .. }, .. }));
     }
 
     /// This holds even for the exact solver: its outcomes are right, but only as reliable as those of any other solver.

@@ -1,14 +1,13 @@
 //! This file lists the launches of a plan one by one, with the values of their coordinates. Programs print or solve them
 //! without counting; blocks keep the memory small however many launches there are.
 
-use dynamics::{InputError, Toss};
+use dynamics::{InputError, RigidToss};
 
 use crate::block::{BLOCK, Block};
 use crate::coordinate::Coordinate;
-use crate::grid::Grid;
-use crate::launches::Launches;
 use crate::plan::Plan;
-use crate::space::{Cube, Space};
+use crate::sequences::Sequences;
+use crate::space::Space;
 
 /// A launch of a space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +15,7 @@ pub struct Drawn {
     /// The values of its coordinates, in the order of [`Coordinate::ALL`]. A tied coordinate has the value of its partner.
     pub values: [f64; Coordinate::COUNT],
     /// The toss with these values.
-    pub toss: Toss,
+    pub toss: RigidToss,
 }
 
 impl Space {
@@ -25,23 +24,13 @@ impl Space {
     /// # Errors
     /// [`InputError`] if the plan does not fit the space, and for [`Plan::ExactSpeed`], whose points have no speed.
     pub fn drawn(&self, plan: Plan) -> Result<impl Iterator<Item = Vec<Drawn>> + use<>, InputError> {
-        let points = plan.points(self)?;
-        let cube = || Cube::new(self, self.free());
-        let sequences = match plan {
-            Plan::Grid => vec![(Launches::Grid(Grid::new(self)?), points)],
-            Plan::Random { seed, .. } => vec![(Launches::Random { cube: cube(), seed }, points)],
-            Plan::Sobol(scrambled) => {
-                let each = scrambled.points_each()?;
-                let one = |scramble| (Launches::sobol(cube(), scrambled.seed, scramble), each);
-                (0..scrambled.scrambles).map(one).collect()
-            }
-            Plan::ExactSpeed(_) => {
-                let (field, value) = ("method", "exact-speed".to_owned());
-                return Err(InputError::Malformed { field, value, expected: "a method that draws launches" });
-            }
-        };
+        if let Plan::ExactSpeed(_) = plan {
+            let (field, value) = ("method", "exact-speed".to_owned());
+            return Err(InputError::Malformed { field, value, expected: "a method that draws launches" });
+        }
+        let sequences = Sequences::new(self, plan)?.into_launches();
         let space = *self;
-        Ok(sequences.into_iter().flat_map(move |(launches, number)| {
+        Ok(sequences.flat_map(move |(launches, number)| {
             let mut block = Block::new(&space);
             (0..number).step_by(BLOCK).map(move |start| {
                 launches.write(start..number.min(start + BLOCK as u64), &mut block);
@@ -59,7 +48,7 @@ impl Space {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Outcome};
-    use exact::certify;
+    use exact::certify_rigid;
 
     use super::*;
     use crate::coordinate::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
@@ -94,8 +83,10 @@ mod tests {
             for drop in [None, Some(0.7)] {
                 let space = space().with_drop(drop).unwrap();
                 let drawn = all(&space, plan);
-                let heads =
-                    drawn.iter().filter(|drawn| certify(&drawn.toss).unwrap().outcome() == Outcome::Heads).count();
+                let heads = drawn
+                    .iter()
+                    .filter(|drawn| certify_rigid(&drawn.toss).unwrap().outcome() == Outcome::Heads)
+                    .count();
                 let found = Sampler::exact().estimate(&space, plan).unwrap();
                 assert_eq!(drawn.len() as u64, found.points);
                 assert_eq!(heads as f64 / drawn.len() as f64, found.probability, "{plan:?}");

@@ -1,5 +1,5 @@
 //! This file turns counts or shares of heads into an estimate: a probability with an interval. What the interval means
-//! depends on how the launches were chosen, so each of the four methods has its own:
+//! depends on how the launches were chosen, so each of the methods has its own:
 //!
 //! | plan | launches | interval |
 //! |---|---|---|
@@ -7,6 +7,7 @@
 //! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Wilson's |
 //! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles |
 //! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles; a rounding error if only the speed varies |
+//! | [`Plan::Quadrature`](crate::Plan::Quadrature) | shares at the nodes of a rule | the error estimate of the rule |
 //!
 //! A and B are the paper's names of the methods.
 
@@ -35,6 +36,8 @@ pub enum IntervalKind {
     Unanimous,
     /// A bound on the rounding error, because nothing was sampled.
     Rounding,
+    /// The error estimate of the quadrature, which sampled nothing.
+    Quadrature,
 }
 
 impl fmt::Display for IntervalKind {
@@ -46,6 +49,7 @@ impl fmt::Display for IntervalKind {
             Self::Scrambles(number) => write!(f, "student 95 % of {number} scrambles"),
             Self::Unanimous => f.write_str("wilson 95 %, all points agree"),
             Self::Rounding => f.write_str("rounding error"),
+            Self::Quadrature => f.write_str("error estimate of the quadrature"),
         }
     }
 }
@@ -133,6 +137,13 @@ impl Estimate {
         }
         let interval = Interval { lo: share.probability, hi: share.probability }.widened(share.error);
         Self::of_share(share, points, Some(interval), IntervalKind::Rounding)
+    }
+
+    /// The estimate from the mean of `points` shares by quadrature, with the errors of the rule and of rounding.
+    pub(crate) fn of_quadrature(mean: f64, [rule, rounding]: [f64; 2], points: u64) -> Self {
+        let share = Share::new(mean, rounding);
+        let interval = Interval { lo: share.probability, hi: share.probability }.widened(rule + rounding);
+        Self::of_share(share, points, Some(interval), IntervalKind::Quadrature)
     }
 
     pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {

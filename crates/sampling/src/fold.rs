@@ -1,32 +1,33 @@
-//! This file processes launches in blocks on many threads and merges the results. It guarantees that result and error
-//! do not depend on the number of threads.
+//! This file processes launches in blocks and merges the results, on many threads with the feature `rayon` and on one
+//! without it. It guarantees that result and error do not depend on the number of threads.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::Error;
+#[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
 use crate::block::{BLOCK, Block};
 use crate::launches::Launches;
 use crate::space::Space;
 
-/// A sum over launches. Merging must be associative and commutative to the last bit, which is why the tallies of this
+/// A sum over launches. Merging must be associative and commutative to the last bit, which is why the sums of this
 /// crate are integers.
-pub(crate) trait Tally: Default + Send {
+pub(crate) trait Sum: Default + Send {
     fn merge(self, other: Self) -> Self;
 }
 
 /// A function that is called with the number of launches (or nodes of a map) done since it was last called.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
 
-/// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool, and merges
-/// the tallies.
+/// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool if there are
+/// threads, and merges the sums.
 ///
 /// # Errors
 /// The [`Error`] of `add`, with the launch numbered from the start of the sequence. If several launches fail, it is
 /// always the error of the first.
-pub(crate) fn fold<T: Tally>(
+pub(crate) fn fold<T: Sum>(
     space: &Space,
     launches: &Launches,
     range: Range<u64>,
@@ -48,14 +49,23 @@ pub(crate) fn fold<T: Tally>(
         progress(block.len() as u64);
         Ok(tally)
     };
-    (0..(range.end - range.start).div_ceil(LENGTH)).into_par_iter().map_init(|| Block::new(space), run).reduce(
-        || Ok(T::default()),
-        |a, b| match (a, b) {
-            (Ok(a), Ok(b)) => Ok(a.merge(b)),
-            (Err(a), Err(b)) => Err(first(a, b)),
-            (Err(error), Ok(_)) | (Ok(_), Err(error)) => Err(error),
-        },
-    )
+    let blocks = 0..(range.end - range.start).div_ceil(LENGTH);
+    #[cfg(feature = "rayon")]
+    return blocks.into_par_iter().map_init(|| Block::new(space), run).reduce(|| Ok(T::default()), merged);
+    #[cfg(not(feature = "rayon"))]
+    {
+        let mut block = Block::new(space);
+        blocks.map(|number| run(&mut block, number)).fold(Ok(T::default()), merged)
+    }
+}
+
+/// The sum of two tallies, or the error of the launch that comes first.
+fn merged<T: Sum>(a: Result<T, Error>, b: Result<T, Error>) -> Result<T, Error> {
+    match (a, b) {
+        (Ok(a), Ok(b)) => Ok(a.merge(b)),
+        (Err(a), Err(b)) => Err(first(a, b)),
+        (Err(error), Ok(_)) | (Ok(_), Err(error)) => Err(error),
+    }
 }
 
 /// The error of the launch that comes first.
@@ -74,21 +84,21 @@ fn index_of(error: &Error) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, SolveError, TimeOfFlight, Toss, Vector3};
+    use dynamics::{Coin, Launch, RigidToss, SolveError, TimeOfFlight, Toss};
 
     use super::*;
     use crate::counts::Counts;
     use crate::space::Cube;
     use crate::space_file::named_space;
 
-    fn failed(index: u64, toss: &Toss) -> Error {
-        Error::Launch { index, toss: Box::new(*toss), source: SolveError::NotFinite { time: 0.0 } }
+    fn failed(index: u64, toss: impl Into<RigidToss>) -> Error {
+        Error::Launch { index, toss: Box::new(toss.into()), source: SolveError::NotFinite { time: 0.0 } }
     }
 
     #[test]
     fn of_two_failures_the_earlier_launch_is_reported() {
-        let launch = Launch::new(Vector3::zeros(), TimeOfFlight::Given(0.0)).unwrap();
-        let failure = |index| failed(index, &Toss { coin: Coin::PAPER, launch });
+        let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.0)).unwrap();
+        let failure = |index| failed(index, Toss { coin: Coin::PAPER, launch });
         assert_eq!((first(failure(3), failure(7)), first(failure(7), failure(3))), (failure(3), failure(3)));
     }
 
@@ -99,7 +109,7 @@ mod tests {
         let (tried, told) = (AtomicU64::new(0), AtomicU64::new(0));
         let toss = space.toss(&space.fixed_values());
         let add = |_: &Block| match tried.fetch_add(1, Ordering::Relaxed) {
-            1 => Err(failed(7, &toss)),
+            1 => Err(failed(7, toss)),
             _ => Ok(Counts::default()),
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();

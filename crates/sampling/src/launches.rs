@@ -18,10 +18,11 @@ pub(crate) enum Launches {
 }
 
 impl Launches {
-    /// One scramble of Sobol's sequence over `cube`.
-    pub(crate) fn sobol(cube: Cube, seed: u64, scramble: u64) -> Self {
+    /// One scramble of Sobol's sequence over `cube`, prepared for about `points` launches.
+    pub(crate) fn sobol(cube: Cube, seed: u64, scramble: u64, points: u64) -> Self {
         let sequence = ScrambledSobol::new(cube.dimensions(), seed, scramble);
-        Self::Sobol { cube, sequence: sequence.expect("a space has six coordinates, the sequence eight dimensions") }
+        let sequence = sequence.expect("a space has six coordinates, the sequence eight dimensions");
+        Self::Sobol { cube, sequence: sequence.prepared_for(points) }
     }
 
     /// Writes the launches with the numbers `range` into `block`.
@@ -31,13 +32,11 @@ impl Launches {
             Self::Grid(grid) => grid.write(range.start, block),
             Self::Random { cube, seed } => write_random(cube, *seed, range.start, block),
             Self::Sobol { cube, sequence } => {
-                let mut index = 0;
-                sequence.for_each(range, |point| {
-                    for ((of, axis), coordinate) in cube.axes().iter().zip(point) {
-                        block.column_mut(*of)[index] = axis.quantile(*coordinate);
-                    }
-                    index += 1;
-                });
+                for (dimension, (of, axis)) in cube.axes().iter().enumerate() {
+                    let column = block.column_mut(*of);
+                    sequence.write(dimension, range.start, column);
+                    axis.to_quantiles(column);
+                }
             }
         }
     }

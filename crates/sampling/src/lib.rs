@@ -9,11 +9,18 @@
 //! A [`Space`] is the distribution of the launches, and a [`Plan`] selects the launches that are tried. A [`Sampler`]
 //! solves these and returns an [`Estimate`]. Sums are integers, so that no result depends on the number of threads.
 //! This is the only crate with a random number generator.
+//!
+//! # Features
+//! Both are on by default. `rayon` solves launches on all threads of rayon's current pool; without it they are solved on one,
+//! with the same result. `serde` reads and writes plans, spaces, tallies and estimates as plain data, and has the spaces that come by
+//! name or from a TOML file.
 
 pub mod axis;
 mod block;
 pub mod coordinate;
 pub mod counts;
+#[cfg(feature = "serde")]
+mod data;
 pub mod drawn;
 pub mod estimate;
 pub mod exact_speed;
@@ -25,16 +32,23 @@ pub mod long_flight;
 pub mod long_flight_share;
 pub mod map;
 pub mod plan;
+pub mod quadrature;
 pub mod random;
 pub mod sampler;
+mod sequences;
 pub mod series;
 mod shares;
 pub mod sobol;
 pub mod space;
 pub mod space_builder;
+#[cfg(feature = "serde")]
 mod space_data;
+#[cfg(feature = "serde")]
 pub mod space_file;
 pub mod spread;
+pub mod tally;
+#[cfg(feature = "serde")]
+mod tally_data;
 
 pub use axis::{Axis, Distribution};
 pub use coordinate::Coordinate;
@@ -46,11 +60,13 @@ pub use interval::{Interval, clopper_pearson, wilson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
 pub use map::{Map, Node, map_nodes};
-pub use plan::{Plan, Rest, Scrambled};
+pub use plan::{Method, Plan, Rest, Scrambled};
 pub use random::random_tosses;
 pub use sampler::Sampler;
 pub use series::{ESTIMATORS, Estimator, RunningStep, rms_error};
 pub use space::{AxisOrTie, Space};
 pub use space_builder::SpaceBuilder;
+#[cfg(feature = "serde")]
 pub use space_file::{DescribedSpace, named_space, named_spaces};
 pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD};
+pub use tally::Tally;

@@ -7,6 +7,7 @@
 
 use dynamics::{Error, InputError};
 use exact::ExactMotion;
+#[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
 use crate::coordinate::Coordinate;
@@ -31,7 +32,8 @@ pub struct Node {
     /// P(heads), from 0 to 1.
     pub probability: f64,
     /// cos(φ + ψ), the least cos θ of the motion. If it is not negative, the coin shows heads at all times; from
-    /// horizontal this means ψ ≤ 45° or ψ ≥ 135°. `None` if a rate or the tilt varies within the node.
+    /// horizontal this means ψ ≤ 45° or ψ ≥ 135°. `None` if a rate or the tilt varies within the node, or if the body is
+    /// no coin.
     pub least_cos_tilt: Option<f64>,
 }
 
@@ -52,7 +54,10 @@ impl Sampler<'_> {
             (self.progress)(1);
             Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
         };
-        let nodes = (0..columns.len() * rows.len()).into_par_iter().map(node).collect::<Vec<Result<_, Error>>>();
+        let indices = 0..columns.len() * rows.len();
+        #[cfg(feature = "rayon")]
+        let indices = indices.into_par_iter();
+        let nodes = indices.map(node).collect::<Vec<Result<_, Error>>>();
         // Collected in order, so that of several errors it is always the first that is returned.
         let nodes = nodes.into_iter().collect::<Result<_, _>>()?;
         Ok(Map { across: (across, columns), up: (up, rows), nodes })
@@ -101,10 +106,10 @@ fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
     }
 }
 
-/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies.
+/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies, or for a body that is no coin.
 fn least_cos_tilt(space: &Space) -> Option<f64> {
     let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
-    let motion = ExactMotion::new(&space.toss(&space.fixed_values()));
+    let motion = ExactMotion::new(&space.coin_toss(&space.fixed_values())?);
     (!motion_varies).then(|| (motion.momentum_tilt() + motion.cone_angle()).cos())
 }
 
@@ -135,7 +140,7 @@ mod tests {
             assert!(node.probability > 1.0 - 1e-7 || least < 1e-15, "{rate_x}, {rate_z}: {node:?}");
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
-                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]);
+                let toss = space.coin_toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]).unwrap();
                 ExactMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
             });
             assert!((node.probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {node:?}");
@@ -158,7 +163,8 @@ mod tests {
         let tilted = Sampler::exact().map(&space(&texts), [RateX, RateZ], EXACT).unwrap();
         for (index, node) in tilted.nodes.iter().enumerate() {
             let rates = [tilted.across.1[index % 5], 7.0, tilted.up.1[index / 5]];
-            let motion = ExactMotion::new(&space(&texts).toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]));
+            let motion =
+                ExactMotion::new(&space(&texts).coin_toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]).unwrap());
             let turn = std::f64::consts::TAU / motion.precession_rate();
             let heights = (0..10_000).map(|part| motion.cos_tilt(turn * f64::from(part) / 1e4).unwrap());
             let least = heights.fold(1.0, f64::min);

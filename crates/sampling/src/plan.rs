@@ -1,8 +1,11 @@
-//! This file lists the four methods of choosing the launches of a space that are tried. A plan is plain data: the
+//! This file lists the methods of choosing the launches of a space that are tried. A plan is plain data: the
 //! sampler carries it out, and its number of launches is known before.
 
+use std::fmt;
+use std::str::FromStr;
+
 use dynamics::InputError;
-use dynamics::error::require;
+use dynamics::error::{find_named, require};
 
 use crate::coordinate::Coordinate;
 use crate::sobol;
@@ -11,8 +14,49 @@ use crate::space::{Cube, Space};
 /// Default number of independent scrambles of Sobol's sequence in an estimate.
 pub const SCRAMBLES: u64 = 8;
 
-/// The method that chooses the launches of a space that are tried.
+/// A method of choosing launches, without its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// A grid over the space, the paper's method A.
+    Grid,
+    /// Independent random launches, the paper's method B.
+    Random,
+    /// Owen-scrambled Sobol points.
+    Sobol,
+    /// All speeds in closed form.
+    ExactSpeed,
+    /// Quadrature over one or two coordinates beside the speed.
+    Quadrature,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 5] = [Self::Grid, Self::Random, Self::Sobol, Self::ExactSpeed, Self::Quadrature];
+
+    /// The name in files and options, such as `exact-speed`.
+    pub fn name(self) -> &'static str {
+        ["grid", "random", "sobol", "exact-speed", "quadrature"][self as usize]
+    }
+}
+
+/// Writes the [name](Method::name).
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Finds a method by its name.
+impl FromStr for Method {
+    type Err = InputError;
+
+    fn from_str(name: &str) -> Result<Self, InputError> {
+        find_named("method", name, &Self::ALL, |method| method.name()).copied()
+    }
+}
+
+/// The method that chooses the launches of a space that are tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Plan {
     /// Method A: all launches of the space's grid.
     Grid,
@@ -27,6 +71,12 @@ pub enum Plan {
     Sobol(Scrambled),
     /// All speeds in closed form, by the exact motion; the other coordinates as in [`Rest`].
     ExactSpeed(Rest),
+    /// All speeds in closed form, and [quadrature](crate::quadrature) over one or two other coordinates, with as many shares as
+    /// the accuracy takes.
+    Quadrature {
+        /// The largest acceptable error estimate, > 0.
+        accuracy: f64,
+    },
 }
 
 /// Why [`Plan::ExactSpeed`] is refused for a space with a drop.
@@ -34,6 +84,20 @@ const NO_DROP: InputError = InputError::OutsideModel {
     field: "drop [m]",
     why: "exact-speed integrates over the speed in closed form, which needs a landing at the height of the launch; other \
           methods take a drop",
+};
+
+/// Why [`Plan::ExactSpeed`] and [`Plan::Quadrature`] are refused for a body with I1 ≠ I2.
+pub(crate) const ONLY_COINS: InputError = InputError::OutsideModel {
+    field: "method",
+    why: "exact-speed and quadrature integrate over the speed in closed form, which there is not for a body with I1 ≠ I2; grid, random and \
+          sobol take it",
+};
+
+/// Why the launches of [`Plan::Quadrature`] have no numbers.
+const UNNUMBERED: InputError = InputError::OutsideModel {
+    field: "method",
+    why: "quadrature chooses its shares as it goes, so that they cannot be numbered, listed or divided into parts; other \
+          methods can",
 };
 
 /// How [`Plan::ExactSpeed`] chooses the coordinates other than the speed.
@@ -77,13 +141,26 @@ impl Scrambled {
 }
 
 impl Plan {
+    /// The method.
+    pub fn method(&self) -> Method {
+        match self {
+            Self::Grid => Method::Grid,
+            Self::Random { .. } => Method::Random,
+            Self::Sobol(_) => Method::Sobol,
+            Self::ExactSpeed(_) => Method::ExactSpeed,
+            Self::Quadrature { .. } => Method::Quadrature,
+        }
+    }
+
     /// Number of launches that the plan tries in `space`. For [`Plan::ExactSpeed`] each of them stands for all speeds;
     /// it is 1 if nothing but the speed varies.
     ///
     /// # Errors
-    /// [`InputError`] if the plan does not fit the space.
+    /// [`InputError`] if the plan does not fit the space, and for [`Plan::Quadrature`], whose number of shares is only known
+    /// afterwards.
     pub fn points(&self, space: &Space) -> Result<u64, InputError> {
         match *self {
+            Plan::ExactSpeed(_) if space.coin().is_none() => Err(ONLY_COINS),
             Plan::ExactSpeed(_) if space.drop().is_some() => Err(NO_DROP),
             Plan::Grid => space.grid_points(),
             Plan::Random { points, .. } =>
@@ -96,6 +173,7 @@ impl Plan {
                 scrambled.points_each().map(|_| scrambled.points)
             }
             Plan::ExactSpeed(_) => space.grid_points_without_speed(),
+            Plan::Quadrature { .. } => Err(UNNUMBERED),
         }
     }
 }

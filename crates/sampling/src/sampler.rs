@@ -3,16 +3,15 @@
 
 use dynamics::{Checked, Error, InputError, Solver};
 
-use crate::counts::{Counts, Decider};
+use crate::counts::Decider;
 use crate::estimate::Estimate;
 use crate::fold::Progress;
-use crate::grid::Grid;
-use crate::launches::Launches;
-use crate::plan::{Plan, Rest, Scrambled, cube_of_the_rest};
-use crate::shares::{Shares, add_shares};
-use crate::space::{Cube, Space};
+use crate::plan::Plan;
+use crate::quadrature;
+use crate::space::Space;
 
-/// Estimates probabilities of heads over many launches, on the threads of the current pool.
+/// Estimates probabilities of heads over many launches, on the threads of the current pool of rayon; without the feature
+/// `rayon`, on one thread.
 ///
 /// ```
 /// use dynamics::Coin;
@@ -66,62 +65,18 @@ impl<'a> Sampler<'a> {
     ///
     /// # Errors
     /// [`Error`] of a launch that fails; if several fail, always of the first. [`InputError`] if the plan does not fit
-    /// the space, and for [`Plan::ExactSpeed`] with a solver, because it uses the exact motion.
+    /// the space, and for [`Plan::ExactSpeed`] and [`Plan::Quadrature`] with a solver, because they use the exact motion.
+    /// [`Error::NotReached`] if quadrature does not reach its accuracy.
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
-        let points = plan.points(space)?;
-        match plan {
-            Plan::Grid => {
-                Ok(Estimate::of_grid_counts(self.count(space, &Launches::Grid(Grid::new(space)?), points)?))
-            }
-            Plan::Random { seed, .. } => {
-                let launches = Launches::Random { cube: Cube::new(space, space.free()), seed };
-                Ok(Estimate::of_independent_counts(self.count(space, &launches, points)?))
-            }
-            Plan::Sobol(scrambled) => {
-                let cube = Cube::new(space, space.free());
-                let counts = each_scramble(&cube, scrambled, |launches, each| self.count(space, launches, each))?;
-                Ok(Estimate::of_scrambled_counts(&counts))
-            }
-            Plan::ExactSpeed(rest) => self.integrate_speed(space, rest, points),
-        }
-    }
-
-    /// Counts the outcomes of the first `points` launches.
-    fn count(&self, space: &Space, launches: &Launches, points: u64) -> Result<Counts, Error> {
-        self.decider.count(space, launches, 0..points, self.progress)
-    }
-
-    fn integrate_speed(&self, space: &Space, rest: Rest, points: u64) -> Result<Estimate, Error> {
-        if let Decider::Solver(solver) = &self.decider {
-            let expected = "no solver for exact-speed, which uses the exact motion";
+        if let (Plan::ExactSpeed(_) | Plan::Quadrature { .. }, Decider::Solver(solver)) = (plan, &self.decider) {
+            let expected = "no solver for exact-speed and quadrature, which use the exact motion";
             let value = solver.name().to_owned();
             return Err(InputError::Malformed { field: "solver", value, expected }.into());
         }
-        let add = |launches: &Launches, each| add_shares(space, launches, 0..each, self.progress);
-        let cube = cube_of_the_rest(space);
-        match rest {
-            Rest::Sobol(scrambled) if cube.dimensions() > 0 => {
-                let shares = each_scramble(&cube, scrambled, add)?;
-                Ok(Estimate::of_scrambled_shares(&shares.iter().map(Shares::mean).collect::<Vec<_>>(), points))
-            }
-            _ => {
-                let share = add(&Launches::Grid(Grid::without_speed(space)?), points)?.mean();
-                Ok(Estimate::of_grid_share(share, points, cube.dimensions() == 0))
-            }
+        if let Plan::Quadrature { accuracy } = plan {
+            return quadrature::estimate(space, accuracy).inspect(|found| (self.progress)(found.points));
         }
+        let points = plan.points(space)?;
+        Ok(self.sums(space, plan, &(0..points))?.estimate(space, plan)?)
     }
-}
-
-/// Calls `tally` for each scramble, with its launches and their number, and collects the results.
-fn each_scramble<T>(
-    cube: &Cube,
-    scrambled: Scrambled,
-    tally: impl Fn(&Launches, u64) -> Result<T, Error>,
-) -> Result<Vec<T>, Error> {
-    let each = scrambled.points_each()?;
-    let one = |scramble| {
-        let launches = Launches::sobol(cube.clone(), scrambled.seed, scramble);
-        tally(&launches, each).map_err(|error| error.after(scramble * each))
-    };
-    (0..scrambled.scrambles).map(one).collect()
 }

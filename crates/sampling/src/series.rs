@@ -4,7 +4,6 @@
 
 use dynamics::Error;
 use dynamics::error::require;
-use serde::Serialize;
 
 use crate::counts::Counts;
 use crate::estimate::LEVEL;
@@ -16,7 +15,8 @@ use crate::sampler::Sampler;
 use crate::space::{Cube, Space};
 
 /// The shares of heads among the first launches of method A and method B.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RunningStep {
     /// Number of launches so far.
     pub launches: u64,

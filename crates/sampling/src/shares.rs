@@ -5,17 +5,19 @@ use std::ops::Range;
 
 use dynamics::Error;
 
+use crate::exact_speed::lanes::ShareLanes;
 use crate::exact_speed::{Share, share};
-use crate::fold::{Progress, Tally, fold};
+use crate::fold::{Progress, Sum, fold};
 use crate::launches::Launches;
+use crate::plan::ONLY_COINS;
 use crate::space::Space;
 
 /// Sums of shares and of their error bounds, as integers in units of 2^-53.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Shares {
-    launches: u64,
-    probability: u128,
-    error: u128,
+    pub(crate) launches: u64,
+    pub(crate) probability: u128,
+    pub(crate) error: u128,
 }
 
 /// 2^-53.
@@ -23,11 +25,11 @@ const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 impl Shares {
     /// Adds a share. Its error is rounded up, plus one unit for the rounding of the share itself.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "shares lie between 0 and 1")]
     fn add(&mut self, share: Share) {
         self.launches += 1;
-        self.probability += (share.probability / UNIT).round() as u128;
-        self.error += (share.error / UNIT).ceil() as u128 + 1;
+        let ((whole, rest), (whole_error, rest_of_error)) = (in_units(share.probability), in_units(share.error));
+        self.probability += u128::from(whole) + u128::from(rest >= 0.5);
+        self.error += u128::from(whole_error) + u128::from(rest_of_error > 0.0) + 1;
     }
 
     /// The mean share, with the mean of the error bounds.
@@ -38,7 +40,16 @@ impl Shares {
     }
 }
 
-impl Tally for Shares {
+/// The whole number of units in a number from 0 to 1, and the rest.
+#[inline]
+#[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "at most 2^53")]
+fn in_units(number: f64) -> (u64, f64) {
+    let units = number / UNIT;
+    let whole = units as i64;
+    (whole.unsigned_abs(), units - whole as f64)
+}
+
+impl Sum for Shares {
     fn merge(self, other: Self) -> Self {
         Self {
             launches: self.launches + other.launches,
@@ -55,11 +66,26 @@ pub(crate) fn add_shares(
     range: Range<u64>,
     progress: Progress<'_>,
 ) -> Result<Shares, Error> {
+    let coin = space.coin().ok_or(ONLY_COINS)?;
+    let lanes = ShareLanes::new(space);
     fold(space, launches, range, progress, |block| {
         let mut shares = Shares::default();
-        for (index, values) in (0..).zip(block.all_values()) {
-            let share = share(space, &values);
-            shares.add(share.map_err(|(toss, source)| Error::Launch { index, toss, source })?);
+        let one = |index: usize| {
+            let found = share(space, coin, &block.values(index));
+            found.map_err(|(toss, source)| Error::Launch {
+                index: index as u64,
+                toss: Box::new((*toss).into()),
+                source,
+            })
+        };
+        match &lanes {
+            Some(lanes) => {
+                let found = lanes.shares(space, coin, block)?;
+                for (index, found) in found.each().enumerate() {
+                    shares.add(found.map_or_else(|| one(index), Ok)?);
+                }
+            }
+            None => (0..block.len()).try_for_each(|index| one(index).map(|share| shares.add(share)))?,
         }
         Ok(shares)
     })

@@ -16,10 +16,13 @@
 //! Sci. Comput. 30 (2008), 2635 (direction numbers); A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in
 //! Scientific Computing (1995), 299 (scrambling); D. Stafford, "Better bit mixing" (2011), variant 13 (the hash).
 
-use std::ops::Range;
+mod scrambled;
 
+use numerics::lanes::SimdLevel;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
+
+use scrambled::{PART, ScrambledCoordinate, WINDOW};
 
 /// Number of dimensions.
 pub const DIMENSIONS: usize = 8;
@@ -74,7 +77,7 @@ type Keys = [u64; GROUPS + 1];
 /// A scrambled Sobol sequence.
 #[derive(Debug, Clone)]
 pub struct ScrambledSobol {
-    coordinates: Vec<(Directions, Keys)>,
+    coordinates: Vec<ScrambledCoordinate>,
 }
 
 impl ScrambledSobol {
@@ -83,54 +86,64 @@ impl ScrambledSobol {
     pub fn new(dimensions: usize, seed: u64, scramble: u64) -> Option<Self> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(scramble);
-        let coordinate = |dimension| (directions(dimension), std::array::from_fn(|_| rng.next_u64()));
+        let coordinate = |dimension| ScrambledCoordinate {
+            directions: directions(dimension),
+            keys: std::array::from_fn(|_| rng.next_u64()),
+            first_digits: None,
+        };
         (dimensions <= DIMENSIONS).then(|| Self { coordinates: (0..dimensions).map(coordinate).collect() })
     }
 
-    /// Calls `each` with the points of the sequence with the numbers `range`, which ends at [`MOST_POINTS`] or before.
-    /// All coordinates lie strictly between 0 and 1. The points come in the order of the Gray code, which permutes each
-    /// aligned run of 2^m points.
-    pub fn for_each(&self, range: Range<u64>, mut each: impl FnMut(&[f64])) {
-        let gray = range.start ^ (range.start >> 1);
-        let start = |directions: &Directions| {
-            (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |digits, j| digits ^ directions[j])
-        };
-        let mut digits: Vec<u64> = self.coordinates.iter().map(|(directions, _)| start(directions)).collect();
-        let mut point = vec![0.0; digits.len()];
-        for index in range {
-            for ((digits, coordinate), (directions, keys)) in digits.iter_mut().zip(&mut point).zip(&self.coordinates) {
-                *coordinate = scrambled(*digits, keys);
-                // After the last point of all there is no next one; its bit would lie outside of the matrix.
-                *digits ^= directions.get((index + 1).trailing_zeros() as usize).copied().unwrap_or(0);
-            }
-            each(&point);
+    /// The same sequence, prepared for about `points` points: a table of scrambled digits is made if that many pay for
+    /// it. It changes no point.
+    #[must_use]
+    pub fn prepared_for(mut self, points: u64) -> Self {
+        if points > 2 * WINDOW {
+            self.coordinates.iter_mut().for_each(ScrambledCoordinate::prepare);
+        }
+        self
+    }
+
+    /// Number of dimensions.
+    pub fn dimensions(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Writes one coordinate of the points from number `start` on into `to`, strictly between 0 and 1. The points come
+    /// in the order of the Gray code, which permutes each aligned run of 2^m points.
+    ///
+    /// # Panics
+    /// If there is no such `dimension`, or if a point has a number of [`MOST_POINTS`] or above.
+    pub fn write(&self, dimension: usize, start: u64, to: &mut [f64]) {
+        self.write_at(SimdLevel::widest(), dimension, start, to);
+    }
+
+    /// As [`ScrambledSobol::write`], at a SIMD level.
+    fn write_at(&self, level: SimdLevel, dimension: usize, start: u64, to: &mut [f64]) {
+        let coordinate = &self.coordinates[dimension];
+        assert!(start <= MOST_POINTS && to.len() as u64 <= MOST_POINTS - start, "a point of the sequence");
+        let mut done = 0;
+        while done < to.len() {
+            let at = start + done as u64;
+            let left = usize::try_from(WINDOW - at % WINDOW).expect("a few thousand").min(PART);
+            let end = to.len().min(done + left);
+            coordinate.write_part(level, at, &mut to[done..end]);
+            done = end;
         }
     }
 }
 
-/// The coordinate that Owen's scrambling makes of `digits`: the middle of an interval of length 2^-52.
-#[expect(clippy::cast_precision_loss, reason = "both numbers have at most 53 bits")]
-fn scrambled(digits: u64, keys: &Keys) -> f64 {
-    let mut scrambled = 0;
-    for (group, key) in (0..GROUPS as u32).zip(keys) {
-        let below = DEPTH - GROUP * (group + 1);
-        // A leading 1 tells prefixes of different lengths apart.
-        let flips = hash(key, (1 << (GROUP * group)) | (digits >> (below + GROUP)));
-        let path = (1 << GROUP) | (digits >> below & ((1 << GROUP) - 1));
-        // Node 1 is the root of the tree. The digits before a digit, after a leading 1, number the node of its flip.
-        let flipped =
-            (1..=GROUP).rev().fold(path, |flipped, level| flipped ^ ((flips >> (path >> level) & 1) << (level - 1)));
-        scrambled = scrambled << GROUP | (flipped & ((1 << GROUP) - 1));
-    }
-    let rest = hash(&keys[GROUPS], digits) >> (64 - (DIGITS - DEPTH));
-    let numerator = (scrambled << (DIGITS - DEPTH) | rest) as f64 + 0.5;
-    numerator / (1_u64 << DIGITS) as f64
+/// 64 random bits for `prefix` under `key`.
+fn hash(key: u64, prefix: u64) -> u64 {
+    mixed(key.wrapping_add(prefix.wrapping_mul(GOLDEN)))
 }
 
-/// 64 random bits for `prefix` under `key`.
-fn hash(key: &u64, prefix: u64) -> u64 {
-    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mut z = key.wrapping_add(prefix.wrapping_mul(GOLDEN));
+/// The factor of the prefix in [`hash`].
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The second part of [`hash`], a permutation of all numbers that changes half of the bits for any change.
+#[inline(always)]
+fn mixed(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)

@@ -8,7 +8,7 @@
 use std::fmt;
 
 use dynamics::error::require;
-use dynamics::{Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use dynamics::{Body, Coin, InputError, Launch, RigidToss, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -35,10 +35,10 @@ impl fmt::Display for AxisOrTie {
     }
 }
 
-/// The distribution of the launches of one coin. Its coordinates are independent of each other, except for ties.
+/// The distribution of the launches of one coin or another rigid body. Its coordinates are independent of each other, except for ties.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space {
-    coin: Coin,
+    body: Body,
     axes: [AxisOrTie; Coordinate::COUNT],
     /// For each coordinate, the one that its value is taken from: itself, or the one that it is tied to.
     places: [Coordinate; Coordinate::COUNT],
@@ -48,7 +48,7 @@ pub struct Space {
 
 impl Space {
     /// Makes and checks a space from an axis or tie for every coordinate, in the order of [`Coordinate::ALL`].
-    pub(crate) fn new(coin: Coin, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
+    pub(crate) fn new(body: Body, axes: [AxisOrTie; Coordinate::COUNT]) -> Result<Self, InputError> {
         let mut places = Coordinate::ALL;
         for (of, axis) in Coordinate::ALL.into_iter().zip(axes) {
             match axis {
@@ -59,7 +59,7 @@ impl Space {
                 }
             }
         }
-        let space = Self { coin, axes, places, drop: None };
+        let space = Self { body, axes, places, drop: None };
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
         let valid = "speeds >= 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Speed.field(), slowest, valid, slowest >= 0.0)?;
@@ -67,14 +67,14 @@ impl Space {
         let valid = "gravities > 0 only, also 8.3 standard deviations below a normal mean";
         require(Coordinate::Gravity.field(), weakest, valid, weakest > 0.0)?;
         // If the time of any flight overflows, that of the longest does.
-        Launch::new(Vector3::zeros(), TimeOfFlight::Ballistic { speed: fastest, gravity: weakest })?;
+        Launch::new([0.0; 3], TimeOfFlight::Ballistic { speed: fastest, gravity: weakest })?;
         Ok(space)
     }
 
-    /// The same space for another coin.
+    /// The same space for another coin or body.
     #[must_use]
-    pub fn with_coin(self, coin: Coin) -> Self {
-        Self { coin, ..self }
+    pub fn with_body(self, body: impl Into<Body>) -> Self {
+        Self { body: body.into(), ..self }
     }
 
     /// The same space for coins that land `drop` (m) below their launch, or above it if `drop` is negative.
@@ -87,7 +87,7 @@ impl Space {
         // The lowest throw is the slowest one under the strongest gravity; the longest flight is the fastest one under
         // the weakest gravity.
         for (speed, gravity) in [(speeds[0], gravities[1]), (speeds[1], gravities[0])] {
-            Launch::new(Vector3::zeros(), TimeOfFlight::thrown(speed, gravity, drop))?;
+            Launch::new([0.0; 3], TimeOfFlight::thrown(speed, gravity, drop))?;
         }
         Ok(Self { drop, ..self })
     }
@@ -104,12 +104,17 @@ impl Space {
     pub fn with_axis(self, of: Coordinate, axis: impl Into<Axis>) -> Result<Self, InputError> {
         let mut axes = self.axes;
         axes[of as usize] = AxisOrTie::Axis(axis.into());
-        Self::new(self.coin, axes)?.with_drop(self.drop)
+        Self::new(self.body, axes)?.with_drop(self.drop)
     }
 
-    /// The coin.
-    pub fn coin(&self) -> Coin {
-        self.coin
+    /// The coin or other body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The coin; `None` for a body with I1 ≠ I2.
+    pub fn coin(&self) -> Option<Coin> {
+        self.body.symmetric()
     }
 
     /// The axis of a coordinate, or its tie.
@@ -141,15 +146,25 @@ impl Space {
         self.places[of as usize]
     }
 
-    /// The toss with these values. The value of a tied coordinate is taken from its partner.
-    pub(crate) fn toss(&self, values: &Values) -> Toss {
+    /// The toss of the body with these values. The value of a tied coordinate is taken from its partner.
+    pub(crate) fn toss(&self, values: &Values) -> RigidToss {
+        RigidToss { body: self.body, launch: self.launch(values) }
+    }
+
+    /// The toss of the coin with these values; `None` for a body with I1 ≠ I2.
+    pub(crate) fn coin_toss(&self, values: &Values) -> Option<Toss> {
+        self.coin().map(|coin| Toss { coin, launch: self.launch(values) })
+    }
+
+    /// The launch with these values. The value of a tied coordinate is taken from its partner.
+    pub(crate) fn launch(&self, values: &Values) -> Launch {
         let value = |of: Coordinate| values[self.place(of) as usize];
         let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
         let time = TimeOfFlight::thrown(value(Coordinate::Speed), value(Coordinate::Gravity), self.drop);
         let launch = Launch::new(rate, time).expect("every axis was checked when the space was made");
         let tilt = value(Coordinate::Tilt);
         let tilted = if tilt == 0.0 { Ok(launch) } else { launch.with_tilt(tilt) };
-        Toss { coin: self.coin, launch: tilted.expect("every axis was checked when the space was made") }
+        tilted.expect("every axis was checked when the space was made")
     }
 }
 

@@ -2,7 +2,7 @@
 //! a whole at the end.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use dynamics::{Coin, InputError};
+use dynamics::{Body, InputError};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -12,7 +12,7 @@ use crate::space::{AxisOrTie, Space, require_tie};
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct SpaceBuilder {
-    coin: Coin,
+    body: Body,
     axes: [Option<AxisOrTie>; Coordinate::COUNT],
 }
 
@@ -100,12 +100,12 @@ impl SpaceBuilder {
         let missing = |of: Coordinate| InputError::Missing { field: of.field(), expected: "a value, a range or a tie" };
         let given = |of: Coordinate| self.axes[of as usize].ok_or_else(|| missing(of));
         let [x, y, z, speed, gravity, tilt] = Coordinate::ALL.map(given);
-        Space::new(self.coin, [x?, y?, z?, speed?, gravity?, tilt?])
+        Space::new(self.body, [x?, y?, z?, speed?, gravity?, tilt?])
     }
 }
 
 impl Space {
-    /// A builder of a space of launches of `coin`; see [`SpaceBuilder`].
+    /// A builder of a space of launches of `body`, a coin or any other; see [`SpaceBuilder`].
     ///
     /// ```
     /// use dynamics::Coin;
@@ -120,15 +120,15 @@ impl Space {
     /// assert_eq!(space.free().count(), 3);
     /// # Ok::<(), dynamics::InputError>(())
     /// ```
-    pub fn builder(coin: Coin) -> SpaceBuilder {
-        SpaceBuilder { coin, axes: [None; Coordinate::COUNT] }
+    pub fn builder(body: impl Into<Body>) -> SpaceBuilder {
+        SpaceBuilder { body: body.into(), axes: [None; Coordinate::COUNT] }
     }
 
     /// Makes a space from texts, such as those of the command line and of files; see [`SpaceBuilder::parse`].
     ///
     /// # Errors
     /// As [`SpaceBuilder::build`].
-    pub fn parse(coin: Coin, texts: &[(Coordinate, &str)]) -> Result<Self, InputError> {
-        texts.iter().try_fold(Self::builder(coin), |builder, (of, text)| builder.parse(*of, text))?.build()
+    pub fn parse(body: impl Into<Body>, texts: &[(Coordinate, &str)]) -> Result<Self, InputError> {
+        texts.iter().try_fold(Self::builder(body), |builder, (of, text)| builder.parse(*of, text))?.build()
     }
 }

@@ -1,7 +1,7 @@
 //! This file reads and writes spaces as plain data by serde, so that they can be part of any file format. A space is
 //! written as its coin and, for each coordinate by its name, a number or a text.
 
-use dynamics::{Coin, Dimension, InputError};
+use dynamics::{Body, Coin, Dimension, InputError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -27,17 +27,17 @@ impl Entry {
     }
 }
 
-/// The default coin of a space, that of the paper.
-pub(crate) fn paper() -> Coin {
-    Coin::PAPER
+/// The default body of a space, the coin of the paper.
+pub(crate) fn paper() -> Body {
+    Coin::PAPER.into()
 }
 
 /// A space in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpaceData {
-    #[serde(default = "paper")]
-    coin: Coin,
+    #[serde(default = "paper", alias = "body")]
+    coin: Body,
     rate_x: Option<Entry>,
     rate_y: Option<Entry>,
     rate_z: Option<Entry>,
@@ -77,7 +77,16 @@ impl From<Space> for SpaceData {
     fn from(space: Space) -> Self {
         let entry = |of: Coordinate| Some(Entry::Text(space.axis_or_tie(of).to_string()));
         let [rate_x, rate_y, rate_z, speed, gravity, tilt] = Coordinate::ALL.map(entry);
-        Self { coin: space.coin(), rate_x, rate_y, rate_z, speed, gravity, tilt, drop: space.drop().map(Entry::Number) }
+        Self {
+            coin: *space.body(),
+            rate_x,
+            rate_y,
+            rate_z,
+            speed,
+            gravity,
+            tilt,
+            drop: space.drop().map(Entry::Number),
+        }
     }
 }
 
@@ -93,6 +102,8 @@ mod tests {
             assert_eq!(toml::from_str::<Space>(&text).unwrap(), named.space, "{name}: {text}");
             let dropped = named.space.with_drop(Some(1.25)).unwrap();
             assert_eq!(toml::from_str::<Space>(&toml::to_string(&dropped).unwrap()).unwrap(), dropped);
+            let body = named.space.with_body(dynamics::catalogue::named_body("us-quarter-engraved").unwrap());
+            assert_eq!(toml::from_str::<Space>(&toml::to_string(&body).unwrap()).unwrap(), body);
         }
     }
 
@@ -102,7 +113,7 @@ mod tests {
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'", "speed [m/s] = 3.0"),
             (
                 "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 3\nspin = 1",
-                "unknown field `spin`, expected one of `coin`, `rate_x`",
+                "unknown field `spin`, expected one of `body`, `coin`",
             ),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = 1\ndrop = '3s'", "drop [m] = '3s'"),
             ("rate_x = 1\nrate_y = 1\nrate_z = 1", "speed [m/s] is missing"),

@@ -3,7 +3,8 @@
 //!
 //! ```toml
 //! description = "a hand that spins the coin at 20 ± 2 rad/s"
-//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }
+//! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] }, or any body:
+//!                                  # { moments = [I1, I2, I3] } or { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }
 //! rate_x = "normal:20:2"           # mean and standard deviation
 //! rate_y = "x"                     # the same value as rate_x
 //! rate_z = 5                       # fixed
@@ -16,7 +17,7 @@
 use std::ops::Range;
 
 use dynamics::error::find_named;
-use dynamics::{Coin, Dimension, Error, InputError};
+use dynamics::{Body, Dimension, Error, InputError};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -38,8 +39,8 @@ pub struct DescribedSpace {
 struct File {
     #[serde(default)]
     description: String,
-    #[serde(default = "paper")]
-    coin: Coin,
+    #[serde(default = "paper", alias = "body")]
+    coin: Body,
     rate_x: Option<Spanned<Entry>>,
     rate_y: Option<Spanned<Entry>>,
     rate_z: Option<Spanned<Entry>>,
@@ -108,6 +109,8 @@ pub fn named_space(name: &str) -> Result<Space, InputError> {
 
 #[cfg(test)]
 mod tests {
+    use dynamics::Coin;
+
     use super::*;
 
     #[test]
@@ -115,7 +118,9 @@ mod tests {
         let sizes: Vec<u64> = named_spaces().map(|(_, named)| named.space.grid_points().unwrap()).collect();
         assert_eq!(sizes, [250_000, 500, 500]);
         assert!(named_spaces().all(|(name, named)| {
-            !named.description.is_empty() && named.space.coin() == Coin::PAPER && named_space(name) == Ok(named.space)
+            !named.description.is_empty()
+                && named.space.coin() == Some(Coin::PAPER)
+                && named_space(name) == Ok(named.space)
         }));
     }
 
@@ -147,7 +152,18 @@ mod tests {
             (format!("{valid}gravity = 0"), 5, 11, "gravity [m/s²] = 0.0"),
             (format!("{valid}coin = 'groat'"), 5, 8, "coin = 'groat' is unknown"),
             (format!("{valid}coin = {{ moments = [1, 3] }}"), 5, 8, "I3 [kg m²] = 3.0"),
-            (format!("{valid}coin = {{ mass = 1 }}"), 5, 10, "unknown field `mass`, expected `moments` or `cylinder`"),
+            (
+                format!("{valid}body = {{ moments = [1, 2, 4] }}"),
+                5,
+                8,
+                "I3 [kg m²] = 4.0 is larger than I1 + I2 by 1.0",
+            ),
+            (
+                format!("{valid}coin = {{ mass = 1 }}"),
+                5,
+                10,
+                "unknown field `mass`, expected one of `moments`, `cylinder`, `inertia`",
+            ),
             (format!("{valid}tilt = nan"), 5, 8, "tilt [rad] = NaN"),
             (format!("{valid}tilt = '3m'"), 5, 8, "an angle in rad, deg"),
             (format!("{valid}drop = '3s'"), 5, 8, "drop [m] = '3s'"),

@@ -9,7 +9,7 @@
 
 use dynamics::error::require;
 use dynamics::{Error, InputError, Outcome};
-use exact::certify;
+use exact::certify_rigid;
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -77,7 +77,7 @@ impl Sampler<'_> {
                 InputError::Malformed { field, value, expected: "a single value, around which it spreads" }.into()
             );
         }
-        let landing = certify(&space.toss(&space.fixed_values()))?.outcome();
+        let landing = certify_rigid(&space.toss(&space.fixed_values()))?.outcome();
         if landing != Outcome::Heads {
             return Ok(LargestSpread::TossIsNotHeads(landing));
         }
@@ -123,7 +123,9 @@ fn plan(space: &Space, scrambled: Scrambled) -> Plan {
     let free: Vec<Coordinate> = space.free().collect();
     match free[..] {
         [] => Plan::Grid,
-        _ if space.drop().is_some() || !free.contains(&Coordinate::Speed) => Plan::Sobol(scrambled),
+        _ if space.coin().is_none() || space.drop().is_some() || !free.contains(&Coordinate::Speed) => {
+            Plan::Sobol(scrambled)
+        }
         [_] => Plan::ExactSpeed(Rest::Grid),
         _ => Plan::ExactSpeed(Rest::Sobol(scrambled)),
     }
@@ -197,7 +199,7 @@ mod tests {
 
     #[test]
     fn the_answer_depends_on_the_seed_alone() {
-        let toss = space(["20", "5", "7"], "3.2").with_coin(Coin::DISC);
+        let toss = space(["20", "5", "7"], "3.2").with_body(Coin::DISC);
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| Sampler::exact().largest_spread(&toss, &HAND, 0.9, POINTS).unwrap())

@@ -12,7 +12,7 @@
 //! all alike     0.5060 to 0.5094, ψ = 80.3° to 82.2° (95 %)
 //! 48 people     0.5039 to 0.5115, ψ = 79.2° to 83.7° (95 %)
 //! the wobbliest 0.6007, ψ = 60.8°
-//! a US quarter  0.5073 ± 0.0005, 4000000 launches with that ψ
+//! a US quarter  0.5075 ± 0.0005, 4000000 launches with that ψ
 //! ```
 //!
 //! At ψ = 90° a coin is fair. The first interval assumes that all flips are alike; it agrees with the interval in that

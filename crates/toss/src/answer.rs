@@ -1,14 +1,21 @@
 //! The types of an answer to a scene. An outcome says whether it is proven or estimated, so that an estimate is never
 //! taken for a proof.
 
-use dynamics::{Outcome, State};
+use dynamics::Outcome;
+#[cfg(feature = "planner")]
+use dynamics::State;
 use exact::{Certificate, Stage};
+#[cfg(feature = "planner")]
 use sampling::Estimate;
 
+#[cfg(feature = "planner")]
 use crate::trace::TracePoint;
 
-/// The answer to a [`Want`](crate::Want), of the same kind.
+/// The answer to a [`Want`](crate::Want), of the same kind. It is written as plain data and not read, because it may hold a
+/// proof, and a file proves nothing.
+#[cfg(feature = "planner")]
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Answer {
     /// Heads or tails, proven or estimated.
     Outcome(Verdict),

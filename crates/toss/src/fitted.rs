@@ -10,7 +10,7 @@
 
 use std::sync::LazyLock;
 
-use dynamics::{RoughPhases, SolveError, Toss};
+use dynamics::{Error, RoughPhases, SolveError, Toss};
 use serde::{Deserialize, Serialize};
 
 /// The table that this library was built with.
@@ -25,7 +25,8 @@ pub static FITTED: LazyLock<Fitted> =
 pub struct Fitted {
     /// The day and the machine on which it was measured.
     pub measured: String,
-    /// The models in closed form, which take no steps and no samples.
+    /// The models in closed form, which take no steps and no samples; none in a table of integrators from elsewhere.
+    #[serde(default)]
     pub closed: Vec<ClosedFit>,
     /// Upper ends of the bins of |q|/ωL, the ratio of spin to precession, for integrators. The last bin has no end.
     pub spins: Vec<f64>,
@@ -35,7 +36,8 @@ pub struct Fitted {
     pub tolerances: Vec<f64>,
     /// The integrators, an entry for each scheme.
     pub integrators: Vec<IntegratorFit>,
-    /// The models that sample a space.
+    /// The models that sample a space; none in a table of integrators from elsewhere.
+    #[serde(default)]
     pub sampling: Vec<SamplingFit>,
 }
 
@@ -119,6 +121,61 @@ pub struct Setting {
 }
 
 impl Fitted {
+    /// Reads a table that was measured elsewhere, for [`Registry::measured`](crate::Registry::measured).
+    ///
+    /// # Errors
+    /// [`Error::Text`] if the text is no such table: a field is missing, the bins do not increase, the tolerances do not
+    /// decrease, a table has not one row for each bin, or a number is not finite and positive.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let fitted: Self = toml::from_str(text).map_err(|error: toml::de::Error| {
+            Error::in_text(text, error.span().map(|span| span.start), error.message().to_owned())
+        })?;
+        fitted.complaint().map_or(Ok(fitted), |complaint| Err(Error::in_text(text, None, complaint)))
+    }
+
+    /// What is wrong with the table, if anything is.
+    fn complaint(&self) -> Option<String> {
+        let increase =
+            |ends: &[f64]| ends.windows(2).all(|pair| pair[0] < pair[1]) && ends.iter().all(|end| *end >= 0.0);
+        let finer: Vec<f64> = self.tolerances.iter().rev().copied().collect();
+        for (field, is_valid, valid) in [
+            ("spins", !self.spins.is_empty() && increase(&self.spins), "at least one end of a bin, increasing from 0"),
+            (
+                "phases",
+                !self.phases.is_empty() && increase(&self.phases) && self.phases[0] > 0.0,
+                "at least one end of a bin, increasing and above 0",
+            ),
+            (
+                "tolerances",
+                finer.len() > 1 && increase(&finer) && finer[0] > 0.0,
+                "at least two, decreasing to above 0",
+            ),
+        ] {
+            if !is_valid {
+                return Some(format!("{field}: must be {valid}"));
+            }
+        }
+        self.integrators.iter().find(|fit| !self.has_shape_of(fit)).map(|fit| {
+            let name = format!("{}/{}", fit.solver, fit.scheme);
+            format!(
+                "{name}: costs and tables must be finite and above 0, with a row for each spin, phase and tolerance"
+            )
+        })
+    }
+
+    fn has_shape_of(&self, fit: &IntegratorFit) -> bool {
+        let is_cost = |value: f64| value.is_finite() && value > 0.0;
+        let is_table = |table: &Vec<Vec<Vec<f64>>>| {
+            table.len() == self.spins.len()
+                && table.iter().all(|rows| rows.len() == self.phases.len())
+                && table.iter().flatten().all(|row| row.len() == self.tolerances.len())
+                && table.iter().flatten().flatten().all(|value| is_cost(*value))
+        };
+        // The cost of a flight without its calls may be too small to be seen.
+        let costs = fit.cost_ns.is_finite() && fit.cost_ns >= 0.0 && is_cost(fit.call_ns);
+        costs && [&fit.tilt_errors, &fit.errors, &fit.calls].into_iter().all(is_table)
+    }
+
     /// The entry of the closed form called `model`, if it has been measured.
     pub fn closed(&self, model: &str) -> Option<&ClosedFit> {
         self.closed.iter().find(|fit| fit.model == model)
@@ -230,14 +287,7 @@ mod tests {
                 name => assert!(fitted.sampling(name).unwrap().launch_ns > 0.0),
             }
         }
-        for fit in &fitted.integrators {
-            for table in [&fit.tilt_errors, &fit.errors, &fit.calls] {
-                assert_eq!(table.len(), fitted.spins.len());
-                assert!(table.iter().all(|rows| rows.len() == fitted.phases.len()));
-                assert!(table.iter().flatten().all(|row| row.len() == fitted.tolerances.len()));
-                assert!(table.iter().flatten().flatten().all(|value| *value > 0.0));
-            }
-        }
+        assert_eq!(fitted.complaint(), None);
         for (solver, scheme) in [("gamma", "dop853"), ("euler", "dopri5"), ("quaternion", "taylor")] {
             assert!(fitted.integrator(solver, scheme).is_some());
         }
@@ -245,7 +295,8 @@ mod tests {
 
     #[test]
     fn errors_and_costs_are_interpolated_in_phase_and_tolerance() {
-        let calls = vec![vec![8.0, 16.0, 32.0]; 2];
+        // The calls are no geometric sequence, so that extrapolating from a neighbour's entry gives another cost.
+        let calls = vec![vec![8.0, 16.0, 50.0], vec![9.0, 25.0, 36.0]];
         let fit = IntegratorFit {
             solver: "gamma".to_owned(),
             scheme: "dop853".to_owned(),
@@ -253,7 +304,7 @@ mod tests {
             call_ns: 10.0,
             tilt_errors: vec![vec![vec![1e-3, 1e-5, 1e-7]; 2]; 2],
             errors: vec![vec![vec![1e-2, 1e-4, 1e-6], vec![4e-2, 4e-4, 4e-6]], vec![vec![1.0; 3], vec![1.0; 3]]],
-            calls: vec![calls.clone(), calls],
+            calls: vec![calls, vec![vec![7.0, 11.0, 13.0], vec![17.0, 19.0, 23.0]]],
         };
         let fitted = Fitted {
             measured: String::new(),
@@ -273,7 +324,13 @@ mod tests {
         let middle = setting(3.0, 0.5, 2e-5).unwrap();
         near(middle.tolerance, 1e-6);
         near(middle.error, 2e-5);
-        near(middle.cost_ns, 100.0 + 16.0 * 2f64.sqrt() * 4.0 * 10.0);
+        near(middle.cost_ns, 100.0 + (25.0_f64 * 36.0).sqrt() * 4.0 * 10.0);
+        for (phase, spin, tolerance, calls) in
+            [(1.0, 0.5, 1e-5, 16.0), (1.0, 0.5, 1e-7, 50.0), (3.0, 0.6, 1e-3, 17.0), (900.0, 9.0, 1e-5, 19.0)]
+        {
+            let cost = fitted.cost_ns(&fit, &Turn { phase, spin }, tolerance);
+            near(cost, 100.0 + calls * (1.0 + phase) * 10.0);
+        }
         let beyond = setting(900.0, 0.0, 4e-4).unwrap();
         near(beyond.tolerance, 1e-7);
         near(fitted.setting(&fit, true, &Turn { phase: 3.0, spin: 0.5 }, 1e-4).unwrap().tolerance, 1e-4);

@@ -67,7 +67,7 @@ pub(crate) fn integrators(
                 vec![scheme]
             }
         };
-        offers.extend(schemes.into_iter().map(|scheme| flights.by(entry, scheme)));
+        offers.extend(schemes.into_iter().map(|scheme| flights.by(registry, entry, scheme)));
     }
     match by {
         Some(by) if offers.iter().all(|(_, offer)| matches!(offer, Err(Reason::NotMeasured))) => Err(unmeasured(by)),
@@ -99,9 +99,9 @@ fn model() -> &'static Model {
 pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -> Result<Answer, Error> {
     let solver = entry.solver(&Settings { stepping, ..Settings::default() })?;
     Ok(match want {
-        Want::Outcome(toss) => Answer::Outcome(Verdict::Estimated(solver.outcome(toss)?)),
-        Want::Tilt(toss) => Answer::Tilt(solver.cos_tilt(toss)?),
-        Want::Attitude(toss) => Answer::Attitude(solver.propagate(toss)?.state),
+        Want::Outcome(toss) => Answer::Outcome(Verdict::Estimated(solver.outcome_rigid(toss)?)),
+        Want::Tilt(toss) => Answer::Tilt(solver.cos_tilt_rigid(toss)?),
+        Want::Attitude(toss) => Answer::Attitude(solver.propagate_rigid(toss)?.state),
         Want::Trace { toss, points } => Answer::Trace(trace(solver.as_ref(), toss, *points)?),
         Want::Probability(_) => return Err(no_integrator_for_a_space().into()),
     })
@@ -109,11 +109,11 @@ pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -
 
 impl Flights {
     /// The offer of a scheme of an integrator; none if it has not been measured.
-    fn by(&self, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
+    fn by(&self, registry: &Registry, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
         let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
-        let offer = match FITTED.integrator(entry.name(), scheme.name()) {
+        let offer = match registry.fit(entry.name(), scheme.name()) {
             None => Err(Reason::NotMeasured),
-            Some(fit) => self.fitted(&FITTED, &Measured { entry, scheme, fit }),
+            Some((fitted, fit)) => self.fitted(fitted, &Measured { entry, scheme, fit }),
         };
         (candidate, offer)
     }
@@ -157,7 +157,7 @@ impl Flights {
         let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
         let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
         // What a trace adds to the cost of a landing, for each point; there is one more point than legs.
-        let cost_of = |model: &str| fitted.closed(model).map_or(0.0, |fit| fit.cost_ns);
+        let cost_of = |model: &str| FITTED.closed(model).map_or(0.0, |fit| fit.cost_ns);
         let tracing_ns = cost_of("trace") - cost_of("attitude");
         match leg.fitted(fitted, by) {
             Ok(leg) => Ok(Choice {

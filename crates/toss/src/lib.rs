@@ -21,10 +21,10 @@
 //! [`certify`] and [`margin()`].
 //!
 //! ```
-//! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
+//! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, certify, margin};
 //!
 //! let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//! let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
 //! assert_eq!(certify(&toss)?.outcome().name(), "heads");
 //! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
 //! let nearest = margin(&toss)?;
@@ -42,9 +42,9 @@
 //! tosses at once, see [`Batch`].
 //!
 //! ```
-//! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss, Vector3};
+//! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
 //! let flight = toss::trace(&ExactSolver, &toss, 4)?;
 //! let shown: Vec<String> = flight.iter().map(|point| format!("{:.2} s {:.3}", point.time, point.cos_tilt)).collect();
 //! assert_eq!(shown, ["0.00 s 1.000", "0.20 s 0.959", "0.41 s 0.842", "0.61 s 0.666"]);
@@ -74,71 +74,221 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Any rigid body
+//! A [`Body`] is a coin, or any other rigid body by its three moments or its inertia tensor; the [`catalogue`] has some by
+//! name. A [`RigidToss`] is its toss, which solvers, traces, spaces and scenes take. This racket is thrown flat and turns
+//! twice about its middle axis, and then its other face is up.
+//!
+//! ```
+//! use toss::{Body, Launch, RigidToss, TimeOfFlight, certify_rigid};
+//!
+//! let body: Body = "racket".parse()?;
+//! let toss = RigidToss { body, launch: Launch::new([0.12, 12.0, 0.0], TimeOfFlight::Given(1.0472))? };
+//! assert_eq!(certify_rigid(&toss)?.outcome().name(), "tails");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # A plan
 //! You don't need a trajectory to know the outcome. A [`Scene`] says what is wanted and how accurately, and the planner
 //! takes the cheapest model that gives it. Read on at [`Want`], [`MODELS`] and [`Scene::plan`].
 //!
 //! ```
 //! use toss::{Answer, Scene, Want};
-//! # use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
+//! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
 //!
-//! let outcome = Scene::new(Want::Outcome(toss), 1e-9).solve()?;
+//! let outcome = Scene::new(Want::Outcome(toss.into()), 1e-9).solve()?;
 //! assert!(matches!(outcome.answer, Answer::Outcome(verdict) if verdict.is_proven()));
-//! let tilt = Scene::new(Want::Tilt(toss), 1e-9);
+//! let tilt = Scene::new(Want::Tilt(toss.into()), 1e-9);
 //! assert_eq!(tilt.plan()?.choice.model.name, "tilt");
 //! assert!(matches!(tilt.solve()?.answer, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Choose a solver
+//! There are four ways, from the one that is decided earliest to the one that is decided latest.
+//!
+//! *By type*, when the program is compiled. A function that is generic over [`Solver`] takes any of them, and one of your own.
+//!
+//! ```
+//! use toss::{ExactSolver, Formulation, QuaternionSolver, Scheme, SolveError, Solver, Stepping};
+//! # use toss::{Coin, Launch, TimeOfFlight, Toss};
+//!
+//! fn lands_heads(solver: &impl Solver, toss: &Toss) -> Result<bool, SolveError> {
+//!     Ok(solver.cos_tilt(toss)? > 0.0)
+//! }
+//!
+//! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+//! let toss = Toss { coin: "us-quarter".parse()?, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! let quaternion = QuaternionSolver::new(Stepping::adaptive(Scheme::DOP853, 1e-9)?, Formulation::default());
+//! assert_eq!((lands_heads(&ExactSolver, &toss)?, lands_heads(&quaternion, &toss)?), (true, true));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! *By name*, while it runs. The [`Registry`] knows which schemes a solver has.
+//!
+//! ```
+//! use toss::{Registry, Settings};
+//! # use toss::{Coin, Launch, TimeOfFlight, Toss};
+//! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//!
+//! let settings = Settings { stepping: "dopri5 tolerance=1e-9".parse()?, ..Settings::default() };
+//! let backend = Registry::standard().backend("euler", &settings)?;
+//! assert_eq!(backend.outcome(&toss)?.to_string(), "heads");
+//! let refused = Registry::standard().named("magic").unwrap_err().to_string();
+//! assert_eq!(refused, "solver = 'magic' is unknown; known: exact, gamma, euler, quaternion");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! *By a configuration file*, with the feature `serde`: a [`SolverConfig`], of TOML or any other format of serde. What is left
+//! out is the solver's default; what is misspelt, contradicts itself or would have no effect is refused.
+//!
+//! ```
+//! use serde::Deserialize;
+//! use toss::{Registry, SolverConfig, Toss};
+//!
+//! #[derive(Deserialize)]
+//! #[serde(deny_unknown_fields)]
+//! struct Configuration {
+//!     solver: SolverConfig,
+//!     toss: Toss,
+//! }
+//!
+//! let text = r#"
+//!     [solver]
+//!     name = "quaternion"
+//!     scheme = "dop853"
+//!     tolerance = 1e-9
+//!
+//!     [toss]
+//!     coin = "us-quarter"
+//!     launch = { rate = ["38rev/s", 0, "5rev/s"], speed = "2.4m/s", tilt = "15deg" }
+//! "#;
+//! let Configuration { solver, toss } = toml::from_str(text)?;
+//! let backend = Registry::standard().configured(&solver)?;
+//! assert_eq!(backend.outcome(&toss)?.to_string(), "tails");
+//!
+//! let refused = |text: &str| toml::from_str::<Configuration>(text).map(|_| ()).unwrap_err().message().to_owned();
+//! assert!(refused(&text.replace("tolerance", "tolerence")).starts_with("unknown field `tolerence`"));
+//! assert!(refused(&text.replace("1e-9", "2")).starts_with("tolerance = 2.0 is outside its valid range"));
+//! let own = SolverConfig::new("exact").with_tolerance(1e-9)?;
+//! assert!(Registry::standard().configured(&own).unwrap_err().to_string().starts_with("tolerance = '1e-9' can't be used"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! *By plan*: a [`Scene`] states an accuracy, and the planner finds the integrator, its scheme and its tolerance.
+//!
+//! ```
+//! use toss::{How, Scene, Want};
+//! # use toss::{Coin, Launch, TimeOfFlight, Toss};
+//! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//!
+//! let choice = Scene::new(Want::Attitude(toss.into()), 1e-6).by("quaternion", None).plan()?.choice;
+//! let How::Integrator(solver, stepping) = &choice.how else { panic!("an integrator was asked for") };
+//! assert_eq!((solver.name(), stepping.scheme().name()), ("quaternion", "taylor"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Vectors
+//! Functions that take a vector take `[f64; 3]` as well as [`Vector3`], and `<[f64; 3]>::from` makes an array of a vector, so
+//! that your version of nalgebra does not matter. Ours is re-exported as [`nalgebra`].
+//!
+//! ```
+//! use toss::{Attitude, Launch, State, TimeOfFlight};
+//!
+//! let state = State::new(Attitude::about_x(0.5), [1.0, 1.0, 2.5]);
+//! let [_, y, z] = state.attitude.normal().into();
+//! assert_eq!((y, z), (-0.5_f64.sin(), 0.5_f64.cos()));
+//! let launch = Launch::from_state(&state, TimeOfFlight::Given(0.6))?;
+//! assert_eq!(<[f64; 3]>::from(launch.rate()), [1.0, 1.0, 2.5]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Features
+//! All are on by default, and each can be left out. Without any, there are the exact motion with its proofs, batches, traces, and
+//! the registry for solvers of your own.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `integrators` | the solvers `gamma`, `euler` and `quaternion` |
+//! | `sampling` | probabilities over many launches |
+//! | `planner` | scenes and the models that answer them; turns `sampling` on |
+//! | `serde` | settings, tosses, plans and answers as plain data; spaces of launches by name or from a file |
+//! | `rayon` | samples on all threads |
+//!
 //! The crate's folder `examples` answers further questions: which launches are fair, how to launch for a wanted
 //! probability, how much people's coins wobble.
 
 mod answer;
+#[cfg(feature = "planner")]
 mod choice;
+#[cfg(feature = "serde")]
+mod data;
+#[cfg(feature = "planner")]
 pub mod fitted;
+#[cfg(feature = "planner")]
 mod integrators;
+#[cfg(feature = "planner")]
 mod model;
+#[cfg(feature = "planner")]
 mod plan;
+#[cfg(feature = "planner")]
 mod reason;
 mod registry;
+#[cfg(feature = "planner")]
 mod samples;
+#[cfg(feature = "planner")]
 mod scene;
 mod trace;
 
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Angle, AngleUnit, Attitude, Coin, Dimension, EulerAngles, Launch, Outcome, Quantity, State, TimeOfFlight, Toss,
-    Tosses, Unit, Vector3,
+    Angle, AngleUnit, Attitude, Body, Coin, Dimension, EulerAngles, Launch, Outcome, Quantity, RigidToss, State,
+    TimeOfFlight, Toss, Tosses, Unit, Vector3, nalgebra,
 };
 
 // Solvers: to choose one, or to write your own.
 pub use dynamics::{
-    Checked, Formulation, Propagation, Scheme, Settings, Solver, SolverEntry, StepControl, Stepping, Work,
+    Checked, ForeignError, Formulation, FreeRotation, Propagation, Scheme, Settings, Solver, SolverConfig, SolverEntry,
+    StepControl, Stepping, Work,
 };
+#[cfg(feature = "integrators")]
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-pub use kinematics_quat::{QuaternionSolver, TAYLOR};
+#[cfg(feature = "integrators")]
+pub use kinematics_quat::{IntegratedCertificate, IntegratedCounts, Integration, Proving, QuaternionSolver, TAYLOR};
 pub use registry::{Backend, Registry};
 
 // The exact motion, and what follows from it.
 pub use exact::{
-    Batch, Certificate, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify, margin, speeds_of_heads,
-    thrown_speeds_of_heads,
+    Batch, Certificate, ExactMotion, ExactSolver, Margin, RigidMargin, RigidMotion, Sensitivity, Stage, certify,
+    certify_rigid, margin, margin_rigid, rigid_speeds_of_heads, speeds_of_heads, thrown_speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 
 // Probabilities over many launches.
+#[cfg(feature = "sampling")]
 pub use sampling;
 
 // Questions, and the models that answer them.
-pub use answer::{Answer, Verdict};
+#[cfg(feature = "planner")]
+pub use answer::Answer;
+pub use answer::Verdict;
+#[cfg(feature = "planner")]
 pub use choice::{Candidate, Choice, Decision, How, Offer};
+#[cfg(feature = "planner")]
 pub use model::{MODELS, Model};
+#[cfg(feature = "planner")]
 pub use plan::Solution;
+#[cfg(feature = "planner")]
 pub use reason::{Nanoseconds, Reason};
+#[cfg(feature = "planner")]
 pub use scene::{Integrator, Scene, Want, WantKind};
+#[cfg(feature = "integrators")]
+pub use trace::{EnclosedPoint, trace_enclosed, trace_enclosed_every};
 pub use trace::{MOST_POINTS, TracePoint, trace, trace_every};
 
 // Errors.

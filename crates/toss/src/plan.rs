@@ -5,14 +5,14 @@
 //! serves is taken. Integrators and samples have costs that depend on the scene, so all of them are compared.
 
 use dynamics::error::require;
-use dynamics::{Error, InputError, Toss};
-use exact::certify;
+use dynamics::{Error, InputError, RigidToss, Toss};
+use exact::{RigidMotion, certify};
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, Decision, How, Offer};
 use crate::fitted::{FITTED, Turn};
 use crate::integrators::{Aim, Flights, integrated, integrators};
-use crate::model::{Kind, MODELS, Model};
+use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
 use crate::registry::Registry;
 use crate::samples::{sampled, samples};
@@ -37,7 +37,8 @@ impl Scene {
         self.plan_with(Registry::standard())
     }
 
-    /// The cheapest model that serves the scene, with the integrators of `registry`.
+    /// The cheapest model that serves the scene, with the integrators of `registry`. An integrator that is not of this
+    /// workspace can be chosen if the registry has its errors and costs ([`Registry::measured`]).
     ///
     /// # Errors
     /// [`Error::Input`] if the scene is invalid or no model is accurate enough; [`Error::Solve`] for a phase above 2^53
@@ -47,7 +48,8 @@ impl Scene {
         match (self.want.toss(), &self.by) {
             (Some(toss), None) => self.first_closed_form(toss),
             (Some(toss), Some(by)) => {
-                let passed_over = closed_forms().map(|model| (model.into(), Reason::NotAskedFor)).collect();
+                let toss = &toss.symmetric().ok_or(ONLY_COINS_BY)?;
+                let passed_over = closed_forms(Of::Coins).map(|model| (model.into(), Reason::NotAskedFor)).collect();
                 let candidates = integrators(registry, Some(by), self.flights(toss)?)?;
                 let valid = "at least what the integrator reaches at its finest tolerance";
                 cheapest(passed_over, candidates).ok_or_else(|| self.too_accurate(valid))
@@ -65,10 +67,20 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::plan`].
     pub fn candidates(&self) -> Result<Vec<(Candidate, Offer)>, Error> {
+        self.candidates_with(Registry::standard())
+    }
+
+    /// The offers of all models to the scene, with the integrators of `registry`.
+    ///
+    /// # Errors
+    /// As for [`Scene::plan_with`].
+    pub fn candidates_with(&self, registry: &Registry) -> Result<Vec<(Candidate, Offer)>, Error> {
         self.validate()?;
         let Some(toss) = self.want.toss() else { return Ok(samples(self)?) };
-        let closed_forms = closed_forms().map(|model| (model.into(), self.closed_form(model)));
-        Ok(closed_forms.chain(integrators(Registry::standard(), None, self.flights(toss)?)?).collect())
+        let of = Of::body(&toss.body);
+        let closed_forms = closed_forms(of).map(|model| (model.into(), self.closed_form(model, of)));
+        let Some(toss) = toss.symmetric() else { return Ok(closed_forms.collect()) };
+        Ok(closed_forms.chain(integrators(registry, None, self.flights(&toss)?)?).collect())
     }
 
     /// Answers the scene by the model that [`Scene::plan`] chooses.
@@ -77,18 +89,30 @@ impl Scene {
     /// The [`Error`] of the plan or of the solver.
     #[inline]
     pub fn solve(&self) -> Result<Solution, Error> {
+        self.solve_with(Registry::standard())
+    }
+
+    /// Answers the scene by the model that [`Scene::plan_with`] chooses.
+    ///
+    /// # Errors
+    /// The [`Error`] of the plan or of the solver.
+    #[inline]
+    pub fn solve_with(&self, registry: &Registry) -> Result<Solution, Error> {
         match &self.want {
             // A shortcut: an outcome has one model, and planning would cost more than the answer.
-            Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => {
-                Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(toss)?)), model: &MODELS[0] })
-            }
-            _ => self.solve_as_planned(),
+            Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => match toss.symmetric() {
+                Some(toss) => {
+                    Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(&toss)?)), model: &MODELS[0] })
+                }
+                None => self.solve_as_planned(registry),
+            },
+            _ => self.solve_as_planned(registry),
         }
     }
 
     #[inline(never)]
-    fn solve_as_planned(&self) -> Result<Solution, Error> {
-        let choice = self.plan()?.choice;
+    fn solve_as_planned(&self, registry: &Registry) -> Result<Solution, Error> {
+        let choice = self.plan_with(registry)?.choice;
         Ok(Solution { answer: choice.run(self)?, model: choice.model })
     }
 
@@ -99,12 +123,16 @@ impl Scene {
         if let Want::Trace { points, .. } = self.want { require_points(points) } else { Ok(()) }
     }
 
-    fn first_closed_form(&self, toss: &Toss) -> Result<Decision, Error> {
+    fn first_closed_form(&self, toss: &RigidToss) -> Result<Decision, Error> {
         // No model has an answer beyond a phase of 2^53 rad; this returns the error.
-        Turn::of(toss)?;
+        match toss.symmetric() {
+            Some(toss) => _ = Turn::of(&toss)?,
+            None => _ = RigidMotion::new(toss).phase(toss.launch.time_of_flight())?,
+        }
+        let of = Of::body(&toss.body);
         let mut passed_over = Vec::new();
-        for model in closed_forms() {
-            match self.closed_form(model) {
+        for model in closed_forms(of) {
+            match self.closed_form(model, of) {
                 Ok(choice) => return Ok(Decision { choice, passed_over }),
                 Err(reason) => passed_over.push((model.into(), reason)),
             }
@@ -127,7 +155,10 @@ impl Scene {
         Ok(Flights { turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
     }
 
-    fn closed_form(&self, model: &'static Model) -> Offer {
+    fn closed_form(&self, model: &'static Model, of: Of) -> Offer {
+        if model.of != of {
+            return Err(Reason::OnlyCoins);
+        }
         let (Kind::ClosedForm { serves, .. }, Some(fit)) = (&model.kind, FITTED.closed(model.name)) else {
             return Err(Reason::NotMeasured);
         };
@@ -164,10 +195,17 @@ impl Choice {
     }
 }
 
-/// The models in closed form.
-fn closed_forms() -> impl Iterator<Item = &'static Model> {
-    MODELS.iter().filter(|model| model.is_closed_form())
+/// The models in closed form that are considered for these bodies: those for coins are passed over for the others.
+fn closed_forms(of: Of) -> impl Iterator<Item = &'static Model> {
+    MODELS.iter().filter(move |model| model.is_closed_form() && (model.of == Of::Coins || model.of == of))
 }
+
+/// Why no integrator is planned for a body with I1 ≠ I2.
+const ONLY_COINS_BY: InputError = InputError::OutsideModel {
+    field: "by",
+    why: "this body has I1 ≠ I2, and the errors and costs of integrators were measured on coins, so that no plan can \
+          choose a tolerance; choose the solver and its tolerance yourself",
+};
 
 /// Chooses the cheapest candidate that serves, and appends the others with their reasons to `passed_over`. `None` if no
 /// candidate serves.

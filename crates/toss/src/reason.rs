@@ -30,6 +30,8 @@ pub enum Reason {
     TellsNoError,
     /// The coins land below or above their launch.
     HasDrop,
+    /// The body has I1 ≠ I2.
+    OnlyCoins,
 }
 
 impl fmt::Display for Reason {
@@ -43,6 +45,7 @@ impl fmt::Display for Reason {
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
             Self::TellsNoError => f.write_str("has no error estimate"),
+            Self::OnlyCoins => f.write_str("is for coins, with I1 = I2"),
             Self::HasDrop => f.write_str("needs a landing at the height of the launch"),
         }
     }

@@ -1,20 +1,38 @@
 //! The registry lists the solvers that can be chosen by name while the program runs. Tests, checks and the command line
 //! go through this list, so that a new solver needs one line here and nothing else.
 
+use std::fmt;
+#[cfg(feature = "planner")]
+use std::sync::Arc;
 use std::sync::LazyLock;
 
 use dynamics::error::find_named;
-use dynamics::{Checked, InputError, Outcome, Settings, SolveError, Solver, SolverEntry, Toss};
-use exact::{ExactSolver, certify};
+use dynamics::{
+    Checked, InputError, Outcome, RigidToss, Settings, SolveError, Solver, SolverConfig, SolverEntry, Toss,
+};
+use exact::{ExactSolver, certify, certify_rigid};
+#[cfg(feature = "integrators")]
 use kinematics_euler::{EulerAnglesSolver, GammaSolver};
+#[cfg(feature = "integrators")]
 use kinematics_quat::QuaternionSolver;
+#[cfg(feature = "sampling")]
 use sampling::Sampler;
 
 use crate::answer::Verdict;
+#[cfg(feature = "planner")]
+use crate::fitted::{FITTED, Fitted, IntegratorFit};
 
-/// The solvers of this workspace, one line for each.
+/// The solvers of this workspace, one entry for each. Those that integrate need the feature `integrators`.
 fn standard() -> Vec<SolverEntry> {
-    vec![ExactSolver::entry(), GammaSolver::entry(), EulerAnglesSolver::entry(), QuaternionSolver::entry()]
+    vec![
+        ExactSolver::entry(),
+        #[cfg(feature = "integrators")]
+        GammaSolver::entry(),
+        #[cfg(feature = "integrators")]
+        EulerAnglesSolver::entry(),
+        #[cfg(feature = "integrators")]
+        QuaternionSolver::entry(),
+    ]
 }
 
 /// A list of solvers with unique names.
@@ -26,28 +44,75 @@ fn standard() -> Vec<SolverEntry> {
 /// assert_eq!(quaternion.name(), "quaternion");
 /// # Ok::<(), toss::InputError>(())
 /// ```
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Registry {
     entries: Vec<SolverEntry>,
+    /// What was measured of integrators that are not in the planner's own table.
+    #[cfg(feature = "planner")]
+    measured: Vec<Arc<Fitted>>,
 }
 
 impl Registry {
     /// The solvers of this workspace.
     pub fn standard() -> &'static Self {
-        static STANDARD: LazyLock<Registry> = LazyLock::new(|| Registry { entries: standard() });
+        static STANDARD: LazyLock<Registry> = LazyLock::new(|| Registry::empty().holding(standard()));
         &STANDARD
+    }
+
+    /// A registry without solvers, to which yours can be added by [`Registry::with`].
+    pub fn empty() -> Self {
+        Self::default()
+    }
+
+    /// The registry with those of its solvers that are called so, in its own order.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`] for a name that no solver has.
+    pub fn only(&self, names: &[&str]) -> Result<Self, InputError> {
+        names.iter().try_for_each(|name| self.named(name).map(|_| ()))?;
+        let entries = self.entries.iter().filter(|entry| names.contains(&entry.name())).cloned().collect();
+        Ok(self.holding(entries))
     }
 
     /// A registry with the same solvers and one more.
     ///
     /// # Errors
-    /// [`InputError::Malformed`] if a solver of the registry already has this name.
+    /// [`InputError::Malformed`] if a solver of the registry already has this name, or if it is `exact`: outcomes by
+    /// that name are proven, and only the library's own solver can prove them.
     pub fn with(&self, entry: SolverEntry) -> Result<Self, InputError> {
+        let refused =
+            |expected| Err(InputError::Malformed { field: "solver", value: entry.name().to_owned(), expected });
         if self.entries.iter().any(|other| other.name() == entry.name()) {
-            let expected = "a name that no other solver of the registry has";
-            return Err(InputError::Malformed { field: "solver", value: entry.name().to_owned(), expected });
+            return refused("a name that no other solver of the registry has");
         }
-        Ok(Self { entries: self.entries.iter().cloned().chain([entry]).collect() })
+        if entry.name() == ExactSolver::NAME {
+            return refused("a name other than that of the exact motion, whose outcomes are proven");
+        }
+        Ok(self.holding(self.entries.iter().cloned().chain([entry]).collect()))
+    }
+
+    /// The same registry with these solvers instead of its own.
+    fn holding(&self, entries: Vec<SolverEntry>) -> Self {
+        let mut registry = self.clone();
+        registry.entries = entries;
+        registry
+    }
+
+    /// The same registry with the measured errors and costs of its integrators, by which the planner can choose them.
+    /// The command `fit` of a verification suite measures them. They take precedence over what this library was built
+    /// with.
+    #[cfg(feature = "planner")]
+    #[must_use]
+    pub fn measured(&self, fitted: Fitted) -> Self {
+        let measured = [Arc::new(fitted)].into_iter().chain(self.measured.iter().cloned()).collect();
+        Self { entries: self.entries.clone(), measured }
+    }
+
+    /// What was measured of the integrator `solver` with `scheme`, and the table that it belongs to.
+    #[cfg(feature = "planner")]
+    pub(crate) fn fit(&self, solver: &str, scheme: &str) -> Option<(&Fitted, &IntegratorFit)> {
+        let tables = self.measured.iter().map(|fitted| &**fitted).chain([&*FITTED]);
+        tables.into_iter().find_map(|fitted| Some((fitted, fitted.integrator(solver, scheme)?)))
     }
 
     /// All solvers, in the order in which they were added.
@@ -70,6 +135,22 @@ impl Registry {
     pub fn backend(&self, name: &str, settings: &Settings) -> Result<Backend, InputError> {
         let solver = self.named(name)?.solver(settings)?;
         Ok(if name == ExactSolver::NAME { Backend::Exact(Checked::new(ExactSolver)) } else { Backend::Solver(solver) })
+    }
+
+    /// The solver that `config` chooses, with its settings. A program reads the configuration from a file, as the
+    /// [crate's front page](crate#choose-a-solver) shows.
+    ///
+    /// # Errors
+    /// [`InputError`] for an unknown name, and for a setting that the solver does not take.
+    pub fn configured(&self, config: &SolverConfig) -> Result<Backend, InputError> {
+        self.backend(config.name(), &config.settings(self.named(config.name())?)?)
+    }
+}
+
+/// Writes the name of the solver.
+impl fmt::Debug for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Backend").field(&self.solver().name()).finish()
     }
 }
 
@@ -102,6 +183,17 @@ impl Backend {
         }
     }
 
+    /// As [`Backend::verdict`], for any rigid body.
+    ///
+    /// # Errors
+    /// As for [`Solver::outcome_at_rigid`].
+    pub fn verdict_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Verdict, SolveError> {
+        match self {
+            Self::Exact(_) => certify_rigid(toss).map(Verdict::Proven),
+            Self::Solver(solver) => solver.outcome_at_rigid(toss, cos_tilt).map(Verdict::Estimated),
+        }
+    }
+
     /// The outcome without its proof or estimate.
     ///
     /// # Errors
@@ -111,6 +203,7 @@ impl Backend {
     }
 
     /// A sampler that solves its launches by this backend.
+    #[cfg(feature = "sampling")]
     pub fn sampler(&self) -> Sampler<'_> {
         match self {
             Self::Exact(_) => Sampler::exact(),
@@ -134,5 +227,17 @@ mod tests {
         let error = registry.with(impostor).unwrap_err();
         assert!(error.to_string().starts_with("solver = 'exact'"), "{error}");
         assert_eq!(registry.named("magic").unwrap_err().field(), "solver");
+    }
+
+    #[test]
+    fn a_registry_may_be_a_part_of_ours_and_nobody_elses_solver_is_called_exact() {
+        let part = Registry::standard().only(&["quaternion", "gamma"]).unwrap();
+        assert_eq!(part.entries().iter().map(SolverEntry::name).collect::<Vec<_>>(), ["gamma", "quaternion"]);
+        assert_eq!(Registry::standard().only(&["magic"]).unwrap_err().field(), "solver");
+        let impostor = |name: &'static str| SolverEntry::new(name, "", |_| Box::new(ExactSolver));
+        // Without this refusal its outcomes would be those of the exact motion, and be called proven.
+        let error = Registry::empty().with(impostor("exact")).unwrap_err();
+        assert!(error.to_string().starts_with("solver = 'exact'"), "{error}");
+        assert_eq!(Registry::empty().with(impostor("mine")).unwrap().entries().len(), 1);
     }
 }

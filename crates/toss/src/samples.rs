@@ -8,7 +8,7 @@ use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::fitted::{FITTED, SamplingFit};
-use crate::model::{Kind, MODELS, Model};
+use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
 use crate::scene::{Scene, Want};
 
@@ -28,9 +28,12 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
         return Err(no_integrator_for_a_space());
     }
     let Want::Probability(space) = &scene.want else { return Ok(Vec::new()) };
+    let of = Of::body(space.body());
     let offer = |model: &'static Model| match model.kind {
+        Kind::Sample { .. } if model.of == Of::Others && of == Of::Coins => None,
         Kind::Sample { refuses, plan } => {
-            let refused = refuses(space).map(Err);
+            let only_coins = (model.of != of).then_some(Reason::OnlyCoins);
+            let refused = only_coins.or_else(|| refuses(space)).map(Err);
             Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
         }
         _ => None,
@@ -99,6 +102,6 @@ fn doubled(plan: Plan) -> Option<Plan> {
         Plan::Random { points, seed } => Some(Plan::Random { points: 2 * points, seed }),
         Plan::Sobol(scrambled) => Some(Plan::Sobol(twice(scrambled))),
         Plan::ExactSpeed(Rest::Sobol(scrambled)) => Some(Plan::ExactSpeed(Rest::Sobol(twice(scrambled)))),
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => None,
     }
 }

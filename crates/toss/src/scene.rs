@@ -8,14 +8,17 @@
 //! coin = "us-quarter"
 //! launch = { rate = [20.0, 0.0, 5.0], speed = 3.0 }
 //! ```
+//!
+//! The coin may be any rigid body.
 
-use dynamics::Toss;
+use dynamics::RigidToss;
 use sampling::Space;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 /// A question about a toss or a space of launches, with the accuracy wanted.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct Scene {
     /// What is wanted.
     pub want: Want,
@@ -23,24 +26,24 @@ pub struct Scene {
     /// outcome, which is proven; an outcome by an integrator is decided where |cos θ| exceeds it.
     pub accuracy: f64,
     /// An integrator that is used instead of the cheapest model, as a cross-check.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub by: Option<Integrator>,
 }
 
 /// What is wanted, and of which toss or space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(rename_all = "kebab-case", deny_unknown_fields))]
 pub enum Want {
     /// Heads or tails.
-    Outcome(Toss),
+    Outcome(RigidToss),
     /// cos θ at landing.
-    Tilt(Toss),
+    Tilt(RigidToss),
     /// Attitude and body rate at landing.
-    Attitude(Toss),
+    Attitude(RigidToss),
     /// The flight at equally spaced times.
     Trace {
         /// The toss whose flight it is.
-        toss: Toss,
+        toss: RigidToss,
         /// Number of times, launch and landing included.
         points: usize,
     },
@@ -49,13 +52,13 @@ pub enum Want {
 }
 
 /// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct Integrator {
     /// Name of the solver in the [`Registry`](crate::Registry).
     pub solver: String,
     /// Name of the scheme, one that takes a tolerance; if it is `None`, the cheapest one is taken.
-    #[serde(alias = "method", skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(alias = "method", skip_serializing_if = "Option::is_none"))]
     pub scheme: Option<String>,
 }
 
@@ -104,7 +107,7 @@ impl Want {
     }
 
     /// The toss of the question; `None` for a space.
-    pub fn toss(&self) -> Option<&Toss> {
+    pub fn toss(&self) -> Option<&RigidToss> {
         match self {
             Self::Outcome(toss) | Self::Tilt(toss) | Self::Attitude(toss) | Self::Trace { toss, .. } => Some(toss),
             Self::Probability(_) => None,
@@ -113,7 +116,8 @@ impl Want {
 
     /// The same question about another toss. A question about a space is returned unchanged.
     #[must_use]
-    pub fn of(&self, toss: Toss) -> Self {
+    pub fn of(&self, toss: impl Into<RigidToss>) -> Self {
+        let toss = toss.into();
         match self {
             Self::Outcome(_) => Self::Outcome(toss),
             Self::Tilt(_) => Self::Tilt(toss),
@@ -138,6 +142,7 @@ impl Scene {
     }
 }
 
+#[cfg(feature = "serde")]
 #[cfg(test)]
 mod tests {
     use super::*;

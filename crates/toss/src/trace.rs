@@ -4,9 +4,16 @@
 //! BF is the body frame, whose z axis is the coin's normal n. LF is the laboratory frame, whose z axis ẑ points up; θ
 //! is the angle between n and ẑ.
 
+#[cfg(feature = "integrators")]
+use dynamics::Toss;
 use dynamics::error::require;
-use dynamics::{Attitude, Checked, Error, EulerAngles, InputError, Launch, Solver, State, TimeOfFlight, Toss, Vector3};
+use dynamics::{
+    Attitude, Checked, Error, EulerAngles, InputError, Launch, RigidToss, SolveError, Solver, State, TimeOfFlight,
+    Vector3,
+};
 use exact::ExactMotion;
+#[cfg(feature = "integrators")]
+use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
 
 /// The largest number of points of a trace. A chart needs some hundreds.
 pub const MOST_POINTS: usize = 1_000_000;
@@ -18,7 +25,8 @@ pub struct TracePoint {
     pub time: f64,
     /// Attitude (BF to LF).
     pub attitude: Attitude,
-    /// Euler angles (rad), continuous over the flight.
+    /// Euler angles (rad): of a coin continuous over the flight; of another body each is the one nearest to that of the
+    /// point before, which is the same where the points are dense enough.
     pub angles: EulerAngles,
     /// The coin's normal n (unit vector in LF).
     pub normal: Vector3<f64>,
@@ -28,18 +36,26 @@ pub struct TracePoint {
     pub cos_tilt: f64,
 }
 
-/// The flight of `toss` by `solver` at `points` equally spaced times, launch and landing included.
+/// The flight of `toss`, of a coin or any rigid body, by `solver` at `points` equally spaced times, launch and landing
+/// included.
 ///
 /// An integrator starts from the previous point, a closed form from the launch. The attitude leaves the
-/// branch of the Euler angles open; the one nearest to the exact motion is taken.
+/// branch of the Euler angles open; the one nearest to the exact motion is taken, or for a body that is no coin the one
+/// nearest to the previous point.
 ///
 /// # Errors
 /// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
-pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
+pub fn trace(solver: &dyn Solver, toss: impl Into<RigidToss>, points: usize) -> Result<Vec<TracePoint>, Error> {
+    let toss = &toss.into();
+    trace_at(solver, toss, spaced(&toss.launch, points)?.into_iter())
+}
+
+/// So many equally spaced times (s) from launch to landing.
+fn spaced(launch: &Launch, points: usize) -> Result<Vec<f64>, InputError> {
     require_points(points)?;
     #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
-    let time = |index: usize| toss.launch.flight_time() * (index as f64 / (points - 1) as f64);
-    trace_at(solver, toss, (0..points).map(time))
+    let time = |index: usize| launch.flight_time() * (index as f64 / (points - 1) as f64);
+    Ok((0..points).map(time).collect())
 }
 
 /// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing.
@@ -47,29 +63,123 @@ pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<Trac
 /// # Errors
 /// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
 /// solver says.
-pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
-    let landing = toss.launch.flight_time();
+pub fn trace_every(solver: &dyn Solver, toss: impl Into<RigidToss>, step: f64) -> Result<Vec<TracePoint>, Error> {
+    let toss = &toss.into();
+    trace_at(solver, toss, stepped(&toss.launch, step)?.into_iter())
+}
+
+/// The times (s) from launch on with this `step`, and that of the landing.
+fn stepped(launch: &Launch, step: f64) -> Result<Vec<f64>, InputError> {
+    let landing = launch.flight_time();
     let valid = "> 0 s, and at least a millionth of the time of flight";
     require("dt [s]", step, valid, step > 0.0 && landing / step < (MOST_POINTS - 2) as f64)?;
     let steps = (0_u32..).map(|index| f64::from(index) * step).take_while(|time| *time < landing);
-    trace_at(solver, toss, steps.chain([landing]))
+    Ok(steps.chain([landing]).collect())
+}
+
+/// A point of a trace with the certificate that bounds its errors.
+#[cfg(feature = "integrators")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnclosedPoint {
+    /// The point. Its cos θ is that of the certificate.
+    pub point: TracePoint,
+    /// The proven bounds.
+    pub certificate: IntegratedCertificate,
+}
+
+/// As [`trace`], with proven bounds of the errors at each point. Each point is a flight from the launch.
+///
+/// # Errors
+/// As [`trace`] and [`QuaternionSolver::certify`].
+#[cfg(feature = "integrators")]
+pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> Result<Vec<EnclosedPoint>, Error> {
+    enclosed_at(solver, toss, &spaced(&toss.launch, points)?)
+}
+
+/// As [`trace_every`], with proven bounds of the errors at each point.
+///
+/// # Errors
+/// As [`trace_every`] and [`QuaternionSolver::certify`].
+#[cfg(feature = "integrators")]
+pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
+    enclosed_at(solver, toss, &stepped(&toss.launch, step)?)
+}
+
+#[cfg(feature = "integrators")]
+fn enclosed_at(solver: &QuaternionSolver, toss: &Toss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
+    let motion = ExactMotion::new(toss);
+    let (rate, unit) = toss.launch.given_rate();
+    let at = |time: f64| -> Result<EnclosedPoint, Error> {
+        let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time))?;
+        let flown = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
+        let certificate = solver.enclose(&flown)?;
+        let point = TracePoint::new(time, certificate.landing().state.attitude, &motion.euler_angles(time)?);
+        Ok(EnclosedPoint { point: TracePoint { cos_tilt: certificate.cos_tilt(), ..point }, certificate })
+    };
+    times.iter().map(|time| at(*time)).collect()
 }
 
 /// The flight of `toss` by `solver` at `times`, which ascend from 0.
-fn trace_at(solver: &dyn Solver, toss: &Toss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
+fn trace_at(solver: &dyn Solver, toss: &RigidToss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
     let solver = Checked::new(solver);
-    let motion = ExactMotion::new(toss);
+    let mut branch = Branch::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let mut last = (0.0, launch);
     let mut trace = Vec::with_capacity(times.size_hint().0);
     for time in times {
         let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
-        let leg = Toss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
-        let state = solver.propagate(&leg).map_err(|error| error.later(since))?.state;
-        trace.push(TracePoint::new(time, state.attitude, &motion.euler_angles(time)?));
+        let leg = RigidToss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
+        let state = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?.state;
+        // A closed form leaves a turn of 1e-33 at launch, which would say where n goes.
+        let attitude = if time == 0.0 { branch.launched(&launch, &state) } else { state.attitude };
+        let point = TracePoint::new(time, attitude, &branch.at(time)?);
+        branch.follow(&point);
+        trace.push(point);
         last = (time, state);
     }
     Ok(trace)
+}
+
+/// The Euler angles whose branch a point takes.
+enum Branch {
+    /// Those of the exact motion of a coin.
+    Coin(Box<ExactMotion>),
+    /// Those of the point before.
+    Before(EulerAngles),
+}
+
+impl Branch {
+    fn new(toss: &RigidToss) -> Self {
+        if let Some(toss) = toss.symmetric() {
+            return Self::Coin(Box::new(ExactMotion::new(&toss)));
+        }
+        // From horizontal n goes off at a right angle to ω, and the spin γ is the angle at which it does so.
+        let rate = toss.launch.rate();
+        let gamma = (-rate.y).atan2(rate.x);
+        let departure = EulerAngles { alpha: -gamma, beta: 0.0, gamma };
+        let launch = toss.launch.attitude();
+        let is_horizontal = launch == Attitude::IDENTITY;
+        Self::Before(if is_horizontal { departure } else { EulerAngles::principal(&launch) })
+    }
+
+    /// The angles of reference at `time` (s).
+    fn at(&self, time: f64) -> Result<EulerAngles, SolveError> {
+        match self {
+            Self::Coin(motion) => motion.euler_angles(time),
+            Self::Before(angles) => Ok(*angles),
+        }
+    }
+
+    /// The attitude at launch, without the rounding of a solver of bodies.
+    fn launched(&self, launch: &State, solved: &State) -> Attitude {
+        if let Self::Before(_) = self { launch.attitude } else { solved.attitude }
+    }
+
+    fn follow(&mut self, point: &TracePoint) {
+        if let Self::Before(angles) = self {
+            *angles = point.angles;
+        }
+    }
 }
 
 /// Checks the number of points.
@@ -82,7 +192,7 @@ pub(crate) fn require_points(points: usize) -> Result<(), InputError> {
 }
 
 impl TracePoint {
-    fn new(time: f64, attitude: Attitude, branch: &EulerAngles) -> Self {
+    pub(crate) fn new(time: f64, attitude: Attitude, branch: &EulerAngles) -> Self {
         Self {
             time,
             attitude,
@@ -96,8 +206,10 @@ impl TracePoint {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Propagation, Settings, SolveError, Stepping};
-    use exact::ExactSolver;
+    #[cfg(not(feature = "integrators"))]
+    use dynamics::Toss;
+    use dynamics::{Body, Coin, Propagation, Settings, Stepping};
+    use exact::{ExactSolver, RigidMotion};
 
     use super::*;
     use crate::registry::Registry;
@@ -108,7 +220,7 @@ mod tests {
         let toss = Toss { coin: Coin::PAPER, launch };
         let motion = ExactMotion::new(&toss);
         for entry in Registry::standard().entries() {
-            let trace = trace(&entry.solver(&Settings::default()).unwrap(), &toss, 301).unwrap();
+            let trace = trace(&entry.solver(&Settings::default()).unwrap(), toss, 301).unwrap();
             assert_eq!((trace[0].time, trace[300].time), (0.0, 1.5));
             for point in &trace {
                 assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-7, "{}", entry.name());
@@ -121,21 +233,47 @@ mod tests {
     }
 
     #[test]
+    fn a_body_of_three_moments_is_traced_with_angles_that_do_not_jump() {
+        for (tilt, time) in [(0.0, 1.5), (1.2, 3.0)] {
+            let thrown = Launch::new([0.3, 9.0, 0.2], TimeOfFlight::Given(time)).unwrap();
+            let body = Body::from_moments([0.00121, 0.01638, 0.01748]).unwrap();
+            let toss = RigidToss { body, launch: thrown.with_tilt(tilt).unwrap() };
+            let motion = RigidMotion::new(&toss);
+            let trace = trace(&ExactSolver, toss, 301).unwrap();
+            for point in &trace {
+                assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-14);
+                assert!(point.angles.attitude().angle_to(&point.attitude) < 1e-14);
+            }
+            for pair in trace.windows(2) {
+                let [before, after] = [&pair[0].angles, &pair[1].angles];
+                assert!((after.beta - before.beta).abs() < 0.2, "{pair:?}");
+                let [alpha, gamma] = [after.alpha - before.alpha, after.gamma - before.gamma];
+                // Where n is near the vertical, α and γ turn fast against each other, and only their sum (n up) or
+                // difference (n down) is smooth.
+                let smooth = if after.beta.cos() > 0.0 { alpha + gamma } else { alpha - gamma };
+                assert!(smooth.abs() < 1.0, "{pair:?}");
+                let near_the_vertical = before.beta.sin().min(after.beta.sin()) < 0.1;
+                assert!(near_the_vertical || alpha.abs().max(gamma.abs()) < 1.0, "{pair:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_trace_by_steps_of_time_ends_at_the_landing() {
         let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         let times = |step: f64| -> Vec<f64> {
-            trace_every(&ExactSolver, &toss, step).unwrap().iter().map(|point| point.time).collect()
+            trace_every(&ExactSolver, toss, step).unwrap().iter().map(|point| point.time).collect()
         };
         assert_eq!(times(0.3), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
         assert_eq!((times(0.25), times(1.0)), (vec![0.0, 0.25, 0.5, 0.75, 1.0], vec![0.0, 1.0]));
         assert_eq!(times(7.0), [0.0, 1.0]);
-        assert_eq!(trace_every(&ExactSolver, &toss, 0.25).unwrap(), trace(&ExactSolver, &toss, 5).unwrap());
+        assert_eq!(trace_every(&ExactSolver, toss, 0.25).unwrap(), trace(&ExactSolver, toss, 5).unwrap());
         for step in [0.0, -0.1, f64::NAN, 1e-6] {
-            assert_eq!(trace_every(&ExactSolver, &toss, step).unwrap_err().field(), Some("dt [s]"));
+            assert_eq!(trace_every(&ExactSolver, toss, step).unwrap_err().field(), Some("dt [s]"));
         }
-        let still = Toss { launch: Launch::new(Vector3::x(), TimeOfFlight::Given(0.0)).unwrap(), ..toss };
-        assert_eq!(trace_every(&ExactSolver, &still, 0.1).unwrap().len(), 1);
+        let still = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(0.0)).unwrap(), ..toss };
+        assert_eq!(trace_every(&ExactSolver, still, 0.1).unwrap().len(), 1);
     }
 
     /// An integrator that fails in the middle of every leg but the first.
@@ -161,16 +299,34 @@ mod tests {
     #[test]
     fn the_error_of_a_later_leg_has_the_time_since_launch() {
         let launch = Launch::new(Vector3::new(0.0, 40.0, 3.0), TimeOfFlight::Given(2.0)).unwrap();
-        let error = trace(&Weary, &Toss { coin: Coin::PAPER, launch }, 3).unwrap_err();
+        let error = trace(&Weary, Toss { coin: Coin::PAPER, launch }, 3).unwrap_err();
         assert_eq!(error, Error::Solve(SolveError::NotFinite { time: 1.5 }));
     }
 
     #[test]
+    fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
+        let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.5)).unwrap();
+        let toss = Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.3).unwrap() };
+        let taylor = Stepping::adaptive(dynamics::Scheme::TAYLOR, 1e-6).unwrap();
+        let solver = QuaternionSolver::new(taylor, dynamics::Formulation::default());
+        let motion = ExactMotion::new(&toss);
+        let traced = trace_enclosed(&solver, &toss, 31).unwrap();
+        assert_eq!((traced.len(), traced[30].point.time), (31, 1.5));
+        for EnclosedPoint { point, certificate } in &traced {
+            let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
+            assert!(error <= certificate.error_bound(), "{error:e}");
+        }
+        assert_eq!(trace_enclosed_every(&solver, &toss, 0.05).unwrap().len(), 31);
+        let dop853 = QuaternionSolver::new(Stepping::DEFAULT, dynamics::Formulation::default());
+        assert!(trace_enclosed(&dop853, &toss, 3).is_err());
+    }
+
+    #[test]
     fn fewer_than_two_or_more_than_a_million_points_are_refused() {
-        let launch = Launch::new(Vector3::x(), TimeOfFlight::Given(1.0)).unwrap();
+        let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
         let toss = Toss { coin: Coin::PAPER, launch };
         for points in [0, 1, MOST_POINTS + 1] {
-            assert!(matches!(trace(&ExactSolver, &toss, points), Err(Error::Input(_))));
+            assert!(matches!(trace(&ExactSolver, toss, points), Err(Error::Input(_))));
         }
     }
 }

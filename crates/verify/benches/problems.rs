@@ -2,15 +2,13 @@
 //! the problems that the charts draw, so that both can be compared.
 
 use std::hint::black_box;
-use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use toss::{Registry, Settings};
 use verify::measure::work_precision::problems;
 
 fn solvers(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/problems.toml");
-    for problem in problems::read(&path).expect("the problems") {
+    for problem in problems::all().expect("the problems") {
         let mut group = criterion.benchmark_group(&problem.name);
         group.sample_size(20);
         for entry in Registry::standard().entries() {
@@ -18,7 +16,7 @@ fn solvers(criterion: &mut Criterion) {
             group.bench_function(entry.name(), |bencher| {
                 bencher.iter(|| {
                     for case in &problem.cases {
-                        let _ = black_box(solver.propagate(black_box(&case.toss)));
+                        let _ = black_box(black_box(case).propagate(&*solver));
                     }
                 });
             });

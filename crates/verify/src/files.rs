@@ -2,10 +2,10 @@
 //! that an interrupted run leaves no half of a report or baseline. It prints, too, without a panic where nothing can be
 //! printed.
 
+use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
-use serde::de::DeserializeOwned;
 
 /// Reads the text of the file at `path`.
 ///
@@ -13,14 +13,6 @@ use serde::de::DeserializeOwned;
 /// If the file can't be read.
 pub fn read(path: &Path) -> anyhow::Result<String> {
     std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
-}
-
-/// Reads the value that the TOML file at `path` describes.
-///
-/// # Errors
-/// If the file can't be read or describes something else.
-pub fn read_toml<T: DeserializeOwned>(path: &Path) -> anyhow::Result<T> {
-    toml::from_str(&read(path)?).with_context(|| format!("in {}", path.display()))
 }
 
 /// Prints `text` on standard output; a reader that has gone away is no error.
@@ -47,4 +39,19 @@ pub fn write(path: &Path, content: &str) -> anyhow::Result<()> {
     let failed = || format!("cannot write {}", path.display());
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(failed)?;
     whole_file::write(path, content).with_context(failed)
+}
+
+/// Adds `content` to the end of the file at `path`, and makes the file if there is none.
+///
+/// # Errors
+/// If it can't be written.
+pub fn append(path: &Path, content: &str) -> anyhow::Result<()> {
+    let open = std::fs::OpenOptions::new().append(true).create(true).open(path);
+    open.and_then(|mut file| file.write_all(content.as_bytes()))
+        .with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes `text` to standard error; there is nowhere left to say that this failed.
+pub fn say(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }

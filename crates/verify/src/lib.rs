@@ -12,19 +12,31 @@
 //! ```
 //!
 //! Data flows in one direction. [`measure`] compares the answers of solvers with references and contains no bounds.
-//! [`mod@judge`] compares measurements with `validation/bounds.toml` or, for a solver without bounds, with its own
-//! error estimate, and with the regression baseline. [`render`] shows rows. [`mod@bench`] measures what a toss costs.
+//! [`mod@judge`] compares measurements with bounds or, for a solver without bounds, with its own error estimate, and
+//! with the regression baseline. [`render`] shows rows. [`mod@bench`] measures what a toss costs.
+//!
+//! A [`Suite`] does all of this for the solvers of a registry, and [`main()`] is its program: a crate elsewhere judges a
+//! solver of its own by `verify::main(Suite::new(registry))`.
 
 pub mod bench;
+mod commands;
+mod data;
+mod error;
 pub mod files;
 pub mod host;
 pub mod judge;
 pub mod measure;
+pub mod process;
 pub mod render;
+pub mod suite;
+pub mod watch;
 
-pub use judge::{Row, Status, judge};
-pub use measure::check::{Basis, Check};
+pub use commands::main;
+pub use error::Error;
+pub use judge::{LeftOut, Row, Status, judge};
+pub use measure::check::{Basis, Check, Judges};
 pub use measure::checks::CHECKS;
 pub use measure::context::{Context, Records};
 pub use measure::effort::Effort;
 pub use measure::measurement::{Measurement, Worst};
+pub use suite::{Suite, Verdict, Verified};

@@ -1,8 +1,6 @@
 //! These tests compare solvers that are slightly worse than the library's with the library's baseline. The baseline
 //! must catch each loss of accuracy or work, also where it stays within the bounds.
 
-use std::path::Path;
-
 use dynamics::Flight;
 use dynamics::integrate::OdeSystem;
 use kinematics_quat::QuaternionSystem;
@@ -22,14 +20,13 @@ const CHECKED: [&str; 5] =
 /// Runs the checks on the exact motion and on a quaternion solver that `build` makes. Returns the baseline of that run
 /// and the rows that fail.
 fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
-    let validation = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
-    let bounds = Bounds::read(&validation.join("bounds.toml")).expect("the bounds");
+    let bounds = Bounds::of_this_workspace().expect("the bounds");
     let quaternion = QuaternionSolver::entry();
     let copy = SolverEntry::new(QuaternionSolver::NAME, "", build)
         .with_schemes(quaternion.schemes())
         .with_formulations(quaternion.formulations());
     let registry = [ExactSolver::entry(), copy];
-    let context = Context::new(&registry, Effort::Quick, &validation).expect("the reference numbers");
+    let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let mut rows = Vec::new();
     for check in CHECKS.iter().filter(|check| CHECKED.contains(&check.id)) {
         rows.extend(judge(check, (check.measure)(&context).expect("a measurement"), &bounds));

@@ -14,15 +14,16 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 fn no_module_uses_the_modules_that_come_after_it() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for (folder, forbidden) in [
-        ("measure", ["crate::judge", "crate::render", "crate::bench"].as_slice()),
-        ("judge", &["measure::checks", "crate::render", "crate::bench"]),
-        ("render", &["measure::checks", "crate::bench"]),
+        ("measure", ["crate::judge", "crate::render", "crate::bench", "crate::suite"].as_slice()),
+        ("judge", &["measure::checks", "crate::render", "crate::bench", "crate::suite"]),
+        ("render", &["measure::checks", "crate::bench", "crate::suite"]),
         ("bench", &["crate::measure", "crate::judge", "crate::render"]),
     ] {
         let sources = sources(&root.join(folder));
         assert!(sources.len() > 3, "{folder}");
         for path in sources {
-            let text = std::fs::read_to_string(&path).expect("text");
+            // Bounds have ceilings, which the list of the checks gives; nobody but it may be used of them.
+            let text = std::fs::read_to_string(&path).expect("text").replace("measure::checks::CHECKS", "");
             for module in forbidden {
                 assert!(!text.contains(module), "{} uses {module}", path.display());
             }

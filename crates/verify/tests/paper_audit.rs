@@ -46,10 +46,11 @@ fn defines(folder: &Path, function: &str) -> bool {
 
 #[test]
 fn the_audits_table_of_failures_is_that_of_the_atlas() {
-    let text = std::fs::read_to_string(root().join("validation/atlas.toml")).unwrap();
+    let text = std::fs::read_to_string(root().join("crates/verify/data/atlas.toml")).unwrap();
     let atlas: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(&text).unwrap();
     let contestants = ["gamma/dop853/raw", "gamma/dop853/vertical", "euler/dop853/raw", "euler/dop853/vertical"];
-    for hazard in atlas["exact"].keys() {
+    // The paper is about coins; F9 to F12 are other bodies.
+    for hazard in atlas["exact"].keys().filter(|hazard| !["F9", "F10", "F11", "F12"].contains(&hazard.as_str())) {
         let row = AUDIT.lines().find(|line| line.starts_with(&format!("| {hazard} |"))).unwrap();
         let [raw, default] =
             ["/raw", ""].map(|formulation| atlas[&format!("quaternion/dop853{formulation}")][hazard].clone());

@@ -37,7 +37,10 @@ pub(super) fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'st
         return Err("no line: neither axis is a rate");
     }
     let ends = |nodes: &[f64]| [nodes[0], nodes[nodes.len() - 1]];
-    let edge = Edge::new(space, axes);
+    let Some(coin) = space.coin() else {
+        return Err("no line: with I1 ≠ I2 it has no formula");
+    };
+    let edge = Edge::new(space, axes, coin.inertia_ratio());
     let pieces = edge.pieces([ends(&map.across.1), ends(&map.up.1)]);
     if pieces.is_empty() {
         return Err("no line: it does not pass through this map");
@@ -63,7 +66,7 @@ struct Edge {
 }
 
 impl Edge {
-    fn new(space: &Space, axes: [Coordinate; 2]) -> Self {
+    fn new(space: &Space, axes: [Coordinate; 2], inertia_ratio: f64) -> Self {
         let rate = |of: Coordinate| -> Linear {
             let own = if let AxisOrTie::SameAs(partner) = space.axis_or_tie(of) { partner } else { of };
             let along = axes.map(|axis| f64::from(axis == own));
@@ -72,7 +75,7 @@ impl Edge {
         };
         let [x, y, z] = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(rate);
         let (sin, cos) = space.axis(Coordinate::Tilt).bounds()[0].sin_cos();
-        let normal = z.map(|part| space.coin().inertia_ratio() * part);
+        let normal = z.map(|part| inertia_ratio * part);
         let vertical: Linear = std::array::from_fn(|part| sin * y[part] + cos * normal[part]);
         let squares = [x, y, vertical].map(square);
         let conic = std::array::from_fn(|part| squares[0][part] + squares[1][part] - squares[2][part]);

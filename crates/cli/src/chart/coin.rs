@@ -6,23 +6,24 @@ use std::f64::consts::TAU;
 use chart::{Axis, ChartError, Drawn, Panel, frame, pixel};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use plotters::prelude::*;
-use toss::{Attitude, TimeOfFlight, Toss, TracePoint, Vector3};
+use toss::{Attitude, RigidToss, TimeOfFlight, TracePoint, Vector3};
 
 use crate::chart::layout::{COINS, FACE, NORMAL, RIGHT, times};
 use crate::chart::projection::project;
+use crate::chart::solid::{Solid, draw_cuboid};
 
 /// Radius of the coin (pixels).
 const RADIUS: f64 = 36.0;
 /// Thickness of the coin, in radii.
-const THICKNESS: f64 = 0.14;
+pub(super) const THICKNESS: f64 = 0.14;
 /// Number of layers by which its edge is drawn.
 const LAYERS: u32 = 6;
 
-const TAILS: RGBColor = RGBColor(70, 70, 70);
-const EDGE: RGBColor = RGBColor(170, 170, 170);
+pub(super) const TAILS: RGBColor = RGBColor(70, 70, 70);
+pub(super) const EDGE: RGBColor = RGBColor(170, 170, 170);
 
 /// Draws the coins of `flight`, the trace of `toss`.
-pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
+pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &RigidToss) -> Drawn {
     let thrown = Thrown::new(toss.launch.time_of_flight());
     let heights: Vec<f64> = flight.iter().map(|point| thrown.height(point.time)).collect();
     let (lowest, highest) = heights.iter().fold((0.0_f64, 0.0_f64), |(lo, hi), at| (lo.min(*at), hi.max(*at)));
@@ -33,9 +34,10 @@ pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) 
     let height = format!("height [m], at g = {} m/s²", thrown.gravity);
     let (x, y) = (times("", flight), Axis::linear(&height, lowest - room..highest + room));
     let chart = frame(panel, "", (&x, &y), RIGHT)?;
+    let solid = Solid::new(&toss.body);
     for index in (0..COINS).map(|coin| coin * (flight.len() - 1) / (COINS - 1)) {
         let centre = pixel(panel, &chart, (flight[index].time, heights[index]));
-        draw_coin(panel, centre, &flight[index].attitude)?;
+        draw_coin(panel, centre, &flight[index].attitude, solid)?;
     }
     Ok(())
 }
@@ -65,17 +67,34 @@ impl Thrown {
     }
 }
 
-/// Draws the coin about `centre` (pixels), with n and the vector in the face.
-pub(super) fn draw_coin(panel: &Panel<'_>, centre: (i32, i32), attitude: &Attitude) -> Drawn {
+/// Draws the coin or the `solid` about `centre` (pixels), with n and the vector in the face.
+pub(super) fn draw_coin(panel: &Panel<'_>, centre: (i32, i32), attitude: &Attitude, solid: Solid) -> Drawn {
     let normal = attitude.normal();
     let shows_heads = project(&normal).near >= 0.0;
-    let side = if shows_heads { 0.5 * THICKNESS } else { -0.5 * THICKNESS };
+    let (tip, height) = solid.heights();
+    let side = if shows_heads { height } else { -height };
     let at =
         |across: f64, along: f64, out: f64| end_of(centre, &attitude.body_to_lab(&Vector3::new(across, along, out)));
-    let n = PathElement::new([at(0.0, 0.0, 0.5 * THICKNESS), at(0.0, 0.0, 1.0)], NORMAL.stroke_width(5));
+    let n = PathElement::new([at(0.0, 0.0, height), at(0.0, 0.0, tip)], NORMAL.stroke_width(5));
     if !shows_heads {
         panel.draw(&n)?;
     }
+    match solid {
+        Solid::Disc => draw_disc(panel, at, side)?,
+        Solid::Cuboid(half) => draw_cuboid(panel, centre, attitude, half)?,
+    }
+    let face = [at(0.0, 0.0, side), at(solid.reach(), 0.0, side)];
+    panel.draw(&PathElement::new(face, WHITE.stroke_width(9)))?;
+    panel.draw(&PathElement::new(face, FACE.stroke_width(5)))?;
+    if shows_heads {
+        panel.draw(&n)?;
+    }
+    Ok(())
+}
+
+/// Draws the disc of a coin, whose face towards the eye is at the height `side` and whose points are `at` pixels.
+fn draw_disc(panel: &Panel<'_>, at: impl Fn(f64, f64, f64) -> (i32, i32), side: f64) -> Drawn {
+    let shows_heads = side >= 0.0;
     let rim = |out: f64| -> Vec<(i32, i32)> {
         let points = (0..=36).map(|step| (f64::from(step) * TAU / 36.0).sin_cos());
         points.map(|(along, across)| at(across, along, out)).collect()
@@ -87,18 +106,12 @@ pub(super) fn draw_coin(panel: &Panel<'_>, centre: (i32, i32), attitude: &Attitu
     panel.draw(&PathElement::new(rim(-side), BLACK.stroke_width(1)))?;
     panel.draw(&Polygon::new(rim(side), if shows_heads { WHITE } else { TAILS }.filled()))?;
     panel.draw(&PathElement::new(rim(side), BLACK.stroke_width(2)))?;
-    let face = [at(0.0, 0.0, side), at(1.0, 0.0, side)];
-    panel.draw(&PathElement::new(face, WHITE.stroke_width(9)))?;
-    panel.draw(&PathElement::new(face, FACE.stroke_width(5)))?;
-    if shows_heads {
-        panel.draw(&n)?;
-    }
     Ok(())
 }
 
 /// Where the end of `vector` (LF, in radii) from `centre` is seen (pixels).
 #[expect(clippy::cast_possible_truncation, reason = "within the canvas")]
-fn end_of(centre: (i32, i32), vector: &Vector3<f64>) -> (i32, i32) {
+pub(super) fn end_of(centre: (i32, i32), vector: &Vector3<f64>) -> (i32, i32) {
     let seen = project(vector);
     (centre.0 + (RADIUS * seen.right).round() as i32, centre.1 - (RADIUS * seen.up).round() as i32)
 }

@@ -3,12 +3,13 @@
 
 use chart::{Axis, ChartError, Drawn, Panel, TEXT, centred, frame, pixel, svg};
 use plotters::prelude::*;
-use toss::catalogue::CATALOGUE;
-use toss::{Outcome, Toss, TracePoint};
+use toss::catalogue::{BODIES, CATALOGUE};
+use toss::{Body, Outcome, RigidToss, TracePoint};
 
 use crate::chart::coin::draw_coins;
 use crate::chart::layout::{NORMAL, RIGHT, is_too_fast, times};
 use crate::chart::legend::draw_legend;
+use crate::chart::solid::Solid;
 use crate::chart::sphere::draw_sphere;
 
 /// Twice the size at which it is read.
@@ -23,7 +24,7 @@ const COINS: u32 = 570;
 const SPHERE: u32 = 760;
 
 /// The chart of `flight`, the trace of `toss`, as SVG.
-pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
+pub(crate) fn flight(flight: &[TracePoint], toss: &RigidToss, outcome: Outcome) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(TITLE);
         let (over_time, beside) = body.split_horizontally(LEFT);
@@ -33,30 +34,42 @@ pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Re
         draw_coins(&coins, flight, toss)?;
         draw_tilt(&tilt, flight)?;
         draw_sphere(&sphere, flight)?;
-        draw_legend(&legend, is_too_fast(toss))
+        draw_legend(&legend, is_too_fast(toss), Solid::new(&toss.body))
     })
 }
 
-/// The coin, its launch and its landing.
-fn title(toss: &Toss, outcome: Outcome) -> String {
-    let rounded = |value: f64| (1e4 * value).round() / 1e4;
-    let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|coin| coin == toss.coin));
-    let coin = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));
+/// The body, its launch and its landing.
+fn title(toss: &RigidToss, outcome: Outcome) -> String {
     let attitude = toss.launch.attitude();
     let [w, x, ..] = attitude.components();
     let tilt =
         if x == 0.0 { "horizontal".to_owned() } else { format!("at a tilt of {} rad", rounded(2.0 * x.atan2(w))) };
-    let (k, rate) = (rounded(toss.coin.inertia_ratio()), toss.launch.rate());
-    let landing = landing(outcome);
-    format!("{coin} (k = {k}), launched {tilt}, ω = ({}, {}, {}) rad/s: {landing}", rate.x, rate.y, rate.z)
+    let rate = toss.launch.rate();
+    let (body, what) = (named(&toss.body), if toss.body.symmetric().is_some() { "the coin" } else { "it" });
+    let landing = match outcome {
+        Outcome::Heads => format!("{what} lands heads"),
+        Outcome::Tails => format!("{what} lands tails"),
+        Outcome::Undecided => format!("how {what} lands is undecided"),
+    };
+    format!("{body}, launched {tilt}, ω = ({}, {}, {}) rad/s: {landing}", rate.x, rate.y, rate.z)
 }
 
-fn landing(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Heads => "the coin lands heads",
-        Outcome::Tails => "the coin lands tails",
-        Outcome::Undecided => "how the coin lands is undecided",
+fn rounded(value: f64) -> f64 {
+    (1e4 * value).round() / 1e4
+}
+
+/// The body's name in the catalogue, if it has one, and what decides its motion.
+fn named(body: &Body) -> String {
+    if let Some(coin) = body.symmetric() {
+        let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|other| other == coin));
+        let name = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));
+        return format!("{name} (k = {})", rounded(coin.inertia_ratio()));
     }
+    let named = BODIES.iter().find(|entry| entry.body().is_ok_and(|other| other == *body));
+    let name = named.map_or_else(|| "A body".to_owned(), |entry| format!("Body '{}'", entry.name));
+    let moments = body.moments().unwrap_or_else(|| body.principal_moments());
+    let [one, two, three] = moments.map(|moment| rounded(moment / body.principal_moments()[2]));
+    format!("{name} (moments {one} : {two} : {three})")
 }
 
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {

@@ -9,6 +9,7 @@ mod legend;
 mod limit;
 mod map;
 mod projection;
+mod solid;
 mod sphere;
 
 pub(crate) use errors::{ErrorLine, Reference, errors};

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use toss::{
-    Dimension, ExactSolver, Formulation, InputError, Nanoseconds, Propagation, Registry, Scheme, Settings, SolveError,
-    Solver, Stepping, Toss,
+    Dimension, ExactSolver, Formulation, InputError, Nanoseconds, Propagation, Registry, RigidToss, Scheme, Settings,
+    SolveError, Solver, Stepping,
 };
 
 use crate::failure::Failure;
@@ -70,11 +70,11 @@ struct FailureOfSolver {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let toss = self.toss.toss()?;
-        let exact = ExactSolver.propagate(&toss)?;
-        let candidates = self.candidates()?;
-        let rows = candidates.iter().map(|candidate| self.row(candidate, &toss, &exact));
+        let exact = ExactSolver.propagate_rigid(&toss)?;
+        let candidates = self.candidates(registry)?;
+        let rows = candidates.iter().map(|candidate| self.row(registry, candidate, &toss, &exact));
         let flight_time = toss.launch.flight_time();
         let answer = Answer { cos_tilt: exact.cos_tilt, flight_time, rows: rows.collect::<Result<_, Failure>>()? };
         Ok(match self.format {
@@ -84,10 +84,10 @@ impl Args {
     }
 
     /// Every solver with each of its schemes and of the wanted formulations.
-    fn candidates(&self) -> Result<Vec<Candidate>, InputError> {
+    fn candidates<'a>(&self, registry: &'a Registry) -> Result<Vec<Candidate<'a>>, InputError> {
         let wanted = if self.formulation == "all" { None } else { Some(Formulation::named(&self.formulation)?) };
         let mut all = Vec::new();
-        for entry in Registry::standard().entries() {
+        for entry in registry.entries() {
             if !entry.integrates() {
                 all.push(Candidate {
                     solver: entry.name(),
@@ -98,12 +98,15 @@ impl Args {
             }
             for scheme in entry.schemes() {
                 let stepping = self.stepping(*scheme)?;
-                let formulations =
-                    entry.formulations().iter().filter(|own| wanted.is_none_or(|wanted| wanted == **own));
-                all.extend(formulations.map(|formulation| Candidate {
+                let one = [Formulation::default()];
+                let own = if entry.formulations().is_empty() { &one } else { entry.formulations() };
+                // A solver with a single formulation, which has no name, is among those of every one.
+                let is_wanted =
+                    |own: &&Formulation| entry.formulations().is_empty() || wanted.is_none_or(|wanted| wanted == **own);
+                all.extend(own.iter().filter(is_wanted).map(|formulation| Candidate {
                     solver: entry.name(),
                     scheme: Some(scheme.name()),
-                    formulation: Some(formulation.name()),
+                    formulation: entry.formulations().contains(formulation).then(|| formulation.name()),
                     settings: Settings { stepping, formulation: *formulation },
                 }));
             }
@@ -118,16 +121,22 @@ impl Args {
         }
     }
 
-    fn row(&self, candidate: &Candidate, toss: &Toss, exact: &Propagation) -> Result<Row, Failure> {
-        let backend = Registry::standard().backend(candidate.solver, &candidate.settings)?;
+    fn row(
+        &self,
+        registry: &Registry,
+        candidate: &Candidate<'_>,
+        toss: &RigidToss,
+        exact: &Propagation,
+    ) -> Result<Row, Failure> {
+        let backend = registry.backend(candidate.solver, &candidate.settings)?;
         let mut row = Row::new(candidate);
-        let answered = backend.solver().propagate(toss);
-        let answered = answered.and_then(|landing| Ok((landing, backend.verdict(toss, landing.cos_tilt)?)));
+        let answered = backend.solver().propagate_rigid(toss);
+        let answered = answered.and_then(|landing| Ok((landing, backend.verdict_rigid(toss, landing.cos_tilt)?)));
         match answered {
             Ok((landing, verdict)) => {
-                row.answered(&landing, exact, backend.solver().stepping().is_some());
+                row.answered(&landing, exact, candidate.solver != ExactSolver::NAME);
                 row.outcome = Some(verdict.outcome().name());
-                row.time_ns = median_ns(self.repeats, || backend.solver().propagate(toss).is_ok());
+                row.time_ns = median_ns(self.repeats, || backend.solver().propagate_rigid(toss).is_ok());
             }
             Err(error) => row.failure = Some(FailureOfSolver::new(&error)),
         }
@@ -136,8 +145,8 @@ impl Args {
 }
 
 /// A solver with its settings.
-struct Candidate {
-    solver: &'static str,
+struct Candidate<'a> {
+    solver: &'a str,
     scheme: Option<&'static str>,
     formulation: Option<&'static str>,
     settings: Settings,
@@ -151,7 +160,7 @@ impl FailureOfSolver {
 
 impl Row {
     /// The row of a solver that has not answered yet.
-    fn new(candidate: &Candidate) -> Self {
+    fn new(candidate: &Candidate<'_>) -> Self {
         Self {
             solver: candidate.solver.to_owned(),
             scheme: candidate.scheme,
@@ -168,11 +177,10 @@ impl Row {
         }
     }
 
-    /// Adds where the toss `landed`. Only an integrator has errors here, because they are measured from the exact motion,
-    /// and work.
-    fn answered(&mut self, landed: &Propagation, exact: &Propagation, integrates: bool) {
+    /// Adds where the toss `landed`. The exact motion has no errors here, because they are measured from it, and no work.
+    fn answered(&mut self, landed: &Propagation, exact: &Propagation, is_other: bool) {
         self.cos_tilt = Some(landed.cos_tilt);
-        if integrates {
+        if is_other {
             self.cos_tilt_error = Some((landed.cos_tilt - exact.cos_tilt).abs());
             self.attitude_error = Some(landed.state.attitude.angle_to(&exact.state.attitude));
             self.rhs_calls = Some(landed.work.rhs_calls);

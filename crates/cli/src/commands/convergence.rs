@@ -3,6 +3,7 @@
 //! paper's Fig. 4.
 
 use sampling::{RunningStep, Sampler};
+use toss::Registry;
 
 use crate::failure::Failure;
 use crate::output::{self, Input, SeriesArgs};
@@ -32,10 +33,10 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
-        let backend = self.solver.backend()?;
+        let backend = self.solver.backend(registry)?;
         let points = space.grid_points()?;
         let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);

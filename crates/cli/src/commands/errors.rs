@@ -37,6 +37,10 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
+        if space.coin().is_none() {
+            let why = "errors compares all methods, and exact-speed is for coins; this body has I1 ≠ I2";
+            return Err(Failure::usage("coin", why));
+        }
         // Every number of launches has a grid of its own.
         self.space.require_grid_where_points_are(&space, |_| false)?;
         let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);

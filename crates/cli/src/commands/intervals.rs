@@ -4,7 +4,9 @@
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{Coin, Dimension, ExactMotion, Launch, TimeOfFlight, Toss, thrown_speeds_of_heads};
+use toss::{
+    Coin, Dimension, Launch, RigidMotion, RigidToss, TimeOfFlight, rigid_speeds_of_heads, thrown_speeds_of_heads,
+};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
@@ -51,8 +53,8 @@ struct Answer {
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let rate = self.rate.rate(&coin)?;
+        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let rate = self.rate.rate(&body)?;
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
             return Err(Failure::usage("speed", "--speed: a range LO:HI of more than one speed is needed"));
@@ -60,13 +62,16 @@ impl Args {
         // The slowest throw has to reach the landing, too.
         Launch::new(rate, TimeOfFlight::thrown(slowest, self.gravity, self.drop))?;
         let thrown = TimeOfFlight::thrown(fastest, self.gravity, self.drop);
-        let toss = Toss { coin, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
-        let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
+        let toss = RigidToss { body, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
+        let phase = RigidMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
             let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");
             return Err(Failure::usage("speed", message));
         }
-        let heads: Vec<[f64; 2]> = thrown_speeds_of_heads(&toss, slowest)?.unwrap_or_default();
+        let heads: Vec<[f64; 2]> = match toss.symmetric() {
+            Some(toss) => thrown_speeds_of_heads(&toss, slowest)?.unwrap_or_default(),
+            None => rigid_speeds_of_heads(&toss, slowest)?.unwrap_or_default(),
+        };
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };

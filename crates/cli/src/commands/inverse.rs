@@ -2,13 +2,11 @@
 //! flights. The result is the ratio of the tumbling rate Ω to the spin ωz, and the angle ψ between the normal and the
 //! angular momentum.
 
-use sampling::{long_flight_cone, rate_ratio};
-use serde::Serialize;
-use toss::Coin;
-
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
 use crate::toss_args::CoinArgs;
+use sampling::{long_flight_cone, rate_ratio};
+use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -34,7 +32,8 @@ struct Answer {
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
+        let coin =
+            self.coin.coin("the limit of long flights is a formula for coins; probability estimates P(heads)")?;
         let (probability, k) = (self.probability, coin.inertia_ratio());
         let cone_angle = long_flight_cone(probability)?;
         let answer = Answer { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };

@@ -4,7 +4,7 @@
 
 use sampling::{LongFlightShare, Sampler};
 use serde::Serialize;
-use toss::Coin;
+use toss::Registry;
 
 use crate::chart;
 use crate::failure::Failure;
@@ -43,10 +43,11 @@ struct Line {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
-        let coin = self.coin.given()?.unwrap_or(Coin::PAPER);
-        let backend = self.solver.backend()?;
+        let coin =
+            self.coin.coin("the limit of long flights is a formula for coins; probability estimates P(heads)")?;
+        let backend = self.solver.backend(registry)?;
         // 30° to 90° in steps of 2.5°; beyond 90° the curve is the mirror image.
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
-use toss::catalogue::{Body, CATALOGUE, CatalogueEntry};
+use toss::catalogue::{BODIES, Body, BodyEntry, CATALOGUE, CatalogueEntry, Shape};
 use toss::fitted::FITTED;
 use toss::{MODELS, Registry, SolverEntry};
 
@@ -27,8 +27,12 @@ struct CoinLine {
     diameter_mm: Option<f64>,
     thickness_mm: Option<f64>,
     i1: f64,
+    i2: f64,
     i3: f64,
-    inertia_ratio: f64,
+    /// The tensor of a body whose principal axes are not x, y and z.
+    inertia: Option<[f64; 6]>,
+    /// Of a coin.
+    inertia_ratio: Option<f64>,
     source: &'static str,
 }
 
@@ -48,8 +52,35 @@ impl CoinLine {
             diameter_mm,
             thickness_mm,
             i1: coin.i1(),
+            i2: coin.i1(),
             i3: coin.i3(),
-            inertia_ratio: coin.inertia_ratio(),
+            inertia: None,
+            inertia_ratio: Some(coin.inertia_ratio()),
+            source: entry.source,
+        })
+    }
+
+    fn of_body(entry: &BodyEntry) -> Result<Self, Failure> {
+        let (mass_g, diameter_mm, thickness_mm) = match entry.shape {
+            Shape::Engraved { mass_g, diameter_mm, thickness_mm, .. } => {
+                (Some(mass_g), Some(diameter_mm), Some(thickness_mm))
+            }
+            Shape::Cuboid { mass_g, .. } => (Some(mass_g), None, None),
+            Shape::Moments(_) => (None, None, None),
+        };
+        let body = entry.body()?;
+        let [i1, i2, i3] = body.moments().unwrap_or_else(|| body.principal_moments());
+        Ok(Self {
+            name: entry.name,
+            description: entry.description,
+            mass_g,
+            diameter_mm,
+            thickness_mm,
+            i1,
+            i2,
+            i3,
+            inertia: body.moments().is_none().then(|| body.inertia()),
+            inertia_ratio: None,
             source: entry.source,
         })
     }
@@ -62,20 +93,31 @@ impl CoinLine {
             optional(self.diameter_mm, 2),
             optional(self.thickness_mm, 2),
             format!("{:.4e}", self.i1),
+            format!("{:.4e}", self.i2),
             format!("{:.4e}", self.i3),
-            format!("{:.4}", self.inertia_ratio),
+            optional(self.inertia_ratio, 4),
             self.description.to_owned(),
         ]
     }
 }
 
 pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
-    let lines = CATALOGUE.iter().map(CoinLine::of).collect::<Result<Vec<_>, _>>()?;
+    let lines = CATALOGUE.iter().map(CoinLine::of).chain(BODIES.iter().map(CoinLine::of_body));
+    let lines = lines.collect::<Result<Vec<_>, _>>()?;
     if args.format == Format::Json {
         return Ok(list(input, "coins", lines));
     }
-    let mut rows =
-        vec![row(["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I3/(kg m²)", "k", "what"])];
+    let mut rows = vec![row([
+        "name",
+        "mass/g",
+        "diameter/mm",
+        "thickness/mm",
+        "I1/(kg m²)",
+        "I2/(kg m²)",
+        "I3/(kg m²)",
+        "k",
+        "what",
+    ])];
     rows.extend(lines.iter().map(CoinLine::row));
     let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
     sources.dedup();
@@ -83,18 +125,18 @@ pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
 }
 
 #[derive(Serialize)]
-struct SolverLine {
-    name: &'static str,
-    summary: &'static str,
+struct SolverLine<'a> {
+    name: &'a str,
+    summary: &'a str,
     integrates: bool,
-    schemes: Vec<&'static str>,
+    schemes: Vec<&'a str>,
     /// The schemes again, under the former name of the field.
-    methods: Vec<&'static str>,
-    formulations: Vec<&'static str>,
+    methods: Vec<&'a str>,
+    formulations: Vec<&'a str>,
 }
 
-impl From<&'static SolverEntry> for SolverLine {
-    fn from(entry: &'static SolverEntry) -> Self {
+impl<'a> From<&'a SolverEntry> for SolverLine<'a> {
+    fn from(entry: &'a SolverEntry) -> Self {
         let schemes: Vec<&str> = entry.schemes().iter().map(|scheme| scheme.name()).collect();
         Self {
             name: entry.name(),
@@ -107,8 +149,8 @@ impl From<&'static SolverEntry> for SolverLine {
     }
 }
 
-pub(crate) fn solvers(args: &Args, input: &Input) -> Result<String, Failure> {
-    let lines: Vec<SolverLine> = Registry::standard().entries().iter().map(SolverLine::from).collect();
+pub(crate) fn solvers(args: &Args, registry: &Registry, input: &Input) -> Result<String, Failure> {
+    let lines: Vec<SolverLine<'_>> = registry.entries().iter().map(SolverLine::from).collect();
     if args.format == Format::Json {
         return Ok(list(input, "solvers", lines));
     }

@@ -1,18 +1,20 @@
 //! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
 //! other coordinates are sampled at each node.
 
-use sampling::{Coordinate, Map, Sampler, Space, map_nodes};
+use sampling::{Coordinate, Map, Plan, Sampler, Space, map_nodes};
 use serde::Serialize;
-use toss::InputError;
+use toss::{InputError, Registry};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
-use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
+use crate::space_args::{
+    DEFAULT_QUADRATURE, Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few,
+};
 
-/// The numbers of launches at each node.
-const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 1024, sobol: 1024 };
+/// The numbers of launches at each node, and the accuracy of quadrature there.
+const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: DEFAULT_QUADRATURE };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -38,16 +40,16 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
         let space = self.space.space()?;
-        let backend = self.solver.backend()?;
+        let backend = self.solver.backend(registry)?;
         let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
         let nodes = map_nodes(&space, axes)?;
         let node = first_node(&space, axes)?;
-        let plan = self.plan.plan(self.method, &node, DEFAULT_POINTS)?;
+        let plan = self.plan.plan(self.method, &node, DEFAULTS)?;
         self.space.require_grid_where_points_are(&space, |of| axes.contains(&of) || lays_grid(plan, of))?;
-        require_few(&backend.sampler(), nodes.saturating_mul(plan.points(&node)?))?;
+        require_few(&backend.sampler(), nodes.saturating_mul(launches_of(plan, &node)?))?;
         let ask = |sampler: &Sampler<'_>| sampler.map(&space, axes, plan);
         let mapped = self.threads.ask(backend.sampler(), (nodes, "nodes"), ask)?;
         let data = |format| match format {
@@ -61,6 +63,12 @@ impl Args {
 /// The space that the first node of a map has its probability from.
 fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError> {
     axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
+}
+
+/// The number of launches of a plan. That of quadrature is not known before, and counts as it usually is.
+fn launches_of(plan: Plan, space: &Space) -> Result<u64, InputError> {
+    const USUAL: u64 = 1 << 18;
+    if let Plan::Quadrature { .. } = plan { Ok(USUAL) } else { plan.points(space) }
 }
 
 /// Formats the map as CSV with one line per node.

@@ -9,6 +9,7 @@ pub(crate) mod inverse;
 pub(crate) mod limit;
 pub(crate) mod list;
 pub(crate) mod map;
+pub(crate) mod merge;
 pub(crate) mod plan;
 pub(crate) mod probability;
 pub(crate) mod sample;

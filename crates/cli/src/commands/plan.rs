@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use toss::{
-    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, Reason, Scene, Scheme, SolverEntry,
-    StepControl, Want,
+    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, Reason, Registry, Scene, Scheme,
+    SolverEntry, StepControl, Want,
 };
 
 use crate::commands::probability::name_of;
@@ -38,21 +38,37 @@ pub(crate) struct Args {
           conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
     #[arg(long, value_name = "NAME",
-          help = format!("An integrator that is used as a cross-check: {}",
-                         solver_args::solvers(SolverEntry::integrates)))]
+          help = solver_help(Registry::standard()))]
     solver: Option<String>,
     #[arg(long, value_name = "NAME", alias = "method", requires = "solver",
-          help = format!("Scheme of the integrator: {} [default: the cheapest one]",
-                         solver_args::schemes(Scheme::is_adaptive)))]
+          help = scheme_help(Registry::standard()))]
     scheme: Option<String>,
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
-          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "rate", "turn", "wobble",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
                                 "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+}
+
+fn solver_help(registry: &Registry) -> String {
+    format!("An integrator that is used as a cross-check: {}", solver_args::solvers(registry, SolverEntry::integrates))
+}
+
+fn scheme_help(registry: &Registry) -> String {
+    let schemes = solver_args::schemes(registry, Scheme::is_adaptive);
+    format!("Scheme of the integrator: {schemes} [default: the cheapest one]")
+}
+
+/// What `--help` says of the option called `name`, if it depends on the registry.
+pub(crate) fn help(registry: &Registry, name: &str) -> Option<String> {
+    match name {
+        "solver" => Some(solver_help(registry)),
+        "scheme" => Some(scheme_help(registry)),
+        _ => None,
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -92,12 +108,12 @@ struct PassedOver {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let scene = match &self.scene {
             Some(path) => scene_file(path)?,
             None => self.scene()?,
         };
-        let decision = scene.plan()?;
+        let decision = scene.plan_with(registry)?;
         Ok(match self.format {
             Format::Json => output::json(input, &Answer::new(&scene, &decision)?),
             Format::Text => Answer::new(&scene, &decision)?.text(&decision.choice),
@@ -177,7 +193,10 @@ impl Answer {
             }
             (How::Sampling(plan), Want::Probability(space)) => {
                 answer.method = Some(name_of(*plan));
-                answer.points = Some(plan.points(space)?);
+                answer.points = match plan {
+                    sampling::Plan::Quadrature { .. } => None,
+                    plan => Some(plan.points(space)?),
+                };
             }
             _ => {}
         }

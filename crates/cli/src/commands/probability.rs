@@ -4,17 +4,20 @@
 use exact::{ProvenCounts, Stage};
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::{Answer as Answered, Backend, How, Scene, Want};
+use toss::{Answer as Answered, Backend, How, IntegratedCounts, Integration, Proving, Registry, Scene, Solver, Want};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
+use crate::shard_args::ShardArgs;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{DefaultPoints, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
+use crate::space_args::{DEFAULT_QUADRATURE, Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
 
 /// Largest error if neither a method nor an accuracy is given.
 const DEFAULT_ACCURACY: f64 = 1e-4;
+/// The same for bodies with I1 ≠ I2, which have no closed form of the share over a speed.
+const DEFAULT_ACCURACY_OF_BODIES: f64 = 1e-3;
 
-const DEFAULT_POINTS: DefaultPoints = DefaultPoints { random: 250_000, sobol: 1 << 18 };
+const DEFAULTS: Defaults = Defaults { random: 250_000, sobol: 1 << 18, accuracy: DEFAULT_QUADRATURE };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -23,8 +26,9 @@ pub(crate) struct Args {
     /// How launches are chosen [default: the cheapest one that serves, with as many launches as it takes]
     #[arg(long, value_enum)]
     method: Option<MethodArg>,
-    /// Largest acceptable error of the probability, if no method is given [default: 1e-4]
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, conflicts_with = "method")]
+    /// Largest acceptable error of the probability, if no method is given [default: 1e-4, and 1e-3 for a body with
+    /// I1 ≠ I2], or of quadrature [default: 1e-10]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
     accuracy: Option<f64>,
     #[command(flatten)]
     plan: PlanArgs,
@@ -32,18 +36,24 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SolverArgs,
+    /// Prove each outcome by integration: for the solver quaternion with the scheme taylor, which is then its default
+    #[arg(long)]
+    prove: bool,
+    #[command(flatten)]
+    shard: ShardArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
+/// An estimate as JSON.
 #[derive(Serialize)]
-struct Answer {
+pub(crate) struct Answer {
     #[serde(flatten)]
     counts: Option<CountsAnswer>,
     points: u64,
     probability: f64,
-    /// For exact-speed: half the width of the interval.
+    /// For exact-speed and quadrature: half the width of the interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_bound: Option<f64>,
     interval: Option<[f64; 2]>,
@@ -52,6 +62,9 @@ struct Answer {
     /// The number of outcomes that each stage of the proof decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     proven_by: Option<ProvenBy>,
+    /// The number of outcomes that each kind of integration decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    integrated_by: Option<IntegratedBy>,
     seed: Option<u64>,
     /// The method by which launches were chosen.
     method: &'static str,
@@ -74,10 +87,40 @@ struct ProvenBy {
     multiprecision: u64,
 }
 
+/// The number of outcomes by kind of integration.
+#[derive(Serialize)]
+struct IntegratedBy {
+    f64: u64,
+    finest_tolerance: u64,
+    double_double: u64,
+    more_digits: u64,
+}
+
+impl From<IntegratedCounts> for IntegratedBy {
+    fn from(counts: IntegratedCounts) -> Self {
+        Self {
+            f64: counts.by(Integration::AsConfigured),
+            finest_tolerance: counts.by(Integration::Finest),
+            double_double: counts.by(Integration::DoubleDouble),
+            more_digits: counts.by(Integration::MoreDigits),
+        }
+    }
+}
+
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let space = self.space.space()?;
-        let backend = self.solver.backend()?;
+        if self.prove {
+            return self.run_proving(&space, registry, input);
+        }
+        let backend = self.solver.backend(registry)?;
+        if let (true, Some(method)) = (self.shard.is_given(), self.method) {
+            if self.format == Format::Json {
+                return Err(Failure::usage("format", "--format has no effect with --shard: the part itself is JSON"));
+            }
+            let plan = self.plan_of(method, &space)?;
+            return self.shard.write((&space, plan), backend.sampler(), &self.threads);
+        }
         let (plan, found) = match self.method {
             Some(method) => self.by_method(method, &space, &backend)?,
             None => self.by_plan(&space, &backend)?,
@@ -85,15 +128,57 @@ impl Args {
         Ok(match self.format {
             Format::Json => output::json(input, &Answer::new(&found, plan)),
             Format::Text => {
-                let chosen = format!("\nmethod       {}, chosen for an error of {:e}", name_of(plan), self.accuracy());
+                let chosen =
+                    format!("\nmethod       {}, chosen for an error of {:e}", name_of(plan), self.accuracy(&space));
                 text(&found, backend.solver().name()) + if self.method.is_none() { &chosen } else { "" }
             }
         })
     }
 
-    fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
-        let plan = self.plan.plan(method, space, DEFAULT_POINTS)?;
+    /// The answer of which each outcome is proven by integration.
+    fn run_proving(&self, space: &Space, registry: &Registry, input: &Input) -> Result<String, Failure> {
+        let proving = Proving::new(self.solver.prover(registry)?)?;
+        if self.shard.is_given() {
+            return Err(Failure::usage(
+                "shard",
+                "--shard has no effect with --prove: parts are counted by the exact motion",
+            ));
+        }
+        let needed = || Failure::usage("method", "--prove needs --method: a plan takes the exact motion");
+        let plan = self.plan_of(self.method.ok_or_else(needed)?, space)?;
+        let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
+        let found = self.threads.ask(Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
+        let (mut answer, counts) = (Answer::new(&found, plan), proving.counts());
+        answer.certified = counts.undecided() == 0;
+        answer.integrated_by = Some(counts.into());
+        Ok(match self.format {
+            Format::Json => output::json(input, &answer),
+            Format::Text => {
+                let kinds = Integration::ALL.map(|kind| format!("{kind} {}", counts.by(kind)));
+                format!("{}\nproven by    integration: {}", text(&found, proving.name()), kinds.join(", "))
+            }
+        })
+    }
+
+    /// The plan of a method.
+    fn plan_of(&self, method: MethodArg, space: &Space) -> Result<Plan, Failure> {
+        if self.accuracy.is_some() && method != MethodArg::Quadrature {
+            let message =
+                "--accuracy can't be used with this --method: it is for quadrature, or chooses the method itself";
+            return Err(Failure::usage("accuracy", message));
+        }
+        let accuracy = self.accuracy.unwrap_or(DEFAULTS.accuracy);
+        let plan = self.plan.plan(method, space, Defaults { accuracy, ..DEFAULTS })?;
         self.space.require_grid_where_points_are(space, |of| lays_grid(plan, of))?;
+        Ok(plan)
+    }
+
+    fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+        let plan = self.plan_of(method, space)?;
+        if let Plan::Quadrature { .. } = plan {
+            // Its number of shares is not known before, so that there is no progress to show.
+            return Ok((plan, self.threads.run(|| backend.sampler().estimate(space, plan))??));
+        }
         let launches = (plan.points(space)?, "launches");
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
         Ok((plan, self.threads.ask(backend.sampler(), launches, ask)?))
@@ -106,15 +191,16 @@ impl Args {
         }
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
-        let scene = Scene::new(Want::Probability(*space), self.accuracy());
+        let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
         let choice = scene.plan()?.choice;
         let How::Sampling(plan) = choice.how else { return Err(no_sample()) };
         let Answered::Probability(found) = self.threads.run(|| choice.run(&scene))?? else { return Err(no_sample()) };
         Ok((plan, *found))
     }
 
-    fn accuracy(&self) -> f64 {
-        self.accuracy.unwrap_or(DEFAULT_ACCURACY)
+    fn accuracy(&self, space: &Space) -> f64 {
+        let default = if space.coin().is_some() { DEFAULT_ACCURACY } else { DEFAULT_ACCURACY_OF_BODIES };
+        self.accuracy.unwrap_or(default)
     }
 }
 
@@ -130,20 +216,21 @@ pub(crate) fn name_of(plan: Plan) -> &'static str {
         Plan::Random { .. } => "random",
         Plan::Sobol(_) => "sobol",
         Plan::ExactSpeed(_) => "exact-speed",
+        Plan::Quadrature { .. } => "quadrature",
     }
 }
 
 /// The seed of `plan`; `None` if nothing in it is random.
 fn seed_of(plan: Plan) -> Option<u64> {
     match plan {
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => None,
         Plan::Random { seed, .. } => Some(seed),
         Plan::Sobol(Scrambled { seed, .. }) | Plan::ExactSpeed(Rest::Sobol(Scrambled { seed, .. })) => Some(seed),
     }
 }
 
 impl Answer {
-    fn new(found: &Estimate, plan: Plan) -> Self {
+    pub(crate) fn new(found: &Estimate, plan: Plan) -> Self {
         let (counts, error_bound) = match found.found {
             Found::Counts(counts) => (Some(counts), None),
             Found::Shares { .. } => (None, found.half_width()),
@@ -158,6 +245,7 @@ impl Answer {
             interval_kind: found.interval_kind.to_string(),
             certified: proven.is_some(),
             proven_by: proven.map(ProvenBy::from),
+            integrated_by: None,
             seed: seed_of(plan),
             method: name_of(plan),
         }
@@ -182,11 +270,15 @@ impl From<ProvenCounts> for ProvenBy {
     }
 }
 
-fn text(found: &Estimate, solver: &str) -> String {
+/// An estimate as text.
+pub(crate) fn text(found: &Estimate, solver: &str) -> String {
     let (probability, kind) = (found.probability, &found.interval_kind);
     let (probability, interval) = match (found.interval, found.half_width()) {
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
             (probability.to_string(), format!("± {error:.1e} ({kind})"))
+        }
+        (Some(_), Some(error)) if *kind == IntervalKind::Quadrature => {
+            (format!("{probability:.0$}", digits_for(error)), format!("± {error:.1e} ({kind})"))
         }
         (Some(Interval { lo, hi }), Some(error)) => {
             let digits = digits_for(error);

@@ -7,7 +7,7 @@ use std::io::Read;
 
 use rayon::prelude::*;
 use sampling::{Coordinate, Drawn, Plan, Scrambled, Space};
-use toss::{Backend, Coin, Error, Toss};
+use toss::{Backend, Coin, Error, Registry, RigidToss};
 
 use crate::Streams;
 use crate::commands::sample_rows::{Given, Row, Writer};
@@ -65,8 +65,8 @@ enum DrawArg {
 
 impl Args {
     /// Prints the rows as they come.
-    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<String, Failure> {
-        let backend = self.solver.backend()?;
+    pub(crate) fn run(&self, registry: &Registry, streams: &mut Streams<'_>) -> Result<String, Failure> {
+        let backend = self.solver.backend(registry)?;
         let Streams { input, out, .. } = streams;
         let mut writer = Writer::new(&mut **out, self.format);
         let written = self.threads.run(|| match self.from {
@@ -80,8 +80,8 @@ impl Args {
     }
 
     fn answer_input(&self, backend: &Backend, input: &mut dyn Read, writer: &mut Writer<'_>) -> Result<(), Failure> {
-        let coin = self.space.coin.given()?.unwrap_or(Coin::PAPER);
-        let mut launches = launch_rows::read(input, coin)?;
+        let body = self.space.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let mut launches = launch_rows::read(input, body)?;
         loop {
             let chunk: Vec<Result<Given, Failure>> = launches.by_ref().take(CHUNK).collect();
             if chunk.is_empty() || writer.is_closed() {
@@ -160,9 +160,9 @@ fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<
 /// A launch with its landing. Launches are solved one by one: cos θ of a batch is not right to the last bit, so that near
 /// 0 its sign could contradict the outcome.
 fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
-    let toss: &Toss = &given.toss;
-    let cos_tilt = backend.solver().cos_tilt(toss);
-    let landed = cos_tilt.and_then(|cos_tilt| Ok((cos_tilt, backend.verdict(toss, cos_tilt)?)));
+    let toss: &RigidToss = &given.toss;
+    let cos_tilt = backend.solver().cos_tilt_rigid(toss);
+    let landed = cos_tilt.and_then(|cos_tilt| Ok((cos_tilt, backend.verdict_rigid(toss, cos_tilt)?)));
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
     let (cos_tilt, verdict) = landed.map_err(failed)?;
     Ok(Row::new(given, cos_tilt, verdict))

@@ -3,7 +3,7 @@
 
 use sampling::{Coordinate, Estimate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space};
 use serde::Serialize;
-use toss::{Error, TimeOfFlight, Toss};
+use toss::{Error, RigidToss, TimeOfFlight};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
@@ -18,9 +18,9 @@ pub(crate) struct Args {
     /// Wanted probability of heads, such as 0.95 or 95%
     #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::part)]
     heads: f64,
-    /// Number of launches of each estimate, a multiple of 8
-    #[arg(long, value_name = "N", default_value_t = 1 << 14, value_parser = clap::value_parser!(u64).range(8..=1 << 24))]
-    points: u64,
+    /// Number of launches of each estimate, a multiple of 8 [default: 16384, and 2048 for a body with I1 ≠ I2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(8..=1 << 24))]
+    points: Option<u64>,
     /// Seed of the scrambles
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -64,7 +64,7 @@ impl Args {
 
     /// The space that consists of the toss alone.
     fn space(&self) -> Result<Space, Failure> {
-        let Toss { coin, launch } = self.toss.toss()?;
+        let RigidToss { body, launch } = self.toss.toss()?;
         let (speed, gravity, drop) = match launch.time_of_flight() {
             TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, None),
             TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, Some(drop)),
@@ -73,14 +73,15 @@ impl Args {
             }
         };
         let rate = launch.rate();
-        let space = Space::builder(coin).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
+        let space = Space::builder(body).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
         Ok(space.tilt(self.toss.tilt()).build()?.with_drop(drop)?)
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.
     fn answers(&self, space: &Space) -> Result<(LargestSpread, Vec<(Coordinate, LargestSpread)>), Error> {
         let sampler = sampling::Sampler::exact();
-        let scrambled = Scrambled::new(self.points, self.seed);
+        let default = if space.coin().is_some() { 1 << 14 } else { 1 << 11 };
+        let scrambled = Scrambled::new(self.points.unwrap_or(default), self.seed);
         let largest = |inputs: &[Coordinate]| sampler.largest_spread(space, inputs, self.heads, scrambled);
         let alone = HAND.into_iter().map(|of| Ok((of, largest(&[of])?)));
         Ok((largest(&HAND)?, alone.collect::<Result<_, Error>>()?))

@@ -1,16 +1,26 @@
 //! `unfair-toss toss`: one toss, one answer.
 
 use serde::Serialize;
-use toss::{Backend, Margin, Propagation, TimeOfFlight, Toss, Work, margin};
+use toss::{
+    Backend, Body, IntegratedCertificate, Margin, Outcome, Propagation, QuaternionSolver, Registry, RigidMargin,
+    RigidToss, Sensitivity, Solver, TimeOfFlight, Work, margin_rigid,
+};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, fixed, without_sign_of_zero};
-use crate::toss_args::FlightArgs;
+use crate::toss_args::{FlightArgs, ONLY_COINS};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     flight: FlightArgs,
+    /// Search the margin of a body with I1 ≠ I2 too, which takes some seconds; that of a coin is always there
+    #[arg(long)]
+    margin: bool,
+    /// Prove the outcome by integration, and bound the errors of cos θ and of the attitude: for the solver quaternion with
+    /// the scheme taylor, which is then its default
+    #[arg(long)]
+    prove: bool,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -23,10 +33,19 @@ struct Answer {
     cos_tilt: f64,
     outcome: &'static str,
     certified: bool,
+    /// By what the outcome is proven: `exact` or `integrated`.
+    proof: Option<&'static str>,
+    /// The proven bounds of the errors of cos θ and of the quaternion.
+    error_bound: Option<f64>,
+    attitude_error_bound: Option<f64>,
     /// What the text adds to the outcome.
     #[serde(skip)]
-    remark: &'static str,
-    margin: MarginAnswer,
+    remark: String,
+    /// None for a body with I1 ≠ I2, unless it is asked for.
+    margin: Option<MarginAnswer>,
+    /// Of a body with I1 ≠ I2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<Slopes>,
     attitude: [f64; 4],
     rate: [f64; 3],
     norm_error: f64,
@@ -44,6 +63,16 @@ struct Moments {
     i1: f64,
     i2: f64,
     i3: f64,
+    /// The tensor, if its principal axes are not x, y and z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inertia: Option<[f64; 6]>,
+}
+
+/// The derivatives of cos θ at landing with respect to ωx, ωy, ωz (s) and the time of flight (1/s).
+#[derive(Serialize)]
+struct Slopes {
+    rate: [f64; 3],
+    time: f64,
 }
 
 #[derive(Serialize)]
@@ -63,41 +92,84 @@ struct MarginAnswer {
     tilt: Option<f64>,
     rate: [Option<f64>; 3],
     rate_range: [f64; 3],
+    /// The changes of the time of flight that were searched, earlier and later (s), for a body with I1 ≠ I2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_range: Option<[f64; 2]>,
     /// Whether a speed was given, and not a time.
     #[serde(skip)]
     thrown: bool,
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let (toss, backend) = self.flight.parts()?;
-        let mut answer = Answer::new(&toss, &backend)?;
-        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss)? {
-            (answer.certified, answer.remark) = (false, ", not proven: the conversion of a unit may have changed it");
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
+        let (toss, outcome, mut answer) = if self.prove {
+            let (toss, solver) = (self.flight.toss().toss()?, self.flight.prover(registry)?);
+            let (outcome, answer) = Answer::integrated(&toss, &solver)?;
+            (toss, outcome, answer)
+        } else {
+            let (toss, backend) = self.flight.parts(registry)?;
+            let (outcome, answer) = Answer::new(&toss, &backend, self.margin)?;
+            (toss, outcome, answer)
+        };
+        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss, outcome)? {
+            (answer.certified, answer.proof) = (false, None);
+            ", not proven: the conversion of a unit may have changed it".clone_into(&mut answer.remark);
         }
         Ok(match self.format {
             Format::Json => output::json(input, &answer),
-            Format::Text => answer.text(toss.coin.inertia_ratio()),
+            Format::Text => answer.text(&toss.body),
         })
     }
 }
 
 impl Answer {
-    fn new(toss: &Toss, backend: &Backend) -> Result<Self, Failure> {
+    fn new(toss: &RigidToss, backend: &Backend, with_margin: bool) -> Result<(Outcome, Self), Failure> {
         let solver = backend.solver();
-        let Propagation { state, cos_tilt, norm_error, work, .. } = solver.propagate(toss)?;
-        let verdict = backend.verdict(toss, cos_tilt)?;
+        let landing = solver.propagate_rigid(toss)?;
+        let verdict = backend.verdict_rigid(toss, landing.cos_tilt)?;
+        let mut answer = Self::of(toss, &landing, solver, with_margin)?;
+        (answer.outcome, answer.certified) = (verdict.outcome().name(), verdict.is_proven());
+        if answer.certified {
+            (answer.proof, answer.remark) = (Some("exact"), ", proven".to_owned());
+        }
+        Ok((verdict.outcome(), answer))
+    }
+
+    /// The outcome and the answer that are proven by integration, with their bounds.
+    fn integrated(toss: &RigidToss, solver: &QuaternionSolver) -> Result<(Outcome, Self), Failure> {
+        let coin_toss = toss.require_symmetric(QuaternionSolver::NAME, ONLY_COINS)?;
+        let certificate: IntegratedCertificate = solver.certify(&coin_toss)?;
+        let mut answer = Self::of(toss, certificate.landing(), solver, false)?;
+        let outcome = certificate.outcome();
+        (answer.outcome, answer.certified) = (outcome.name(), outcome != Outcome::Undecided);
+        (answer.error_bound, answer.attitude_error_bound) =
+            (Some(certificate.error_bound()), Some(certificate.attitude_error_bound()));
+        if answer.certified {
+            (answer.proof, answer.remark) =
+                (Some("integrated"), format!(", proven by integration in {}", certificate.integration()));
+        }
+        Ok((outcome, answer))
+    }
+
+    /// The answer of `solver` with this `landing`, whose outcome is not known yet.
+    fn of(toss: &RigidToss, landing: &Propagation, solver: &dyn Solver, with_margin: bool) -> Result<Self, Failure> {
+        let &Propagation { state, cos_tilt, norm_error, work, .. } = landing;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
-        let (i1, i3) = (toss.coin.i1(), toss.coin.i3());
+        let is_coin = toss.body.symmetric().is_some();
+        let sensitivity = if is_coin { None } else { Some(Slopes::new(toss)?) };
         let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
         Ok(Self {
-            coin: Moments { i1, i2: i1, i3 },
+            coin: Moments::new(&toss.body),
             flight_time: toss.launch.flight_time(),
             cos_tilt: without_sign_of_zero(cos_tilt),
-            outcome: verdict.outcome().name(),
-            certified: verdict.is_proven(),
-            remark: if verdict.is_proven() { ", proven" } else { "" },
-            margin: MarginAnswer::new(toss)?,
+            outcome: Outcome::Undecided.name(),
+            certified: false,
+            proof: None,
+            error_bound: None,
+            attitude_error_bound: None,
+            remark: String::new(),
+            margin: (is_coin || with_margin).then(|| MarginAnswer::new(toss)).transpose()?,
+            sensitivity,
             attitude: state.attitude.components().map(without_sign_of_zero),
             rate: state.rate.into(),
             norm_error,
@@ -109,7 +181,19 @@ impl Answer {
         })
     }
 
-    fn text(&self, inertia_ratio: f64) -> String {
+    /// What a change of the launch does: the margin, or the sensitivity where it was not searched.
+    fn changes(&self) -> String {
+        let slopes = |Slopes { rate: [x, y, z], time }: &Slopes| {
+            let [x, y, z, time] = [*x, *y, *z, *time].map(digits);
+            format!(
+                "sensitivity  cos θ by {x} per rad/s in ωx, {y} in ωy, {z} in ωz,\n             {time} per s in time"
+            )
+        };
+        let margin = self.margin.as_ref().map(|margin| format!("margin       {}", margin.text()));
+        margin.or_else(|| self.sensitivity.as_ref().map(slopes)).unwrap_or_default()
+    }
+
+    fn text(&self, body: &Body) -> String {
         let [w, x, y, z] = self.attitude.map(|part| fixed(part, 9));
         let scheme = self.scheme.map(|name| format!(", {name}")).unwrap_or_default();
         let mut lines = vec![
@@ -117,10 +201,13 @@ impl Answer {
             format!("cos θ        {}", shortest(self.cos_tilt)),
             format!("flight time  {} s", self.flight_time),
             format!("attitude     w {w}  x {x}  y {y}  z {z}"),
-            format!("coin         I1 {:e} kg m², I3 {:e} kg m², k = {inertia_ratio}", self.coin.i1, self.coin.i3),
+            self.coin.text(body),
             format!("solver       {}{scheme}", self.solver),
         ];
-        lines.insert(1, format!("margin       {}", self.margin.text()));
+        lines.insert(1, self.changes());
+        if let (Some(cos_tilt), Some(attitude)) = (self.error_bound, self.attitude_error_bound) {
+            lines.push(format!("error bound  {cos_tilt:.1e} of cos θ, {attitude:.1e} of the attitude's quaternion"));
+        }
         if self.norm_error > 0.0 {
             lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", self.norm_error));
         }
@@ -134,20 +221,50 @@ impl Answer {
     }
 }
 
+impl Moments {
+    fn new(body: &Body) -> Self {
+        let principal = body.moments();
+        let [i1, i2, i3] = principal.unwrap_or_else(|| body.principal_moments());
+        Self { i1, i2, i3, inertia: if principal.is_some() { None } else { Some(body.inertia()) } }
+    }
+
+    fn text(&self, body: &Body) -> String {
+        let Self { i1, i2, i3, inertia } = self;
+        match (body.symmetric(), inertia) {
+            (Some(coin), _) => format!("coin         I1 {i1:e} kg m², I3 {i3:e} kg m², k = {}", coin.inertia_ratio()),
+            (None, None) => format!("body         I1 {i1:e} kg m², I2 {i2:e} kg m², I3 {i3:e} kg m²"),
+            (None, Some(_)) => format!("body         principal moments {i1:e}, {i2:e} and {i3:e} kg m²"),
+        }
+    }
+}
+
+impl Slopes {
+    fn new(toss: &RigidToss) -> Result<Self, Failure> {
+        let [x, y, z, time] = Sensitivity::of_rigid(toss)?.cos_tilt.into();
+        Ok(Self { rate: [x, y, z].map(without_sign_of_zero), time: without_sign_of_zero(time) })
+    }
+}
+
 /// The shortest digits that read back as the same number, with an exponent if it is tiny.
 fn shortest(number: f64) -> String {
     if number != 0.0 && number.abs() < 1e-4 { format!("{number:e}") } else { number.to_string() }
 }
 
 impl MarginAnswer {
-    fn new(toss: &Toss) -> Result<Self, Failure> {
-        let Margin { time, speed, gravity, tilt, rate, rate_range } = margin(toss)?;
+    fn new(toss: &RigidToss) -> Result<Self, Failure> {
+        let RigidMargin { margin, time_range } = margin_rigid(toss)?;
+        let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
         let thrown = !matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_));
-        Ok(Self { time, speed, gravity, tilt, rate, rate_range, thrown })
+        let time_range = if toss.body.symmetric().is_some() { None } else { Some(time_range) };
+        Ok(Self { time, speed, gravity, tilt, rate, rate_range, time_range, thrown })
     }
 
     /// In two lines, which the column of the answers fits.
     fn text(&self) -> String {
+        let nowhere = [self.time, self.speed, self.gravity].iter().all(Option::is_none);
+        let searched = self.time_range.filter(|[_, later]| nowhere && later.is_finite());
+        let searched = searched.map(|[earlier, later]| format!(" from -{} s to +{} s", short(earlier), short(later)));
+        let searched = searched.unwrap_or_default();
         let change = |value: Option<f64>, unit: &str, name: &str| match value {
             Some(value) => format!("{} {unit} in {name}", digits(value)),
             None => format!("none in {name}"),
@@ -159,9 +276,9 @@ impl MarginAnswer {
         let rates: Vec<String> = rates.collect();
         let tilt = change(self.tilt, "rad", "tilt");
         let rest = if self.thrown {
-            format!("{}, {}, {tilt}", change(self.speed, "m/s", "v0"), change(self.gravity, "m/s²", "g"))
+            format!("{}, {}{searched}, {tilt}", change(self.speed, "m/s", "v0"), change(self.gravity, "m/s²", "g"))
         } else {
-            format!("{}, {tilt}", change(self.time, "s", "the time of flight"))
+            format!("{}{searched}, {tilt}", change(self.time, "s", "the time of flight"))
         };
         format!("{rest},\n             {}", rates.join(", "))
     }

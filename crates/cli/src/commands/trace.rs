@@ -2,13 +2,16 @@
 //! laboratory frame, whose z axis points up.
 
 use serde::Serialize;
-use toss::{Dimension, TracePoint, trace, trace_every};
+use toss::{
+    Dimension, EnclosedPoint, QuaternionSolver, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed,
+    trace_enclosed_every, trace_every,
+};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::quantity;
-use crate::toss_args::FlightArgs;
+use crate::toss_args::{FlightArgs, ONLY_COINS};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -20,6 +23,10 @@ pub(crate) struct Args {
     /// Step of time from launch on; the last time is the landing
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time))]
     dt: Option<f64>,
+    /// Bound the errors of cos θ and of the attitude at each time by integration: for the solver quaternion with the scheme
+    /// taylor, which is then its default
+    #[arg(long)]
+    prove: bool,
     #[command(flatten)]
     pub(crate) series: SeriesArgs,
 }
@@ -43,6 +50,10 @@ struct Line {
     face_y: f64,
     face_z: f64,
     cos_tilt: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_bound: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    attitude_error_bound: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -55,7 +66,14 @@ struct Point {
     normal: [f64; 3],
     face: [f64; 3],
     cos_tilt: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_bound: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    attitude_error_bound: Option<f64>,
 }
+
+/// A point, and the bounds of the errors of its cos θ and of its quaternion.
+type Bounded = (TracePoint, Option<[f64; 2]>);
 
 #[derive(Serialize)]
 struct Answer<'a> {
@@ -64,14 +82,10 @@ struct Answer<'a> {
 }
 
 impl Args {
-    pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
+    pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
-        let (toss, backend) = self.flight.parts()?;
-        let flight = match (self.points, self.dt) {
-            (_, Some(step)) => trace_every(backend.solver(), &toss, step)?,
-            (Some(points), None) => trace(backend.solver(), &toss, points)?,
-            (None, None) => return Err(Failure::usage("points", "one of --points N and --dt H is needed")),
-        };
+        let (toss, backend) = self.flight.parts(registry)?;
+        let flight = self.flight(registry, &toss, backend.solver())?;
         let data = |format| match format {
             DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
             DataFormat::Json => {
@@ -81,26 +95,69 @@ impl Args {
         };
         self.series.answer(data, || {
             // As many points as the motion needs, whatever number is printed.
-            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
-            Ok(chart::flight(&drawn, &toss, backend.outcome(&toss)?)?)
+            let drawn = trace(backend.solver(), toss, chart::points_to_draw(&toss))?;
+            Ok(chart::flight(&drawn, &toss, backend.solver().outcome_rigid(&toss)?)?)
         })
     }
 }
 
-impl From<&TracePoint> for Line {
-    fn from(point: &TracePoint) -> Self {
+impl Args {
+    /// The points, with their bounds if they are asked for.
+    fn flight(&self, registry: &Registry, toss: &RigidToss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
+        let missing = || Failure::usage("points", "one of --points N and --dt H is needed");
+        if self.prove {
+            let solver = self.flight.prover(registry)?;
+            let toss = &toss.require_symmetric(QuaternionSolver::NAME, ONLY_COINS)?;
+            let enclosed = match (self.points, self.dt) {
+                (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
+                (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,
+            };
+            let bounds = |EnclosedPoint { point, certificate }| {
+                (point, Some([certificate.error_bound(), certificate.attitude_error_bound()]))
+            };
+            return Ok(enclosed.into_iter().map(bounds).collect());
+        }
+        let flight = match (self.points, self.dt) {
+            (_, Some(step)) => trace_every(solver, *toss, step)?,
+            (points, None) => trace(solver, *toss, points.ok_or_else(missing)?)?,
+        };
+        Ok(flight.into_iter().map(|point| (point, None)).collect())
+    }
+}
+
+impl From<&Bounded> for Line {
+    fn from((point, bounds): &Bounded) -> Self {
         let [w, x, y, z] = point.attitude.components().map(without_sign_of_zero);
         let [normal_x, normal_y, normal_z] = <[f64; 3]>::from(point.normal).map(without_sign_of_zero);
         let [face_x, face_y, face_z] = <[f64; 3]>::from(point.face).map(without_sign_of_zero);
         let angles = [point.angles.alpha, point.angles.beta, point.angles.gamma];
         let [alpha, beta, gamma] = angles.map(without_sign_of_zero);
         let [time, cos_tilt] = [point.time, point.cos_tilt].map(without_sign_of_zero);
-        Self { time, w, x, y, z, alpha, beta, gamma, normal_x, normal_y, normal_z, face_x, face_y, face_z, cos_tilt }
+        let (error_bound, attitude_error_bound) = (bounds.map(|[bound, _]| bound), bounds.map(|[_, bound]| bound));
+        Self {
+            time,
+            w,
+            x,
+            y,
+            z,
+            alpha,
+            beta,
+            gamma,
+            normal_x,
+            normal_y,
+            normal_z,
+            face_x,
+            face_y,
+            face_z,
+            cos_tilt,
+            error_bound,
+            attitude_error_bound,
+        }
     }
 }
 
-impl From<&TracePoint> for Point {
-    fn from(point: &TracePoint) -> Self {
+impl From<&Bounded> for Point {
+    fn from((point, bounds): &Bounded) -> Self {
         Self {
             time: point.time,
             attitude: point.attitude.components(),
@@ -110,6 +167,8 @@ impl From<&TracePoint> for Point {
             normal: point.normal.into(),
             face: point.face.into(),
             cos_tilt: point.cos_tilt,
+            error_bound: bounds.map(|[bound, _]| bound),
+            attitude_error_bound: bounds.map(|[_, bound]| bound),
         }
     }
 }

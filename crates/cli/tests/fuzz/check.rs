@@ -155,7 +155,7 @@ fn has_negative_zero(value: &Value) -> bool {
     }
 }
 
-/// The working folder holds what it held, and the chart if and only if the case was answered.
+/// The working folder holds what it held, and the chart or the part if and only if the case was answered.
 fn files(case: &Case, ran: &Ran) -> Option<String> {
     let drawn = |name: &String| {
         ran.code == Some(0)
@@ -170,9 +170,10 @@ fn files(case: &Case, ran: &Ran) -> Option<String> {
             Some((_, before)) if before == content => {}
             _ if drawn(name) => {
                 let text = String::from_utf8_lossy(content);
-                let whole = text.starts_with("<svg ") && text.trim_end().ends_with("</svg>");
+                let whole = text.starts_with("<svg ") && text.trim_end().ends_with("</svg>")
+                    || text.starts_with("{\"schema\":") && text.ends_with("}\n");
                 if !whole || ["NaN", "\"inf", "\"-inf"].iter().any(|bad| text.contains(bad)) {
-                    return Some(format!("{name} is no whole chart"));
+                    return Some(format!("{name} is no whole chart or part"));
                 }
             }
             _ => return Some(format!("{name} was left in the folder")),

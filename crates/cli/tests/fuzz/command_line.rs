@@ -54,7 +54,7 @@ impl Case {
         arguments.insert(at, vec![command.get_name().into()]);
         let mut case = Self { arguments, files: Vec::new(), input: Vec::new() };
         let scene_wanted = case.flat().any(|argument| argument.as_bytes().starts_with(b"--scene"));
-        let named = ["file.toml", "file.json"].into_iter().filter(|name| case.names(name));
+        let named = ["file.toml", "file.json", "part.json"].into_iter().filter(|name| case.names(name));
         case.files = named.map(|name| files::file(source, name, scene_wanted)).collect();
         if case.flat().any(|argument| argument == "-") {
             case.input = files::rows(source);
@@ -83,11 +83,15 @@ impl Case {
         self.flat().any(|argument| argument == text || argument.as_bytes().ends_with(format!("={text}").as_bytes()))
     }
 
-    /// The outputs that the arguments name by `--svg`.
+    /// The outputs that the arguments name by `--svg` and `--out`.
     pub(crate) fn outputs(&self) -> Vec<&OsStr> {
         let all: Vec<&OsString> = self.flat().collect();
-        let apart = all.windows(2).filter(|pair| pair[0] == "--svg").map(|pair| pair[1].as_os_str());
-        let joined = all.iter().filter_map(|argument| argument.as_bytes().strip_prefix(b"--svg="));
+        let apart =
+            all.windows(2).filter(|pair| pair[0] == "--svg" || pair[0] == "--out").map(|pair| pair[1].as_os_str());
+        let joined = all.iter().filter_map(|argument| {
+            let argument = argument.as_bytes();
+            argument.strip_prefix(b"--svg=").or_else(|| argument.strip_prefix(b"--out="))
+        });
         apart.chain(joined.map(OsStr::from_bytes)).collect()
     }
 }
@@ -144,12 +148,18 @@ fn gives(option: &[OsString], name: &str) -> bool {
 
 /// Changes options with which a command rightly takes long.
 fn keep_short(source: &mut Source, command: &Command, arguments: &mut Vec<Vec<OsString>>) {
+    if command.get_name() == "toss" {
+        // The margin of a body takes seconds.
+        arguments.retain(|option| !gives(option, "--margin"));
+    }
     let has = |name: &str| arguments.iter().any(|option| gives(option, name));
+    let is_quadrature = |text: &OsString| text.to_string_lossy().ends_with("quadrature");
+    let takes_quadrature = arguments.iter().any(|option| gives(option, "--method") && option.iter().any(is_quadrature));
     let (others, replacement): (&[&str], [&str; 2]) = match command.get_name() {
         // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
         "limit" if has("--solver") => (&["--points", "--formulation", "--scheme", "--tolerance"], ["--points", "1"]),
-        // A plan takes as many launches as the accuracy needs.
-        "probability" if !has("--method") => {
+        // A plan and quadrature take as many launches as the accuracy needs.
+        "probability" if !has("--method") || takes_quadrature => {
             let accuracy = *source.pick(&["1e-2", "1e-3", "0", "nan", "2"]);
             (&["--accuracy"], ["--accuracy", accuracy])
         }
@@ -175,6 +185,7 @@ fn leave_out_idle(command: &Command, arguments: &mut Vec<Vec<OsString>>) {
             "--points",
             plans || has("--method", &["grid"]) || has("--want", &["outcome", "tilt", "attitude", "probability"]),
         ),
+        ("--accuracy", command.get_name() == "probability" && !plans && !has("--method", &["quadrature"])),
         ("--seed", plans || has("--method", &["grid"])),
         ("--solver", plans),
         ("--space", has("--want", &["outcome", "tilt", "attitude", "trace"])),

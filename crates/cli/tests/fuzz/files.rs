@@ -9,6 +9,9 @@ use crate::values::{axis, number};
 
 /// The file `name` with some content, a scene if that is wanted. The end of the name tells its format.
 pub(crate) fn file(source: &mut Source, name: &str, scene_wanted: bool) -> (String, Vec<u8>) {
+    if name == "part.json" {
+        return (name.to_owned(), part(source));
+    }
     let is_space = if source.careful { !scene_wanted } else { source.chance(50) };
     let mut content = if is_space { space(source) } else { scene(source) };
     while !source.careful && source.chance(40) {
@@ -27,6 +30,26 @@ pub(crate) fn file(source: &mut Source, name: &str, scene_wanted: bool) -> (Stri
         damage(source, &mut bytes);
     }
     (name.to_owned(), bytes)
+}
+
+/// The only part of ten launches, whose fields may be changed and whose text may be damaged.
+fn part(source: &mut Source) -> Vec<u8> {
+    let mut content = json!({
+        "schema": 1,
+        "version": env!("CARGO_PKG_VERSION"),
+        "space": { "coin": "paper", "rate_x": "0:50", "rate_y": "x", "rate_z": 30, "speed": "3:5" },
+        "plan": { "method": "random", "points": 10, "seed": source.below(9) },
+        "range": [0, 10],
+        "counts": [{ "heads": 7, "tails": 2, "undecided": 1 }],
+    });
+    while !source.careful && source.chance(40) {
+        change(source, &mut content);
+    }
+    let mut bytes = content.to_string().replace("\"@", "").replace("@\"", "").into_bytes();
+    if !source.careful && source.chance(30) {
+        damage(source, &mut bytes);
+    }
+    bytes
 }
 
 fn space(source: &mut Source) -> Value {
@@ -79,10 +102,12 @@ fn toss(source: &mut Source) -> Value {
 }
 
 fn coin(source: &mut Source) -> Value {
-    match source.below(4) {
+    match source.below(6) {
         0 => json!({ "moments": [numeral(source), numeral(source)] }),
         1 => json!({ "cylinder": [numeral(source), numeral(source), numeral(source)] }),
-        _ => (*source.pick(&["paper", "us-quarter", "disc"])).into(),
+        2 => json!({ "moments": (0..3).map(|_| numeral(source)).collect::<Vec<_>>() }),
+        3 => json!({ "inertia": (0..6).map(|_| numeral(source)).collect::<Vec<_>>() }),
+        _ => (*source.pick(&["paper", "us-quarter", "disc", "racket", "us-quarter-engraved"])).into(),
     }
 }
 

@@ -85,6 +85,7 @@ pub(crate) const UNITS: &[&str] = &[
 pub(crate) const NAMES: &[&str] = &[
     "paper",
     "us-quarter",
+    "racket",
     "disc",
     "rod",
     "sphere",
@@ -189,7 +190,9 @@ pub(crate) const OUTPUTS: &[&str] = &[
 /// Values of options that accept few. An option that is not here has values of its kind.
 pub(crate) const FITTING: &[(&str, &[&str])] = &[
     ("up_to", &["8", "9"]),
-    ("coin", &["paper", "us-quarter", "disc"]),
+    ("coin", &["paper", "us-quarter", "disc", "racket", "us-quarter-engraved"]),
+    ("moments", &["1,1", "1,2", "2,3,4", "1,2,3", "0,1,1", "2,2,3", "1.2g·cm²,1.5g·cm²,2g·cm²"]),
+    ("inertia", &["2,3,4,0.1,0.2,0.3", "2,3,4,0,0,0", "2,2,3,0,0,0", "5e-7,5e-7,9e-7,1e-9,0,0"]),
     ("solver", &["exact", "exact", "gamma", "euler", "quaternion"]),
     ("scheme", &["dop853", "dopri5", "rk4", "taylor"]),
     ("formulation", &["momentum", "vertical", "raw"]),
@@ -197,6 +200,8 @@ pub(crate) const FITTING: &[(&str, &[&str])] = &[
     ("up", &["rate_z", "rate_z", "speed", "gravity"]),
     ("tolerance", &["1e-6", "1e-9", "1e-12"]),
     ("step", &["1e-2", "1e-3"]),
+    ("parts", &["part.json", "part.json", "part.json", "missing.json"]),
+    ("shard", &["1/1", "1/2", "2/2", "3/97", "0/2"]),
     ("accuracy", &["1e-2", "1e-3", "1e-6", "1e-9"]),
     ("probability", &["0.6", "0.95", "0.75", "1"]),
     ("heads", &["0.6", "0.95", "0.5"]),

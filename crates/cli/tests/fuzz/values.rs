@@ -39,7 +39,7 @@ pub(crate) fn kind(argument: &Arg) -> Kind {
     let name = names.first().map_or("", |name| name.as_str());
     match name {
         _ if !argument.get_possible_values().is_empty() => Kind::Listed,
-        _ if argument.get_id() == "svg" => Kind::Output,
+        _ if matches!(argument.get_id().as_str(), "svg" | "out") => Kind::Output,
         _ if name.contains("FILE") => Kind::Input,
         _ if name.contains(',') => Kind::List(name.split(',').count()),
         _ if name.contains("AXIS") => Kind::Axis,

@@ -5,7 +5,7 @@ use super::*;
 const AT: f64 = 0.5;
 
 /// Every error with its kind, a part of its message, and its time after a first leg of 2 s.
-fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 9] {
+fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 11] {
     let singular = |point| SolveError::Singular { point, time: AT };
     [
         (SolveError::PhaseTooLarge { phase: 1e17 }, "phase_too_large", "1e17 rad, is above 2^53", None),
@@ -19,6 +19,18 @@ fn errors() -> [(SolveError, &'static str, &'static str, Option<f64>); 9] {
             None,
         ),
         (SolveError::failed("own", fmt::Error), "failed", "solver 'own' failed: an error occurred when", None),
+        (
+            SolveError::NotSymmetric { solver: "own".to_owned(), why: "it supposes a constant ωz" },
+            "not_symmetric",
+            "solver 'own' is for bodies with I1 = I2 only: it supposes",
+            None,
+        ),
+        (
+            SolveError::NotProven { solver: "own".to_owned(), why: "it only estimates" },
+            "not_proven",
+            "solver 'own' proves nothing: it only estimates",
+            None,
+        ),
         (SolveError::StepLimit { time: AT, limit: 7 }, "step_limit", "more than 7 steps", Some(2.5)),
         (SolveError::StepSizeUnderflow { time: AT }, "step_size_underflow", "at t = 0.5 s", Some(2.5)),
         (SolveError::NotFinite { time: AT }, "not_finite", "is not finite at t = 0.5 s", Some(2.5)),

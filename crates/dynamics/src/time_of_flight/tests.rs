@@ -1,8 +1,6 @@
 //! Tests of the times of flight against numbers of 200 digits, and of the refusal of impossible throws. Inputs reach to
 //! the ends of the range of f64, where intermediate results over- or underflow most easily.
 
-use nalgebra::Vector3;
-
 use super::*;
 use crate::launch::Launch;
 
@@ -55,7 +53,7 @@ fn a_height_that_is_never_reached_is_refused() {
         [(-3.0 * 3.0 / (2.0 * 9.81), true), (-0.459, false), (f64::NEG_INFINITY, false), (f64::NAN, false)]
     {
         let thrown = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop };
-        let launch = Launch::new(Vector3::zeros(), thrown);
+        let launch = Launch::new([0.0; 3], thrown);
         assert_eq!(launch.is_ok(), reached, "{drop}: {launch:?}");
         assert!(launch.err().is_none_or(|error| error.field() == "drop [m]"));
     }
@@ -65,7 +63,7 @@ fn a_height_that_is_never_reached_is_refused() {
 fn a_time_that_overflows_is_refused() {
     let endless = TimeOfFlight::Ballistic { speed: 1e300, gravity: 1e-300 };
     assert!(matches!(
-        Launch::new(Vector3::zeros(), endless),
+        Launch::new([0.0; 3], endless),
         Err(InputError::OutOfRange { field: "time of flight 2 v0/g [s]", .. })
     ));
 }
@@ -74,7 +72,7 @@ fn a_time_that_overflows_is_refused() {
 fn an_impossible_throw_is_refused_with_the_field_at_fault() {
     let field = |speed, gravity, drop| {
         let time = TimeOfFlight::thrown(speed, gravity, drop);
-        Launch::new(Vector3::zeros(), time).err().map(|error| error.field())
+        Launch::new([0.0; 3], time).err().map(|error| error.field())
     };
     for drop in [None, Some(0.0)] {
         assert_eq!([0.0, 3.0].map(|speed| field(speed, 9.81, drop)), [None, None]);

@@ -6,17 +6,22 @@
 //! | cos θ at landing | [`Batch::cos_tilts`] | 4e-16 from horizontal, else 6e-16 |
 //! | proven outcomes | [`Batch::outcomes`], [`Batch::count`] | none |
 //! | attitude at landing | [`Batch::attitudes`] | 1e-15 rad |
+//! | phases that show heads | [`Batch::heads`] | as stated with each |
 //!
 //! A kernel solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², and
 //! a phase ωL T below 2^40 turns (below k 2^40 turns for a coin with an inertia ratio k < 1). L = (ωx, ωy, k ωz) is the
-//! angular momentum divided by I1. All other tosses are solved one by one, as accurately. Neither the instruction set
+//! angular momentum divided by I1. All other tosses are solved one by one, as accurately, or are left
+//! to the caller ([`Batch::heads`]). Neither the instruction set
 //! nor the other tosses of the batch change a bit of a result.
 
 mod attitude;
 mod cos_tilt;
+mod heads;
 mod kernel;
 mod momentum;
 mod outcome;
+
+pub use heads::{HeadsColumns, UNSOLVED};
 
 use dynamics::{Attitude, Tosses};
 use numerics::lanes::SimdLevel;
@@ -43,5 +48,23 @@ impl<'a> Batch<'a> {
     /// Whether the tosses start from horizontal, heads up.
     fn is_flat(&self) -> bool {
         self.tosses.attitude() == Attitude::IDENTITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::Coin;
+
+    use super::*;
+
+    #[test]
+    fn a_batch_takes_the_widest_level_unless_another_is_set() {
+        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&[]; 3], &[]).unwrap();
+        let levels = SimdLevel::all();
+        let widest = levels.last().map(|level| level.name());
+        assert_eq!(Some(Batch::new(tosses).level.name()), widest);
+        for level in levels {
+            assert_eq!(Batch::new(tosses).on(level).level.name(), level.name());
+        }
     }
 }

@@ -143,13 +143,15 @@ impl Filter {
     }
 
     /// Writes by how much |G| exceeds its threshold, with the sign of G, for the tosses of `range`; 0 where it does
-    /// not.
+    /// not. An error has the index of its toss in the whole batch.
     fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        let start = range.start as u64;
         let (level, tosses) = (batch.level, batch.tosses.part(range));
-        match self {
+        let done = match self {
             Self::Flat(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
             Self::Tilted(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
-        }
+        };
+        done.map_err(|error| error.after(start))
     }
 }
 
@@ -279,6 +281,21 @@ mod tests {
             let found = (counted.heads(), counted.tails(), counted.by(Stage::F64));
             assert_eq!(found, expected, "{length} at {}", level.name());
             assert!(length < 20 || (counted.heads() > 3 && counted.tails() > 3), "{counted:?}");
+        }
+    }
+
+    #[test]
+    fn an_error_has_the_index_of_its_toss_beyond_the_first_block() {
+        let length = 3 * BLOCK;
+        let (rates, speeds) = (vec![3.0; length], vec![2.0; length]);
+        let mut bad = rates.clone();
+        bad[2 * BLOCK + 7] = f64::NAN;
+        for attitude in [Attitude::IDENTITY, Attitude::about_x(0.7)] {
+            let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&rates, &bad, &rates], &speeds).unwrap();
+            let counted = Batch::new(tosses).count().unwrap_err();
+            let listed = Batch::new(tosses).outcomes(&mut vec![Outcome::Heads; length]).unwrap_err();
+            assert!(counted.to_string().starts_with("launch 1031: rate y"), "{counted}");
+            assert_eq!(listed.to_string(), counted.to_string());
         }
     }
 

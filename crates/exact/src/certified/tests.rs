@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::*;
 
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
     Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
 }
 
@@ -16,7 +16,7 @@ fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
 fn what_is_proven_is_the_toss_as_it_was_given() {
     let toss = |coin, rate: [f64; 3], speed| {
         let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
-        Toss { coin, launch: Launch::new(Vector3::from(rate), thrown).unwrap() }
+        Toss { coin, launch: Launch::new(rate, thrown).unwrap() }
     };
     let rate = [-24.064_598_567_199_237, -26.566_903_895_330_363, 49.564_483_551_046_28];
     let flat = toss(Coin::PAPER, rate, 2.410_790_522_567_343_6);
@@ -88,7 +88,7 @@ fn every_stage_gives_the_same_outcome_where_it_decides() {
             1 => TimeOfFlight::Ballistic { speed, gravity },
             _ => TimeOfFlight::BallisticTo { speed, gravity, drop: 2.0 },
         };
-        let launch = Launch::new(Vector3::from(rate), time).unwrap().with_attitude(attitude);
+        let launch = Launch::new(rate, time).unwrap().with_attitude(attitude);
         let toss = Toss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
         let exact = by_multiprecision(&toss);
         let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight(), 0.0).unwrap();

@@ -14,7 +14,7 @@ use numerics::DoubleDouble;
 use numerics::double_double::two_sum;
 
 /// The changes of speed (m/s) and of gravity (m/s²) that change the time of flight by `change` (s), where they exist.
-pub(super) fn speed_and_gravity(flight: TimeOfFlight, change: f64) -> [Option<f64>; 2] {
+pub(crate) fn speed_and_gravity(flight: TimeOfFlight, change: f64) -> [Option<f64>; 2] {
     let (speed, gravity, drop) = match flight {
         TimeOfFlight::Given(_) => return [None; 2],
         TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, 0.0),

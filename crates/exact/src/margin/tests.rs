@@ -142,7 +142,7 @@ fn a_flip_before_the_shortest_flight_is_none() {
 
 /// On the edge by exact arithmetic: w = x.
 fn on_edge(rate: [f64; 3], time: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
     let attitude = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
     Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_attitude(attitude) }
 }

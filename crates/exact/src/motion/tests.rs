@@ -7,7 +7,7 @@ use dynamics::{Coin, Launch, TimeOfFlight};
 use super::*;
 
 fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+    let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
     ExactMotion::new(&Toss { coin, launch })
 }
 

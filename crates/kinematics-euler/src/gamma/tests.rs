@@ -7,7 +7,7 @@ use exact::ExactMotion;
 use super::*;
 
 fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+    let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
     Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
 }
 

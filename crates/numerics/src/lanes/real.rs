@@ -143,6 +143,13 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
+    /// The smaller of `self` and `other`, neither of which is NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn min(self, other: Self) -> Self {
+        Self { value: self.simd.min_f64s(self.value, other.value), ..self }
+    }
+
     /// The number in [-1, 1] that is nearest to `self`, which is not NaN.
     #[inline(always)]
     #[must_use]

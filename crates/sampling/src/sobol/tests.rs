@@ -1,11 +1,76 @@
 //! Tests of the Sobol points: known numbers, the scramble, and how evenly the points lie.
 
+use std::ops::Range;
+
+use super::scrambled::flipped;
 use super::*;
 
+/// Points 1 000 000 and 1 000 001 in four dimensions, seed 1, scramble 2.
+const KEPT: [[f64; 4]; 2] = [
+    [0.42793437597506256, 0.5582446034822034, 0.3635662184237979, 0.35454018352755223],
+    [0.8447508215951883, 0.19657601741883746, 0.6592007104317813, 0.838205773919059],
+];
+
 fn points(sequence: &ScrambledSobol, range: Range<u64>) -> Vec<Vec<f64>> {
-    let mut points = Vec::new();
-    sequence.for_each(range, |point| points.push(point.to_vec()));
-    points
+    let mut columns = vec![vec![0.0; (range.end - range.start) as usize]; sequence.dimensions()];
+    for (dimension, column) in columns.iter_mut().enumerate() {
+        sequence.write(dimension, range.start, column);
+    }
+    (0..columns.first().map_or(0, Vec::len)).map(|index| columns.iter().map(|column| column[index]).collect()).collect()
+}
+
+/// The digits of point number `index` before scrambling.
+fn digits(directions: &Directions, index: u64) -> u64 {
+    let gray = index ^ (index >> 1);
+    (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |sum, j| sum ^ directions[j])
+}
+
+/// The coordinate that Owen's scrambling makes of `digits`, one group of digits after the other: the middle of an
+/// interval of length 2^-52.
+fn scrambled(digits: u64, keys: &Keys) -> f64 {
+    let mut scrambled = 0;
+    for (group, key) in (0..GROUPS as u32).zip(keys) {
+        let below = DEPTH - GROUP * (group + 1);
+        // A leading 1 tells prefixes of different lengths apart.
+        let flips = hash(*key, (1 << (GROUP * group)) | (digits >> (below + GROUP)));
+        scrambled = scrambled << GROUP | flipped(digits >> below & ((1 << GROUP) - 1), flips);
+    }
+    let rest = hash(keys[GROUPS], digits) >> (64 - (DIGITS - DEPTH));
+    ((scrambled << (DIGITS - DEPTH) | rest) as f64 + 0.5) / (1_u64 << DIGITS) as f64
+}
+
+/// With and without the table of the first digits, at every SIMD level, over windows and parts of windows.
+#[test]
+fn points_in_lanes_are_those_of_the_scalar_form() {
+    let plain = ScrambledSobol::new(DIMENSIONS, 11, 3).unwrap();
+    let prepared = plain.clone().prepared_for(1 << 20);
+    assert!(prepared.coordinates.iter().all(|coordinate| coordinate.first_digits.is_some()));
+    assert!(plain.clone().prepared_for(1 << 13).coordinates.iter().all(|coordinate| coordinate.first_digits.is_none()));
+    let ranges = [0..1, 0..700, 4000..4200, 8191..8193, 123_456_789..123_461_000, MOST_POINTS - 70..MOST_POINTS];
+    for (dimension, coordinate) in plain.coordinates.iter().enumerate() {
+        for range in &ranges {
+            let expected: Vec<u64> = range
+                .clone()
+                .map(|index| scrambled(digits(&coordinate.directions, index), &coordinate.keys).to_bits())
+                .collect();
+            for (level, sequence) in
+                SimdLevel::all().into_iter().flat_map(|level| [(level, &plain), (level, &prepared)])
+            {
+                let mut found = vec![f64::NAN; expected.len()];
+                sequence.write_at(level, dimension, range.start, &mut found);
+                let found: Vec<u64> = found.into_iter().map(f64::to_bits).collect();
+                assert_eq!(found, expected, "dimension {dimension}, {range:?} at {}", level.name());
+            }
+        }
+    }
+}
+
+/// These points were computed before the scramble was vectorised; estimates by Sobol points are made of them.
+#[test]
+fn points_have_kept_their_values() {
+    let sequence = ScrambledSobol::new(4, 1, 2).unwrap();
+    let found = points(&sequence, 1_000_000..1_000_002);
+    assert_eq!(found, KEPT);
 }
 
 /// The first eight points before scrambling, in the order of the Gray code, as published by P. Bratley and B. L.
@@ -25,12 +90,10 @@ fn the_sequence_begins_as_published() {
     let sequence = ScrambledSobol::new(3, 1, 0).unwrap();
     let found = points(&sequence, 0..8);
     for (index, point) in (0_u64..).zip(expected) {
-        let gray = index ^ (index >> 1);
         for (dimension, coordinate) in point.into_iter().enumerate() {
-            let columns = directions(dimension);
-            let digits = (0..DEPTH as usize).filter(|j| gray >> j & 1 == 1).fold(0, |sum, j| sum ^ columns[j]);
+            let digits = digits(&directions(dimension), index);
             assert_eq!(digits as f64 / MOST_POINTS as f64, coordinate, "point {index}, dimension {dimension}");
-            let (_, keys) = &sequence.coordinates[dimension];
+            let keys = &sequence.coordinates[dimension].keys;
             assert_eq!(found[index as usize][dimension], scrambled(digits, keys));
         }
     }
@@ -114,7 +177,7 @@ fn any_range_can_be_generated_up_to_the_last_point() {
 /// `GOLDEN` before each hash, as a prefix of 1, 2, 3 does here.
 #[test]
 fn the_hash_is_that_of_splitmix64() {
-    let outputs = |seed: u64| [1, 2, 3].map(|number| hash(&seed, number));
+    let outputs = |seed: u64| [1, 2, 3].map(|number| hash(seed, number));
     assert_eq!(outputs(0), [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4, 0x06c4_5d18_8009_454f]);
     assert_eq!(outputs(1_234_567), [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);
 }
@@ -122,17 +185,17 @@ fn the_hash_is_that_of_splitmix64() {
 /// The expected digits are computed one by one from Owen's definition.
 #[test]
 fn each_digit_is_flipped_by_a_bit_that_depends_on_the_digits_before_it() {
-    let keys: Keys = std::array::from_fn(|index| hash(&3, index as u64));
-    for digits in (0..500).map(|number| hash(&4, number) >> (64 - DEPTH)).chain([0, MOST_POINTS - 1]) {
+    let keys: Keys = std::array::from_fn(|index| hash(3, index as u64));
+    for digits in (0..500).map(|number| hash(4, number) >> (64 - DEPTH)).chain([0, MOST_POINTS - 1]) {
         let first = |number: u32| digits >> (DEPTH - number);
         let flip = |digit: u32| {
             let (group, level) = (digit / GROUP, digit % GROUP);
-            let flips = hash(&keys[group as usize], 1 << (GROUP * group) | first(GROUP * group));
+            let flips = hash(keys[group as usize], 1 << (GROUP * group) | first(GROUP * group));
             let within_group = first(digit) & ((1 << level) - 1);
             flips >> (1 << level | within_group) & 1
         };
         let flipped = (0..DEPTH).fold(0, |flipped, digit| flipped << 1 | (first(digit + 1) & 1 ^ flip(digit)));
-        let numerator = flipped << 16 | hash(&keys[6], digits) >> 48;
+        let numerator = flipped << 16 | hash(keys[6], digits) >> 48;
         assert_eq!(scrambled(digits, &keys), (numerator as f64 + 0.5) / 2f64.powi(52));
     }
 }

@@ -25,11 +25,15 @@ fn a_tied_rate_follows_its_partner() {
 }
 
 #[test]
-fn with_coin_keeps_the_launches() {
-    let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_coin(Coin::DISC));
+fn with_body_keeps_the_launches() {
+    let (paper, disc) = (parse(&BOX).unwrap(), parse(&BOX).unwrap().with_body(Coin::DISC));
     let toss = disc.toss(&paper.fixed_values());
-    assert_eq!((toss.coin, toss.launch), (Coin::DISC, paper.toss(&paper.fixed_values()).launch));
+    assert_eq!((toss.body, toss.launch), (Coin::DISC.into(), paper.toss(&paper.fixed_values()).launch));
     assert_ne!(paper.coin(), disc.coin());
+    let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+    let other = paper.with_body(body);
+    assert_eq!((other.coin(), *other.body(), other.coin_toss(&paper.fixed_values())), (None, body, None));
+    assert_eq!(other.toss(&paper.fixed_values()), RigidToss { body, launch: toss.launch });
 }
 
 #[test]
@@ -43,7 +47,7 @@ fn launches_have_the_gravity_and_the_tilt() {
 #[test]
 fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
     let space = parse(&BOX).unwrap().with_drop(Some(1.5)).unwrap();
-    let toss = space.with_coin(Coin::DISC).toss(&space.fixed_values());
+    let toss = space.with_body(Coin::DISC).toss(&space.fixed_values());
     let expected = TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: 1.5 };
     assert_eq!(toss.launch.time_of_flight(), expected);
     assert_eq!(space.with_axis(RateZ, 7.0).unwrap().drop(), Some(1.5));

@@ -9,20 +9,35 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
+use rayon::ThreadPoolBuilder;
+use sampling::{Plan, Rest, Sampler, Scrambled};
 use serde::{Deserialize, Serialize};
-use toss::{Formulation, QuaternionSolver, SimdLevel, Stepping, TAYLOR};
+use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR};
 
+use super::launches::box_of_launches;
 use super::tosses::Columns;
 use crate::files;
 
-/// Number of tosses in a work.
+/// Number of tosses in a work of many tosses.
 const TOSSES: usize = 512;
+
+/// Number of tosses in a work that solves them one by one.
+const FLOWN: usize = 64;
+
+/// Number of launches in a work that estimates a probability.
+const LAUNCHES: u64 = 1 << 17;
+
+/// Works without a level take the one that the library chooses by itself. The baseline has it for this one, which
+/// valgrind has on every machine of today.
+const LEVEL_OF_BASELINE: &str = "avx2";
 
 /// A work is worse if it takes more than this many times the instructions of the baseline.
 const MORE: f64 = 1.05;
 
-/// The names of the works: what is computed, a slash, and the SIMD level.
-const WORKS: [&str; 8] = [
+/// The names of the works: what is computed, a slash, and the SIMD level, or `default` for the one that the library
+/// chooses by itself. For `cos-tilt` and `outcome`, one by one, the solver and its scheme follow; for `launches`, the
+/// method that chooses them.
+const WORKS: [&str; 22] = [
     "cos-tilts/plain",
     "cos-tilts/avx2",
     "count/plain",
@@ -31,6 +46,20 @@ const WORKS: [&str; 8] = [
     "attitudes/avx2",
     "taylor/plain",
     "taylor/avx2",
+    "cos-tilts/default",
+    "count/default",
+    "attitudes/default",
+    "landings/default",
+    "cos-tilt/exact",
+    "outcome/exact",
+    "cos-tilt/gamma/dop853",
+    "cos-tilt/euler/dop853",
+    "cos-tilt/quaternion/dop853",
+    "cos-tilt/quaternion/taylor",
+    "outcome/quaternion/taylor",
+    "launches/random",
+    "launches/sobol",
+    "launches/exact-speed",
 ];
 
 /// Does the work called `name` `times` times.
@@ -38,26 +67,92 @@ const WORKS: [&str; 8] = [
 /// # Errors
 /// If the work is unknown, or this machine does not have its SIMD level.
 pub fn work(name: &str, times: u32) -> anyhow::Result<()> {
-    let (work, level) = name.split_once('/').context("a work has a name such as count/avx2")?;
-    let level = SimdLevel::all()
-        .into_iter()
-        .find(|known| known.name() == level)
-        .context("this machine has no such SIMD level")?;
+    let (work, by) = name.split_once('/').context("a work has a name such as count/avx2")?;
+    match work {
+        "cos-tilt" | "outcome" => one_by_one(work, by, times),
+        "launches" => estimates(by, times),
+        _ => many(work, by, times),
+    }
+}
+
+/// Does a work of many tosses at a SIMD level.
+fn many(work: &str, level: &str, times: u32) -> anyhow::Result<()> {
     let columns = Columns::new(TOSSES);
-    let batch = columns.batch(level);
+    let tosses = columns.tosses();
+    let known = SimdLevel::all().into_iter().find(|known| known.name() == level);
+    let batch = match known {
+        None if level == "default" => Batch::new(tosses),
+        known => Batch::new(tosses).on(known.context("this machine has no such SIMD level")?),
+    };
     let (mut out, mut quaternions) = (vec![0.0; TOSSES], [(); 4].map(|()| vec![0.0; TOSSES]));
     let each = columns.each();
     let taylor = QuaternionSolver::new(Stepping::adaptive(TAYLOR, 1e-10)?, Formulation::default());
     for _ in 0..times {
-        match work {
-            "cos-tilts" => batch.cos_tilts(&mut out)?,
-            "count" => drop(std::hint::black_box(batch.count()?)),
-            "attitudes" => batch.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
-            "taylor" => drop(taylor.propagate_all(&each, level)),
+        match (work, known) {
+            ("cos-tilts", _) => batch.cos_tilts(&mut out)?,
+            ("count", _) => drop(std::hint::black_box(batch.count()?)),
+            ("attitudes", _) => batch.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
+            ("taylor", Some(level)) => drop(taylor.propagate_all(&each, level)),
+            ("landings", None) => taylor.cos_tilts(&tosses, &mut out)?,
             _ => bail!("no such work"),
         }
     }
     Ok(())
+}
+
+/// Solves tosses one by one with the solver and scheme `by`.
+fn one_by_one(work: &str, by: &str, times: u32) -> anyhow::Result<()> {
+    let (name, scheme) = by.split_once('/').map_or((by, None), |(name, scheme)| (name, Some(scheme)));
+    let entry = Registry::standard().entries().iter().find(|entry| entry.name() == name).context("no such solver")?;
+    let scheme = scheme.map(|scheme| entry.schemes().iter().find(|known| known.name() == scheme).context("no scheme"));
+    let stepping = scheme.transpose()?.map(|scheme| Stepping::adaptive(*scheme, 1e-10)).transpose()?;
+    let settings = Settings { stepping: stepping.unwrap_or(Stepping::DEFAULT), formulation: Formulation::default() };
+    let solver = entry.solver(&settings)?;
+    let each = Columns::new(FLOWN).each();
+    for toss in (0..times).flat_map(|_| &each) {
+        match work {
+            "cos-tilt" => _ = std::hint::black_box(solver.cos_tilt(toss)?),
+            _ => _ = std::hint::black_box(solver.outcome(toss)?),
+        }
+    }
+    Ok(())
+}
+
+/// Estimates the probability over the box of launches by a method, on one thread.
+fn estimates(method: &str, times: u32) -> anyhow::Result<()> {
+    let scrambled = Scrambled::new(LAUNCHES, 1);
+    let plan = match method {
+        "random" => Plan::Random { points: LAUNCHES, seed: 1 },
+        "sobol" => Plan::Sobol(scrambled),
+        "exact-speed" => Plan::ExactSpeed(Rest::Sobol(scrambled)),
+        _ => bail!("no such method"),
+    };
+    let space = box_of_launches()?;
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().context("cannot start a thread")?;
+    for _ in 0..times {
+        std::hint::black_box(pool.install(|| Sampler::exact().estimate(&space, plan))?);
+    }
+    Ok(())
+}
+
+/// Whether this machine can do the work called `name` as the baseline has it.
+fn is_here(name: &str) -> bool {
+    let levels: Vec<&str> = SimdLevel::all().into_iter().map(SimdLevel::name).collect();
+    let level = name.rsplit('/').next().unwrap_or_default();
+    match level {
+        "plain" => true,
+        // The other works take the level of the machine too.
+        _ => levels.contains(&LEVEL_OF_BASELINE),
+    }
+}
+
+/// Number of tosses in the work called `name`.
+fn tosses(name: &str) -> usize {
+    match name.split('/').next() {
+        Some("cos-tilt" | "outcome") => FLOWN,
+        Some("launches") => usize::try_from(LAUNCHES).unwrap_or(usize::MAX),
+        _ => TOSSES,
+    }
 }
 
 /// Number of instructions for each toss, by work.
@@ -77,11 +172,11 @@ impl Instructions {
     /// # Errors
     /// If there is no valgrind, or it fails.
     pub fn count() -> anyhow::Result<Self> {
-        let levels = SimdLevel::all().into_iter().map(SimdLevel::name).collect::<Vec<_>>();
-        let here = |work: &&&str| levels.iter().any(|level| work.ends_with(level));
-        let count =
-            |work: &&str| Ok((work.to_string(), (collected(work, 3)? - collected(work, 1)?) / (2 * TOSSES) as f64));
-        Ok(Self(WORKS.iter().filter(here).map(count).collect::<anyhow::Result<_>>()?))
+        let count = |work: &&str| {
+            let more = collected(work, 3)? - collected(work, 1)?;
+            Ok((work.to_string(), more / (2 * tosses(work)) as f64))
+        };
+        Ok(Self(WORKS.iter().filter(|work| is_here(work)).map(count).collect::<anyhow::Result<_>>()?))
     }
 
     /// Reads the baseline from the file at `path`; empty if there is no file.
@@ -115,14 +210,14 @@ impl Instructions {
 
     /// The table of counts beside `baseline`, and whether a work takes more instructions than allowed.
     pub fn compared(&self, baseline: &Self) -> (String, bool) {
-        let mut text = format!("{:<20} {:>14} {:>10}\n", "work", "instructions", "baseline");
+        let mut text = format!("{:<28} {:>14} {:>10}\n", "work", "instructions", "baseline");
         let mut is_worse = false;
         for (work, count) in &self.0 {
             let old = baseline.0.get(work);
             let worse = old.is_some_and(|old| *count > MORE * old);
             is_worse |= worse;
             let old = old.map_or("-".to_owned(), |old| format!("{old:.1}"));
-            text += &format!("{work:<20} {count:>14.1} {old:>10}{}\n", if worse { "  MORE" } else { "" });
+            text += &format!("{work:<28} {count:>14.1} {old:>10}{}\n", if worse { "  MORE" } else { "" });
         }
         (text, is_worse)
     }
@@ -167,11 +262,12 @@ mod tests {
 
     #[test]
     fn every_work_of_this_machine_can_be_done() {
-        let levels: Vec<&str> = SimdLevel::all().into_iter().map(SimdLevel::name).collect();
         for name in WORKS {
-            let is_here = levels.iter().any(|level| name.ends_with(level));
-            assert_eq!(work(name, 1).is_ok(), is_here, "{name}");
+            let needs_avx2 = name.ends_with(LEVEL_OF_BASELINE);
+            assert_eq!(work(name, 1).is_ok(), is_here(name) || !needs_avx2, "{name}");
         }
-        assert!(work("sums/plain", 1).is_err() && work("count", 1).is_err());
+        for name in ["sums/plain", "count", "taylor/default", "cos-tilt/nobody", "cos-tilt/gamma/taylor", "count/sse"] {
+            assert!(work(name, 1).is_err(), "{name}");
+        }
     }
 }

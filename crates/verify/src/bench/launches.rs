@@ -3,26 +3,33 @@
 
 use anyhow::Context;
 use rayon::ThreadPoolBuilder;
-use sampling::{Coordinate, Plan, Sampler, Space, named_space};
-use toss::Coin;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
+use sampling::{Plan, Rest, Sampler, Scrambled, Space, named_space};
+use toss::{Coin, InputError};
 
 use super::contest::Contest;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
-/// Estimates by a grid and by random launches, over the space of the paper's Fig. 4 and over the box of launches that
-/// the other benchmarks solve, on one thread and on all.
+/// The box of launches from which the tosses of the other benchmarks are.
+pub(super) fn box_of_launches() -> Result<Space, InputError> {
+    Space::parse(Coin::PAPER, &[(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")])
+}
+
+/// Estimates by each method over the space of the paper's Fig. 4 and over the box of launches, on one thread and on all.
 pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
-    use Coordinate::{RateX, RateY, RateZ, Speed};
-    let texts = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
-    let boxed = Space::parse(Coin::PAPER, &texts)?.with_grid_of(1 << 21)?;
+    let boxed = box_of_launches()?.with_grid_of(1 << 21)?;
     let fig4 = named_space("paper-fig4")?;
-    let random = Plan::Random { points: 1 << 21, seed: 1 };
-    let cases =
-        [("Fig. 4", fig4, Plan::Grid), ("box", boxed, Plan::Grid), ("Fig. 4", fig4, random), ("box", boxed, random)];
+    let plans = [
+        ("grid", Plan::Grid),
+        ("random", Plan::Random { points: 1 << 21, seed: 1 }),
+        ("Sobol", Plan::Sobol(Scrambled::new(1 << 20, 1))),
+        ("exact-speed", Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 17, 1)))),
+    ];
+    let cases = plans.into_iter().flat_map(|(way, plan)| [("Fig. 4", fig4, way, plan), ("box", boxed, way, plan)]);
     let all = std::thread::available_parallelism().map_or(1, usize::from);
     let mut contests = Vec::new();
-    for (name, space, plan) in cases {
+    for (name, space, way, plan) in cases {
         for threads in [1, all] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().context("cannot start the threads")?;
             let points = usize::try_from(plan.points(&space)?)?;
@@ -30,7 +37,6 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
                 let found = pool.install(|| Sampler::exact().estimate(&space, plan));
                 std::hint::black_box(found.expect("valid launches"));
             };
-            let way = if plan == Plan::Grid { "grid" } else { "random" };
             let name = format!("{name}, {way}, threads: {threads}");
             contests.push(Contest { group: LAUNCH, name, error: None, tosses: points, run: Box::new(run) });
         }

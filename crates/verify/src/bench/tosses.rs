@@ -21,7 +21,7 @@ impl Columns {
     }
 
     /// The columns as tosses of the paper's coin that start horizontal.
-    fn tosses(&self) -> Tosses<'_> {
+    pub(super) fn tosses(&self) -> Tosses<'_> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
         tosses.expect("columns of one length")

@@ -1,12 +1,12 @@
-//! `verify bench` measures what a toss costs, in time or in instructions. Times are only printed; instructions are
+//! The command `bench` measures what a toss costs, in time or in instructions. Times are only printed; instructions are
 //! compared with a baseline, because they are the same in every run.
 
 use clap::Args;
-use verify::bench::Table;
-use verify::bench::instructions::Instructions;
-use verify::files;
 
-use super::Folders;
+use crate::bench::Table;
+use crate::bench::instructions::Instructions;
+use crate::files;
+use crate::suite::Suite;
 
 /// Measure what a toss costs, in ns and beside a reference in C
 #[derive(Debug, Args)]
@@ -21,12 +21,12 @@ pub(super) struct Bench {
 
 impl Bench {
     /// Returns the exit code: 3 if a work takes more instructions than the baseline allows, otherwise 0.
-    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
+    pub(super) fn run(&self, suite: &Suite) -> anyhow::Result<u8> {
         if !self.instructions {
             files::print(&Table::measure()?.to_string())?;
             return Ok(0);
         }
-        let path = folders.validation.join("baseline").join("instructions.csv");
+        let path = suite.data().join("baseline").join(std::env::consts::ARCH).join("instructions.csv");
         let (baseline, found) = (Instructions::read(&path)?, Instructions::count()?);
         let (text, is_worse) = found.compared(&baseline);
         files::print(&text)?;

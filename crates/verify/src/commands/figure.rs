@@ -1,18 +1,17 @@
-//! `verify figure` draws figures from what is committed, without any measurement.
+//! The command `figure` draws figures from what is committed, without any measurement.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use toss::Registry;
-use verify::files;
-use verify::judge::record;
-use verify::measure::atlas;
-use verify::measure::atlas::expected::Expected;
-use verify::measure::work_precision::{Sweep, problems};
-use verify::render::charts;
 
-use super::Folders;
+use crate::files;
+use crate::judge::record;
+use crate::measure::atlas;
+use crate::measure::atlas::expected::Expected;
+use crate::measure::work_precision::{Sweep, problems};
+use crate::render::charts;
+use crate::suite::Suite;
 
 /// Draw a figure from what is committed
 #[derive(Debug, Args)]
@@ -34,26 +33,29 @@ enum Name {
 }
 
 impl Figure {
-    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
+    pub(super) fn run(&self, suite: &Suite) -> anyhow::Result<u8> {
         let svg = match self.name {
-            Name::AtlasMatrix => atlas_matrix(&folders.validation)?,
-            Name::WorkPrecision => work_precision(&folders.validation)?,
+            Name::AtlasMatrix => atlas_matrix(suite)?,
+            Name::WorkPrecision => work_precision(suite)?,
         };
         files::write(&self.svg, &svg)?;
         Ok(0)
     }
 }
 
-fn atlas_matrix(validation: &Path) -> anyhow::Result<String> {
-    let names = atlas::names(Registry::standard().entries())?;
-    Ok(charts::known_failures(&names, &Expected::read(&validation.join("atlas.toml"))?)?)
+fn atlas_matrix(suite: &Suite) -> anyhow::Result<String> {
+    let names = atlas::names(suite.registry().entries())?;
+    Ok(charts::known_failures(&names, &Expected::of_this_workspace()?)?)
 }
 
-fn work_precision(validation: &Path) -> anyhow::Result<String> {
-    let folder = validation.join("record");
+fn work_precision(suite: &Suite) -> anyhow::Result<String> {
+    let folder = suite.data().join("record");
     let records = record::read(&folder)?;
     let date = &records.last().context("there are no records")?.host.date;
-    let problems = problems::read(&validation.join("problems.toml"))?;
-    let sweep = Sweep::of(&problems, record::samples(&folder, date)?);
-    Ok(charts::recorded(&sweep, "ensemble", date, Registry::standard().entries())?)
+    let mut problems = problems::all()?;
+    let samples = record::samples(&folder, date)?;
+    // A problem that is newer than the record has no samples in it.
+    problems.retain(|problem| samples.iter().any(|sample| sample.problem == problem.name));
+    let sweep = Sweep::of(&problems, samples);
+    Ok(charts::recorded(&sweep, "ensemble", date, suite.registry().entries())?)
 }

@@ -1,17 +1,25 @@
-//! `verify fit` measures the planner's table of costs and errors and writes it into the library's sources. It is a
-//! command of its own because the table must be measured again on a change of a model, which needs no run of the
-//! checks.
+//! The command `fit` measures the errors and costs by which the planner chooses an integrator, and writes them. It is a
+//! command of its own because they must be measured again on a change of a model, which needs no run of the checks.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use verify::files;
-use verify::host::Host;
-use verify::measure::planner::fit;
+use crate::files;
+use crate::host::Host;
+use crate::measure::planner::fit;
+use crate::measure::replay::Commands;
+use crate::suite::Suite;
 
-/// Measures the table and writes it into the file with which the library is built.
-pub(super) fn fit() -> anyhow::Result<u8> {
+/// Measures the table: in this workspace that of all models, into the file with which the library is built; elsewhere
+/// that of the suite's own integrators, into the folder of the suite, for `Registry::measured`.
+pub(super) fn fit(suite: &Suite) -> anyhow::Result<u8> {
     let Host { date, cpu, .. } = Host::here();
-    let fitted = fit::fit(format!("{date} on {cpu}"))?;
-    files::write(Path::new(fit::FILE), &fit::text(&fitted)?)?;
+    let measured = format!("{date} on {cpu}");
+    let (fitted, path): (_, PathBuf) = match suite.commands() {
+        Commands::Workspace => (fit::fit(measured)?, Path::new(fit::FILE).into()),
+        Commands::Program(_) | Commands::With(..) => {
+            (fit::fit_others(suite.registry(), measured)?, suite.data().join("fitted.toml"))
+        }
+    };
+    files::write(&path, &fit::text(&fitted)?)?;
     Ok(0)
 }

@@ -1,37 +1,50 @@
-//! The command line of the program `verify`: each command is a file of this folder. `verify run`, which runs the
-//! checks, is what `cargo xtask verify` starts.
+//! The command line of a suite: each command is a file of this folder. Without a command the checks are run, which is
+//! what `cargo xtask verify` starts.
 
 mod bench;
 mod figure;
 mod fit;
 mod history;
 mod list;
+mod program;
 mod replay;
 mod run;
 mod work;
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Verifies the solvers of tossed coins.
+use crate::files;
+use crate::suite::Suite;
+
+/// Arguments that are not understood.
+const BAD_USAGE: u8 = 2;
+
+/// Exit code of a command that could not run.
+const COULD_NOT_RUN: u8 = 4;
+
+/// Verifies solvers of tossed coins.
 #[derive(Debug, Parser)]
-#[command(name = "verify")]
-pub(crate) struct Program {
+#[command(args_conflicts_with_subcommands = true)]
+struct Program {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+    #[command(flatten)]
+    run: run::Run,
     #[command(flatten)]
     folders: Folders,
 }
 
-/// The folders of the suite; the defaults are relative to the root of the workspace.
+/// The folders of the suite.
 #[derive(Debug, Args)]
 struct Folders {
-    /// Read bounds, reference numbers, baseline and records from this folder
-    #[arg(long, global = true, value_name = "FOLDER", default_value = "validation", hide = true)]
-    validation: PathBuf,
+    /// Read bounds, baseline and records from this folder, and write the latter two there [default: validation]
+    #[arg(long, global = true, value_name = "FOLDER")]
+    validation: Option<PathBuf>,
     /// Write reports and charts into this folder
-    #[arg(long, global = true, value_name = "FOLDER", default_value = "target/verify", hide = true)]
+    #[arg(long, global = true, value_name = "FOLDER", default_value = "target/verify")]
     out: PathBuf,
 }
 
@@ -43,11 +56,37 @@ enum Command {
     Replay(Box<replay::Replay>),
     Bench(bench::Bench),
     Work(work::Work),
-    /// Measure the planner's table of costs and errors, and write it
+    /// Measure the errors and costs by which the planner chooses an integrator, and write them
     Fit,
     /// Draw the accuracy of the committed records over time
     History,
     Figure(figure::Figure),
+}
+
+/// Runs the program of `suite` with the arguments of the process, as `cargo xtask verify` does for the suite of this
+/// workspace.
+///
+/// Without a command it runs the checks, with `--quick`, `--deep`, `--only ID`, `--bless`, `--format` and `--verbose`.
+/// Commands are `list` (the checks), `replay INPUT` (one toss by every solver, scheme and formulation), `history`,
+/// `figure`, `fit` and `bench`.
+///
+/// Exit codes: 0, all checks pass; 1, a check fails; 2, bad usage; 3, accuracy or work is worse than the baseline,
+/// though within its bounds; 4, the command could not run.
+#[must_use]
+pub fn main(suite: Suite) -> ExitCode {
+    let ended = match Program::try_parse() {
+        Ok(program) => program.run(suite),
+        Err(asked) if !asked.use_stderr() => files::printed(whole_file::unless_closed(asked.print())).map(|()| 0),
+        // Without a standard error there is nobody to say it to.
+        Err(error) => {
+            let _ = error.print();
+            Ok(BAD_USAGE)
+        }
+    };
+    ExitCode::from(ended.unwrap_or_else(|error| {
+        whole_file::report(format_args!("{error:#}"));
+        COULD_NOT_RUN
+    }))
 }
 
 impl Program {
@@ -55,17 +94,21 @@ impl Program {
     ///
     /// # Errors
     /// If the command could not run.
-    pub(crate) fn run(&self) -> anyhow::Result<u8> {
-        let folders = &self.folders;
-        match &self.command {
-            Command::Run(command) => command.run(folders),
+    fn run(self, suite: Suite) -> anyhow::Result<u8> {
+        let Folders { validation, out } = self.folders;
+        let suite = match validation {
+            Some(folder) => suite.folder(folder),
+            None => suite,
+        };
+        match self.command.unwrap_or(Command::Run(self.run)) {
+            Command::Run(command) => command.run(suite, &out),
             Command::List => list::list(),
-            Command::Replay(command) => replay::replay(&command.input),
-            Command::Bench(command) => command.run(folders),
+            Command::Replay(command) => command.run(suite, &out),
+            Command::Bench(command) => command.run(&suite),
             Command::Work(command) => command.run(),
-            Command::Fit => fit::fit(),
-            Command::History => history::history(folders),
-            Command::Figure(command) => command.run(folders),
+            Command::Fit => fit::fit(&suite),
+            Command::History => history::history(&suite, &out),
+            Command::Figure(command) => command.run(&suite),
         }
     }
 }

@@ -1,17 +1,17 @@
-//! `verify run` runs the checks, writes their reports, and compares the result with the baseline. It connects
-//! measuring, judging and rendering, which are separate modules.
+//! The command `run` runs the checks of a suite, writes their reports, and compares the result with the baseline. It
+//! shows what the library does; it measures and judges nothing itself.
+
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use toss::Registry;
-use verify::judge::baseline::{Baseline, Direction};
-use verify::judge::bounds::Bounds;
-use verify::judge::{record, unused_bounds};
-use verify::render::charts::{self, Chart};
-use verify::render::{Report, html, junit, moves, table};
-use verify::{CHECKS, Check, Context, Effort, Row, files, host::Host, judge};
 
-use super::{Folders, fit};
+use super::fit;
+use super::program::Foreign;
+use crate::measure::replay::Commands;
+use crate::render::{Report, github, junit, left_out, moves, table};
+use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
+use crate::{Check, Effort, files};
 
 /// Run the checks; write report.html, report.json, junit.xml and charts
 #[derive(Debug, Args)]
@@ -34,6 +34,11 @@ pub(super) struct Run {
     /// Print one line a row instead of one a check
     #[arg(long)]
     verbose: bool,
+    /// Multiply the time limit of every check, for a slow machine or a slow solver
+    #[arg(long, value_name = "FACTOR", value_parser = time_factor)]
+    time_factor: Option<f64>,
+    #[command(flatten)]
+    foreign: Foreign,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -41,99 +46,104 @@ enum Format {
     Text,
     Json,
     Junit,
+    /// The text, then annotations; the summary is appended to the file that $GITHUB_STEP_SUMMARY names
+    Github,
 }
 
 fn known_check(id: &str) -> Result<&'static Check, String> {
-    let known = || CHECKS.iter().map(|check| check.id).collect::<Vec<_>>().join(", ");
-    CHECKS.iter().find(|check| check.id == id).ok_or_else(|| format!("no such check; known: {}", known()))
+    check_named(id).map_err(|error| error.to_string())
 }
+
+fn time_factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
+    factor.ok_or_else(|| "the time factor must be finite and above 0".to_owned())
+}
+
+/// The environment variable with the name of the file into which a step of GitHub Actions writes its summary.
+const SUMMARY: &str = "GITHUB_STEP_SUMMARY";
 
 impl Run {
     /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
-    pub(super) fn run(&self, folders: &Folders) -> anyhow::Result<u8> {
-        let effort = self.effort();
-        let bounds = Bounds::read(&folders.validation.join("bounds.toml"))?;
-        let context = Context::new(Registry::standard().entries(), effort, &folders.validation)?;
-        let rows = self.measure(&context, &bounds)?;
-        anyhow::ensure!(!rows.is_empty(), "no check measured anything");
-        let baseline_path = folders.validation.join("baseline").join(format!("{}.csv", effort.name()));
-        let (baseline, found) = (Baseline::read(&baseline_path)?, Baseline::of(&rows, context.records().sweep));
-        let moves = baseline.moves(&found, self.only.is_none());
-        let report = Report::new(effort, &rows, &moves, context.records());
-        self.write(&report, folders)?;
-        if !report.passed {
-            return Ok(1);
-        }
-        if self.bless {
-            files::write(&baseline_path, &baseline.ratcheted(&found).csv()?)?;
-            if let Some(sweep) = context.records().sweep.filter(|_| effort == Effort::Standard) {
-                record::write(&folders.validation.join("record"), &Host::here(), &found, sweep)?;
-                fit::fit()?;
+    pub(super) fn run(&self, suite: Suite, out: &Path) -> anyhow::Result<u8> {
+        let suite = self.asked_for(self.foreign.in_place_of(suite, out)?);
+        let verified = measure(&suite)?;
+        verified.write(out)?;
+        self.print(&verified, out)?;
+        if self.bless && verified.verdict() != Verdict::Fail {
+            suite.accept(&verified)?;
+            if *suite.commands() == Commands::Workspace && verified.report().effort == Effort::Standard {
+                fit::fit(&suite)?;
             }
         }
-        Ok(if moves.iter().any(|moved| moved.direction == Direction::Worse) { 3 } else { 0 })
+        Ok(verified.exit_code())
     }
 
-    fn effort(&self) -> Effort {
-        match (self.quick, self.deep) {
-            (true, _) => Effort::Quick,
-            (_, true) => Effort::Deep,
-            _ => Effort::Standard,
+    /// The suite with the effort and the check that the options ask for.
+    fn asked_for(&self, suite: Suite) -> Suite {
+        let suite = match (self.quick, self.deep) {
+            (true, _) => suite.effort(Effort::Quick),
+            (_, true) => suite.effort(Effort::Deep),
+            _ => suite,
+        };
+        let suite = match self.only {
+            Some(check) => suite.only(check.id),
+            None => suite,
+        };
+        match self.time_factor {
+            Some(factor) => suite.time_factor(factor),
+            None => suite,
         }
     }
 
-    fn measure(&self, context: &Context, bounds: &Bounds) -> anyhow::Result<Vec<Row>> {
-        let asked = |check: &&Check| self.only.is_none_or(|only| only.id == check.id);
-        let checks: Vec<&Check> = CHECKS.iter().filter(asked).collect();
-        let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
-        let progress = ProgressBar::new(checks.len() as u64).with_style(style);
-        progress.enable_steady_tick(std::time::Duration::from_millis(100));
-        let show = |text: String| progress.suspend(|| self.print(&text));
-        show(table::heading())?;
-        let mut rows = Vec::new();
-        for check in checks {
+    /// Prints the report in the format that was asked for.
+    fn print(&self, verified: &Verified, out: &Path) -> anyhow::Result<()> {
+        let report = verified.report();
+        match self.format.unwrap_or(Format::Text) {
+            Format::Text => files::print(&self.text(verified, &report, out)),
+            Format::Json => files::print(&format!("{}\n", report.json()?)),
+            Format::Junit => files::print(&format!("{}\n", junit::xml(&report)?)),
+            Format::Github => {
+                if let Some(path) = std::env::var_os(SUMMARY).filter(|path| !path.is_empty()) {
+                    files::append(Path::new(&path), &github::summary(&report))?;
+                }
+                files::print(&format!("{}{}", self.text(verified, &report, out), github::annotations(&report)))
+            }
+        }
+    }
+
+    fn text(&self, verified: &Verified, report: &Report<'_>, out: &Path) -> String {
+        let moved = moves::text(report.moves, report.rows);
+        let compared = report.baseline.words(report.moves);
+        let (table, verdict) = (table::text(report, self.verbose), table::verdict(report.rows));
+        let left_out = left_out::text(report.left_out);
+        let written = written(verified, out);
+        format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
+    }
+}
+
+/// Runs the checks of `suite`; what has ended is shown on standard error.
+fn measure(suite: &Suite) -> anyhow::Result<Verified> {
+    let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
+    let progress = ProgressBar::new(0).with_style(style);
+    progress.enable_steady_tick(std::time::Duration::from_millis(100));
+    let verified = suite.run_showing(&|now| match now {
+        Progress::Begins(check, number) => {
+            progress.set_length(number as u64);
             progress.inc(1);
             progress.set_message(check.id);
-            let judged = judge(check, (check.measure)(context)?, bounds);
-            show(table::check(&judged, self.verbose))?;
-            rows.extend(judged);
         }
-        progress.finish_and_clear();
-        if self.only.is_none() {
-            let unused = unused_bounds(&rows, bounds);
-            show(table::check(&unused, self.verbose))?;
-            rows.extend(unused);
-        }
-        Ok(rows)
-    }
+        Progress::Ended(rows, timing) => progress.suspend(|| files::say(&table::ended(rows, timing))),
+    })?;
+    progress.finish_and_clear();
+    Ok(verified)
+}
 
-    /// Writes the reports into files, and one of them, chosen by the format, to standard output.
-    fn write(&self, report: &Report<'_>, folders: &Folders) -> anyhow::Result<()> {
-        let (json, junit) = (report.json()?, junit::xml(report.rows)?);
-        let charts = charts::charts(&report.records, Registry::standard().entries())?;
-        let page = folders.out.join("report.html");
-        files::write(&folders.out.join("report.json"), &json)?;
-        files::write(&folders.out.join("junit.xml"), &junit)?;
-        files::write(&page, &html::page(report, &charts))?;
-        for Chart { file, svg, .. } in &charts {
-            files::write(&folders.out.join(file), svg)?;
-        }
-        match self.format() {
-            Format::Text => {
-                let moved = moves::text(report.moves, report.rows);
-                files::print(&format!("{}{moved}\nreport: {}\n", table::verdict(report.rows), page.display()))
-            }
-            Format::Json => files::print(&format!("{json}\n")),
-            Format::Junit => files::print(&format!("{junit}\n")),
-        }
-    }
-
-    fn format(&self) -> Format {
-        self.format.unwrap_or(Format::Text)
-    }
-
-    /// Prints `text` if the table for people is what was asked for.
-    fn print(&self, text: &str) -> anyhow::Result<()> {
-        if self.format() == Format::Text { files::print(text) } else { Ok(()) }
+/// The files that were written, for someone who reads the text.
+fn written(verified: &Verified, out: &Path) -> String {
+    let line = |what: &str, file: &str| format!("{what}: {}\n", out.join(file).display());
+    let report = line("report", "report.html");
+    match verified.proposed_bounds() {
+        Some(_) => report + &line("proposed bounds", PROPOSAL),
+        None => report,
     }
 }

@@ -1,8 +1,9 @@
-//! `verify work` does one piece of work a number of times and prints nothing. `verify bench --instructions` runs it
+//! The command `work` does one piece of work a number of times and prints nothing. `bench --instructions` runs it
 //! under valgrind to count its instructions.
 
 use clap::Args;
-use verify::bench::instructions::work;
+
+use crate::bench::instructions::work;
 
 /// Do one work of `bench --instructions` a number of times
 #[derive(Debug, Args)]

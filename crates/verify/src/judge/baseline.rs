@@ -2,16 +2,19 @@
 //! says what has changed since. Bounds say what is allowed; the baseline says what was reached, so that accuracy cannot
 //! become worse unnoticed within its bounds.
 //!
-//! There is one baseline for each effort, because the largest error depends on how many cases are tried. A call is an
-//! evaluation of the right-hand side by an integrator.
+//! There is one baseline for each effort, because the largest error depends on how many cases are tried, and for each
+//! architecture, because sine and cosine round differently there. A call is an evaluation of the right-hand side by an
+//! integrator.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
 
 use super::row::Row;
+use crate::files;
+use crate::measure::effort::Effort;
 use crate::measure::work_precision::{Sample, Sweep};
 
 /// An error is worse if it is more than this many times the accepted one, and better if it is less by the same factor.
@@ -36,9 +39,11 @@ type Key = (String, String);
 
 /// What was measured for one pair of check and subject.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Entry {
-    error: f64,
-    calls: Option<u64>,
+pub struct Entry {
+    /// The error, in the unit of the check.
+    pub error: f64,
+    /// Evaluations of the right-hand side, where they were counted.
+    pub calls: Option<u64>,
 }
 
 /// Errors and calls by check and subject.
@@ -52,6 +57,14 @@ struct Line {
     subject: String,
     error: f64,
     calls: Option<u64>,
+}
+
+/// The file, in the folder `baseline`, of the baseline for runs at `effort` on this machine's architecture.
+///
+/// There is no other to fall back on: against the errors of another architecture, where nothing but rounding decides,
+/// half of the rows would be worse or better.
+pub fn file(baseline: &Path, effort: Effort) -> PathBuf {
+    baseline.join(std::env::consts::ARCH).join(format!("{}.csv", effort.name()))
 }
 
 /// How an entry changed.
@@ -99,6 +112,10 @@ impl Baseline {
             for (problem, ..) in &sweep.problems {
                 for subject in sweep.subjects() {
                     let samples: Vec<&Sample> = sweep.series(problem, &subject).collect();
+                    // Solvers for coins alone have none on other bodies.
+                    if samples.is_empty() {
+                        continue;
+                    }
                     let entry = Entry::of(&samples);
                     entries.insert((format!("work-precision/{problem}"), subject.clone()), entry);
                 }
@@ -107,21 +124,33 @@ impl Baseline {
         Self(entries)
     }
 
-    /// Reads the baseline from the file at `path`; empty if there is no file.
+    /// The baseline in the file at `path`; `None` if there is no file.
     ///
     /// # Errors
     /// If the file can't be read.
-    pub fn read(path: &Path) -> anyhow::Result<Self> {
+    pub fn read(path: &Path) -> anyhow::Result<Option<Self>> {
         if !path.exists() {
-            return Ok(Self::default());
+            return Ok(None);
         }
-        let failed = || format!("cannot read {}", path.display());
+        Self::parse(&files::read(path)?).map(Some).with_context(|| format!("cannot read {}", path.display()))
+    }
+
+    /// The baseline that the lines of CSV in `text` describe.
+    ///
+    /// # Errors
+    /// If a line describes no entry.
+    pub fn parse(text: &str) -> anyhow::Result<Self> {
         let mut entries = BTreeMap::new();
-        for line in csv::Reader::from_path(path).with_context(failed)?.deserialize() {
-            let Line { check, subject, error, calls } = line.with_context(failed)?;
+        for line in csv::Reader::from_reader(text.as_bytes()).deserialize() {
+            let Line { check, subject, error, calls } = line?;
             entries.insert((check, subject), Entry { error, calls });
         }
         Ok(Self(entries))
+    }
+
+    /// The entries by check and subject.
+    pub fn into_entries(self) -> impl Iterator<Item = (String, String, Entry)> {
+        self.0.into_iter().map(|((check, subject), entry)| (check, subject, entry))
     }
 
     /// The baseline as CSV, one line per entry.
@@ -161,6 +190,14 @@ impl Baseline {
             let gone = self.0.iter().filter(|(key, _)| !found.0.contains_key(*key));
             moves.extend(gone.map(|(key, before)| Move::new(key, "error", Some(before.error), None, Direction::Gone)));
         }
+        moves
+    }
+
+    /// What changed from this baseline to what was `found` in `rows`. A row that fails is not in `found`, but it is not
+    /// gone either.
+    pub fn moves_to(&self, found: &Self, rows: &[Row], complete: bool) -> Vec<Move> {
+        let mut moves = self.moves(found, complete);
+        moves.retain(|moved| moved.direction != Direction::Gone || !rows.iter().any(|row| moved.is_of(row)));
         moves
     }
 
@@ -223,57 +260,15 @@ fn direction(before: f64, now: f64, ratio: f64, slack: f64) -> Option<Direction>
 }
 
 impl Move {
+    /// Whether it is a change of `row`.
+    pub fn is_of(&self, row: &Row) -> bool {
+        self.check == row.check && self.subject == row.subject
+    }
+
     fn new(key: &Key, what: &'static str, before: Option<f64>, now: Option<f64>, direction: Direction) -> Self {
         Self { check: key.0.clone(), subject: key.1.clone(), what, before, now, direction }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn one(error: f64, calls: u64) -> Baseline {
-        Baseline(BTreeMap::from([(("check".to_owned(), "a, b".to_owned()), Entry { error, calls: Some(calls) })]))
-    }
-
-    fn directions(before: &Baseline, now: &Baseline) -> Vec<(&'static str, Direction)> {
-        before.moves(now, true).iter().map(|moved| (moved.what, moved.direction)).collect()
-    }
-
-    #[test]
-    fn a_quarter_more_error_or_a_twentieth_more_calls_is_worse() {
-        let baseline = one(1e-9, 1000);
-        assert_eq!(directions(&baseline, &one(1.24e-9, 1049)), []);
-        assert_eq!(directions(&baseline, &one(1.26e-9, 1000)), [("error", Direction::Worse)]);
-        assert_eq!(
-            directions(&baseline, &one(0.7e-9, 1051)),
-            [("error", Direction::Better), ("calls", Direction::Worse)]
-        );
-        assert_eq!(directions(&baseline, &one(1e-9, 900)), [("calls", Direction::Better)]);
-        assert_eq!(directions(&one(1e-16, 0), &one(9e-16, 0)), [], "differences of rounding do not count");
-    }
-
-    #[test]
-    fn a_ratcheted_baseline_takes_what_is_better_and_keeps_what_would_be_worse() {
-        let baseline = one(1e-9, 1000);
-        assert_eq!(baseline.ratcheted(&one(1e-8, 900)), one(1e-9, 900));
-        assert_eq!(baseline.ratcheted(&one(1e-10, 2000)), one(1e-10, 1000));
-        assert_eq!(baseline.ratcheted(&one(0.99e-9, 999)), baseline, "small steps are not taken, in either direction");
-        assert_eq!(Baseline::default().ratcheted(&baseline), baseline);
-        assert_eq!(directions(&Baseline::default(), &baseline), [("error", Direction::New)]);
-        assert_eq!(directions(&baseline, &Baseline::default()), [("error", Direction::Gone)]);
-        assert!(baseline.moves(&Baseline::default(), false).is_empty());
-    }
-
-    #[test]
-    fn a_baseline_keeps_every_bit_through_its_file() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("quick.csv");
-        assert_eq!(Baseline::read(&path).unwrap(), Baseline::default());
-        let baseline = one(0.1 + 0.2, 77);
-        std::fs::write(&path, baseline.csv().unwrap()).unwrap();
-        assert_eq!(Baseline::read(&path).unwrap(), baseline);
-        std::fs::write(&path, "check,subject,error,calls\nx,y,many,\n").unwrap();
-        assert!(Baseline::read(&path).unwrap_err().to_string().contains("quick.csv"));
-    }
-}
+mod tests;

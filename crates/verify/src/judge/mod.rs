@@ -5,13 +5,46 @@
 //! | what | where |
 //! |---|---|
 //! | compares a measurement with its bound, or with the solver's own error estimate | [`row`] |
-//! | reads `validation/bounds.toml` | [`bounds`] |
-//! | compares a run with the regression baseline, `validation/baseline` | [`baseline`] |
-//! | reads and writes dated records, `validation/record` | [`record`] |
+//! | reads tables of bounds | [`bounds`] |
+//! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
+//! | compares the time of each check with its limit | [`time`] |
+//! | proposes bounds for rows that have none | [`proposal`] |
+//! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
 pub mod bounds;
+mod left_out;
+pub mod proposal;
 pub mod record;
 pub mod row;
+pub mod time;
 
-pub use row::{Row, Status, judge, unused_bounds};
+pub use left_out::LeftOut;
+pub use row::{Judge, Row, Status, judge, require_distinct, unused_bounds};
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::{Row, Status};
+    use crate::measure::check::{Basis, Judges};
+
+    /// A row about a solver in rad, which passes if `measured` is at most `bound`.
+    pub(crate) fn row(check: &str, subject: &str, measured: f64, bound: f64) -> Row {
+        Row {
+            check: check.to_owned(),
+            claim: "It is small.".to_owned(),
+            basis: Some(Basis::ClosedForm),
+            judges: Some(Judges::Solver),
+            subject: subject.to_owned(),
+            unit: "rad".to_owned(),
+            measured: Some(measured),
+            bound: Some(bound),
+            margin: Some(bound / measured).filter(|margin| margin.is_finite() && *margin > 0.0),
+            status: if measured <= bound { Status::Pass } else { Status::Fail },
+            cases: 7,
+            worst_input: Some("i1=0x1.0p+0".to_owned()),
+            failure: None,
+            replay: Some(format!("fly 'i1=0x1.0p+0' by {subject}")),
+            largest: None,
+        }
+    }
+}

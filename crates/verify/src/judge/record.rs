@@ -34,18 +34,22 @@ pub fn write(folder: &Path, host: &Host, accuracy: &Baseline, sweep: &Sweep) -> 
     files::write(&folder.join("host.json"), &(serde_json::to_string_pretty(host)? + "\n"))
 }
 
-/// Reads the records in `folder`, ordered by date.
+/// Reads the records in `folder`, ordered by date; none if there is no such folder.
 ///
 /// # Errors
 /// If one can't be read.
 pub fn read(folder: &Path) -> anyhow::Result<Vec<Record>> {
+    if !folder.exists() {
+        return Ok(Vec::new());
+    }
     let failed = || format!("cannot read {}", folder.display());
     let mut dates: Vec<_> = std::fs::read_dir(folder).with_context(failed)?.collect::<Result<_, _>>()?;
     dates.sort_by_key(std::fs::DirEntry::file_name);
     let record = |folder: &Path| {
         let path = folder.join("host.json");
         let host = serde_json::from_str(&files::read(&path)?).with_context(|| format!("in {}", path.display()))?;
-        Ok(Record { host, accuracy: Baseline::read(&folder.join("accuracy.csv"))? })
+        let accuracy = Baseline::read(&folder.join("accuracy.csv"))?.unwrap_or_default();
+        Ok(Record { host, accuracy })
     };
     dates.iter().filter(|entry| entry.path().is_dir()).map(|entry| record(&entry.path())).collect()
 }

@@ -2,11 +2,15 @@
 //! passes. A measurement is compared with its bound or, if it has none, with what the solver's own error estimate
 //! allows (its claim), so solvers from outside can be judged too.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::bounds::Bounds;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
+use crate::measure::effort::Effort;
 use crate::measure::measurement::{Claim, Measurement, Worst};
+use crate::measure::replay::{Commands, Replay};
 
 /// A bound that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;
@@ -27,7 +31,7 @@ pub enum Status {
     Fail,
     /// It has no bound, and is above the error that the solver claims.
     FailByClaim,
-    /// It has no bound, and the solver claims no error.
+    /// It has no bound, and the solver claims no error, or one so large that it says nothing.
     NoClaim,
     /// It has no bound, and does not belong to a solver.
     NoBound,
@@ -50,7 +54,7 @@ impl Status {
             Self::NotJudged => "not judged: no bound",
             Self::Fail => "FAIL",
             Self::FailByClaim => "FAIL, above its own claim",
-            Self::NoClaim => "FAIL, claims no error",
+            Self::NoClaim => "FAIL, no usable claim",
             Self::NoBound => "FAIL, no bound",
             Self::NotMeasured => "FAIL, not measured",
         }
@@ -66,6 +70,8 @@ pub struct Row {
     pub claim: String,
     /// The kind of evidence for the claim.
     pub basis: Option<Basis>,
+    /// Whether the row judges a solver of the registry or this library; `None` if nothing was measured.
+    pub judges: Option<Judges>,
     /// The subject that was measured.
     pub subject: String,
     /// Unit of `measured` and `bound`.
@@ -84,13 +90,54 @@ pub struct Row {
     pub worst_input: Option<String>,
     /// Why the subject failed on the worst case, if it did.
     pub failure: Option<String>,
-    /// A command that repeats the worst case.
+    /// A command that repeats the worst case, or the whole check where there is none; `None` for what was not measured.
     pub replay: Option<String>,
+    /// The largest deviation of all cases. `measured` is another one where a claim is judged, which allows each case a
+    /// deviation of its own.
+    #[serde(skip)]
+    pub largest: Option<f64>,
 }
 
-/// Judges the measurements of `check`.
+/// What rows are judged by, and how their cases are repeated.
+#[derive(Debug, Clone, Copy)]
+pub struct Judge<'a> {
+    /// The bounds.
+    pub bounds: &'a Bounds,
+    /// How the program of the suite is started.
+    pub commands: &'a Commands,
+    /// With how many cases the checks were run, which a command that repeats a whole check says too.
+    pub effort: Effort,
+}
+
+impl Judge<'_> {
+    /// The command that does `replay`.
+    pub fn command(self, replay: &Replay) -> String {
+        let effort = if matches!(replay, Replay::Check(_)) { self.effort.flag() } else { "" };
+        self.commands.line(replay) + effort
+    }
+
+    /// Judges the measurements of `check`.
+    pub fn rows(self, check: &Check, measurements: Vec<Measurement>) -> Vec<Row> {
+        measurements.into_iter().map(|measurement| row(check, measurement, self)).collect()
+    }
+}
+
+impl Row {
+    /// What was measured, divided by the bound: above 1 for what is over its bound, 0 if nothing deviates or nothing is
+    /// judged, infinite if the subject failed or if nothing at all is allowed.
+    pub fn part(&self) -> f64 {
+        match (self.measured, self.bound) {
+            (Some(0.0), Some(_)) => 0.0,
+            (Some(measured), Some(bound)) => measured / bound,
+            _ if self.status.passes() => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// Judges the measurements of `check` by `bounds`, with the commands of this workspace for a run of standard effort.
 pub fn judge(check: &Check, measurements: Vec<Measurement>, bounds: &Bounds) -> Vec<Row> {
-    measurements.into_iter().map(|measurement| row(check, measurement, bounds)).collect()
+    Judge { bounds, commands: &Commands::Workspace, effort: Effort::Standard }.rows(check, measurements)
 }
 
 /// The value that was judged, what it was compared with, and the result.
@@ -102,11 +149,17 @@ struct Verdict {
 }
 
 impl Verdict {
-    fn new(measured: f64, worst: Option<Worst>, claim: Claim, bound: Option<f64>) -> Self {
+    /// Neither a bound nor a claim can allow more than `ceiling`. Where the ceiling is 0, a claim counts what is wrong,
+    /// but `measured` also what is undecided.
+    fn new(measured: f64, worst: Option<Worst>, claim: Claim, bound: Option<f64>, ceiling: f64) -> Self {
         let without_limit = |status| Self { measured, allowed: None, worst: worst.clone(), status };
-        match (bound, claim) {
+        match (bound.map(|bound| bound.min(ceiling)), claim) {
             (Some(bound), _) => Self { measured, allowed: Some(bound), worst, status: by_bound(measured, bound) },
+            (None, Claim::Allows { .. }) if measured > ceiling && ceiling > 0.0 => {
+                Self { measured, allowed: Some(ceiling), worst, status: Status::FailByClaim }
+            }
             (None, Claim::Allows { measured, allowed, worst }) => {
+                let allowed = allowed.min(ceiling);
                 let status = if measured <= allowed { Status::PassByClaim } else { Status::FailByClaim };
                 Self { measured, allowed: Some(allowed), worst, status }
             }
@@ -125,14 +178,16 @@ fn by_bound(measured: f64, bound: f64) -> Status {
     }
 }
 
-fn row(check: &Check, measurement: Measurement, bounds: &Bounds) -> Row {
-    let Measurement { subject, measured, cases, worst, claim } = measurement;
+fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
+    let Measurement { subject, measured, cases, worst, claim, judges } = measurement;
+    let largest = Some(measured).filter(|largest| largest.is_finite());
     let Verdict { measured, allowed, worst, status } =
-        Verdict::new(measured, worst, claim, bounds.get(check.id, &subject));
+        Verdict::new(measured, worst, claim, judge.bounds.get(check.id, &subject), check.ceiling);
     Row {
         check: check.id.to_owned(),
         claim: check.claim.to_owned(),
         basis: Some(check.basis),
+        judges: Some(judges.unwrap_or(check.judges)),
         unit: check.unit.to_owned(),
         measured: measured.is_finite().then_some(measured),
         bound: allowed,
@@ -141,20 +196,47 @@ fn row(check: &Check, measurement: Measurement, bounds: &Bounds) -> Row {
         cases,
         worst_input: worst.as_ref().map(|worst| worst.input.clone()),
         failure: worst.as_ref().and_then(|worst| worst.failure.clone()),
-        replay: worst.map(|worst| worst.replay),
+        replay: Some(judge.command(&worst.map_or_else(|| Replay::Check(check.id.to_owned()), |worst| worst.replay))),
+        largest,
         subject,
     }
 }
 
+/// Checks that every row has a name of its own, because bounds, baselines and reports know it by its check and subject
+/// alone: of two rows of one name, one would be judged by the other's bound and lost in the baseline.
+///
+/// # Errors
+/// If two rows have the same name; the error says where both come from.
+pub fn require_distinct(rows: &[Row]) -> anyhow::Result<()> {
+    let mut seen = BTreeMap::new();
+    for row in rows {
+        if let Some(first) = seen.insert((&row.check, &row.subject), row) {
+            let from =
+                |row: &Row| row.replay.clone().or(row.worst_input.clone()).unwrap_or_else(|| "nothing".to_owned());
+            anyhow::bail!(
+                "two rows are called '{} / {}': one from `{}`, the other from `{}`",
+                row.check,
+                row.subject,
+                from(first),
+                from(row)
+            );
+        }
+    }
+    Ok(())
+}
+
 /// A failing row for every bound that no row of a complete run used, because its check or its subject no longer exists.
-pub fn unused_bounds(rows: &[Row], bounds: &Bounds) -> Vec<Row> {
+/// `measures` says whether the run measures a subject under a check if both exist.
+pub fn unused_bounds(rows: &[Row], bounds: &Bounds, measures: impl Fn(&str, &str) -> bool) -> Vec<Row> {
     bounds
         .pairs()
+        .filter(|(check, subject)| measures(check, subject))
         .filter(|(check, subject)| !rows.iter().any(|row| row.check == *check && row.subject == *subject))
         .map(|(check, subject)| Row {
             check: check.to_owned(),
             claim: "Every bound belongs to something that was measured; a bound for anything else fails.".to_owned(),
             basis: None,
+            judges: None,
             subject: subject.to_owned(),
             unit: String::new(),
             measured: None,
@@ -165,69 +247,10 @@ pub fn unused_bounds(rows: &[Row], bounds: &Bounds) -> Vec<Row> {
             worst_input: None,
             failure: None,
             replay: None,
+            largest: None,
         })
         .collect()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const CHECK: Check = Check { id: "c", claim: "", basis: Basis::Invariant, unit: "1", measure: |_| Ok(Vec::new()) };
-
-    fn figure(measured: f64) -> Measurement {
-        Measurement::figure("c", "s", measured, 1, String::new())
-    }
-
-    fn status(measurement: Measurement, bounds: &str) -> Status {
-        judge(&CHECK, vec![measurement], &Bounds::parse(bounds).unwrap())[0].status
-    }
-
-    #[test]
-    fn a_row_passes_only_within_its_bound() {
-        let bounds = "[c]\nreason = 'r'\nallowed = { s = 1e-9 }";
-        assert_eq!(status(figure(1e-9), bounds), Status::Pass);
-        assert_eq!(status(figure(1.0001e-9), bounds), Status::Fail);
-        assert_eq!(status(figure(1e-11), bounds), Status::PassLoose);
-        assert_eq!(status(figure(f64::INFINITY), bounds), Status::Fail);
-        assert_eq!(status(figure(f64::NAN), bounds), Status::Fail);
-        assert_eq!(status(figure(0.0), "[c]\nreason = 'r'\nallowed = { s = 0.0 }"), Status::Pass);
-    }
-
-    #[test]
-    fn without_a_bound_a_solver_is_judged_by_its_own_claim_and_all_else_fails() {
-        for bounds in ["", "[c]\nreason = 'r'\nallowed = { other = 1e-9 }"] {
-            assert_eq!(status(figure(0.0), bounds), Status::NoBound);
-            for (measured, expected) in [
-                (1e-9, Status::PassByClaim),
-                (1e-12, Status::PassByClaim),
-                (1.0001e-9, Status::FailByClaim),
-                (f64::NAN, Status::FailByClaim),
-            ] {
-                assert_eq!(status(figure(measured).claiming(Some(1e-9)), bounds), expected);
-            }
-            assert_eq!(status(figure(0.0).claiming(None), bounds), Status::NoClaim);
-            assert_eq!(status(figure(f64::NAN).without_claim(), bounds), Status::NotJudged);
-        }
-    }
-
-    #[test]
-    fn a_bound_takes_precedence_over_the_solvers_claim() {
-        let bounds = "[c]\nreason = 'r'\nallowed = { s = 1e-9 }";
-        assert_eq!(status(figure(1e-8).claiming(Some(1.0)), bounds), Status::Fail);
-        assert_eq!(status(figure(1e-9).claiming(Some(1e-12)), bounds), Status::Pass);
-        assert_eq!(status(figure(1e-9).claiming(None), bounds), Status::Pass);
-        assert_eq!(status(figure(1e-8).without_claim(), bounds), Status::Fail);
-    }
-
-    #[test]
-    fn a_bound_without_a_reason_or_a_row_is_refused() {
-        assert!(Bounds::parse("[c]\nreason = ' '\nallowed = { s = 1 }").is_err());
-        assert!(Bounds::parse("[c]\nreason = 'r'\nallowed = { s = nan }").is_err());
-        assert!(Bounds::parse("[c]\nreason = 'r'\nallowed = { s = -1.0 }").is_err());
-        let bounds = Bounds::parse("[c]\nreason = 'r'\nallowed = { s = 1.0 }").unwrap();
-        assert_eq!(unused_bounds(&[], &bounds)[0].status, Status::NotMeasured);
-        let rows = judge(&CHECK, vec![figure(0.5)], &bounds);
-        assert!(unused_bounds(&rows, &bounds).is_empty());
-    }
-}
+mod tests;

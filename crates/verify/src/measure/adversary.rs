@@ -12,6 +12,10 @@ use rand::{RngExt, SeedableRng};
 use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::case::Case;
+use crate::measure::throws::throw;
+
+/// One launch in so many is slow: all its rates are below 1e-3 rad/s, and it turns by up to 300 rad in hours to years.
+pub const SLOW_EVERY: u64 = 40;
 
 /// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
 ///
@@ -20,13 +24,25 @@ use crate::measure::case::Case;
 pub fn launch(seed: u64, index: u64) -> Result<Case, InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(index);
-    let coin = Coin::from_moments(1.0, inertia_ratio(&mut rng))?;
-    let rate = rate(&mut rng, coin.inertia_ratio());
+    let k = inertia_ratio(&mut rng);
+    let coin = Coin::from_moments(1.0, k)?;
+    let mut rate = rate(&mut rng, k);
+    if is_slow(index) && rate.amax() > 0.0 {
+        rate = rate / rate.amax() * decades(&mut rng, -9.0, -3.0);
+    }
     let still = Toss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
     let motion = ExactMotion::new(&still);
     let tilt = tilt(&mut rng, motion.cone_angle());
     let time = time(&mut rng, &motion, &rate);
-    Ok(Case { toss: Toss { launch: Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?, ..still }, tilt })
+    let launch = Launch::new(rate, throw(TimeOfFlight::Given(time), index))?.with_tilt(tilt)?;
+    // The motion depends on the ratio of the moments alone, whatever their size (kg m²).
+    let i1 = decades(&mut rng, -12.0, 3.0);
+    Ok(Case { toss: Toss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch }, tilt })
+}
+
+/// Whether launch number `index` is a slow one.
+pub fn is_slow(index: u64) -> bool {
+    index % SLOW_EVERY == SLOW_EVERY - 1
 }
 
 /// One of `values`, each equally likely.

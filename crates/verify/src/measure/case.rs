@@ -44,12 +44,7 @@ impl Case {
     /// # Errors
     /// If a field is missing, unknown or can't be read, or the toss is invalid.
     pub fn from_hex(line: &str) -> anyhow::Result<Self> {
-        let mut fields = BTreeMap::new();
-        for field in line.split_whitespace() {
-            let (name, text) = field.split_once('=').with_context(|| format!("'{field}' is no NAME=VALUE"))?;
-            let value = from_hex_float(text).with_context(|| format!("{name}: '{text}' is no hex float"))?;
-            ensure!(fields.insert(name, value).is_none(), "{name} is given twice");
-        }
+        let mut fields = fields(line)?;
         let mut take = |name: &str| fields.remove(name).with_context(|| format!("{name} is missing"));
         let coin = match take("mass") {
             Ok(mass) => Coin::from_cylinder(mass, take("radius")?, take("thickness")?)?,
@@ -72,8 +67,8 @@ impl Case {
         Ok(Self { toss: Toss { coin, launch }, tilt })
     }
 
-    /// The shell command that solves this toss with the solver and settings of `subject`.
-    pub fn replay(&self, subject: &Subject) -> String {
+    /// The command of `unfair-toss` that solves this toss with the solver and settings of `subject`.
+    pub fn command(&self, subject: &Subject) -> String {
         let Toss { coin, launch } = self.toss;
         let rate = launch.rate();
         let flight = match launch.time_of_flight() {
@@ -98,8 +93,22 @@ impl Case {
     }
 }
 
+/// The fields of a line of hex floats by their names.
+///
+/// # Errors
+/// If a field can't be read, or is given twice.
+pub(super) fn fields(line: &str) -> anyhow::Result<BTreeMap<&str, f64>> {
+    let mut fields = BTreeMap::new();
+    for field in line.split_whitespace() {
+        let (name, text) = field.split_once('=').with_context(|| format!("'{field}' is no NAME=VALUE"))?;
+        let value = from_hex_float(text).with_context(|| format!("{name}: '{text}' is no hex float"))?;
+        ensure!(fields.insert(name, value).is_none(), "{name} is given twice");
+    }
+    Ok(fields)
+}
+
 /// `value` as a hexadecimal floating-point literal of C99, which keeps every bit.
-fn hex_float(value: f64) -> String {
+pub(super) fn hex_float(value: f64) -> String {
     let bits = value.to_bits();
     let (fraction, exponent) = (bits & 0x000f_ffff_ffff_ffff, (bits >> 52) & 0x7ff);
     let sign = if value.is_sign_negative() { "-" } else { "" };

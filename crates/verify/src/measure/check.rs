@@ -32,6 +32,37 @@ impl Basis {
     }
 }
 
+/// What a row judges. A row about a solver stands or falls with the entry of the registry; a row about the library does
+/// not, even if an entry has the same name as the library's own part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Judges {
+    /// A solver of the registry.
+    Solver,
+    /// The library itself: its exact motion, proofs, batches, sampling methods, planner or numbers.
+    Library,
+}
+
+impl Judges {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solver => "solver",
+            Self::Library => "library",
+        }
+    }
+}
+
+/// Ceilings that several checks share. Errors as large as these are not those of a solver: a toss in a thousand would
+/// land on the other side.
+pub mod ceiling {
+    /// An error of cos θ.
+    pub const COS_TILT: f64 = 1e-3;
+    /// An error of the attitude (rad), a relative drift of a conserved quantity, or an error of a time at rates of
+    /// about 1 rad/s.
+    pub const ATTITUDE: f64 = 1e-2;
+}
+
 /// A claim and how it is measured.
 #[derive(Debug)]
 pub struct Check {
@@ -41,6 +72,11 @@ pub struct Check {
     pub claim: &'static str,
     /// The kind of evidence.
     pub basis: Basis,
+    /// What its rows judge. A [`Measurement`] may say otherwise for its own row.
+    pub judges: Judges,
+    /// The largest bound that a table of bounds may give, in the check's unit. It follows from what the check means,
+    /// not from what was measured: what deviates more is no solver, or a proof that proves nothing.
+    pub ceiling: f64,
     /// Unit of the measured value; "1" for a pure number.
     pub unit: &'static str,
     /// Measures every subject; one measurement for each row of the report.

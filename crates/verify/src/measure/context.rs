@@ -3,21 +3,22 @@
 //! that check needs.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
 use sampling::RunningStep;
 use serde::Serialize;
-use toss::{InputError, SolverEntry};
+use toss::{Error, InputError, SolverEntry};
 
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
+use crate::measure::bodies::{self, BodyFindings};
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
 use crate::measure::planner::Trial;
 use crate::measure::planner::summary::PlannerSummary;
+use crate::measure::reference::coins::{self, ReferenceCoin};
 use crate::measure::reference::motions::ReferenceData;
 use crate::measure::reference::probabilities::ReferenceProbabilities;
 use crate::measure::search::{Findings, search};
@@ -39,6 +40,8 @@ pub struct Context {
     pub data: ReferenceData,
     /// Reference probabilities from outside the workspace.
     pub reference_probabilities: ReferenceProbabilities,
+    /// Moments of the catalogue's coins from outside the workspace.
+    pub coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
@@ -47,6 +50,7 @@ pub struct Context {
     atlas: OnceLock<Atlas>,
     long_flights: OnceLock<LongFlights>,
     search: OnceLock<Vec<Findings>>,
+    bodies: OnceLock<Vec<BodyFindings>>,
     sweep: OnceLock<Sweep>,
     convergence: OnceLock<Vec<Convergence>>,
     trial: OnceLock<Trial>,
@@ -55,25 +59,27 @@ pub struct Context {
 }
 
 impl Context {
-    /// A context for the solvers of `registry`, with the reference numbers in the folder `validation`.
+    /// A context for the solvers of `registry`, and the data inside this crate.
     ///
     /// # Errors
-    /// If the reference numbers can't be read, two solvers have the same name, or a scheme takes neither a tolerance
+    /// If two solvers have the same name, or a scheme takes neither a tolerance
     /// nor steps.
-    pub fn new(registry: &[SolverEntry], effort: Effort, validation: &Path) -> anyhow::Result<Self> {
+    pub fn new(registry: &[SolverEntry], effort: Effort) -> anyhow::Result<Self> {
         require_own_names(registry)?;
         Ok(Self {
             effort,
             registry: registry.to_vec(),
             subjects: subjects(registry, tight).context("the registry's solvers can't be made")?,
-            data: ReferenceData::read(&validation.join("reference/motion.toml"))?,
-            reference_probabilities: ReferenceProbabilities::read(&validation.join("reference/probability.toml"))?,
-            problems: problems::read(&validation.join("problems.toml"))?,
-            expected: Expected::read(&validation.join("atlas.toml"))?,
+            data: ReferenceData::inside()?,
+            reference_probabilities: ReferenceProbabilities::inside()?,
+            coins: coins::inside()?,
+            problems: problems::all()?,
+            expected: Expected::of_this_workspace()?,
             survey: OnceLock::new(),
             atlas: OnceLock::new(),
             long_flights: OnceLock::new(),
             search: OnceLock::new(),
+            bodies: OnceLock::new(),
             sweep: OnceLock::new(),
             convergence: OnceLock::new(),
             trial: OnceLock::new(),
@@ -114,11 +120,16 @@ impl Context {
         once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
     }
 
+    /// The landings of bodies by every subject that solves them; computed on the first call.
+    pub fn bodies(&self) -> &[BodyFindings] {
+        self.bodies.get_or_init(|| bodies::survey(&self.subjects, self.effort))
+    }
+
     /// The sweep of tolerances and steps; computed on the first call.
     ///
     /// # Errors
     /// As [`Sweep::new`].
-    pub fn sweep(&self) -> Result<&Sweep, InputError> {
+    pub fn sweep(&self) -> Result<&Sweep, Error> {
         once(&self.sweep, || Sweep::new(&self.registry, &self.problems, self.effort))
     }
 
@@ -169,7 +180,7 @@ impl Context {
 }
 
 /// The shared results of a run; `None` for those that no check needed.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Records<'a> {
     /// The atlas of failures.
     pub atlas: Option<&'a Atlas>,

@@ -12,13 +12,14 @@ use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use rayon::prelude::*;
 use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
-use sampling::{Space, random_tosses};
+use sampling::Space;
 use serde::Serialize;
 use toss::{
     Coin, ExactMotion, Formulation, InputError, Propagation, Scheme, SolveError, Solver, SolverEntry, State, Stepping,
     Toss,
 };
 
+use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
 
@@ -71,7 +72,7 @@ fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     let axes = [(RateX, "-3:3"), (RateY, "-3:3"), (RateZ, "0:3"), (Speed, "1"), (Gravity, &gravity), (Tilt, "1.2:1.4")];
     let space = Space::parse(Coin::DISC, &axes)?;
     let mut tosses = Vec::new();
-    for toss in random_tosses(&space, 1, 0..10_000) {
+    for toss in random_flights(&space, 1, 10_000)? {
         let motion = ExactMotion::new(&toss);
         let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
         if cone - axis > CLEARANCE && cone + axis < PI - CLEARANCE {

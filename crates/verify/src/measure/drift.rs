@@ -6,6 +6,7 @@
 //! n·S as I3 ωz instead would test nothing, because the solvers keep ωz constant. Both frames give the same number by
 //! two ways through the attitude; the drift of S as a vector is the stronger test.
 
+use dynamics::RigidToss;
 use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use toss::{State, Toss};
 
@@ -46,4 +47,21 @@ pub fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
 pub fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = [&at_launch(toss), landing].map(|state| angular_momentum_tf(&toss.coin, state));
     (after - before).norm() / before.norm()
+}
+
+/// Drifts of a landing of any body: of |S|, of the kinetic energy, and of S as a vector in TF. They are relative to
+/// those of a body that turns as fast about its largest axis, because a rod that spins about itself has next to none.
+pub fn of_rigid(toss: &RigidToss, landing: &State) -> [f64; 3] {
+    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+    let body = &toss.body;
+    let (largest, rate) = (body.principal_moments()[2], launch.rate.norm());
+    let [before, after] =
+        [&launch, landing].map(|state| state.attitude.body_to_lab(&body.angular_momentum(&state.rate)));
+    let energy = body.kinetic_energy(&landing.rate) - body.kinetic_energy(&launch.rate);
+    let vector = (after - before).norm();
+    [
+        (after.norm() - before.norm()).abs() / (largest * rate),
+        2.0 * energy.abs() / (largest * rate * rate),
+        vector / (largest * rate),
+    ]
 }

@@ -25,6 +25,15 @@ impl Effort {
         }
     }
 
+    /// The flag that asks for it, after a space; empty for the default.
+    pub fn flag(self) -> &'static str {
+        match self {
+            Self::Quick => " --quick",
+            Self::Standard => "",
+            Self::Deep => " --deep",
+        }
+    }
+
     /// Number of random launches.
     pub fn launches(self) -> u64 {
         match self {

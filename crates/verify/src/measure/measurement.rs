@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 use toss::SolveError;
 
 use super::case::Case;
+use super::check::Judges;
+use super::replay::Replay;
 use super::run::Allowance;
 use super::subject::Subject;
 
@@ -25,6 +27,8 @@ pub struct Measurement {
     pub worst: Option<Worst>,
     /// What the solver's own error estimate allows.
     pub claim: Claim,
+    /// What this measurement judges; `None` for what its check judges.
+    pub judges: Option<Judges>,
 }
 
 /// What a solver's own error estimate allows for a measurement.
@@ -56,8 +60,8 @@ pub struct Worst {
     pub input: String,
     /// The error, if the subject failed.
     pub failure: Option<String>,
-    /// The command that repeats the case.
-    pub replay: String,
+    /// What repeats the case.
+    pub replay: Replay,
 }
 
 /// A deviation, or why the solver failed.
@@ -93,8 +97,7 @@ impl Measurement {
 
     /// The largest of the deviations of the exact motion in the set of cases called `name`.
     pub fn of_set(name: &str, deviations: &[Deviation], case: impl Fn(usize) -> Case) -> Self {
-        let exact = Subject::exact();
-        Self::without_estimate(name, deviations, |index, failure| worst(&case(index), &exact, failure))
+        Self::without_estimate(name, deviations, |index, failure| of_library(&case(index), failure)).of_the_library()
     }
 
     /// The number of cases of `subject` for which `found` is true; the first one becomes the worst case.
@@ -105,8 +108,7 @@ impl Measurement {
     /// The number of cases for which `found` is true of the exact motion, in the set called `name`; the first one
     /// becomes the worst case.
     pub fn count_of_set(name: &str, found: &[Result<bool, SolveError>], case: impl Fn(usize) -> Case) -> Self {
-        let exact = Subject::exact();
-        Self::counted(name, found, |index, failure| worst(&case(index), &exact, failure))
+        Self::counted(name, found, |index, failure| of_library(&case(index), failure)).of_the_library()
     }
 
     fn counted(name: &str, found: &[Result<bool, SolveError>], worst: impl Fn(usize, Option<String>) -> Worst) -> Self {
@@ -121,15 +123,15 @@ impl Measurement {
             None => (f64::INFINITY, None),
         };
         let cases = deviations.len() as u64;
-        Self { subject: name.to_owned(), measured, cases, worst, claim: Claim::NoSolver }
+        Self { subject: name.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
     }
 
     /// A single number that belongs to no toss; the command that repeats it runs the whole check.
     pub fn figure(check: &str, subject: &str, measured: f64, cases: u64, input: String) -> Self {
-        let replay = format!("cargo xtask verify --only {check}");
+        let replay = Replay::Check(check.to_owned());
         let measured = if measured.is_nan() { f64::INFINITY } else { measured };
         let worst = Some(Worst { input, failure: None, replay });
-        Self { subject: subject.to_owned(), measured, cases, worst, claim: Claim::NoSolver }
+        Self { subject: subject.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
     }
 
     /// The largest of several measurements of one subject, with the claim of theirs that has the largest ratio of
@@ -149,6 +151,23 @@ impl Measurement {
             worst: self.worst.clone(),
         });
         Self { claim, ..self }
+    }
+
+    /// The same measurement as a judgement of the library, under a check that otherwise judges solvers.
+    #[must_use]
+    pub fn of_the_library(self) -> Self {
+        Self { judges: Some(Judges::Library), ..self }
+    }
+
+    /// The same measurement of a difference to `subject`, whose solver the commands repeat too.
+    #[must_use]
+    pub fn beside(mut self, subject: &Subject) -> Self {
+        let both = |worst: Worst| Worst { replay: worst.replay.beside(subject), ..worst };
+        self.worst = self.worst.map(both);
+        if let Claim::Allows { worst, .. } = &mut self.claim {
+            *worst = worst.take().map(both);
+        }
+        self
     }
 
     /// The same measurement, of a quantity to which no error estimate applies.
@@ -217,5 +236,10 @@ fn largest(deviations: &[Deviation]) -> Option<(usize, f64, Option<String>)> {
 }
 
 fn worst(case: &Case, subject: &Subject, failure: Option<String>) -> Worst {
-    Worst { input: case.hex(), failure, replay: case.replay(subject) }
+    Worst { input: case.hex(), failure, replay: Replay::toss(case, subject) }
+}
+
+/// The worst case of a measurement of the library itself, whose replay takes that measure again.
+fn of_library(case: &Case, failure: Option<String>) -> Worst {
+    Worst { input: case.hex(), failure, replay: Replay::Toss { input: case.hex(), command: None } }
 }

@@ -3,17 +3,20 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what is measured: a solver with its settings; a toss; both together | [`subject`], [`case`], [`run`] |
+//! | what is measured: a solver with its settings; a toss, of a coin or of any body; both together; how it is repeated | [`subject`], [`case`], [`any_case`], [`run`], [`replay`] |
 //! | the 256-bit reference, and numbers from outside the workspace | [`mod@reference`] |
 //! | claims and how they are measured | [`check`], [`checks`], [`measurement`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
-//! | flights: random, adversarial, long, and near the places where methods fail | [`survey`], [`adversary`], [`search`], [`long_flights`], [`atlas`] |
+//! | the forms in which a time of flight is given | [`throws`] |
+//! | flights: random, adversarial, long, and near the places where methods fail | [`survey`], `random_flights`, [`adversary`], [`search`], [`long_flights`], [`atlas`]; of any body [`bodies`] |
 //! | error by step and by work; drift of conserved quantities | [`convergence`], [`work_precision`], [`drift`] |
 //! | the planner's table, and its accuracy and cost | [`planner`] |
 //! | probabilities of the named spaces | [`tables`] |
 
 pub mod adversary;
+pub mod any_case;
 pub mod atlas;
+pub mod bodies;
 pub mod case;
 pub mod check;
 pub mod checks;
@@ -24,11 +27,14 @@ pub mod effort;
 pub mod long_flights;
 pub mod measurement;
 pub mod planner;
+mod random_flights;
 pub mod reference;
+pub mod replay;
 pub mod run;
 pub mod search;
 mod slope;
 pub mod subject;
 pub mod survey;
 pub mod tables;
+pub mod throws;
 pub mod work_precision;

@@ -2,10 +2,12 @@
 //! The atlas, the sweep of tolerances, the search by adversarial launches and the records are all made of runs, so that
 //! they judge an answer by the same rule.
 
+use dynamics::RigidToss;
 use exact::motion::COS_TILT_ERROR;
 use serde::{Deserialize, Serialize};
 use toss::{Outcome, Propagation, SolveError, Toss};
 
+use super::any_case::{AnyCase, AnyReference};
 use super::case::Case;
 use super::drift;
 use super::reference::Reference;
@@ -19,7 +21,7 @@ pub enum Answer {
     Right,
     /// No answer, but an error that says why.
     TypedError,
-    /// An answer of a solver without an error estimate, and no wrong outcome.
+    /// An answer of a solver without a usable error estimate, and no wrong outcome.
     Unclaimed,
     /// An answer outside the allowance, or the wrong outcome, without an error.
     SilentlyWrong,
@@ -31,11 +33,14 @@ impl Answer {
         match self {
             Self::Right => "right",
             Self::TypedError => "typed error",
-            Self::Unclaimed => "claims no error",
+            Self::Unclaimed => "no usable claim",
             Self::SilentlyWrong => "silently wrong",
         }
     }
 }
+
+/// The largest error of cos θ that a solver may claim at tight settings. Any answer at all is within 2.
+pub const LARGEST_CLAIM: f64 = 1e-2;
 
 /// The errors that the solver's own error estimate allows an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,16 +52,29 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// The errors that are allowed `subject` on `toss`; `None` if it has no error estimate.
+    /// The errors that are allowed `subject` on `toss`; `None` if it has no error estimate, or one above
+    /// [`LARGEST_CLAIM`] at [tight](Subject::is_tight) settings, which says nothing.
     ///
     /// # Errors
     /// As [`Solver::error_estimate`](toss::Solver::error_estimate).
     pub fn new(subject: &Subject, toss: &Toss) -> Result<Option<Self>, SolveError> {
-        let allowance = |estimate: f64| {
-            let cos_tilt = estimate.max(COS_TILT_ERROR);
-            Self { cos_tilt, attitude: 10.0 * cos_tilt }
-        };
-        Ok(subject.solver.error_estimate(toss)?.map(allowance))
+        let is_usable = |estimate: &f64| *estimate <= LARGEST_CLAIM || !subject.is_tight(toss);
+        Ok(subject.solver.error_estimate(toss)?.filter(is_usable).map(Self::by_estimate))
+    }
+
+    /// The errors that are allowed on the toss of any body.
+    ///
+    /// # Errors
+    /// As [`Solver::error_estimate_rigid`](toss::Solver::error_estimate_rigid).
+    pub fn of_rigid(subject: &Subject, toss: &RigidToss) -> Result<Option<Self>, SolveError> {
+        let is_usable = |estimate: &f64| *estimate <= LARGEST_CLAIM || !subject.is_tight_for(toss);
+        Ok(subject.solver.error_estimate_rigid(toss)?.filter(is_usable).map(Self::by_estimate))
+    }
+
+    /// The errors that an error estimate allows.
+    pub(super) fn by_estimate(estimate: f64) -> Self {
+        let cos_tilt = estimate.max(COS_TILT_ERROR);
+        Self { cos_tilt, attitude: 10.0 * cos_tilt }
     }
 }
 
@@ -94,11 +112,26 @@ pub struct Run {
 impl Run {
     /// Solves `case` with `subject` and compares the answer with `reference`.
     pub fn new(subject: &Subject, case: &Case, reference: &Reference) -> Self {
-        match Compared::new(subject, &case.toss, reference) {
-            Ok(compared) => compared.run(subject, case),
+        Self::of_compared(subject, case.hex(), Compared::new(subject, &case.toss, reference))
+    }
+
+    /// Solves a `case` of any body with `subject` and compares the answer with `reference`.
+    pub fn of_any(subject: &Subject, case: &AnyCase, reference: &AnyReference) -> Self {
+        match (case, reference) {
+            (AnyCase::Coin(case), AnyReference::Coin(reference)) => Self::new(subject, case, reference),
+            (AnyCase::Coin(case), _) => Self::new(subject, case, &Reference::new(&case.toss)),
+            (AnyCase::Rigid(case), _) => {
+                Self::of_compared(subject, case.hex(), Compared::rigid(subject, &case.toss, reference))
+            }
+        }
+    }
+
+    fn of_compared(subject: &Subject, inputs: String, compared: Result<Compared, SolveError>) -> Self {
+        match compared {
+            Ok(compared) => compared.run(subject, inputs),
             Err(error) => Self {
                 subject: subject.name.clone(),
-                inputs: case.hex(),
+                inputs,
                 answer: Answer::TypedError,
                 failure: Some(error.to_string()),
                 err_cos_tilt: None,
@@ -120,6 +153,7 @@ struct Compared {
     landing: Propagation,
     err_cos_tilt: f64,
     err_attitude: f64,
+    err_invariants: f64,
     outcome_ok: Option<bool>,
     allowance: Option<Allowance>,
 }
@@ -131,8 +165,23 @@ impl Compared {
         Ok(Self {
             err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
             err_attitude: reference.attitude_error(&landing.state.attitude),
+            err_invariants: drift::momentum_vector(toss, &landing.state),
             outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
             allowance: Allowance::new(subject, toss)?,
+            landing,
+        })
+    }
+
+    fn rigid(subject: &Subject, toss: &RigidToss, reference: &AnyReference) -> Result<Self, SolveError> {
+        let landing = subject.solver.propagate_rigid(toss)?;
+        let outcome = subject.solver.outcome_at_rigid(toss, landing.cos_tilt)?;
+        let [.., vector] = drift::of_rigid(toss, &landing.state);
+        Ok(Self {
+            err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
+            err_attitude: reference.attitude_error(&landing.state.attitude),
+            err_invariants: vector,
+            outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
+            allowance: Allowance::of_rigid(subject, toss)?,
             landing,
         })
     }
@@ -148,17 +197,16 @@ impl Compared {
         }
     }
 
-    fn run(&self, subject: &Subject, case: &Case) -> Run {
+    fn run(&self, subject: &Subject, inputs: String) -> Run {
         Run {
             subject: subject.name.clone(),
-            inputs: case.hex(),
+            inputs,
             answer: self.answer(),
             failure: None,
             err_cos_tilt: Some(self.err_cos_tilt),
             err_attitude: Some(self.err_attitude),
             err_by_allowance: self.allowance.map(|allowance| self.err_attitude / allowance.attitude),
-            err_invariants: Some(drift::momentum_vector(&case.toss, &self.landing.state))
-                .filter(|drift| drift.is_finite()),
+            err_invariants: Some(self.err_invariants).filter(|drift| drift.is_finite()),
             outcome_ok: self.outcome_ok,
             norm_error: Some(self.landing.norm_error),
             rhs_calls: Some(self.landing.work.rhs_calls),

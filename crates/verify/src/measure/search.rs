@@ -8,6 +8,7 @@ use super::adversary;
 use super::case::Case;
 use super::measurement::Worst;
 use super::reference::Reference;
+use super::replay::Replay;
 use super::run::{Answer, Run};
 use super::subject::Subject;
 
@@ -18,6 +19,10 @@ const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
 /// Steps of schemes without a tolerance, in units of 1/|ω|; launches take them in turn.
 const STEPS: [f64; 2] = [0.1, 0.03];
+
+/// Steps of slow launches, in units of 1/|ω|; the slow launches take them in turn, with every scheme that takes steps. The
+/// smallest ones are so many that rounding is all there is.
+const SLOW_STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 /// What the search found for one solver and scheme.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,7 +60,7 @@ pub fn search(registry: &[SolverEntry], launches: u64) -> Result<Vec<Findings>, 
         let first = |answer: Answer| -> Result<Option<Worst>, InputError> {
             let Some((index, runs)) = of(answer).next() else { return Ok(None) };
             let case = adversary::launch(SEED, index)?;
-            let replay = case.replay(&subject(*by, &case, index)?);
+            let replay = Replay::toss(&case, &subject(*by, &case, index)?);
             Ok(Some(Worst { input: case.hex(), failure: runs[column].failure.clone(), replay }))
         };
         Ok(Findings {
@@ -84,13 +89,16 @@ fn contestants(registry: &[SolverEntry]) -> Vec<Contestant<'_>> {
 /// The contestant with its settings for launch number `index`, which is `case`.
 fn subject((entry, scheme): Contestant<'_>, case: &Case, index: u64) -> Result<Subject, InputError> {
     let turn = usize::try_from(index).unwrap_or(0);
+    let slow_turn = usize::try_from(index / adversary::SLOW_EVERY).unwrap_or(0);
     let stepping = |scheme: Scheme| {
-        if scheme.is_adaptive() {
-            return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]);
-        }
+        let step = match adversary::is_slow(index) && scheme.takes_steps() {
+            true => SLOW_STEPS[slow_turn % SLOW_STEPS.len()],
+            false if scheme.is_adaptive() => return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]),
+            false => STEPS[turn % STEPS.len()],
+        };
         // For a coin at rest 1/|ω| is infinite, and the longest step will do.
         let rate = case.toss.launch.turn_rate().max(f64::MIN_POSITIVE);
-        Stepping::fixed(scheme, (STEPS[turn % STEPS.len()] / rate).min(f64::MAX))
+        Stepping::fixed(scheme, (step / rate).min(f64::MAX))
     };
     Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
 }

@@ -1,9 +1,11 @@
 //! A subject is what the suite verifies: a solver of the registry with one of its schemes, its tolerance or step, and a
 //! formulation. Its name is the key of its bounds and of its baseline, so every combination is judged on its own.
 
+use dynamics::phase::RoughPhases;
+use dynamics::{RigidPhase, RigidToss};
 use toss::{
-    ExactSolver, Formulation, InputError, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry, StepControl,
-    Stepping, Toss,
+    ExactSolver, Formulation, InputError, Launch, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry,
+    StepControl, Stepping, Toss,
 };
 
 /// Tolerance of the adaptive schemes under verification.
@@ -53,6 +55,25 @@ impl Subject {
     /// Its scheme, if it is an integrator.
     pub fn scheme(&self) -> Option<Scheme> {
         self.stepping.map(|stepping| stepping.scheme())
+    }
+
+    /// Whether its settings promise an accurate landing of `toss`: a closed form, a tolerance of at most 1e-8 or steps
+    /// of at most 0.02/|ω|, and a phase of at most 1000 rad.
+    pub fn is_tight(&self, toss: &Toss) -> bool {
+        self.is_fine(&toss.launch) && RoughPhases::new(toss).largest().is_ok_and(|phase| phase <= 1e3)
+    }
+
+    /// The same for the toss of any body.
+    pub fn is_tight_for(&self, toss: &RigidToss) -> bool {
+        self.is_fine(&toss.launch) && RigidPhase::new(toss).is_ok_and(|phase| phase.angle <= 1e3)
+    }
+
+    fn is_fine(&self, launch: &Launch) -> bool {
+        match self.stepping.map(|stepping| stepping.control()) {
+            None => true,
+            Some(StepControl::Tolerance(tolerance)) => tolerance <= 1e-8,
+            Some(StepControl::Step(step)) => step * launch.turn_rate() <= 0.02,
+        }
     }
 
     /// The options of the command line that select the same solver and settings.

@@ -1,14 +1,20 @@
 //! Renders the report as one HTML file that needs no network: the verdict, the checks, the tables and the charts. Each
 //! chapter says what to see in it.
 
+mod chapters;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::moves::replay;
+use super::words::{Block, margin, measured, number, relation};
 use crate::judge::baseline::{Direction, Move};
+use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::planner::summary::Line;
 use crate::measure::tables::Probability;
-use crate::render::Report;
 use crate::render::charts::Chart;
+use crate::render::{Report, left_out};
+use chapters::sections;
 
 const STYLE: &str = include_str!("report.css");
 
@@ -34,8 +40,8 @@ pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                     @for section in &sections { a href={ "#" (section.id) } { (section.title) } }
                 }
                 (failures(report.rows))
-                (moves(report.moves))
-                (checks(report.rows))
+                (moves(report))
+                (checks(report))
                 @if let Some(lines) = report.records.probabilities { (probabilities(lines)) }
                 @if let Some(summary) = &report.records.planner { (planner(&summary.lines)) }
                 @for section in &sections { (section.markup()) }
@@ -47,29 +53,32 @@ pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
 
 fn verdict(report: &Report<'_>) -> Markup {
     let passing = report.rows.iter().filter(|row| row.status.passes()).count();
-    let worse = report.moves.iter().filter(|moved| moved.direction == Direction::Worse).count();
+    let worse = report.moves.iter().any(|moved| moved.direction == Direction::Worse);
     html! {
         p class={ "verdict " (if report.passed { "pass" } else { "fail" }) } {
             b { (if report.passed { "PASS" } else { "FAIL" }) }
             ": " (passing) " of " (report.rows.len()) " rows are within their bounds"
         }
+        p { (report.pattern) }
         p {
-            "A tossed coin is a rigid body in free flight. Each row below is a claim about one of its solvers, measured in this \
-             run against the exact motion in 256 bits, a conserved quantity or a published figure, with the bound that it may \
-             not exceed. Effort: " (report.effort.name()) ". "
-            @if worse == 0 { "Nothing is less accurate or more work than the accepted baseline." }
-            @else { b class="fail" { (worse) " values are worse than the accepted baseline." } }
+            "A tossed coin is a rigid body in free flight. Each row below is a claim about one of its solvers, or about the \
+             library beside them, measured in this run against the exact motion in 256 bits, a conserved quantity or a \
+             published figure, with the bound that it may not exceed. Effort: " (report.effort.name()) ". "
+            span class=[worse.then_some("fail")] { (report.baseline.words(report.moves)) }
         }
+        @for line in left_out::text(report.left_out).lines() { p.faint { (line) } }
     }
 }
 
 fn failures(rows: &[Row]) -> Markup {
-    let failing: Vec<&Row> = rows.iter().filter(|row| !row.status.passes()).collect();
+    let blocks = Block::all(rows);
+    let failing: Vec<&Row> =
+        blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes()).collect();
     html! {
         @if !failing.is_empty() {
             h2 class="fail" { "What fails" }
             @for row in failing {
-                p { b { (row.check) " / " (row.subject) } ": " (row.status.name()) ". "
+                p { b { (row.check) " / " (row.subject) } ": " (row.status.name()) ", " (margin(row)) ". "
                     @if let Some(failure) = &row.failure { (failure) ". " }
                     @if let Some(replay) = &row.replay { "Repeat with " code { (replay) } } }
             }
@@ -77,55 +86,62 @@ fn failures(rows: &[Row]) -> Markup {
     }
 }
 
-fn moves(moves: &[Move]) -> Markup {
-    let shown: Vec<&Move> =
-        moves.iter().filter(|moved| matches!(moved.direction, Direction::Worse | Direction::Better)).collect();
+fn moves(report: &Report<'_>) -> Markup {
+    let is_shown = |moved: &&Move| matches!(moved.direction, Direction::Worse | Direction::Better);
+    let mut shown: Vec<&Move> = report.moves.iter().filter(is_shown).collect();
+    shown.sort_by_key(|moved| moved.direction != Direction::Worse);
     html! {
         @if !shown.is_empty() {
             h2 { "What moved against the baseline" }
             div.wide { table {
-                tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } }
-                @for moved in shown {
-                    tr {
-                        td { (moved.check) } td { (moved.subject) }
-                        td class=(if moved.direction == Direction::Worse { "fail" } else { "pass" }) {
-                            (if moved.direction == Direction::Worse { "worse" } else { "better" }) " " (moved.what)
-                        }
-                        td { (number(moved.before)) } td { (number(moved.now)) }
-                    }
-                }
+                tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } th { "" } }
+                @for moved in shown { (line_of_move(moved, report.rows)) }
             } }
         }
     }
 }
 
-fn checks(rows: &[Row]) -> Markup {
+fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
+    let worse = moved.direction == Direction::Worse;
     html! {
-        h2 id="checks" { "Checks" }
-        p.faint { "Open a check for its rows. The margin is how many times the bound is above what was measured. A solver without a bound is judged by \
-                   the error that it claims." }
-        @for block in rows.chunk_by(|a, b| a.check == b.check) { (check(block)) }
+        tr {
+            td { (moved.check) } td { (moved.subject) }
+            td class=(if worse { "fail" } else { "pass" }) { (if worse { "worse" } else { "better" }) " " (moved.what) }
+            td { (number(moved.before)) } td { (number(moved.now)) }
+            td.long.faint { @if worse { "repeat with " code { (replay(moved, rows)) } } }
+        }
     }
 }
 
-fn check(block: &[Row]) -> Markup {
-    let passing = block.iter().filter(|row| row.status.passes()).count();
-    let closest = block.iter().filter_map(|row| row.margin).fold(f64::INFINITY, f64::min);
-    let all = passing == block.len();
+fn checks(report: &Report<'_>) -> Markup {
+    html! {
+        h2 id="checks" { "Checks" }
+        p.faint { "The worst first: what fails, then what comes closest to its bound. Open a check for its rows. A margin says how many \
+                   times the bound is above what was measured. A solver without a bound is judged by the error that it claims." }
+        @for block in Block::all(report.rows) {
+            (check(&block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
+        }
+    }
+}
+
+fn check(block: &Block<'_>, timing: Option<&Timing>) -> Markup {
+    let (worst, all) = (block.worst(), block.failing() == 0);
     html! {
         details open[!all] {
             summary {
-                b class=(if all { "pass" } else { "fail" }) { (if all { "✓ " } else { "✗ " }) (block[0].check) }
-                " " (block[0].claim) " "
+                b class=(if all { "pass" } else { "fail" }) { (if all { "✓ " } else { "✗ " }) (worst.check) }
+                " " (worst.claim) " "
                 span.faint {
-                    (passing) " of " (block.len())
-                    @if closest.is_finite() { ", closest margin " (format!("{closest:.1}")) "×" }
-                    @if let Some(basis) = block[0].basis { ", " (basis.name()) }
+                    (block.rows.len() - block.failing()) " of " (block.rows.len())
+                    @if worst.part() > 0.0 { ", " (worst.subject) ": " (margin(worst)) }
+                    @if let Some(basis) = worst.basis { ", " (basis.name()) }
+                    @if let Some(timing) = timing { ", " (format!("{:.1} s", timing.t_wall_s)) }
                 }
             }
             div.wide { table {
-                tr { th { "subject" } th { "measured" } th { "bound" } th { "unit" } th { "margin" } th { "cases" } th { "" } th { "worst input" } }
-                @for row in block { (line(row)) }
+                tr { th { "subject" } th { "measured" } th { "" } th { "bound" } th { "unit" } th { "" } th { "cases" } th { "" }
+                     th { "judges the" } th { "worst input" } }
+                @for row in &block.rows { (line(row)) }
             } }
         }
     }
@@ -139,11 +155,12 @@ fn line(row: &Row) -> Markup {
     };
     html! {
         tr {
-            td { (row.subject) } td { (number(row.measured)) } td { (number(row.bound)) }
+            td { (row.subject) } td { (measured(row)) } td { (relation(row)) } td { (number(row.bound)) }
             td { @if row.unit != "1" { (row.unit) } }
-            td { @if let Some(margin) = row.margin { (format!("{margin:.1}×")) } }
+            td { (margin(row)) }
             td { (row.cases) }
             td class=(class) { (row.status.name()) }
+            td.faint { @if let Some(judges) = row.judges { (judges.name()) } }
             td.long.faint { @if let Some(input) = &row.worst_input { code { (input) } } }
         }
     }
@@ -188,91 +205,5 @@ fn planner(lines: &[Line]) -> Markup {
                 }
             }
         } }
-    }
-}
-
-/// A chapter of charts.
-struct Section<'a> {
-    id: &'static str,
-    title: &'static str,
-    caption: &'static str,
-    charts: Vec<&'a Chart>,
-}
-
-/// Id, title and caption of every chapter; the files of its charts begin with the id.
-const CHAPTERS: [(&str, &str, &str); 6] = [
-    (
-        "fig4",
-        "The paper's Fig. 4",
-        "Probability against the number of launches: a grid (A), in the order of its axes, and \
-      random launches (B). B converges like one over the root of n; A drifts until its last axis is complete. Both end at the \
-      paper's 66 %. The space is reconstructed, since the paper names none.",
-    ),
-    (
-        "work-precision",
-        "Speed against accuracy",
-        "Each point is a run at one tolerance or step: the further right, the more \
-      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
-      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
-      and work. The exact motion calls nothing and is accurate to the last bit.",
-    ),
-    (
-        "models",
-        "The hierarchy of models",
-        "What each model costs in this run, over the random scenes that it can serve: median, and the range of nine \
-      in ten. The planner takes the cheapest model that is accurate enough.",
-    ),
-    (
-        "order",
-        "Order of convergence",
-        "With fixed steps the error falls like a power of the step. The fitted power stands \
-      beside that of the theory. For DOP853 only one halving of the step lies between steps that are too large for the power law \
-      and errors that are rounding alone.",
-    ),
-    (
-        "atlas",
-        "Where methods fail",
-        "The worst answer of every solver, scheme and formulation near eight hazards. The raw \
-      forms are the paper's equations as printed: they report success and are wrong. No default is wrong without an error. Below \
-      stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
-      an error below it cannot be told from an error of the launch.",
-    ),
-    (
-        "long-flights",
-        "Long flights",
-        "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
-      in proportion to the time. The conserved quantities drift by some parts in 10⁸ at most.",
-    ),
-];
-
-/// The chapters that have charts.
-fn sections(charts: &[Chart]) -> Vec<Section<'_>> {
-    let section = |(id, title, caption): (&'static str, &'static str, &'static str)| {
-        let charts: Vec<&Chart> = charts.iter().filter(|chart| chart.file.starts_with(id)).collect();
-        (!charts.is_empty()).then_some(Section { id, title, caption, charts })
-    };
-    CHAPTERS.into_iter().filter_map(section).collect()
-}
-
-impl Section<'_> {
-    fn markup(&self) -> Markup {
-        html! {
-            h2 id=(self.id) { (self.title) }
-            p.faint { (self.caption) }
-            @for chart in &self.charts {
-                figure {
-                    div.wide { (PreEscaped(&chart.svg)) }
-                    @if let Some(caption) = &chart.caption { figcaption { (caption) } }
-                }
-            }
-        }
-    }
-}
-
-fn number(value: Option<f64>) -> String {
-    match value {
-        Some(value) if value == 0.0 || (value.fract() == 0.0 && value.abs() < 1e7) => format!("{value}"),
-        Some(value) => format!("{value:.2e}"),
-        None => "–".to_owned(),
     }
 }

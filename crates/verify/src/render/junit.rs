@@ -1,35 +1,79 @@
-//! Renders the rows as JUnit XML, which continuous integration reads: one test suite for each check, one test case for each
-//! subject.
+//! Renders the report as JUnit XML, which continuous integration reads: a test suite for each check with a test case
+//! for each row, and a suite with a failing case for each row that became worse than the baseline, so that the file
+//! fails whenever the run does.
 
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use std::time::Duration;
 
+use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
+
+use super::words::{Block, comparison, margin};
+use super::{Report, moves};
 use crate::judge::Row;
+use crate::judge::baseline::{Direction, Move};
 
-/// Renders `rows`.
+/// Name of the suite of what became worse.
+const WORSE: &str = "worse than the baseline";
+
+/// Renders `report`.
 ///
 /// # Errors
 /// If the XML can't be written, which plain rows never cause.
-pub fn xml(rows: &[Row]) -> anyhow::Result<String> {
-    let mut report = Report::new("unfair-toss");
-    for block in rows.chunk_by(|a, b| a.check == b.check) {
-        let mut suite = TestSuite::new(block[0].check.as_str());
-        suite.add_test_cases(block.iter().map(test_case));
-        report.add_test_suite(suite);
+pub fn xml(report: &Report<'_>) -> anyhow::Result<String> {
+    let mut junit = Junit::new("unfair-toss");
+    for block in Block::all(report.rows) {
+        let mut suite = TestSuite::new(block.worst().check.as_str());
+        let timing = report.checks.iter().find(|timing| timing.check == block.worst().check);
+        if let Some(time) = timing.and_then(|timing| Duration::try_from_secs_f64(timing.t_wall_s).ok()) {
+            suite.set_time(time);
+        }
+        suite.add_test_cases(block.rows.iter().map(|row| test_case(row)));
+        junit.add_test_suite(suite);
     }
-    Ok(report.to_string()?)
+    let worse: Vec<&Move> = report.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect();
+    if !worse.is_empty() {
+        let mut suite = TestSuite::new(WORSE);
+        suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, report.rows)));
+        junit.add_test_suite(suite);
+    }
+    Ok(junit.to_string()?)
 }
 
 fn test_case(row: &Row) -> TestCase {
     let status = if row.status.passes() {
         TestCaseStatus::success()
     } else {
-        let mut failure = TestCaseStatus::non_success(NonSuccessKind::Failure);
-        failure.set_message(format!("{}: measured {:?}, allowed {:?}", row.status.name(), row.measured, row.bound));
+        let message = format!("{}: {} ({})", row.status.name(), comparison(row), margin(row));
         let detail = [&row.failure, &row.worst_input, &row.replay];
-        failure.set_description(detail.into_iter().flatten().cloned().collect::<Vec<_>>().join("\n"));
-        failure
+        failure(message, &detail.into_iter().flatten().map(String::as_str).collect::<Vec<_>>())
     };
     let mut case = TestCase::new(row.subject.as_str(), status);
     case.set_classname(row.check.as_str());
+    let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));
+    let numbers = [("measured", shown(row.measured)), ("bound", shown(row.bound)), ("unit", Some(row.unit.clone()))];
+    let judges = ("judges", row.judges.map(|judges| judges.name().to_owned()));
+    case.add_properties(
+        numbers.into_iter().chain([judges]).filter_map(|(name, value)| Some(Property::new(name, value?))),
+    );
     case
+}
+
+/// The failing case for a row that became worse.
+fn worse_case(moved: &Move, rows: &[Row]) -> TestCase {
+    let replay = moves::replay(moved, rows);
+    let mut case = TestCase::new(
+        format!("{}: {}", moved.subject, moved.what),
+        failure(format!("worse than the baseline: {}", moves::change(moved)), &[&replay]),
+    );
+    case.set_classname(format!("{WORSE}.{}", moved.check));
+    let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));
+    let numbers = [("measured", shown(moved.now)), ("accepted", shown(moved.before))];
+    case.add_properties(numbers.into_iter().filter_map(|(name, value)| Some(Property::new(name, value?))));
+    case
+}
+
+fn failure(message: String, detail: &[&str]) -> TestCaseStatus {
+    let mut failure = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    failure.set_message(message);
+    failure.set_description(detail.join("\n"));
+    failure
 }

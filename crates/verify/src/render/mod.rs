@@ -1,12 +1,30 @@
-//! Renders one set of rows as text, HTML, JSON, JUnit and charts. Nothing is measured or judged here.
+//! Renders one set of rows as text, HTML, JSON, JUnit, annotations of GitHub, metrics and charts. Nothing is measured
+//! or judged here.
 
 pub mod charts;
+pub mod github;
 pub mod history;
 pub mod html;
 pub mod junit;
+pub mod left_out;
+pub mod metrics;
 pub mod moves;
+pub mod pattern;
 pub mod report;
 pub mod runs;
 pub mod table;
+mod words;
 
 pub use report::Report;
+
+#[cfg(test)]
+mod tests {
+    use crate::judge::Row;
+    pub(super) use crate::judge::tests::row;
+    use crate::measure::check::Judges;
+
+    /// The same about the library.
+    pub(super) fn library(check: &str, subject: &str, measured: f64, bound: f64) -> Row {
+        Row { judges: Some(Judges::Library), ..row(check, subject, measured, bound) }
+    }
+}

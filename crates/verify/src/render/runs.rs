@@ -1,6 +1,8 @@
-//! Renders the runs of one toss as a table, with one line for each contestant.
+//! Renders the runs of one toss as a table, with one line for each contestant, and what the checks of the library
+//! measure on it, with one line for each of their quantities.
 
 use crate::measure::atlas::conditioning::Conditioning;
+use crate::measure::measurement::Deviation;
 use crate::measure::run::Run;
 
 /// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
@@ -23,4 +25,13 @@ pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
         format!("one rounding of the launch moves cos θ by {cos_tilt:.1e}, the attitude by {attitude:.1e} rad\n")
     });
     runs.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
+}
+
+/// The deviation that each check of the library, given with its part, measures on the toss, or why it failed.
+pub fn of_library<'a>(measured: impl IntoIterator<Item = (&'a str, &'a str, &'a Deviation)>) -> String {
+    let line = |(check, part, deviation): (&str, &str, &Deviation)| {
+        let found = deviation.as_ref().map_or_else(ToString::to_string, |size| format!("{size:.1e}"));
+        format!("{check:<22} {part:<14} {found}\n")
+    };
+    measured.into_iter().map(line).collect()
 }

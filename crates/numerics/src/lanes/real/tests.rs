@@ -31,6 +31,7 @@ impl WithSimd for Numbers {
             ("a with the sign of b", a.times_sign_of(b)),
             ("1 with either sign", a.constant(1.0).times_sign_of(a.either_sign(b))),
             ("larger", a.max(b)),
+            ("smaller", a.min(b)),
             ("cosine", a.clamp_to_cosine()),
             ("round", (a * a.constant(10.0)).round()),
             ("less", a.less_than(b).choose(a, c)),
@@ -63,6 +64,7 @@ fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
         "1 with either sign" if a < 0.0 || b < 0.0 => -1.0,
         "1 with either sign" => 1.0,
         "larger" => a.max(b),
+        "smaller" => a.min(b),
         "cosine" => a.clamp(-1.0, 1.0),
         "round" => (10.0 * a).round_ties_even(),
         "less" => {

@@ -4,7 +4,9 @@
 use anyhow::ensure;
 use faer::Mat;
 use serde::Serialize;
-use toss::{Sensitivity, Toss};
+use toss::{Launch, Sensitivity, Toss};
+
+use crate::measure::any_case::{AnyCase, RigidCase};
 
 /// Sizes of the derivative of a landing by relative changes of the launch: changes of ω are relative to |ω|, changes of
 /// the time of flight to that time.
@@ -23,18 +25,34 @@ impl Conditioning {
     /// # Errors
     /// If the singular values can't be found, which finite numbers never cause.
     pub fn new(toss: &Toss) -> anyhow::Result<Option<Self>> {
-        let Ok(Sensitivity { attitude, cos_tilt }) = Sensitivity::new(toss) else { return Ok(None) };
-        let (rate, time) = (toss.launch.turn_rate(), toss.launch.flight_time());
+        Sensitivity::new(toss).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
+    }
+
+    /// The conditioning of a toss of any body.
+    ///
+    /// # Errors
+    /// As [`Conditioning::new`].
+    pub fn of_any(case: &AnyCase) -> anyhow::Result<Option<Self>> {
+        match case {
+            AnyCase::Coin(case) => Self::new(&case.toss),
+            AnyCase::Rigid(RigidCase { toss, .. }) => {
+                Sensitivity::of_rigid(toss).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
+            }
+        }
+    }
+
+    fn by(Sensitivity { attitude, cos_tilt }: &Sensitivity, launch: &Launch) -> anyhow::Result<Self> {
+        let (rate, time) = (launch.turn_rate(), launch.flight_time());
         let unit = |column: usize| if column == 3 { time } else { rate };
         let scaled = Mat::from_fn(3, 4, |row, column| attitude[(row, column)] * unit(column));
         let values = scaled.singular_values().map_err(|error| anyhow::anyhow!("no singular values: {error:?}"))?;
         ensure!(
             values.len() == 3 && values.iter().all(|value| value.is_finite()),
-            "singular values of {toss:?}: {values:?}"
+            "singular values of {launch:?}: {values:?}"
         );
         let slope = |column: usize| cos_tilt[column] * unit(column);
         let cos_tilt = (0..4).map(|column| slope(column).powi(2)).sum::<f64>().sqrt();
-        Ok(Some(Self { attitude: [values[0], values[1], values[2]], cos_tilt }))
+        Ok(Self { attitude: [values[0], values[1], values[2]], cos_tilt })
     }
 
     /// The angle (rad) by which one rounding of the launch can turn the landed coin.
@@ -45,7 +63,7 @@ impl Conditioning {
 
 #[cfg(test)]
 mod tests {
-    use toss::{Coin, Launch, TimeOfFlight, Vector3};
+    use toss::{Coin, TimeOfFlight, Vector3};
 
     use super::*;
 

@@ -1,12 +1,12 @@
-//! This file reads `validation/atlas.toml`, the table of what every contestant is known to do at every hazard. The
+//! This file reads `data/atlas.toml`, the table of what every contestant is known to do at every hazard. The
 //! check `atlas-answers` compares it with what contestants really do, so a change for the worse or the better shows.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
+use anyhow::Context;
 use serde::Deserialize;
 
-use crate::files;
+use crate::data;
 use crate::measure::run::Answer;
 
 /// What the worst answer over all distances from a hazard must be.
@@ -42,12 +42,12 @@ impl Expectation {
 pub struct Expected(BTreeMap<String, BTreeMap<String, Expectation>>);
 
 impl Expected {
-    /// Reads the table at `path`.
+    /// What the solvers of this workspace are known to do.
     ///
     /// # Errors
-    /// If the file can't be read or holds something else.
-    pub fn read(path: &Path) -> anyhow::Result<Self> {
-        files::read_toml(path)
+    /// Never: tests read it.
+    pub fn of_this_workspace() -> anyhow::Result<Self> {
+        toml::from_str(data::ATLAS).context("in atlas.toml")
     }
 
     /// The expectation for `subject` at `hazard`, if the table has one.

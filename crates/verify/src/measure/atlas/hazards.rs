@@ -3,26 +3,35 @@
 //! for example, keeps away from sin β = 0 and cos β = 0.
 //!
 //! α, β and γ are the Euler angles (precession, nutation, spin), α' the rate of α, n the coin's normal, θ its angle to
-//! the vertical, ω the body rate and Ω = √(ωx² + ωy²).
+//! the vertical, ω the body rate and Ω = √(ωx² + ωy²). Hazards F9 to F12 are those of bodies that are no coins, with the
+//! moments I1 ≤ I2 ≤ I3; each of their flights is so short that the error estimates of all integrators say something.
 
 use std::f64::consts::FRAC_PI_2;
 
-use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss};
 
+use crate::measure::any_case::{AnyCase, RigidCase};
 use crate::measure::case::Case;
 
 /// A place where some method fails.
 pub struct Hazard {
-    /// Its id, `F1` to `F8`.
+    /// Its id, `F1` to `F12`.
     pub id: &'static str,
     /// What happens there, in words.
     pub name: &'static str,
     /// What the distance is and its unit.
     pub distance: &'static str,
     /// The toss at a distance; 0 is the place of the failure itself.
-    pub case: fn(f64) -> Result<Case, InputError>,
+    pub case: fn(f64) -> Result<AnyCase, InputError>,
     /// The distances, from far to near.
     pub distances: &'static [f64],
+}
+
+impl Hazard {
+    /// Whether its tosses are those of coins, which every solver solves.
+    pub fn is_of_coins(&self) -> bool {
+        self.distances.first().is_some_and(|distance| matches!((self.case)(*distance), Ok(AnyCase::Coin(_))))
+    }
 }
 
 const DECADES: &[f64] =
@@ -70,7 +79,7 @@ pub const HAZARDS: &[Hazard] = &[
         name: "a large phase",
         distance: "1/phase at landing (1/rad)",
         case: |distance| {
-            let rate = ExactMotion::new(&regular(1.0)?.toss).precession_rate();
+            let rate = ExactMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?.toss).precession_rate();
             regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
         },
         // Distances between 1e-6 and 1e-16 are left out: there an integrator only reaches its largest number of steps,
@@ -82,9 +91,9 @@ pub const HAZARDS: &[Hazard] = &[
         name: "cos θ = 0: landing on edge",
         distance: "time left to the flip, in times of flight",
         case: |distance| {
-            let falling = |time| case([2.0, 5.0, 1.0], 1.0, time);
+            let falling = |time| tilted([2.0, 5.0, 1.0], 1.0, time);
             let flip = ExactMotion::new(&falling(0.0)?.toss).first_flip().unwrap_or(f64::NAN);
-            falling(flip / (1.0 + distance))
+            Ok(AnyCase::Coin(falling(flip / (1.0 + distance))?))
         },
         distances: DECADES,
     },
@@ -95,16 +104,61 @@ pub const HAZARDS: &[Hazard] = &[
         case: |distance| regular(1.0 / distance),
         distances: &[1e0, 1e-1, 1e-2, 1e-3, 1e-4],
     },
+    Hazard {
+        id: "F9",
+        name: "the separatrix, from both sides by turns",
+        distance: "relative distance of ω1 from it",
+        case: |distance| body([1.0, 2.0, 2.25], [0.75 * (1.0 + side(distance) * distance), 1.0, 1.0], 10.0),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F10",
+        name: "a turn next to the intermediate axis",
+        distance: "ω1/ω2 and ω3/ω2 at launch",
+        case: |distance| body([1.0, 2.0, 2.25], [2.0 * distance, 2.0, -2.0 * distance], 6.0),
+        distances: DECADES,
+    },
+    Hazard {
+        id: "F11",
+        name: "nearly symmetric and nearly spherical, by turns",
+        distance: "difference of the moments, relative to them",
+        case: |distance| {
+            let third = if side(distance) > 0.0 { 1.9 } else { 1.0 - 0.5 * distance };
+            body([1.0, 1.0 + distance, third], [3.0, -2.0, 4.0], 2.0)
+        },
+        distances: &[1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15],
+    },
+    Hazard {
+        id: "F12",
+        name: "a plate that becomes a rod: I3 = I1 + I2, I1 = 0",
+        distance: "I1/I2",
+        case: |distance| body([0.75 * distance, 1.0, 1.0 + 0.75 * distance], [3.0, -2.0, 1.0], 2.0),
+        distances: DECADES,
+    },
 ];
 
+/// 1 or -1 by turns, from decade to decade.
+fn side(distance: f64) -> f64 {
+    if distance == 0.0 || (distance.log10().round() / 2.0).fract() == 0.0 { 1.0 } else { -1.0 }
+}
+
+/// A body with these moments (kg m²) at `rate` (rad/s) from a tilt of 0.5 rad, for `time` (s).
+fn body(moments: [f64; 3], rate: [f64; 3], time: f64) -> Result<AnyCase, InputError> {
+    RigidCase::new(moments, rate, 0.5, time).map(AnyCase::Rigid)
+}
+
 /// The paper's coin at `rate` (rad/s) from `tilt` (rad), for `time` (s).
-fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
-    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?.with_tilt(tilt)?;
+fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<AnyCase, InputError> {
+    tilted(rate, tilt, time).map(AnyCase::Coin)
+}
+
+fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
+    let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
     Ok(Case { toss: Toss { coin: Coin::PAPER, launch }, tilt })
 }
 
 /// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.
-fn regular(time: f64) -> Result<Case, InputError> {
+fn regular(time: f64) -> Result<AnyCase, InputError> {
     case([0.0, 4.0, 6.5], 0.5, time)
 }
 
@@ -119,7 +173,10 @@ mod tests {
     fn each_hazard_has_a_single_cause_of_failure() {
         for hazard in HAZARDS {
             for &distance in hazard.distances {
-                let toss = (hazard.case)(distance).unwrap().toss;
+                let AnyCase::Coin(Case { toss, .. }) = (hazard.case)(distance).unwrap() else {
+                    assert!(!hazard.is_of_coins());
+                    continue;
+                };
                 let motion = ExactMotion::new(&toss);
                 let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
                 let passes_the_vertical = (cone - axis).abs() < 0.2;

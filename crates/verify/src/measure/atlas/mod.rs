@@ -13,8 +13,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Formulation, InputError, SolverEntry};
 
-use crate::measure::case::Case;
-use crate::measure::reference::Reference;
+use crate::measure::any_case::{AnyCase, AnyReference};
 use crate::measure::run::{Answer, Run};
 use crate::measure::subject::{Subject, by_every_scheme, usual};
 use conditioning::Conditioning;
@@ -80,9 +79,9 @@ impl Atlas {
 ///
 /// # Errors
 /// Never for the library's own solvers.
-pub fn replay(registry: &[SolverEntry], case: &Case) -> Result<Vec<Run>, InputError> {
-    let reference = Reference::new(&case.toss);
-    Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, case, &reference)).collect())
+pub fn replay(registry: &[SolverEntry], case: &AnyCase) -> anyhow::Result<Vec<Run>> {
+    let reference = AnyReference::new(case)?;
+    Ok(contestants(registry)?.iter().map(|subject| Run::of_any(subject, case, &reference)).collect())
 }
 
 /// The names of the contestants, in their order, without solving anything.
@@ -107,14 +106,14 @@ fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
 }
 
 fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Result<Vec<Spot>> {
-    let case: Case = (hazard.case)(distance)?;
-    let reference = Reference::new(&case.toss);
-    let conditioning = Conditioning::new(&case.toss)?;
+    let case: AnyCase = (hazard.case)(distance)?;
+    let reference = AnyReference::new(&case)?;
+    let conditioning = Conditioning::of_any(&case)?;
     let spot = |subject: &Subject| Spot {
         hazard: hazard.id,
         distance,
         conditioning,
-        run: Run::new(subject, &case, &reference),
+        run: Run::of_any(subject, &case, &reference),
     };
     // Each contestant is a task of its own for the threads, because a few take a second and would delay those after
     // them.

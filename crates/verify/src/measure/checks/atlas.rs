@@ -11,7 +11,7 @@ use toss::{Attitude, ExactMotion, Formulation, Launch, Scheme, SolveError, Solve
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::run::Answer;
@@ -20,9 +20,11 @@ use crate::measure::subject::Subject;
 pub(super) const ANSWERS: Check = Check {
     id: "atlas-answers",
     claim: "Near every place where some method fails, each solver, scheme and formulation does what \
-            validation/atlas.toml records: it is right, returns an error, or is wrong as it is known to be. Measured: \
+            atlas.toml records: it is right, returns an error, or is wrong as it is known to be. Measured: \
             the number of places where it does anything else; one is enough to fail.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 0.0,
     unit: "hazards",
     measure: answers,
 };
@@ -32,6 +34,8 @@ pub(super) const TILT_WORK: Check = Check {
     claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
             tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: 1.0,
     unit: "1",
     measure: tilt_work,
 };
@@ -42,6 +46,8 @@ pub(super) const RETURN_WORK: Check = Check {
             no more calls of the right-hand side than the same flight in the vertical formulation, tilted so that the \
             normal stays away from the vertical. Measured: the largest ratio of calls; it fails above the bound.",
     basis: Basis::CrossMethod,
+    judges: Judges::Solver,
+    ceiling: 3.0,
     unit: "1",
     measure: return_work,
 };
@@ -90,7 +96,9 @@ fn tilt_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn return_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let horizontal: Vec<Case> = context.survey()?.cases.iter().filter(|case| case.tilt == 0.0).copied().collect();
+    // Slow coins do not return to the vertical.
+    let returns = |case: &&Case| case.tilt == 0.0 && case.toss.launch.turn_rate() > 1.0;
+    let horizontal: Vec<Case> = context.survey()?.cases.iter().filter(returns).copied().collect();
     let with_angles = |entry: &&SolverEntry| entry.formulations().contains(&Formulation::VERTICAL);
     let adaptive = |entry: &SolverEntry| entry.schemes().iter().copied().find(|scheme| scheme.is_adaptive());
     let row = |(entry, scheme): (&SolverEntry, Scheme)| {

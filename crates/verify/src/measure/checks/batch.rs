@@ -2,13 +2,13 @@
 //! kernels are written separately from the solver of one toss, so checks of that solver say nothing about them.
 
 use rayon::prelude::*;
-use toss::{Attitude, Batch, Error, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};
+use toss::{Attitude, Batch, Error, Launch, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};
 
-use super::certified::{adversarial, corners, largest_errors, random, tries};
+use super::certified::{adversarial, corners, few_turns, largest_errors, random, tries};
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
-use crate::measure::measurement::Measurement;
+use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
 
 pub(super) const COS_TILT: Check = Check {
@@ -16,8 +16,10 @@ pub(super) const COS_TILT: Check = Check {
     claim: "cos θ at landing from a batch differs from the 256-bit reference by at most the bound, for phases up to \
             1e9 rad, near changes of the outcome and at the corners of the model.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-14,
     unit: "1",
-    measure: |context| errors(context, |toss, reference| Ok(reference.cos_tilt_error(solve(toss, cos_tilt)?))),
+    measure: |context| errors(context, cos_tilt_error),
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -25,8 +27,10 @@ pub(super) const ATTITUDE: Check = Check {
     claim: "The attitude at landing from a batch differs from the 256-bit reference by at most the bound, for phases \
             up to 1e9 rad, near changes of the outcome and at the corners of the model.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-14,
     unit: "rad",
-    measure: |context| errors(context, |toss, reference| Ok(reference.attitude_error(&solve(toss, attitude)?))),
+    measure: |context| errors(context, attitude_error),
 };
 
 pub(super) const OUTCOMES: Check = Check {
@@ -34,11 +38,16 @@ pub(super) const OUTCOMES: Check = Check {
     claim: "The outcomes of a batch are those of the 256-bit reference, also within 3 ulp of the speed at which the \
             outcome changes. Measured: the number of tosses that differ; one is enough to fail.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.0,
     unit: "tosses",
     measure: |context| {
-        let differs = |toss: &Toss| Ok(solve(toss, outcome)? != Reference::new(toss).outcome());
-        let sets = [("random", random(tries(context), 6e4, 14)?), ("adversarial", adversarial(tries(context) / 2)?)];
-        Ok(count(&sets, differs))
+        let sets = [
+            ("random", at_one_height(random(tries(context), 6e4, 14)?)?),
+            ("adversarial", at_one_height(adversarial(tries(context) / 2, few_turns)?)?),
+            ("adversarial, many turns", at_one_height(adversarial(tries(context) / 4, many_turns)?)?),
+        ];
+        Ok(count(&sets, |toss| outcome_differs(toss, &Reference::new(toss))))
     },
 };
 
@@ -47,21 +56,63 @@ pub(super) const SIMD_LEVELS: Check = Check {
     claim: "Every SIMD level of the machine gives the same bits of cos θ, attitude and outcome as plain code. \
             Measured: the number of tosses with a difference; one is enough to fail.",
     basis: Basis::CrossMethod,
+    judges: Judges::Library,
+    ceiling: 0.0,
     unit: "tosses",
     measure: |context| {
-        let bits = |batch: &Batch<'_>| -> Result<_, Error> {
-            let turned: Attitude = attitude(batch)?;
-            Ok((cos_tilt(batch)?.to_bits(), turned.components().map(f64::to_bits), outcome(batch)?))
-        };
-        let differs = |toss: &Toss| {
-            let plain = solve(toss, |batch| bits(&batch.on(SimdLevel::all()[0])))?;
-            let same = |level: SimdLevel| solve(toss, |batch| bits(&batch.on(level))).map(|found| found == plain);
-            SimdLevel::all().into_iter().map(same).try_fold(false, |differs, same| Ok(differs | !same?))
-        };
-        let sets = [("random", random(2 * tries(context), 6e4, 15)?), ("adversarial", adversarial(tries(context))?)];
-        Ok(count(&sets, differs))
+        let adversarial = at_one_height(adversarial(tries(context), few_turns)?)?;
+        let sets = [("random", at_one_height(random(2 * tries(context), 6e4, 15)?)?), ("adversarial", adversarial)];
+        Ok(count(&sets, levels_that_differ))
     },
 };
+
+/// The cases as a batch can take them: it knows no landing at another height, only how long such a flight lasts.
+pub(super) fn at_one_height(cases: Vec<Case>) -> anyhow::Result<Vec<Case>> {
+    let level = |case: Case| {
+        let flight = case.toss.launch.time_of_flight();
+        let TimeOfFlight::BallisticTo { .. } = flight else { return Ok(case) };
+        let launch =
+            Launch::new(case.toss.launch.rate(), TimeOfFlight::Given(flight.seconds()))?.with_tilt(case.tilt)?;
+        Ok(Case { toss: Toss { launch, ..case.toss }, ..case })
+    };
+    cases.into_iter().map(level).collect()
+}
+
+/// From a thousand to 10^9 turns, where the rounding of the phase is far above that of cos θ.
+fn many_turns(index: usize) -> f64 {
+    10f64.powi(3 + i32::try_from(index % 7).unwrap_or(0))
+}
+
+/// Error of cos θ.
+pub(super) fn cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.cos_tilt_error(cos_tilt_of_one(toss)?))
+}
+
+/// cos θ.
+pub(super) fn cos_tilt_of_one(toss: &Toss) -> Deviation {
+    solve(toss, cos_tilt)
+}
+
+/// Angle to the exact attitude (rad).
+pub(super) fn attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.attitude_error(&solve(toss, attitude)?))
+}
+
+/// 1 if the outcome is another one than that of `reference`, else 0.
+pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(f64::from(solve(toss, outcome)? != reference.outcome()))
+}
+
+/// The number of SIMD levels that give other bits than plain code.
+pub(super) fn levels_that_differ(toss: &Toss) -> Deviation {
+    let bits = |batch: &Batch<'_>| -> Result<_, Error> {
+        let turned: Attitude = attitude(batch)?;
+        Ok((cos_tilt(batch)?.to_bits(), turned.components().map(f64::to_bits), outcome(batch)?))
+    };
+    let plain = solve(toss, |batch| bits(&batch.on(SimdLevel::all()[0])))?;
+    let differs = |level: SimdLevel| solve(toss, |batch| bits(&batch.on(level))).map(|found| f64::from(found != plain));
+    SimdLevel::all().into_iter().map(differs).sum()
+}
 
 /// The result of `kernel` for a batch that holds only `toss`.
 fn solve<T>(toss: &Toss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
@@ -103,18 +154,18 @@ fn errors(
     error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
 ) -> anyhow::Result<Vec<Measurement>> {
     let sets = [
-        ("phases to 1e2", random(tries(context), 1e2, 11)?),
-        ("phases to 1e9", random(tries(context), 1e9, 13)?),
-        ("adversarial", adversarial(tries(context) / 2)?),
+        ("phases to 1e2", at_one_height(random(tries(context), 1e2, 11)?)?),
+        ("phases to 1e9", at_one_height(random(tries(context), 1e9, 13)?)?),
+        ("adversarial", at_one_height(adversarial(tries(context) / 2, few_turns)?)?),
         ("corners", corners()?),
     ];
     Ok(largest_errors(&sets, error))
 }
 
-/// The number of tosses of each set for which `is` returns true.
-fn count(sets: &[(&str, Vec<Case>)], is: impl Fn(&Toss) -> Result<bool, SolveError> + Sync) -> Vec<Measurement> {
+/// The number of tosses of each set with a deviation.
+fn count(sets: &[(&str, Vec<Case>)], deviation: impl Fn(&Toss) -> Deviation + Sync) -> Vec<Measurement> {
     let measure = |(name, cases): &(&str, Vec<Case>)| {
-        let found: Vec<_> = cases.par_iter().map(|case| is(&case.toss)).collect();
+        let found: Vec<_> = cases.par_iter().map(|case| deviation(&case.toss).map(|size| size != 0.0)).collect();
         Measurement::count_of_set(name, &found, |index| cases[index])
     };
     sets.iter().map(measure).collect()

@@ -12,23 +12,27 @@ use exact::TiltTerms;
 use exact::certified::{double_double_bound, f64_bound};
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-use sampling::{Space, random_tosses};
+use sampling::Space;
 use toss::{Coin, ExactMotion, Launch, SolveError, Stage, TimeOfFlight, Toss, Vector3, certify};
 
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::{Deviation, Measurement};
+use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
+use crate::measure::throws::throw;
 
 pub(super) const COS_TILT: Check = Check {
     id: "last-bit-cos-tilt",
     claim: "cos θ at landing from the exact motion differs from the 256-bit reference by at most the bound, about an \
             ulp of 1, for phases up to 1e9 rad and at the corners of the model.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-15,
     unit: "1",
-    measure: |context| last_bit(context, |toss, reference| Ok(reference.cos_tilt_error(exact_cos_tilt(toss)?))),
+    measure: |context| last_bit(context, cos_tilt_error),
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -36,13 +40,10 @@ pub(super) const ATTITUDE: Check = Check {
     claim: "The attitude at landing from the exact motion differs from the 256-bit reference by at most the bound, a \
             few ulp, for phases up to 1e9 rad and at the corners of the model.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-14,
     unit: "rad",
-    measure: |context| {
-        last_bit(context, |toss, reference| {
-            let landing = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
-            Ok(reference.attitude_error(&landing.attitude))
-        })
-    },
+    measure: |context| last_bit(context, attitude_error),
 };
 
 pub(super) const EULER_ANGLES: Check = Check {
@@ -50,14 +51,10 @@ pub(super) const EULER_ANGLES: Check = Check {
     claim: "The attitude that the exact motion's Euler angles at landing give differs from the 256-bit reference by \
             at most the bound, in ulp of 1 plus the largest angle.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 10.0,
     unit: "ulp",
-    measure: |context| {
-        last_bit(context, |toss, reference| {
-            let angles = ExactMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
-            let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
-            Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
-        })
-    },
+    measure: |context| last_bit(context, euler_angles_error),
 };
 
 pub(super) const OUTCOMES: Check = Check {
@@ -66,6 +63,8 @@ pub(super) const OUTCOMES: Check = Check {
             outcome changes. Measured: the number of tosses that differ, also by being undecided; one is enough to \
             fail.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.0,
     unit: "tosses",
     measure: outcomes,
 };
@@ -76,12 +75,32 @@ pub(super) const BOUNDS: Check = Check {
             proves an outcome. Measured: the largest error divided by that error bound; it fails above the bound of \
             this check.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1.0,
     unit: "1",
     measure: bounds,
 };
 
-fn exact_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
-    ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())
+/// Error of cos θ.
+pub(super) fn cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
+}
+
+/// Angle to the exact attitude (rad).
+pub(super) fn attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
+}
+
+/// Angle of the attitude of the Euler angles to the exact one, in ulp of 1 plus the largest angle.
+pub(super) fn euler_angles_error(toss: &Toss, reference: &Reference) -> Deviation {
+    let angles = ExactMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
+    let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
+    Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
+}
+
+/// 1 if the proven outcome is another one than that of `reference`, else 0.
+pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
+    Ok(f64::from(certify(toss)?.outcome() != reference.outcome()))
 }
 
 /// The number of tosses from which a check derives the sizes of its sets.
@@ -93,8 +112,8 @@ pub(super) fn tries(context: &Context) -> u64 {
     }
 }
 
-/// `number` random tosses, of five coins in turn and every second one tilted, whose rates and times of up to 1 s give
-/// phases of up to about `phase` (rad).
+/// `number` random tosses, of five coins in turn, every second one tilted, and [thrown in every form](throw), whose
+/// rates and times of up to 1 s give phases of up to about `phase` (rad).
 pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<Case>> {
     let fastest = format!("{0:?}:{1:?}", -phase / 2.0, phase / 2.0);
     let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
@@ -102,10 +121,11 @@ pub(super) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<C
     let coins = [0.5, 1.0, 1.98, 2.0, 0.0].map(|k| Coin::from_moments(5e-7, k * 5e-7));
     let case = |(index, toss): (usize, Toss)| {
         let tilt = if index % 2 == 0 { 0.0 } else { 2.0 * toss.launch.attitude().components()[1].asin() };
-        let launch = Launch::new(toss.launch.rate(), toss.launch.time_of_flight())?.with_tilt(tilt)?;
-        Ok(Case { toss: Toss { coin: coins[index % 5].clone()?, launch }, tilt })
+        let flight = throw(toss.launch.time_of_flight(), index as u64);
+        let launch = Launch::new(toss.launch.rate(), flight)?.with_tilt(tilt)?;
+        Ok(Case { toss: Toss { coin: coins[index / 5 % 5].clone()?, launch }, tilt })
     };
-    random_tosses(&space, seed, 0..number).into_iter().enumerate().map(case).collect()
+    random_flights(&space, seed, number)?.into_iter().enumerate().map(case).collect()
 }
 
 /// Tosses at the corners of the model: pure spin, no spin, spheres, rods, discs, slow and subnormal rates, each
@@ -129,7 +149,7 @@ pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
         for rate in rates {
             for tilt in tilts {
                 for time in times {
-                    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time))?.with_tilt(tilt)?;
+                    let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
                     cases.push(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt });
                 }
             }
@@ -140,9 +160,9 @@ pub(super) fn corners() -> anyhow::Result<Vec<Case>> {
 
 /// Tosses that land within 3 ulp of the speed at which the outcome changes. Of each three, one is a random launch, one
 /// is horizontal with ψ within 3 ulp of 45°, where cos θ touches 0 at half a turn, and one is tilted so that n only
-/// touches the horizontal plane.
-pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
-    const GRAVITY: f64 = 9.81;
+/// touches the horizontal plane. `turns` says how many turns the phase of each has before the change.
+pub(super) fn adversarial(number: u64, turns: fn(usize) -> f64) -> anyhow::Result<Vec<Case>> {
+    const GRAVITIES: [f64; 4] = [9.81, 1.62, 9.80665, 24.79];
     let mut cases = Vec::new();
     for (index, case) in random(number, 100.0, 77)?.into_iter().enumerate() {
         let rate = case.toss.launch.rate();
@@ -164,16 +184,29 @@ pub(super) fn adversarial(number: u64) -> anyhow::Result<Vec<Case>> {
         let motion = ExactMotion::new(&toss(TimeOfFlight::Given(0.0))?);
         let heads = motion.heads();
         // Where cos θ never changes its sign the two edges coincide at its trough, where it comes nearest to 0.
-        let turns = std::f64::consts::TAU * (index % 7) as f64;
+        let before = std::f64::consts::TAU * turns(index);
         for edge in [heads.crest + heads.half_width, heads.crest - heads.half_width] {
-            let phase = edge.rem_euclid(std::f64::consts::TAU) + turns;
-            let speed = ulps(0.5 * GRAVITY * phase / motion.precession_rate(), index);
+            let phase = edge.rem_euclid(std::f64::consts::TAU) + before;
+            let (time, gravity) = (phase / motion.precession_rate(), GRAVITIES[index % GRAVITIES.len()]);
+            let speed = ulps(0.5 * gravity * time, index);
             if speed.is_finite() && speed >= 0.0 {
-                cases.push(Case { toss: toss(TimeOfFlight::Ballistic { speed, gravity: GRAVITY })?, tilt });
+                cases.push(Case { toss: toss(caught(speed, gravity, time, index))?, tilt });
             }
         }
     }
     Ok(cases)
+}
+
+/// A throw that lasts about `time` (s): three of five at `speed`, one at half and caught below, one at 1.5 times and above.
+fn caught(speed: f64, gravity: f64, time: f64, turn: usize) -> TimeOfFlight {
+    let part = [1.0, 1.0, 1.0, 0.5, 1.5][turn % 5];
+    let drop = (part != 1.0).then_some((1.0 - part) * 0.5 * gravity * time * time);
+    TimeOfFlight::thrown(part * speed, gravity, drop)
+}
+
+/// Up to six turns, in turn.
+pub(super) fn few_turns(index: usize) -> f64 {
+    (index % 7) as f64
 }
 
 /// A number within 3 ulp of `value`; which of the seven is chosen by `turn` modulo 7.
@@ -227,7 +260,8 @@ fn is_in_range(result: &Deviation) -> bool {
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let sets = [("random", random(3 * tries(context), 6e4, 4)?), ("adversarial", adversarial(tries(context))?)];
+    let sets =
+        [("random", random(3 * tries(context), 6e4, 4)?), ("adversarial", adversarial(tries(context), few_turns)?)];
     sets.into_iter()
         .map(|(name, cases)| {
             let judged: Vec<_> = cases
@@ -256,24 +290,24 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     for (seed, phase) in [(5, 1.0), (6, 1e2), (7, 6e4), (8, 1e9)] {
         cases.extend(random(tries(context) / 4, phase, seed)?);
     }
-    cases.extend(adversarial(tries(context) / 4)?);
-    let largest = |name: &str, ratio: fn(&Toss) -> Result<f64, SolveError>| {
-        let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss)).collect();
+    cases.extend(adversarial(tries(context) / 4, few_turns)?);
+    let largest = |name: &str, ratio: fn(&Toss, &Reference) -> Deviation| {
+        let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss, &Reference::new(&case.toss))).collect();
         Measurement::of_set(name, &ratios, |index| cases[index])
     };
     Ok(vec![largest("f64", of_f64), largest("double-double", of_double_double)])
 }
 
 /// Error of cos θ in the f64 stage, divided by the stage's error bound.
-fn of_f64(toss: &Toss) -> Result<f64, SolveError> {
+pub(super) fn of_f64(toss: &Toss, reference: &Reference) -> Deviation {
     let terms = TiltTerms::new(toss);
     let [phase, _] = terms.phases(toss.launch.flight_time());
-    let error = Reference::new(toss).cos_tilt_error(terms.height(phase) / terms.size);
+    let error = reference.cos_tilt_error(terms.height(phase) / terms.size);
     Ok(error / f64_bound(phase))
 }
 
 /// Error of cos θ in the double-double stage, divided by the stage's error bound.
-fn of_double_double(toss: &Toss) -> Result<f64, SolveError> {
+pub(super) fn of_double_double(toss: &Toss, reference: &Reference) -> Deviation {
     let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
-    Ok(Reference::new(toss).cos_tilt_error(cos_tilt.hi()) / double_double_bound(phase))
+    Ok(reference.cos_tilt_error(cos_tilt.hi()) / double_double_bound(phase))
 }

@@ -5,7 +5,7 @@ use dynamics::integrate::{OdeSystem, integrate};
 use nalgebra::SVector;
 use toss::{Scheme, Stepping};
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 
@@ -14,6 +14,8 @@ pub(super) const STATE: Check = Check {
     claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
             the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-6,
     unit: "1",
     measure,
 };

@@ -9,7 +9,7 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Coordinate, Found, Plan, Rest, Sampler, Scrambled, Space, long_flight_probability};
 use toss::Coin;
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -19,6 +19,8 @@ pub(super) const SHARES: Check = Check {
     claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
             most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-9,
     unit: "1",
     measure: |context| worst_share(context, SHARES.id, |error, _| error),
 };
@@ -29,6 +31,8 @@ pub(super) const SHARE_BOUNDS: Check = Check {
             the method states. Measured: the largest error divided by that error bound; it fails above the bound of \
             this check.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1.0,
     unit: "1",
     measure: |context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound),
 };
@@ -38,6 +42,8 @@ pub(super) const ISOTROPIC: Check = Check {
     claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
             1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-6,
     unit: "1",
     measure: isotropic,
 };
@@ -46,6 +52,8 @@ pub(super) const FIGURES: Check = Check {
     id: "probability-figures",
     claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-3,
     unit: "1",
     measure: figures,
 };
@@ -96,10 +104,22 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// The name of a reference probability, and the space of launches that it belongs to.
-struct Figure {
-    name: &'static str,
+pub(super) struct Figure {
+    pub(super) name: &'static str,
     coin: Coin,
     axes: [(Coordinate, String); 4],
+}
+
+impl Figure {
+    pub(super) fn space(&self) -> anyhow::Result<Space> {
+        let texts: Vec<_> = self.axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
+        Ok(Space::parse(self.coin, &texts)?)
+    }
+}
+
+/// All reference probabilities with their spaces.
+pub(super) fn all() -> anyhow::Result<Vec<Figure>> {
+    Ok(known()?.into_iter().chain(finite_flights()?).collect())
 }
 
 /// Range of speeds (m/s) whose flights last some 10^8 turns, so the long-flight limit holds.
@@ -161,13 +181,10 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Effort::Standard | Effort::Deep => 1 << 22,
     };
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, 1)));
-    let finite = finite_flights()?;
-    known()?
+    all()?
         .into_iter()
-        .chain(finite)
-        .map(|Figure { name, coin, axes }| {
-            let texts: Vec<_> = axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
-            let found = Sampler::exact().estimate(&Space::parse(coin, &texts)?, plan)?;
+        .map(|of| {
+            let (name, found) = (of.name, Sampler::exact().estimate(&of.space()?, plan)?);
             let figure = context.reference_probabilities.figure(name)?;
             let interval = found.interval.map_or(String::new(), |i| format!(", {:.8} to {:.8}", i.lo, i.hi));
             let input = format!("{:.8} for {figure:.8}{interval}", found.probability);

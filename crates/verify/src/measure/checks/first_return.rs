@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use toss::{ExactMotion, Formulation, Launch, TimeOfFlight, Toss};
 
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::Reference;
@@ -20,6 +20,8 @@ pub(super) const ATTITUDE: Check = Check {
     claim: "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return \
             there, the attitude differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure,
 };

@@ -5,7 +5,7 @@
 use toss::{Propagation, SolveError, State, Toss};
 
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::drift;
 use crate::measure::measurement::Measurement;
@@ -16,6 +16,8 @@ pub(super) const MOMENTUM: Check = Check {
     claim: "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
             bound, relative to |S|.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "1",
     measure: |context| largest(context, drift::momentum),
 };
@@ -25,6 +27,8 @@ pub(super) const ENERGY: Check = Check {
     claim: "(b) The kinetic energy differs at landing from its value at launch by at most the bound, relative to that \
             value.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "1",
     measure: |context| largest(context, drift::energy),
 };
@@ -34,6 +38,8 @@ pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
     claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
             at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum_body),
 };
@@ -43,6 +49,8 @@ pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
     claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
             attitude at landing, differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "1",
     measure: |context| largest(context, drift::normal_momentum),
 };
@@ -52,6 +60,8 @@ pub(super) const MOMENTUM_VECTOR: Check = Check {
     claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
             differs from its value at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "1",
     measure: |context| largest(context, drift::momentum_vector),
 };
@@ -61,6 +71,8 @@ pub(super) const PROJECTION: Check = Check {
     claim: "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
             each to within the bound.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::COS_TILT,
     unit: "1",
     measure: |context| {
         let survey = context.survey()?;

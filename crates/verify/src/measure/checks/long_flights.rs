@@ -1,7 +1,7 @@
 //! These checks follow flights of up to 10⁴ s, far longer than any toss. Errors of an integrator grow with the time of
 //! flight, so an error estimate that holds for short flights may fail for long ones.
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::long_flights::Drift;
 use crate::measure::measurement::Measurement;
@@ -12,6 +12,8 @@ pub(super) const ERROR: Check = Check {
             returns an error. Measured: the largest error divided by what the estimate allows; it fails above the \
             bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 1.0,
     unit: "1",
     measure: |context| {
         let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
@@ -24,6 +26,8 @@ pub(super) const DRIFT: Check = Check {
     claim: "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value \
             at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
+    judges: Judges::Solver,
+    ceiling: ceiling::COS_TILT,
     unit: "1",
     measure: |context| largest(context, DRIFT.id, |drift| drift.momentum_vector, |drift| drift.allowed),
 };

@@ -6,7 +6,7 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{ESTIMATORS, Estimate, Found, Plan, Rest, Sampler, Scrambled, Space, clopper_pearson, rms_error};
 use toss::Coin;
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -16,6 +16,8 @@ pub(super) const ERRORS: Check = Check {
     claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
             reference number, is at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.02,
     unit: "1",
     measure: errors,
 };
@@ -25,6 +27,8 @@ pub(super) const COVERAGE: Check = Check {
     claim: "Of 10 000 intervals for P(heads) at the 95 % level, 95 % contain the reference number. Measured: the \
             distance of that fraction from 0.95; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.02,
     unit: "1",
     measure: coverage,
 };
@@ -34,6 +38,8 @@ pub(super) const EXACT_COVERAGE: Check = Check {
     claim: "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
             reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.0,
     unit: "1",
     measure: exact_coverage,
 };

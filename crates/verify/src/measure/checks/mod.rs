@@ -5,19 +5,29 @@
 mod adversarial;
 mod atlas;
 mod batch;
+mod bodies;
 mod certified;
+mod claims;
+mod coins;
+mod counting;
 mod detest;
 mod figures;
 mod first_return;
+mod integrated;
 mod invariants;
 mod long_flights;
+mod margins;
+mod mean_error;
 mod methods;
 mod numbers;
+pub mod of_toss;
 mod order;
 mod paper;
 mod planner;
 mod probability;
+mod quadrature;
 mod random;
+mod rigid;
 mod sensitivity;
 mod tolerance;
 mod work_precision;
@@ -32,15 +42,31 @@ pub const CHECKS: &[Check] = &[
     random::COS_TILT,
     random::ATTITUDE,
     random::CROSS_METHOD,
+    claims::MEASURED,
     certified::COS_TILT,
     certified::ATTITUDE,
     certified::EULER_ANGLES,
     certified::OUTCOMES,
     certified::BOUNDS,
+    integrated::BOUNDS,
+    integrated::OUTCOMES,
+    integrated::TIGHTNESS,
     batch::COS_TILT,
     batch::ATTITUDE,
     batch::OUTCOMES,
     batch::SIMD_LEVELS,
+    rigid::COS_TILT,
+    rigid::ATTITUDE,
+    rigid::OUTCOMES,
+    bodies::WITHIN_ESTIMATE,
+    bodies::ATTITUDE,
+    bodies::CONSERVED,
+    bodies::PUBLISHED,
+    mean_error::COS_TILT,
+    mean_error::TERMS,
+    margins::MARGINS,
+    margins::SPEEDS,
+    coins::MOMENTS,
     first_return::ATTITUDE,
     invariants::MOMENTUM,
     invariants::ENERGY,
@@ -72,10 +98,15 @@ pub const CHECKS: &[Check] = &[
     probability::TABLES,
     probability::FIG4_GRID_IN_RANDOM,
     probability::FIG4_SAME_COUNTS,
+    counting::GRID_LAUNCHES,
+    counting::GRID_COUNTS,
+    counting::ONE_BY_ONE,
     figures::SHARES,
     figures::SHARE_BOUNDS,
     figures::ISOTROPIC,
     figures::FIGURES,
+    quadrature::FIGURES,
+    quadrature::ESTIMATES,
     methods::ERRORS,
     methods::COVERAGE,
     methods::EXACT_COVERAGE,

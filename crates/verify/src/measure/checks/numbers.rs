@@ -1,10 +1,10 @@
-//! These checks compare every solver with the landings in `validation/reference`: the paper's tosses, Kane's body, and
+//! These checks compare every solver with the landings in `data/motion.toml`: the paper's tosses, Kane's body, and
 //! flights at the corners of the model. These numbers come from outside the workspace, so an error which all our
 //! code shares shows.
 
 use toss::{SolveError, Solver};
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::motions::ReferenceFlight;
@@ -15,6 +15,8 @@ pub(super) const COS_TILT: Check = Check {
     id: "reference-cos-tilt",
     claim: "On every reference flight, cos θ at landing differs from the reference number by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::COS_TILT,
     unit: "1",
     measure: cos_tilt,
 };
@@ -24,6 +26,8 @@ pub(super) const ATTITUDE: Check = Check {
     claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
             bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: attitude,
 };

@@ -1,7 +1,7 @@
 //! This check compares the observed order of convergence of every scheme with the order that theory gives it. A mistake
 //! in a scheme's coefficients or in the equations often leaves the error small, but lowers the order.
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::convergence::Convergence;
 use crate::measure::measurement::Measurement;
@@ -11,6 +11,8 @@ pub(super) const ORDER: Check = Check {
     claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
             distance of the fitted power from that order; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 0.5,
     unit: "1",
     measure,
 };

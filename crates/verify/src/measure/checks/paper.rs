@@ -10,7 +10,7 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use toss::{Coin, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::motions::FirstFlip;
@@ -22,6 +22,8 @@ pub(super) const CHEATED_IN_FLIGHT: Check = Check {
     claim: "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
             number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
+    judges: Judges::Solver,
+    ceiling: 0.0,
     unit: "launches",
     measure: |context| at_every_speed(context, Vector3::new(1.0, 1.0, 2.5), Outcome::Heads),
 };
@@ -31,6 +33,8 @@ pub(super) const TAILS_IN_FLIGHT: Check = Check {
     claim: "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
             number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
+    judges: Judges::Solver,
+    ceiling: 0.0,
     unit: "launches",
     measure: |context| at_every_speed(context, Vector3::new(2.0, 2.0, 0.5), Outcome::Tails),
 };
@@ -40,6 +44,8 @@ pub(super) const CHEATED_FOREVER: Check = Check {
     claim: "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up \
             to 30 s by integrators. Measured: the number of launches that do not; one is enough to fail.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 0.0,
     unit: "launches",
     measure: forever,
 };
@@ -49,6 +55,8 @@ pub(super) const FIRST_FLIP: Check = Check {
     claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
             the largest distance from the reference time; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "s",
     measure: first_flip,
 };

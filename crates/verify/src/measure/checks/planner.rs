@@ -4,7 +4,7 @@
 
 use std::cmp::Ordering;
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::planner::summary::Line;
@@ -15,6 +15,8 @@ pub(super) const DELIVERS: Check = Check {
     claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
             largest error divided by that accuracy; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1.0,
     unit: "1",
     measure: |context| largest(context, DELIVERS.id, Outcome::error_by_accuracy),
 };
@@ -25,6 +27,8 @@ pub(super) const EXPECTS: Check = Check {
             the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
             the expected error; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1.0,
     unit: "1",
     measure: |context| largest(context, EXPECTS.id, Outcome::error_by_expected),
 };
@@ -34,6 +38,8 @@ pub(super) const TIGHT: Check = Check {
     claim: "The error that a plan expects is at most 30 times the actual error. Measured: the fraction of scenes \
             where it is more; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 0.2,
     unit: "1",
     measure: |context| {
         share(
@@ -50,6 +56,8 @@ pub(super) const COST_RATIO: Check = Check {
             enough when tried. Measured: the fraction of scenes where it costs more; it fails above the bound. (The \
             report has the ratios by measured cost.)",
     basis: Basis::CrossMethod,
+    judges: Judges::Library,
+    ceiling: 0.1,
     unit: "1",
     measure: |context| share(context, COST_RATIO.id, &[("all", |line| line.economical)]),
 };

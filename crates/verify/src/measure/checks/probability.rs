@@ -8,7 +8,7 @@ use sampling::{
 };
 use toss::{Coin, ExactMotion, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Toss, Vector3};
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -20,6 +20,8 @@ pub(super) const LONG_FLIGHT: Check = Check {
     claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
             most the bound, for cone angles ψ from 45° to 90°.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-12,
     unit: "1",
     measure: long_flight,
 };
@@ -29,6 +31,8 @@ pub(super) const LONG_FLIGHT_SHARE: Check = Check {
     claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
             the long-flight probability p(ψ) by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-4,
     unit: "1",
     measure: long_flight_share,
 };
@@ -38,6 +42,8 @@ pub(super) const TABLES: Check = Check {
     claim: "P(heads) by every sampling method differs from the paper's by at most the bound: 0.66 in Fig. 4, 1 for \
             the cheated toss, 0 for the tails toss.",
     basis: Basis::PublishedFigure,
+    judges: Judges::Library,
+    ceiling: 0.005,
     unit: "1",
     measure: published,
 };
@@ -48,6 +54,8 @@ pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
             random launches (its method B), which misses the probability at most once in a million. Measured: the \
             distance from the interval; any distance fails.",
     basis: Basis::CrossMethod,
+    judges: Judges::Library,
+    ceiling: 0.0,
     unit: "1",
     measure: grid_in_random,
 };
@@ -57,6 +65,8 @@ pub(super) const FIG4_SAME_COUNTS: Check = Check {
     claim: "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact \
             motion. Measured: the sum of the two differences; one launch is enough to fail.",
     basis: Basis::CrossMethod,
+    judges: Judges::Solver,
+    ceiling: 1000.0,
     unit: "launches",
     measure: same_counts,
 };
@@ -109,7 +119,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             }
             Err(error) => (f64::INFINITY, 0.0, error.to_string()),
         };
-        let is_unclaimed = matches!(subject.solver.error_estimate(&one), Ok(None));
+        let is_unclaimed = matches!(subject.solver.error_estimate_rigid(&one), Ok(None));
         let found = Measurement::figure(FIG4_SAME_COUNTS.id, entry.name(), difference, exact.points(), input);
         // A solver's error estimate may leave launches undecided, which then are neither heads nor tails.
         Ok(found.claiming((!is_unclaimed).then_some(undecided)))

@@ -3,7 +3,7 @@
 
 use toss::{Propagation, SolveError};
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::Reference;
@@ -15,6 +15,8 @@ pub(super) const COS_TILT: Check = Check {
     id: "random-cos-tilt",
     claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::COS_TILT,
     unit: "1",
     measure: |context| {
         let error = |reference: &Reference, landing: &Propagation| reference.cos_tilt_error(landing.cos_tilt);
@@ -26,6 +28,8 @@ pub(super) const ATTITUDE: Check = Check {
     id: "random-attitude",
     claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: |context| {
         let error = |reference: &Reference, landing: &Propagation| reference.attitude_error(&landing.state.attitude);
@@ -38,6 +42,8 @@ pub(super) const CROSS_METHOD: Check = Check {
     claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
             and any other, differ by at most the bound.",
     basis: Basis::CrossMethod,
+    judges: Judges::Solver,
+    ceiling: 2.0 * ceiling::ATTITUDE,
     unit: "rad",
     measure: cross_method,
 };
@@ -82,5 +88,5 @@ fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): 
         Ok(allowance(one)?.zip(allowance(other)?).map(|(one, other)| one.attitude + other.attitude))
     };
     let measurement = Measurement::largest_within(other, deviations, |index| survey.cases[index], allowed);
-    Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..measurement }
+    Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..measurement }.beside(one)
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use toss::{Launch, Sensitivity, SolveError, TimeOfFlight, Toss};
 
 use crate::measure::case::Case;
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
@@ -17,6 +17,8 @@ pub(super) const DERIVATIVES: Check = Check {
             differ from central differences in 256 bits by at most the bound, relative to the norm of the attitude's \
             derivative.",
     basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    ceiling: 1e-10,
     unit: "1",
     measure,
 };
@@ -37,7 +39,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// The relative errors of the derivatives of the attitude and of cos θ.
-fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
+pub(super) fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
     let found = Sensitivity::new(toss)?;
     let (attitude, cos_tilt) = differences(toss);
     let (rate, time) = (toss.launch.rate().norm(), toss.launch.flight_time());

@@ -3,13 +3,14 @@
 
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-use sampling::{Space, random_tosses};
+use sampling::Space;
 use toss::{Coin, Formulation, InputError, Stepping};
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::convergence::error;
 use crate::measure::measurement::Measurement;
+use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
 use crate::measure::slope::slope;
 use crate::measure::subject::{Subject, usual};
@@ -19,6 +20,8 @@ pub(super) const PROPORTION: Check = Check {
     claim: "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
             Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 0.5,
     unit: "1",
     measure,
 };
@@ -34,7 +37,7 @@ const PER_DECADE: i32 = 4;
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5"), (Tilt, "0:3")];
-    let tosses = random_tosses(&Space::parse(Coin::PAPER, &axes)?, 1, 0..FLIGHTS);
+    let tosses = random_flights(&Space::parse(Coin::PAPER, &axes)?, 1, FLIGHTS)?;
     let flights: Vec<_> = tosses.into_iter().map(|toss| (toss, Reference::new(&toss))).collect();
     let mut measurements = Vec::new();
     for entry in &context.registry {

@@ -1,7 +1,7 @@
 //! This check compares errors with the solvers' error estimates over the whole range of tolerances and steps, on every
 //! problem. Most other checks use one setting, but an error estimate must hold at any setting that you choose.
 
-use crate::measure::check::{Basis, Check};
+use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::measurement::Measurement;
 use crate::measure::run::Answer;
@@ -13,6 +13,8 @@ pub(super) const WITHIN_ESTIMATE: Check = Check {
             attitude is within the solver's error estimate. Measured: the largest error divided by what the estimate \
             allows; it fails above the bound.",
     basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 1.0,
     unit: "1",
     measure,
 };

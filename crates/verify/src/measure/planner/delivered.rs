@@ -1,6 +1,7 @@
 //! This file measures the error of an answer to a scene, against the 256-bit reference or, for a probability, against
 //! another method. The errors that the planner expects are judged by these.
 
+use dynamics::coin::NO_COIN;
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use toss::{
     Answer, Error, InputError, Launch, Outcome, Scene, TimeOfFlight, Toss, TracePoint, Vector3, speeds_of_heads,
@@ -62,10 +63,11 @@ pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
     const OTHER_SEED: u64 = 987_654_321;
     let free: Vec<Coordinate> = space.free().collect();
     let scrambled = Scrambled::new(points, OTHER_SEED);
-    if free == [Coordinate::Speed] {
+    let is_of_coins = space.coin().is_some();
+    if free == [Coordinate::Speed] && is_of_coins {
         return share_by_intervals(space);
     }
-    let plan = if free.contains(&Coordinate::Speed) {
+    let plan = if free.contains(&Coordinate::Speed) && is_of_coins {
         Plan::ExactSpeed(Rest::Sobol(scrambled))
     } else {
         Plan::Sobol(scrambled)
@@ -79,7 +81,8 @@ fn share_by_intervals(space: &Space) -> Result<f64, Error> {
     let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
     let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
     let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
-    let toss = Toss { coin: space.coin(), launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let coin = space.coin().ok_or(NO_COIN)?;
+    let toss = Toss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
     let intervals = speeds_of_heads(&toss, slowest)?;
     let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
     Ok(length / (fastest - slowest))

@@ -1,12 +1,14 @@
 //! This file measures the planner's table: what each model costs and how large its errors are, on random tosses and
 //! spaces. The library is built with the result, so planning itself measures nothing.
 
+use anyhow::ensure;
 use toss::fitted::{ClosedFit, Fitted};
-use toss::{Answer, How, MODELS, Model, Registry, Scene, Want};
+use toss::{Answer, How, MODELS, Model, Registry, Scene, Scheme, SolverEntry, Want};
 
 use super::clock::{median, nanoseconds};
 use super::delivered::{Truth, true_probability};
 use super::figures::{SAFETY, SEED, SHARE, rounded};
+use super::fit_bodies;
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
 use super::fit_sampling::sampling;
 use super::scenes::{self, served};
@@ -19,17 +21,15 @@ pub const FILE: &str = "crates/toss/data/fitted.toml";
 /// # Errors
 /// Never for the library's own models.
 pub fn fit(measured: String) -> anyhow::Result<Fitted> {
-    let tolerances: Vec<f64> = (3..=14).map(|decade| 10f64.powi(-decade)).collect();
+    let tolerances = tolerances();
     let mut integrators = Vec::new();
     let tosses = tosses_by_turn()?;
-    for entry in Registry::standard().entries() {
-        for scheme in entry.schemes().iter().copied().filter(|scheme| scheme.is_adaptive()) {
-            integrators.push(integrator(entry, scheme, &tolerances, &tosses)?);
-        }
+    for (entry, scheme) in Registry::standard().entries().iter().flat_map(adaptive) {
+        integrators.push(integrator(entry, scheme, &tolerances, &tosses)?);
     }
     Ok(Fitted {
         measured,
-        closed: closed_forms()?,
+        closed: closed_forms()?.into_iter().chain(fit_bodies::closed_forms()?).collect(),
         spins: SPINS.to_vec(),
         phases: PHASES.to_vec(),
         tolerances,
@@ -38,14 +38,57 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
     })
 }
 
+/// Measures the integrators of `registry` that are not of this workspace, for the planner of somebody who has them.
+///
+/// # Errors
+/// If there are none, or one can't be measured: it counts no calls of its right-hand side, or refuses every flight.
+pub fn fit_others(registry: &Registry, measured: String) -> anyhow::Result<Fitted> {
+    let is_own = |entry: &&SolverEntry| Registry::standard().named(entry.name()).is_err();
+    let own: Vec<_> = registry.entries().iter().filter(is_own).flat_map(adaptive).collect();
+    ensure!(
+        !own.is_empty(),
+        "no integrator to measure: the planner chooses integrators with a tolerance, and the \
+                              registry has none beside those of this workspace"
+    );
+    let (tolerances, tosses) = (tolerances(), tosses_by_turn()?);
+    let integrators = own.into_iter().map(|(entry, scheme)| {
+        let fit = integrator(entry, scheme, &tolerances, &tosses)?;
+        let name = format!("{}/{}", entry.name(), scheme.name());
+        ensure!(
+            fit.call_ns.is_finite() && fit.call_ns > 0.0,
+            "{name}: no call of the right-hand side was counted, and \
+                 the planner predicts costs from these counts"
+        );
+        Ok(fit)
+    });
+    Ok(Fitted {
+        measured,
+        closed: Vec::new(),
+        spins: SPINS.to_vec(),
+        phases: PHASES.to_vec(),
+        tolerances: tolerances.clone(),
+        integrators: integrators.collect::<anyhow::Result<_>>()?,
+        sampling: Vec::new(),
+    })
+}
+
+/// The solver of `entry` with each of its schemes that take a tolerance.
+fn adaptive(entry: &SolverEntry) -> impl Iterator<Item = (&SolverEntry, Scheme)> {
+    entry.schemes().iter().copied().filter(|scheme| scheme.is_adaptive()).map(move |scheme| (entry, scheme))
+}
+
+fn tolerances() -> Vec<f64> {
+    (3..=14).map(|decade| 10f64.powi(-decade)).collect()
+}
+
 /// The table as TOML, which the library reads.
 ///
 /// # Errors
 /// Never for plain data.
 pub fn text(fitted: &Fitted) -> anyhow::Result<String> {
-    let head = "# The planner's table: what each model costs and how large its error is. Measured by\n\
-                # `cargo xtask verify --bless`, or `--fit` alone; do not edit it. Costs are in ns of one core; errors\n\
-                # are the largest met, times a safety factor.\n\n";
+    let head = "# The planner's table: what each model costs and how large its error is. Measured by the command\n\
+                # `fit` of the verification suite; do not edit it. Costs are in ns of one core; errors are the\n\
+                # largest met, times a safety factor.\n\n";
     let table = toml::to_string(fitted)?;
     Ok(format!("{head}{}", table.split_inclusive(&[' ', ',', '[', ']', '\n']).map(briefly).collect::<String>()))
 }
@@ -60,10 +103,10 @@ fn briefly(piece: &str) -> String {
 }
 
 /// One answer of a model in closed form, with its error and cost.
-struct Flown {
-    model: &'static Model,
-    error: f64,
-    cost_ns: f64,
+pub(super) struct Flown {
+    pub(super) model: &'static Model,
+    pub(super) error: f64,
+    pub(super) cost_ns: f64,
 }
 
 fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
@@ -72,7 +115,12 @@ fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
     for index in 0..TOSSES {
         let toss = scenes::toss(SEED, index)?.toss;
         let truth = Truth::new(&toss);
-        for want in [Want::Outcome(toss), Want::Tilt(toss), Want::Attitude(toss), Want::Trace { toss, points: 5 }] {
+        for want in [
+            Want::Outcome(toss.into()),
+            Want::Tilt(toss.into()),
+            Want::Attitude(toss.into()),
+            Want::Trace { toss: toss.into(), points: 5 },
+        ] {
             // With such a rough accuracy every model that can answer the scene also serves it.
             let scene = Scene::new(want, f64::MAX);
             for choice in served(&scene)?.into_iter().filter(|choice| matches!(choice.how, How::ClosedForm)) {
@@ -84,10 +132,15 @@ fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
         }
     }
     let of = |model: &'static Model| closed_form(model, flown.iter().filter(move |flown| flown.model == model));
-    Ok(MODELS.iter().filter(|model| model.is_closed_form()).map(of).chain([share()?]).collect())
+    Ok(MODELS
+        .iter()
+        .filter(|model| model.is_closed_form() && !model.is_for_other_bodies())
+        .map(of)
+        .chain([share()?])
+        .collect())
 }
 
-fn closed_form<'a>(model: &Model, flown: impl Iterator<Item = &'a Flown> + Clone) -> ClosedFit {
+pub(super) fn closed_form<'a>(model: &Model, flown: impl Iterator<Item = &'a Flown> + Clone) -> ClosedFit {
     let costs = flown.clone().map(|flown| flown.cost_ns).filter(|cost| !cost.is_nan()).collect();
     let error = flown.map(|flown| flown.error).fold(0.0, f64::max);
     ClosedFit { model: model.name.to_owned(), cost_ns: rounded(median(costs)), error: rounded(SAFETY * error) }

@@ -19,6 +19,9 @@ pub(super) const SPINS: [f64; 9] = [0.0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, f64
 /// Upper ends of the bins of phases (rad).
 pub(super) const PHASES: [f64; 11] = [0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 100.0, 300.0, 1000.0];
 
+/// The error that stands for an unknown one: above every accuracy, and small enough to be multiplied without overflow.
+const UNKNOWN: f64 = 1e200;
+
 /// A toss, its phase at landing (rad) and its exact landing.
 pub(super) type Flight = (Toss, f64, Reference);
 
@@ -109,7 +112,8 @@ fn cell(solver: &dyn Solver, flights: &[Flight]) -> [f64; 3] {
 /// nine tenths stay below, because where errors scatter widely another toss may exceed the largest one.
 fn safely(mut errors: Vec<f64>) -> f64 {
     errors.sort_unstable_by(f64::total_cmp);
-    let (Some(largest), Some(ninth)) = (errors.last(), errors.get(errors.len() * 9 / 10)) else { return f64::EPSILON };
+    // Where every flight was refused nothing is known, and the planner must not choose this tolerance.
+    let (Some(largest), Some(ninth)) = (errors.last(), errors.get(errors.len() * 9 / 10)) else { return UNKNOWN };
     1.5 * SAFETY * largest * (largest / ninth).sqrt().min(100.0)
 }
 

@@ -10,11 +10,15 @@ use toss::{Model, Scene, Want};
 use super::clock::{median, nanoseconds};
 use super::delivered::true_probability;
 use super::figures::{SAFETY, SEED, SHARE, rounded};
+use super::fit_bodies;
 use super::scenes::{self, served};
 use crate::measure::slope::slope;
 
 /// Name of the model that integrates over the speed in closed form and takes Sobol points for everything else.
 const SHARE_SOBOL: &str = "share-sobol";
+
+/// Names of those for bodies that are no coins.
+const OF_BODIES: [&str; 2] = ["body-sobol", "body-random"];
 
 /// Names of the models whose error falls with the number of launches.
 const SAMPLES: [&str; 3] = [SHARE_SOBOL, "sobol", "random"];
@@ -36,7 +40,17 @@ pub(super) fn sampling() -> anyhow::Result<Vec<SamplingFit>> {
         let spaces = spaces.iter().filter(|(_, with_shares, _)| *with_shares || name != SHARE_SOBOL);
         Sample { model, spaces: spaces.map(|(space, _, truth)| (*space, *truth)).collect() }.fit(&pool)
     };
-    SAMPLES.into_iter().map(fit).collect()
+    let mut fits = SAMPLES.into_iter().map(fit).collect::<anyhow::Result<Vec<_>>>()?;
+    let of_bodies = (0..16).map(|index| {
+        let space = fit_bodies::space(index)?;
+        Ok((space, true_probability(&space, 1 << 17)?))
+    });
+    let of_bodies = of_bodies.collect::<anyhow::Result<Vec<(Space, f64)>>>()?;
+    for name in OF_BODIES {
+        let model = Model::named(name).with_context(|| format!("no model {name}"))?;
+        fits.push(Sample { model, spaces: of_bodies.clone() }.fit(&pool)?);
+    }
+    Ok(fits)
 }
 
 /// A sampling model, and the spaces on which it is measured with their probabilities of heads.

@@ -9,6 +9,7 @@ pub mod clock;
 pub mod delivered;
 mod figures;
 pub mod fit;
+mod fit_bodies;
 mod fit_integrators;
 mod fit_sampling;
 pub mod scenes;

@@ -24,7 +24,7 @@ pub struct TossScene {
 }
 
 /// The random numbers for the item `index` of the sequence that `seed` starts.
-fn stream(seed: u64, index: u64) -> ChaCha8Rng {
+pub(super) fn stream(seed: u64, index: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(index);
     rng
@@ -96,10 +96,10 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     let kind = kinds[rng.random_range(0..kinds.len())];
     let wanted = if kind == "integrator" { kinds[rng.random_range(0..9)] } else { kind };
     let want = match wanted {
-        "outcome" => Want::Outcome(case.toss),
-        "tilt" => Want::Tilt(case.toss),
-        "attitude" => Want::Attitude(case.toss),
-        _ => Want::Trace { toss: case.toss, points: rng.random_range(2..8) },
+        "outcome" => Want::Outcome(case.toss.into()),
+        "tilt" => Want::Tilt(case.toss.into()),
+        "attitude" => Want::Attitude(case.toss.into()),
+        _ => Want::Trace { toss: case.toss.into(), points: rng.random_range(2..8) },
     };
     let scene = if kind == "integrator" {
         // The planner does not choose integrators that are not in its table, so no scene asks for one.

@@ -1,8 +1,7 @@
-//! This file reads `validation/reference/probability.toml`: probabilities of heads that were computed outside this
+//! This file reads `data/probability.toml`: probabilities of heads that were computed outside this
 //! workspace. They test the sampling methods independently of all our code.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use anyhow::Context;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
@@ -10,7 +9,7 @@ use sampling::Space;
 use serde::Deserialize;
 use toss::Coin;
 
-use crate::files;
+use crate::data;
 
 /// All reference probabilities.
 pub struct ReferenceProbabilities {
@@ -57,12 +56,12 @@ struct FigureEntry {
 }
 
 impl ReferenceProbabilities {
-    /// Reads the file at `path`.
+    /// The data inside this crate.
     ///
     /// # Errors
-    /// If the file can't be read or holds something else.
-    pub fn read(path: &Path) -> anyhow::Result<Self> {
-        let file: File = files::read_toml(path)?;
+    /// Never: tests read it.
+    pub fn inside() -> anyhow::Result<Self> {
+        let file: File = toml::from_str(data::PROBABILITIES).context("in probability.toml")?;
         Ok(Self {
             shares: file.share.into_iter().map(ReferenceShare::new).collect::<anyhow::Result<_>>()?,
             figures: file

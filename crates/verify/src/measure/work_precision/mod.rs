@@ -13,11 +13,11 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
+use toss::{Error, Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 
+use crate::measure::any_case::{AnyCase, AnyReference, RigidCase};
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
-use crate::measure::run::{Answer, Run};
+use crate::measure::run::{Allowance, Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
 
@@ -82,16 +82,17 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Samples every solver of `registry` on every problem.
+    /// Samples every solver of `registry` on every problem. A body that is no coin is flown at the settings at which the
+    /// solver states an error for it: solvers for coins refuse it, and next to the separatrix rough settings say nothing.
     ///
     /// # Errors
     /// Never for the library's own solvers.
-    pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, InputError> {
+    pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, Error> {
         let jobs = jobs(registry, problems, effort)?;
-        let references: Vec<Vec<Reference>> = problems
+        let references: Vec<Vec<AnyReference>> = problems
             .iter()
-            .map(|problem| problem.cases.par_iter().map(|case| Reference::new(&case.toss)).collect())
-            .collect();
+            .map(|problem| problem.cases.par_iter().map(AnyReference::new).collect::<Result<_, _>>())
+            .collect::<Result<_, _>>()?;
         let mut samples: Vec<Sample> =
             jobs.par_iter().map(|job| job.sample(&problems[job.problem], &references[job.problem])).collect();
         for (index, times) in times(&jobs, problems, effort) {
@@ -146,7 +147,10 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
     for (index, problem) in problems.iter().enumerate() {
         for entry in registry {
             let mut push = |stepping| {
-                jobs.push(Job { problem: index, subject: Subject::new(entry, stepping, Formulation::default()) });
+                let subject = Subject::new(entry, stepping, Formulation::default());
+                if problem.cases.iter().all(|case| states_an_error(&subject, case)) {
+                    jobs.push(Job { problem: index, subject });
+                }
             };
             if !entry.integrates() {
                 push(None);
@@ -167,11 +171,21 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
     Ok(jobs)
 }
 
+/// Whether `subject` can be judged by its error estimate on `case`; of coins, that is for the check to say.
+fn states_an_error(subject: &Subject, case: &AnyCase) -> bool {
+    let AnyCase::Rigid(RigidCase { toss, .. }) = case else { return true };
+    Allowance::of_rigid(subject, toss).is_ok_and(|allowance| allowance.is_some())
+}
+
 impl Job {
-    fn sample(&self, problem: &Problem, references: &[Reference]) -> Sample {
+    fn sample(&self, problem: &Problem, references: &[AnyReference]) -> Sample {
         let subject = &self.subject;
-        let runs: Vec<Run> =
-            problem.cases.iter().zip(references).map(|(case, reference)| Run::new(subject, case, reference)).collect();
+        let runs: Vec<Run> = problem
+            .cases
+            .iter()
+            .zip(references)
+            .map(|(case, reference)| Run::of_any(subject, case, reference))
+            .collect();
         let largest = |of: fn(&Run) -> Option<f64>| {
             runs.iter().map(of).try_fold(0.0, |largest: f64, value| Some(largest.max(value?)))
         };
@@ -219,7 +233,7 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
         let fly = || {
             for case in &problems[job.problem].cases {
                 // Failed flights are timed too, because they also take time.
-                let _ = std::hint::black_box(job.subject.solver.propagate(std::hint::black_box(&case.toss)));
+                let _ = std::hint::black_box(std::hint::black_box(case).propagate(&*job.subject.solver));
             }
         };
         (index, repeat(fly, budget))

@@ -1,18 +1,19 @@
-//! This file reads `validation/problems.toml`, the problems on which speed is compared with accuracy. Each problem is
+//! This file reads `data/problems.toml`, the problems on which speed is compared with accuracy. Each problem is
 //! one flight or an ensemble of random ones, and stresses something that some method is bad at.
-
-use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-use sampling::{Space, random_tosses};
+use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::{Coin, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, Launch, TimeOfFlight, Toss};
 
-use crate::files;
+use crate::data;
+use crate::measure::any_case::{AnyCase, RigidCase};
 use crate::measure::case::Case;
+use crate::measure::random_flights::random_flights;
+use crate::measure::throws::throw;
 
 /// One flight, or an ensemble of random flights.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,13 +23,13 @@ pub struct Problem {
     /// What it stresses, in words.
     pub stresses: String,
     /// Its tosses.
-    pub cases: Vec<Case>,
+    pub cases: Vec<AnyCase>,
 }
 
 impl Problem {
     /// The largest |ω| at launch of its tosses (rad/s).
     pub fn fastest(&self) -> f64 {
-        self.cases.iter().map(|case| case.toss.launch.turn_rate()).fold(0.0, f64::max)
+        self.cases.iter().map(|case| case.launch().turn_rate()).fold(0.0, f64::max)
     }
 
     /// The toss as hex floats, or the number of launches.
@@ -48,10 +49,13 @@ struct File {
 struct Entry {
     name: String,
     stresses: String,
-    coin: String,
+    coin: Option<String>,
+    moments: Option<[f64; 3]>,
     rate: Option<[f64; 3]>,
     speed: Option<f64>,
     time: Option<f64>,
+    gravity: Option<f64>,
+    drop: Option<f64>,
     #[serde(default)]
     tilt: f64,
     launches: Option<u64>,
@@ -60,22 +64,25 @@ struct Entry {
     tilt_range: Option<[f64; 2]>,
 }
 
-/// Reads the problems from the file at `path`.
+/// All problems.
 ///
 /// # Errors
-/// If the file can't be read, or a problem in it is not valid.
-pub fn read(path: &Path) -> anyhow::Result<Vec<Problem>> {
-    let file: File = files::read_toml(path)?;
-    file.problem.into_iter().map(|entry| entry.problem().with_context(|| path.display().to_string())).collect()
+/// Never: tests read them.
+pub fn all() -> anyhow::Result<Vec<Problem>> {
+    let file: File = toml::from_str(data::PROBLEMS).context("in problems.toml")?;
+    file.problem.into_iter().map(|entry| entry.problem().context("in problems.toml")).collect()
 }
 
 impl Entry {
     fn problem(self) -> anyhow::Result<Problem> {
-        let coin = named_coin(&self.coin)?;
-        let cases = match (self.rate, self.rate_range) {
-            (Some(rate), None) => vec![self.flight(coin, rate)?],
-            (None, Some(rates)) => self.ensemble(coin, rates)?,
-            _ => bail!("{}: either rate or rate_range is needed", self.name),
+        let coin = self.coin.as_deref().map(named_coin).transpose()?;
+        let cases = match (coin, self.moments, self.rate, self.rate_range) {
+            (Some(coin), None, Some(rate), None) => vec![AnyCase::Coin(self.flight(coin, rate)?)],
+            (Some(coin), None, None, Some(rates)) => {
+                self.ensemble(coin, rates)?.into_iter().map(AnyCase::Coin).collect()
+            }
+            (None, Some(moments), Some(rate), None) => vec![AnyCase::Rigid(self.body(moments, rate)?)],
+            _ => bail!("{}: a coin with rate or rate_range, or moments with rate, is needed", self.name),
         };
         ensure!(!cases.is_empty(), "{}: no launches", self.name);
         Ok(Problem { name: self.name, stresses: self.stresses, cases })
@@ -83,14 +90,21 @@ impl Entry {
 
     fn flight(&self, coin: Coin, rate: [f64; 3]) -> anyhow::Result<Case> {
         let time = match (self.speed, self.time) {
-            (Some(speed), None) => TimeOfFlight::Ballistic { speed, gravity: DEFAULT_GRAVITY },
-            (None, Some(time)) => TimeOfFlight::Given(time),
-            _ => bail!("{}: either speed or time is needed", self.name),
+            (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
+            (None, Some(time)) if self.gravity.or(self.drop).is_none() => TimeOfFlight::Given(time),
+            _ => bail!("{}: either a speed, with gravity and drop as needed, or a time is needed", self.name),
         };
-        let launch = Launch::new(Vector3::from(rate), time)?.with_tilt(self.tilt)?;
+        let launch = Launch::new(rate, time)?.with_tilt(self.tilt)?;
         Ok(Case { toss: Toss { coin, launch }, tilt: self.tilt })
     }
 
+    fn body(&self, moments: [f64; 3], rate: [f64; 3]) -> anyhow::Result<RigidCase> {
+        let time = self.time.with_context(|| format!("{}: a body needs a time", self.name))?;
+        ensure!(self.speed.or(self.gravity).or(self.drop).is_none(), "{}: a body has a time alone", self.name);
+        Ok(RigidCase::new(moments, rate, self.tilt, time)?)
+    }
+
+    /// Random launches of `coin`, whose times of flight are given in every form.
     fn ensemble(&self, coin: Coin, rates: [f64; 2]) -> anyhow::Result<Vec<Case>> {
         let span = |range: Option<[f64; 2]>| {
             let [from, to] = range.with_context(|| format!("{}: an ensemble needs ranges", self.name))?;
@@ -99,9 +113,13 @@ impl Entry {
         let (rates, speeds, tilts) = (span(Some(rates))?, span(self.speed_range)?, span(self.tilt_range)?);
         let axes = [(RateX, &*rates), (RateY, &rates), (RateZ, &rates), (Speed, &speeds), (Tilt, &tilts)];
         let space = Space::parse(coin, &axes)?;
-        let tosses = random_tosses(&space, 1, 0..self.launches.unwrap_or(0));
+        let tosses = random_flights(&space, 1, self.launches.unwrap_or(0))?;
         // The attitude at launch is a turn about x, whose quaternion has the sine of half the tilt as its x component.
         let tilt = |toss: &Toss| 2.0 * toss.launch.attitude().components()[1].asin();
-        Ok(tosses.into_iter().map(|toss| Case { tilt: tilt(&toss), toss }).collect())
+        let vary = |(turn, toss): (u64, Toss)| {
+            let launch = Launch::new(toss.launch.rate(), throw(toss.launch.time_of_flight(), turn))?;
+            Ok(Case { toss: Toss { launch: launch.with_attitude(toss.launch.attitude()), ..toss }, tilt: tilt(&toss) })
+        };
+        (0..).zip(tosses).map(vary).collect()
     }
 }

@@ -82,7 +82,7 @@ pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Cha
         let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
         charts.push(chart("fig4.svg", chart::running(&columns)?));
     }
-    if let Some(all) = records.convergence {
+    if let Some(all) = records.convergence.filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", order::order(all, &palette)?));
     }
     if let Some(planner) = &records.planner {

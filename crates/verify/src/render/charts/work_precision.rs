@@ -15,6 +15,9 @@ const HEAD: u32 = 60;
 /// Room for the labels beside the lines (pixels).
 const RIGHT: u32 = 290;
 
+/// Where the crosses of failed runs are (pixels from the top).
+const TOP: i32 = 34;
+
 /// Panels in a row of the chart of all problems, and the size of each (pixels).
 const COLUMNS: usize = 4;
 const PANEL: (u32, u32) = (510, 560);
@@ -116,6 +119,10 @@ impl<'a> Drawing<'a> {
         let below =
             |line: &Series| EndLabel { y: bottom, text: format!("{}: 0 calls", line.label), colour: line.colour };
         labels.extend(lines[1..].iter().filter(is_below).map(below));
+        // A solver that fails at every setting has no line that could carry its name.
+        let fails = |line: &&Series| line.points.is_empty() && !line.failures.is_empty();
+        let above = |line: &Series| EndLabel { y: TOP, text: format!("{}: fails", line.label), colour: line.colour };
+        labels.extend(lines[1..].iter().filter(fails).map(above));
         end_labels(panel, i32::try_from(width - RIGHT).unwrap_or(0) + 16, labels)
     }
 

@@ -8,8 +8,7 @@ use crate::measure::work_precision::problems::{self, Problem};
 
 /// A sweep of the problem of the paper's cheated toss, whose errors go down to the last bit.
 fn sweep() -> Sweep {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/problems.toml");
-    let problems: Vec<Problem> = problems::read(&path).unwrap();
+    let problems: Vec<Problem> = problems::all().unwrap();
     let cheated: Vec<Problem> = problems.into_iter().filter(|problem| problem.name == "cheated").collect();
     Sweep::new(Registry::standard().entries(), &cheated, Effort::Quick).unwrap()
 }

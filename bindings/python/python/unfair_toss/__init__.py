@@ -1,0 +1,65 @@
+"""The free flight of a tossed coin: proven outcomes, trajectories, solvers and probabilities.
+
+All quantities are in SI units and angles in radians. The axes x, y, z of a body are fixed in it, z is the normal of
+the side of heads; the laboratory's z axis points up, and heads is up where cos θ > 0, with θ the angle between both.
+An attitude is the unit quaternion (w, x, y, z) from the body to the laboratory.
+"""
+
+from . import errors
+from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
+from .columns import Counts, attitude, cos_tilt, count, outcome
+from .planner import Choice, plan
+from .sampling import Estimate, estimate, merge, probability, tally
+from .single import (
+    Intervals,
+    Inverse,
+    Landing,
+    Margins,
+    Trace,
+    Work,
+    intervals,
+    inverse,
+    margins,
+    toss,
+    trace,
+)
+from .solving import Solution, solve
+
+__all__ = [
+    "Body",
+    "Choice",
+    "Counts",
+    "Estimate",
+    "Intervals",
+    "Inverse",
+    "Landing",
+    "Margins",
+    "Plan",
+    "Solution",
+    "Solver",
+    "Space",
+    "Tally",
+    "Toss",
+    "Trace",
+    "Work",
+    "__version__",
+    "attitude",
+    "bodies",
+    "cos_tilt",
+    "count",
+    "errors",
+    "estimate",
+    "intervals",
+    "inverse",
+    "margins",
+    "merge",
+    "outcome",
+    "plan",
+    "probability",
+    "solve",
+    "solvers",
+    "spaces",
+    "tally",
+    "toss",
+    "trace",
+]

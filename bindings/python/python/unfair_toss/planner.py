@@ -1,0 +1,86 @@
+"""The planner: which model answers a question at the least cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from . import _native
+from ._native import Space, Toss
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The cheapest model that answers a question.
+
+    Attributes
+    ----------
+    model : str
+        Its name.
+    solver : str
+        The solver that it uses.
+    scheme : str or None
+        The scheme of an integrator.
+    method : str or None
+        How the launches of a sample are chosen.
+    tolerance : float or None
+        The local error per step of an integrator.
+    points : int or None
+        The launches of a sample.
+    expected_error : float
+        Of what is wanted.
+    expected_cost_ns : float
+        In ns, on one core.
+    passed_over : tuple of (str, str)
+        The models that were passed over, each with the reason.
+    """
+
+    model: str
+    solver: str
+    scheme: str | None
+    method: str | None
+    tolerance: float | None
+    points: int | None
+    expected_error: float
+    expected_cost_ns: float
+    passed_over: tuple[tuple[str, str], ...]
+
+
+def plan(
+    want: Literal["outcome", "tilt", "attitude", "trace", "probability"],
+    of: Toss | Space,
+    accuracy: float,
+    *,
+    points: int | None = None,
+    solver: str | None = None,
+    scheme: str | None = None,
+) -> Choice:
+    """The cheapest model that answers a question accurately enough, without running it.
+
+    Parameters
+    ----------
+    want : {"outcome", "tilt", "attitude", "trace", "probability"}
+        What is wanted.
+    of : Toss or Space
+        Of which toss; for a probability, over which space.
+    accuracy : float
+        The largest acceptable error: of cos θ, of an attitude in rad, or of a probability.
+    points : int, optional
+        Number of times of a trace; 100 by default.
+    solver, scheme : str, optional
+        An integrator that is used as a cross-check, and its scheme.
+
+    Returns
+    -------
+    Choice
+        The model with its settings, its expected error and cost, and why others were passed over.
+
+    Raises
+    ------
+    errors.InputError
+        If the question is invalid or no model is accurate enough.
+    """
+    model, by, its_scheme, method, tolerance, launches, (error, cost), passed_over = _native.plan(
+        want, of, accuracy, points, solver, scheme
+    )
+    return Choice(model, by, its_scheme, method, tolerance, launches, error, cost, tuple(passed_over))

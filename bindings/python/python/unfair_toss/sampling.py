@@ -1,0 +1,269 @@
+"""Probabilities of heads over a space of launches, at once or in parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from os import PathLike
+from typing import Any
+
+from . import _native
+from ._native import Plan, Solver, Space, Tally
+from .columns import stages
+from .errors import MalformedError, PartError
+from .parts import Parts
+
+_SLICE = 1 << 28
+"""Launches between two looks for Ctrl-C and two reports of progress: some tenths of a second."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """An estimated probability of heads.
+
+    Attributes
+    ----------
+    probability : float
+        From 0 to 1.
+    interval : tuple of 2 floats or None
+        The interval of 95 % in which it lies; a grid has none.
+    interval_kind : str
+        What the interval is.
+    points : int
+        Number of launches; with exact-speed, each of them stands for all speeds.
+    heads, tails, undecided : int or None
+        Numbers of launches by their outcome; None with exact-speed, which counts none.
+    certified : bool
+        Whether every outcome is proven. Counts that came through a file or another process no longer are.
+    proven_by : dict of str to int, or None
+        The number of outcomes that each stage of the proof decided.
+    plan : Plan
+        Which launches were tried.
+    """
+
+    probability: float
+    interval: tuple[float, float] | None
+    interval_kind: str
+    points: int
+    heads: int | None
+    tails: int | None
+    undecided: int | None
+    certified: bool
+    proven_by: dict[str, int] | None
+    plan: Plan
+
+    @property
+    def half_width(self) -> float | None:
+        """Distance from the probability to the farther end of the interval; None without one."""
+        if self.interval is None:
+            return None
+        lo, hi = self.interval
+        return max(self.probability - lo, hi - self.probability)
+
+
+def _estimate(values: _native._EstimateValues, plan: Plan) -> Estimate:
+    probability, interval, kind, points, counts, proven = values
+    heads, tails, undecided = counts or (None, None, None)
+    return Estimate(
+        probability, interval, kind, points, heads, tails, undecided, proven is not None, stages(proven), plan
+    )
+
+
+def tally(
+    space: Space,
+    plan: Plan,
+    range: tuple[int, int] | range | None = None,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Tally:
+    """The result of some launches of a plan, as integers that add up.
+
+    Parameters
+    ----------
+    space : Space
+        The distribution of the launches.
+    plan : Plan
+        Which of them are tried.
+    range : tuple of 2 ints or range, optional
+        The numbers of the launches: the first one, and the one after the last; all of them by default.
+    threads : int, optional
+        Number of threads; None for one per core. It does not change the result.
+    progress : callable, optional
+        Called with the number of launches that are done, and of all.
+
+    Returns
+    -------
+    Tally
+        To be added to others with ``+``, until all launches of the plan are in it.
+
+    Raises
+    ------
+    errors.InputError
+        For a range beyond the launches of the plan, and for a plan that does not fit the space.
+    """
+    start, end = _ends(range, plan.points(space))
+    whole: Tally | None = None
+    for first in _starts(start, end):
+        part = _native.tally(space, plan, first, min(first + _SLICE, end), threads)
+        whole = part if whole is None else whole + part
+        if progress is not None:
+            progress(whole.range[1] - start, end - start)
+    assert whole is not None
+    return whole
+
+
+def _ends(given: tuple[int, int] | range | None, points: int) -> tuple[int, int]:
+    """The first launch and the one after the last."""
+    if given is None:
+        return 0, points
+    if isinstance(given, range):
+        if given.step != 1:
+            raise MalformedError(f"range = {given} has gaps", field="range", valid="a step of 1")
+        given = (given.start, given.stop)
+    start, end = given
+    if not 0 <= start <= end <= points:
+        valid = f"an ascending range of the {points} launches of the plan"
+        raise MalformedError(f"range = {start}..{end} can't be used: expected {valid}", field="range", valid=valid)
+    return start, end
+
+
+def _starts(start: int, end: int) -> Iterable[int]:
+    """The first launches of the slices; one even if there is no launch."""
+    return (start + _SLICE * index for index in range(max(1, math.ceil((end - start) / _SLICE))))
+
+
+def merge(parts: Iterable[Tally]) -> Estimate:
+    """The estimate from all parts of a plan, in any order.
+
+    Parameters
+    ----------
+    parts : iterable of Tally
+        Each launch of the plan has to be in one of them.
+
+    Returns
+    -------
+    Estimate
+        The same as that of the whole plan at once, to the last bit.
+
+    Raises
+    ------
+    errors.PartError
+        If a part is of another plan or space, if launches are missing, or if some are in two parts.
+    """
+    ordered = sorted(parts, key=lambda part: part.range)
+    if not ordered:
+        raise PartError("no part was given", field="parts", valid="all parts of a plan")
+    whole = ordered[0]
+    for part in ordered[1:]:
+        try:
+            whole = whole + part
+        except MalformedError as error:
+            raise PartError(str(error), field="parts", valid=error.valid) from None
+    return estimate(whole)
+
+
+def estimate(whole: Tally) -> Estimate:
+    """The estimate from a tally of all launches of its plan.
+
+    Parameters
+    ----------
+    whole : Tally
+        Of all launches.
+
+    Returns
+    -------
+    Estimate
+        The probability with its interval.
+
+    Raises
+    ------
+    errors.PartError
+        If launches are missing.
+    """
+    try:
+        return _estimate(whole._estimate(), whole.plan)
+    except MalformedError as error:
+        raise PartError(str(error), field="parts", valid=error.valid) from None
+
+
+def probability(
+    space: Space,
+    plan: Plan | None = None,
+    *,
+    accuracy: float | None = None,
+    solver: str | Solver | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    executor: Executor | Callable[[], Any] | None = None,
+    shards: int | None = None,
+    folder: str | PathLike[str] | None = None,
+    retries: int = 3,
+) -> Estimate:
+    """The probability of heads over a space of launches.
+
+    Parameters
+    ----------
+    space : Space
+        The distribution of the launches.
+    plan : Plan, optional
+        Which of them are tried; by default, the cheapest that serves for ``accuracy``.
+    accuracy : float, optional
+        Largest acceptable error if no plan is given; 1e-4 by default.
+    solver : str or Solver, optional
+        What decides the outcomes; by default the exact motion, which proves them. It needs a plan, and has no parts.
+    threads : int, optional
+        Number of threads, with an executor of each worker. By default one per core; with an executor, one.
+    progress : callable, optional
+        Called with the number of launches that are done, and of all.
+    executor : concurrent.futures.Executor, or a callable that makes one, optional
+        What computes the parts, such as ``ProcessPoolExecutor(2)`` or Dask's ``client.get_executor()``. A callable, such
+        as ``lambda: ProcessPoolExecutor(2)``, is called again after the death of a worker that breaks the executor.
+    shards : int, optional
+        Number of parts; by default of at most 10⁹ launches each, and eight or more. It does not change the result.
+    folder : path, optional
+        Where each part is kept as a file, as ``unfair-toss probability --shard`` writes it. A part that is there is not
+        computed again; a file that holds another part is refused.
+    retries : int
+        How often a part is computed again if its worker fails.
+
+    Returns
+    -------
+    Estimate
+        The probability with its interval, and the counts.
+
+    Raises
+    ------
+    errors.InputError
+        For a plan that does not fit the space, and for arguments that have no effect.
+    errors.PartError
+        For a part that is wrong.
+    """
+    parted = executor is not None or shards is not None or folder is not None
+    if plan is None:
+        if parted or solver is not None:
+            raise MalformedError("a plan is needed for parts and for a solver", field="plan", valid="a Plan")
+        return _planned(space, 1e-4 if accuracy is None else accuracy, threads, progress)
+    if accuracy is not None:
+        raise MalformedError("accuracy has no effect with a plan", field="accuracy", valid="None, or no plan")
+    if solver is not None:
+        if parted or progress is not None:
+            raise MalformedError("a solver has no parts and no progress", field="solver", valid="None, for parts")
+        return _estimate(_native.estimate_by_solver(space, plan, solver, threads), plan)
+    if plan.method == "quadrature" and not parted and progress is None:
+        return _estimate(_native.estimate_by_solver(space, plan, "exact", threads), plan)
+    if not parted:
+        return estimate(tally(space, plan, threads=threads, progress=progress))
+    parts = Parts(space, plan, shards, folder, threads, executor, retries, progress)
+    return merge(parts.computed())
+
+
+def _planned(
+    space: Space, accuracy: float, threads: int | None, progress: Callable[[int, int], object] | None
+) -> Estimate:
+    if progress is not None:
+        raise MalformedError("progress needs a plan", field="progress", valid="None, or a Plan")
+    values, plan = _native.estimate_by_accuracy(space, accuracy, threads)
+    return _estimate(values, plan)

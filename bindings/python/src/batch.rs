@@ -1,0 +1,287 @@
+//! Many launches of one body, as columns of NumPy. A coin is solved by the kernels of [`::toss::Batch`], in the widest
+//! registers of the machine; other bodies, and any body by a solver, launch by launch.
+
+use std::ops::Range;
+
+use ::toss::{Attitude, Backend, Error, Launch, Outcome, RigidToss, Stage, TimeOfFlight, Tosses, certify_rigid};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::body::body_of;
+use crate::errors::{Failure, malformed};
+use crate::solver::backend_of;
+use crate::threads;
+use crate::toss::{attitude_of, components_of};
+
+/// Launches that are interleaved or converted at a time, so that what is between stays in the cache.
+const BLOCK: usize = 512;
+
+/// What the launches of some columns have in common.
+#[pyclass(frozen, module = "unfair_toss._native")]
+pub(crate) struct Batch {
+    body: ::toss::Body,
+    attitude: Attitude,
+    gravity: f64,
+    /// Whether the last column has times of flight instead of speeds.
+    timed: bool,
+    /// `None` for the kernels.
+    solver: Option<Backend>,
+    pool: Option<rayon::ThreadPool>,
+}
+
+/// Counts of outcomes: heads, tails, undecided, and by stage of the proof where they are proven.
+type Counts = (u64, u64, u64, Option<[u64; Stage::ALL.len()]>);
+
+/// The columns of some launches, in Python's memory.
+type Column<'py> = Bound<'py, PyArray1<f64>>;
+
+#[pymethods]
+impl Batch {
+    #[new]
+    #[pyo3(signature = (body, *, tilt, attitude, gravity, timed, solver, threads))]
+    fn new(
+        body: &Bound<'_, PyAny>,
+        tilt: Option<f64>,
+        attitude: Option<&Bound<'_, PyAny>>,
+        gravity: f64,
+        timed: bool,
+        solver: Option<&Bound<'_, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Self> {
+        dynamics::error::require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
+        let attitude = attitude_of(tilt, attitude.map(components_of).transpose()?)?.unwrap_or(Attitude::IDENTITY);
+        let pool = if threads == Some(1) { None } else { Some(threads::pool(threads)?) };
+        let solver = solver.map(backend_of).transpose()?;
+        // With a gravity of 2 m/s², a speed is the time of flight.
+        let gravity = if timed { 2.0 } else { gravity };
+        Ok(Self { body: body_of(body)?.get().body, attitude, gravity, timed, solver, pool })
+    }
+
+    /// Whether the launches are solved by the kernels.
+    #[getter]
+    fn is_vectorised(&self) -> bool {
+        self.solver.is_none() && self.body.symmetric().is_some()
+    }
+
+    /// Writes cos θ at landing of the launches, whose first one has the index `first`.
+    fn cos_tilts(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
+        let columns = borrowed(&columns)?;
+        let launches = self.launches(&columns, first)?;
+        let mut out = out.try_readwrite().map_err(in_use)?;
+        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 1)?;
+        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 1, |range, out| launches.cos_tilts(range, out)))?)
+    }
+
+    /// Writes 1 for heads, -1 for tails and 0 for undecided launches.
+    fn outcomes(
+        &self,
+        py: Python<'_>,
+        columns: [Column<'_>; 4],
+        out: &Bound<'_, PyArray1<i8>>,
+        first: u64,
+    ) -> PyResult<()> {
+        let columns = borrowed(&columns)?;
+        let launches = self.launches(&columns, first)?;
+        let mut out = out.try_readwrite().map_err(in_use)?;
+        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 1)?;
+        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 1, |range, out| launches.outcomes(range, out)))?)
+    }
+
+    /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
+    fn attitudes(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
+        let columns = borrowed(&columns)?;
+        let launches = self.launches(&columns, first)?;
+        let mut out = out.try_readwrite().map_err(in_use)?;
+        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 4)?;
+        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 4, |range, out| launches.attitudes(range, out)))?)
+    }
+
+    /// Counts the outcomes.
+    fn count(&self, py: Python<'_>, columns: [Column<'_>; 4], first: u64) -> PyResult<Counts> {
+        let columns = borrowed(&columns)?;
+        let launches = self.launches(&columns, first)?;
+        let number = launches.speeds.len();
+        let counts = py.detach(|| threads::collect(self.pool.as_ref(), number, |range| launches.count(range)))?;
+        Ok(counts.into_iter().fold((0, 0, 0, Some([0; Stage::ALL.len()])), added))
+    }
+}
+
+/// The sum of counts; it is proven if both are.
+fn added(one: Counts, two: Counts) -> Counts {
+    let stages = one.3.zip(two.3).map(|(one, two)| std::array::from_fn(|stage| one[stage] + two[stage]));
+    (one.0 + two.0, one.1 + two.1, one.2 + two.2, stages)
+}
+
+/// The columns, for reading.
+fn borrowed<'py>(columns: &[Column<'py>; 4]) -> PyResult<[PyReadonlyArray1<'py, f64>; 4]> {
+    let [x, y, z, speeds] = columns.each_ref().map(|column| column.try_readonly().map_err(in_use));
+    Ok([x?, y?, z?, speeds?])
+}
+
+fn in_use(error: impl ToString) -> PyErr {
+    malformed("out", error.to_string(), "an array that can be written and that nothing else uses")
+}
+
+fn no_column(error: impl ToString) -> PyErr {
+    malformed("columns", error.to_string(), "contiguous columns")
+}
+
+impl Batch {
+    fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>; 4], first: u64) -> PyResult<Launches<'a>> {
+        let [x, y, z, speeds] = columns.each_ref().map(|column| column.as_slice().map_err(no_column));
+        let (rates, speeds) = ([x?, y?, z?], speeds?);
+        if rates.iter().any(|column| column.len() != speeds.len()) {
+            return Err(malformed("columns", "of different lengths", "as many rates of each kind as speeds"));
+        }
+        Ok(Launches { of: self, rates, speeds, first })
+    }
+}
+
+/// Launches whose columns are borrowed.
+struct Launches<'a> {
+    of: &'a Batch,
+    rates: [&'a [f64]; 3],
+    speeds: &'a [f64],
+    first: u64,
+}
+
+impl Launches<'_> {
+    /// `out` if it has `width` numbers for each launch.
+    fn fitting<'b, T>(&self, out: &'b mut [T], width: usize) -> PyResult<&'b mut [T]> {
+        if out.len() == width * self.speeds.len() {
+            return Ok(out);
+        }
+        Err(malformed("out", out.len(), "as many results as launches"))
+    }
+
+    /// The launches in `range` for the kernels; `None` if they are solved one by one.
+    fn batch(&self, range: Range<usize>) -> Result<Option<::toss::Batch<'_>>, Failure> {
+        let Batch { body, attitude, gravity, solver, .. } = self.of;
+        let Some(coin) = body.symmetric().filter(|_| solver.is_none()) else { return Ok(None) };
+        let rates = self.rates.map(|column| &column[range.clone()]);
+        let tosses = Tosses::new(coin, *attitude, *gravity, rates, &self.speeds[range])?;
+        Ok(Some(::toss::Batch::new(tosses)))
+    }
+
+    /// The failure of the kernels in the part that starts at `start`, in the words of a single launch.
+    fn failed(&self, start: usize, error: Error) -> Failure {
+        let error = error.after(start as u64);
+        if let Error::BadLaunch { index, .. } = error
+            && self.of.timed
+            && let Err(failure) = self.toss(usize::try_from(index).unwrap_or(usize::MAX))
+        {
+            return failure.at(self.first + index);
+        }
+        error.after(self.first).into()
+    }
+
+    fn toss(&self, index: usize) -> Result<RigidToss, Failure> {
+        let Batch { body, attitude, gravity, timed, .. } = self.of;
+        let speed = self.speeds[index];
+        let time =
+            if *timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::Ballistic { speed, gravity: *gravity } };
+        let launch = Launch::new(self.rates.map(|column| column[index]), time)?.with_attitude(*attitude);
+        Ok(RigidToss { body: *body, launch })
+    }
+
+    /// The result of `solve` for each launch in `range`, with its place.
+    fn each(
+        &self,
+        range: Range<usize>,
+        mut solve: impl FnMut(usize, &dyn ::toss::Solver, &RigidToss) -> Result<(), Error>,
+    ) -> Result<(), Failure> {
+        let solver = self.of.solver.as_ref().map_or(&::toss::ExactSolver as &dyn ::toss::Solver, Backend::solver);
+        for (place, index) in range.enumerate() {
+            let at = |failure: Failure| failure.at(self.first + index as u64);
+            let toss = self.toss(index).map_err(at)?;
+            solve(place, solver, &toss).map_err(|error| at(error.into()))?;
+        }
+        Ok(())
+    }
+
+    fn cos_tilts(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
+        let start = range.start;
+        match self.batch(range.clone())? {
+            Some(batch) => batch.cos_tilts(out).map_err(|error| self.failed(start, error)),
+            None => self.each(range, |place, solver, toss| {
+                out[place] = solver.cos_tilt_rigid(toss)?;
+                Ok(())
+            }),
+        }
+    }
+
+    fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
+        let start = range.start;
+        let mut block = [Outcome::Undecided; BLOCK];
+        let Some(_) = self.batch(0..0)? else {
+            return self.each(range, |place, solver, toss| {
+                out[place] = sign(solver.outcome_rigid(toss)?);
+                Ok(())
+            });
+        };
+        for (number, out) in out.chunks_mut(BLOCK).enumerate() {
+            let from = start + number * BLOCK;
+            let outcomes = &mut block[..out.len()];
+            if let Some(batch) = self.batch(from..from + out.len())? {
+                batch.outcomes(outcomes).map_err(|error| self.failed(from, error))?;
+            }
+            out.iter_mut().zip(outcomes).for_each(|(out, outcome)| *out = sign(*outcome));
+        }
+        Ok(())
+    }
+
+    fn attitudes(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
+        let start = range.start;
+        let Some(_) = self.batch(0..0)? else {
+            return self.each(range, |place, solver, toss| {
+                let landing = solver.propagate_rigid(toss)?.state.attitude;
+                out[4 * place..4 * place + 4].copy_from_slice(&landing.components());
+                Ok(())
+            });
+        };
+        let mut block = [[0.0; BLOCK]; 4];
+        for (number, out) in out.chunks_mut(4 * BLOCK).enumerate() {
+            let (from, length) = (start + number * BLOCK, out.len() / 4);
+            let [w, x, y, z] = block.each_mut().map(|column| &mut column[..length]);
+            if let Some(batch) = self.batch(from..from + length)? {
+                batch.attitudes([w, x, y, z]).map_err(|error| self.failed(from, error))?;
+            }
+            for (index, out) in out.chunks_exact_mut(4).enumerate() {
+                out.copy_from_slice(&block.each_ref().map(|column| column[index]));
+            }
+        }
+        Ok(())
+    }
+
+    fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
+        let start = range.start;
+        if let Some(batch) = self.batch(range.clone())? {
+            let counts = batch.count().map_err(|error| self.failed(start, error))?;
+            return Ok((counts.heads(), counts.tails(), counts.ties(), Some(Stage::ALL.map(|stage| counts.by(stage)))));
+        }
+        let mut faces = [0; 3];
+        let mut stages = [0; Stage::ALL.len()];
+        let proven = !matches!(self.of.solver, Some(Backend::Solver(_)));
+        self.each(range, |_, solver, toss| {
+            let outcome = if proven {
+                let certificate = certify_rigid(toss)?;
+                stages[certificate.stage() as usize] += 1;
+                certificate.outcome()
+            } else {
+                solver.outcome_rigid(toss)?
+            };
+            faces[outcome as usize] += 1;
+            Ok(())
+        })?;
+        Ok((faces[0], faces[1], faces[2], proven.then_some(stages)))
+    }
+}
+
+/// The sign of cos θ.
+fn sign(outcome: Outcome) -> i8 {
+    match outcome {
+        Outcome::Heads => 1,
+        Outcome::Tails => -1,
+        Outcome::Undecided => 0,
+    }
+}

@@ -1,0 +1,168 @@
+//! Rigid bodies, coins among them.
+
+use ::toss::catalogue::{CATALOGUE, named_coin};
+use ::toss::{Coin, InputError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::errors::Failure;
+
+/// A rigid body, by its inertia about the centre of mass.
+///
+/// The axes x, y, z are fixed in the body; z is the normal n of the side of heads. A body that is symmetric
+/// about z, with equal moments about x and y, is a coin. Make one by ``named``, ``cylinder``,
+/// ``from_moments`` or ``from_tensor``.
+#[pyclass(frozen, eq, module = "unfair_toss")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Body {
+    pub(crate) body: ::toss::Body,
+    origin: Origin,
+}
+
+/// The constructor that made a body, with its arguments.
+#[derive(Clone, PartialEq)]
+enum Origin {
+    Named(String),
+    Cylinder([f64; 3]),
+    Moments(Vec<f64>),
+    Tensor([[f64; 3]; 3]),
+}
+
+#[pymethods]
+impl Body {
+    /// A coin of the catalogue.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Such as ``"us-quarter"``; ``bodies()`` lists them.
+    #[staticmethod]
+    pub(crate) fn named(name: &str) -> PyResult<Self> {
+        let coin = named_coin(name).map_err(Failure::from)?;
+        Ok(Self { body: coin.into(), origin: Origin::Named(name.to_owned()) })
+    }
+
+    /// A homogeneous cylinder.
+    ///
+    /// Parameters
+    /// ----------
+    /// mass : float
+    ///     In kg, above 0.
+    /// radius : float
+    ///     In m, above 0.
+    /// thickness : float
+    ///     In m, at least 0.
+    #[staticmethod]
+    fn cylinder(mass: f64, radius: f64, thickness: f64) -> PyResult<Self> {
+        let coin = Coin::from_cylinder(mass, radius, thickness).map_err(Failure::from)?;
+        Ok(Self { body: coin.into(), origin: Origin::Cylinder([mass, radius, thickness]) })
+    }
+
+    /// A body whose principal axes are x, y and z.
+    ///
+    /// Parameters
+    /// ----------
+    /// moments : sequence of 2 or 3 floats
+    ///     I1, I3 of a coin, or I1, I2, I3, in kg m². None may exceed the sum of the other two.
+    #[staticmethod]
+    fn from_moments(moments: Vec<f64>) -> PyResult<Self> {
+        let body = ::toss::Body::from_listed_moments(&moments);
+        Ok(Self { body: body.map_err(Failure::from)?, origin: Origin::Moments(moments) })
+    }
+
+    /// A body with any inertia tensor.
+    ///
+    /// Parameters
+    /// ----------
+    /// tensor : array_like of shape (3, 3)
+    ///     Symmetric, in kg m², about the centre of mass; the element xy is -∫ x y dm.
+    #[staticmethod]
+    fn from_tensor(tensor: [[f64; 3]; 3]) -> PyResult<Self> {
+        let body = ::toss::Body::from_tensor(tensor).map_err(Failure::from)?;
+        Ok(Self { body, origin: Origin::Tensor(tensor) })
+    }
+
+    /// The inertia tensor, as nested lists of shape (3, 3), in kg m².
+    #[getter]
+    fn tensor(&self) -> [[f64; 3]; 3] {
+        self.body.tensor()
+    }
+
+    /// The moments I1, I2, I3 about x, y and z in kg m², if these are principal axes; else None.
+    #[getter]
+    fn moments(&self) -> Option<[f64; 3]> {
+        self.body.moments()
+    }
+
+    /// The principal moments in kg m², the smallest first.
+    #[getter]
+    fn principal_moments(&self) -> [f64; 3] {
+        self.body.principal_moments()
+    }
+
+    /// Whether the moments about x and y are equal, so that the body is a coin.
+    #[getter]
+    fn is_symmetric(&self) -> bool {
+        self.body.symmetric().is_some()
+    }
+
+    /// k = I3/I1 of a coin, from 0 (rod) to 2 (flat disc); None for other bodies.
+    #[getter]
+    fn inertia_ratio(&self) -> Option<f64> {
+        self.body.symmetric().map(|coin| coin.inertia_ratio())
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.origin {
+            Origin::Named(name) => format!("Body.named('{name}')"),
+            Origin::Cylinder([mass, radius, thickness]) => {
+                format!("Body.cylinder({mass:?}, {radius:?}, {thickness:?})")
+            }
+            Origin::Moments(moments) => format!("Body.from_moments({moments:?})"),
+            Origin::Tensor(tensor) => format!("Body.from_tensor({tensor:?})"),
+        }
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.body.principal_moments().iter().fold(0, |hash, moment| hash ^ moment.to_bits().rotate_left(7))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (constructor, arguments) = match &self.origin {
+            Origin::Named(name) => ("named", (name,).into_pyobject(py)?),
+            Origin::Cylinder(sizes) => ("cylinder", sizes[..].iter().copied().collect_tuple(py)?),
+            Origin::Moments(moments) => ("from_moments", (moments.clone(),).into_pyobject(py)?),
+            Origin::Tensor(tensor) => ("from_tensor", (*tensor,).into_pyobject(py)?),
+        };
+        Ok((py.get_type::<Self>().getattr(constructor)?, arguments))
+    }
+}
+
+/// Collects numbers into a tuple.
+trait CollectTuple: Iterator<Item = f64> + Sized {
+    fn collect_tuple(self, py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
+        PyTuple::new(py, self.collect::<Vec<f64>>())
+    }
+}
+
+impl<I: Iterator<Item = f64>> CollectTuple for I {}
+
+/// The body that an argument means: a name of the catalogue, or a [`Body`].
+pub(crate) fn body_of(argument: &Bound<'_, PyAny>) -> PyResult<Py<Body>> {
+    if let Ok(name) = argument.extract::<&str>() {
+        return Py::new(argument.py(), Body::named(name)?);
+    }
+    Ok(argument.cast::<Body>()?.clone().unbind())
+}
+
+/// The coin that a body is, for what is computed of coins alone.
+pub(crate) fn coin_of(body: &::toss::Body, why: &'static str) -> PyResult<Coin> {
+    let refused = InputError::OutsideModel { field: "body", why };
+    body.symmetric().ok_or_else(|| Failure::from(refused).into())
+}
+
+/// The names of the coins of the catalogue, each with a short description.
+#[pyfunction]
+pub(crate) fn bodies() -> Vec<(&'static str, &'static str)> {
+    CATALOGUE.iter().map(|entry| (entry.name, entry.description)).collect()
+}

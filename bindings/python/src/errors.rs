@@ -1,0 +1,108 @@
+//! Errors of the workspace as exceptions of Python: one class for each kind, all of them in `unfair_toss.errors`.
+
+use ::toss::{Error, InputError, SolveError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// An error, with the index of the launch that it is about.
+pub(crate) struct Failure {
+    pub(crate) error: Error,
+    /// Counted from 0; `None` for what is no launch of many.
+    pub(crate) index: Option<u64>,
+}
+
+/// What an exception says beside its message.
+#[derive(Default)]
+struct Details {
+    field: Option<&'static str>,
+    valid: Option<String>,
+}
+
+impl<E: Into<Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self { error: error.into(), index: None }
+    }
+}
+
+impl Failure {
+    /// The same failure, of the launch with this index.
+    pub(crate) fn at(self, index: u64) -> Self {
+        Self { index: Some(index), ..self }
+    }
+
+    /// The index of the launch, also where the error itself has it.
+    fn launch(&self) -> Option<u64> {
+        match &self.error {
+            Error::Launch { index, .. } | Error::BadLaunch { index, .. } => Some(*index),
+            _ => self.index,
+        }
+    }
+
+    fn message(&self) -> String {
+        match (self.index, &self.error) {
+            (_, Error::Launch { .. } | Error::BadLaunch { .. }) | (None, _) => self.error.to_string(),
+            (Some(index), error) => format!("launch {index}: {error}"),
+        }
+    }
+
+    fn exception(&self, py: Python<'_>) -> PyResult<PyErr> {
+        let (class, Details { field, valid }) = class_of(&self.error);
+        let kwargs = PyDict::new(py);
+        kwargs.set_item("field", field)?;
+        kwargs.set_item("index", self.launch())?;
+        kwargs.set_item("valid", valid)?;
+        let class = py.import("unfair_toss.errors")?.getattr(class)?;
+        Ok(PyErr::from_value(class.call((self.message(),), Some(&kwargs))?))
+    }
+}
+
+/// The exception of a failure, or what kept it from being made.
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        Python::attach(|py| failure.exception(py).unwrap_or_else(|error| error))
+    }
+}
+
+/// The exception of an input that only the bindings refuse.
+pub(crate) fn malformed(field: &'static str, value: impl ToString, expected: &'static str) -> PyErr {
+    Failure::from(InputError::Malformed { field, value: value.to_string(), expected }).into()
+}
+
+/// The name of the class of an error, and the details of the exception.
+fn class_of(error: &Error) -> (&'static str, Details) {
+    match error {
+        Error::Input(input) | Error::BadLaunch { source: input, .. } => class_of_input(input),
+        Error::Solve(solve) | Error::Launch { source: solve, .. } => (class_of_solve(solve), Details::default()),
+        Error::Text { .. } => ("TextError", Details::default()),
+        Error::NotReached { .. } => ("NotReachedError", Details { field: Some("accuracy"), valid: None }),
+        _ => ("TossError", Details { field: error.field(), valid: None }),
+    }
+}
+
+fn class_of_input(error: &InputError) -> (&'static str, Details) {
+    let (class, valid) = match error {
+        InputError::OutOfRange { valid, .. } => ("OutOfRangeError", Some((*valid).to_owned())),
+        InputError::Malformed { expected, .. } => ("MalformedError", Some((*expected).to_owned())),
+        InputError::Missing { expected, .. } => ("MissingError", Some((*expected).to_owned())),
+        InputError::OutsideModel { .. } => ("OutsideModelError", None),
+        InputError::NoBody { limit, .. } => ("NoBodyError", Some(format!("at most {limit}"))),
+        InputError::UnknownName { known, .. } => ("UnknownNameError", Some(known.clone())),
+        _ => ("InputError", None),
+    };
+    (class, Details { field: Some(error.field()), valid })
+}
+
+fn class_of_solve(error: &SolveError) -> &'static str {
+    match error {
+        SolveError::PhaseTooLarge { .. } => "PhaseTooLargeError",
+        SolveError::Singular { .. } => "SingularError",
+        SolveError::NotOffered { .. } => "NotOfferedError",
+        SolveError::NotSymmetric { .. } => "NotSymmetricError",
+        SolveError::StepLimit { .. } => "StepLimitError",
+        SolveError::StepSizeUnderflow { .. } => "StepSizeUnderflowError",
+        SolveError::NotFinite { .. } => "NotFiniteError",
+        SolveError::Misbehaved { .. } => "MisbehavedError",
+        SolveError::Failed { .. } => "FailedError",
+        _ => "SolveError",
+    }
+}

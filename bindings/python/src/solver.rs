@@ -1,0 +1,140 @@
+//! Solvers by name, with their settings.
+
+use ::toss::{Backend, Formulation, Registry, SolverConfig};
+use dynamics::StepControl;
+use pyo3::prelude::*;
+
+use crate::errors::{Failure, malformed};
+
+/// A solver with its settings.
+///
+/// Parameters
+/// ----------
+/// name : str
+///     ``"exact"``, or an integrator that ``solvers()`` lists.
+/// scheme : str, optional
+///     How an integrator steps, such as ``"dop853"`` or ``"taylor"``.
+/// rtol : float, optional
+///     Local error per step of an adaptive scheme, absolute and relative; 1e-10 by default.
+/// step : float, optional
+///     Equal steps of at most so many s, instead of a tolerance.
+/// formulation : str, optional
+///     From which axis an integrator measures its angles: ``"momentum"``, ``"vertical"`` or ``"raw"``.
+///
+/// A setting that the solver does not have is refused.
+#[pyclass(frozen, eq, module = "unfair_toss")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Solver {
+    config: SolverConfig,
+}
+
+#[pymethods]
+impl Solver {
+    #[new]
+    #[pyo3(signature = (name, *, scheme=None, rtol=None, step=None, formulation=None))]
+    fn new(
+        name: &str,
+        scheme: Option<&str>,
+        rtol: Option<f64>,
+        step: Option<f64>,
+        formulation: Option<&str>,
+    ) -> PyResult<Self> {
+        let mut config = SolverConfig::new(name);
+        if let Some(scheme) = scheme {
+            config = config.with_scheme(scheme);
+        }
+        if let Some(formulation) = formulation {
+            config = config.with_formulation(formulation.parse().map_err(Failure::from)?);
+        }
+        config = match (rtol, step) {
+            (Some(_), Some(_)) => return Err(malformed("step", "given with rtol", "either rtol or step")),
+            (Some(rtol), None) => config.with_tolerance(rtol).map_err(Failure::from)?,
+            (None, Some(step)) => config.with_step(step).map_err(Failure::from)?,
+            (None, None) => config,
+        };
+        let solver = Self { config };
+        solver.backend()?;
+        Ok(solver)
+    }
+
+    /// The name.
+    #[getter]
+    fn name(&self) -> &str {
+        self.config.name()
+    }
+
+    /// The scheme by which it steps, also where it was not given; None for a closed form.
+    #[getter]
+    fn scheme(&self) -> PyResult<Option<&'static str>> {
+        Ok(self.backend()?.solver().stepping().map(|stepping| stepping.scheme().name()))
+    }
+
+    /// The tolerance of an adaptive scheme, also where it was not given; else None.
+    #[getter]
+    fn rtol(&self) -> PyResult<Option<f64>> {
+        Ok(match self.backend()?.solver().stepping().map(|stepping| stepping.control()) {
+            Some(StepControl::Tolerance(tolerance)) => Some(tolerance),
+            _ => None,
+        })
+    }
+
+    /// The largest step of a scheme with equal steps in s, also where it was not given; else None.
+    #[getter]
+    fn step(&self) -> PyResult<Option<f64>> {
+        Ok(match self.backend()?.solver().stepping().map(|stepping| stepping.control()) {
+            Some(StepControl::Step(step)) => Some(step),
+            _ => None,
+        })
+    }
+
+    /// The formulation, if one was given.
+    #[getter]
+    fn formulation(&self) -> Option<&'static str> {
+        self.config.formulation().map(Formulation::name)
+    }
+
+    fn __repr__(&self) -> String {
+        let mut settings = format!("Solver('{}'", self.config.name());
+        if let Some(scheme) = self.config.scheme() {
+            settings += &format!(", scheme='{scheme}'");
+        }
+        match self.config.control() {
+            Some(StepControl::Tolerance(tolerance)) => settings += &format!(", rtol={tolerance:?}"),
+            Some(StepControl::Step(step)) => settings += &format!(", step={step:?}"),
+            None => {}
+        }
+        if let Some(formulation) = self.config.formulation() {
+            settings += &format!(", formulation='{}'", formulation.name());
+        }
+        settings + ")"
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.config.name().bytes().fold(0, |hash, byte| hash * 31 + u64::from(byte))
+    }
+}
+
+impl Solver {
+    pub(crate) fn backend(&self) -> PyResult<Backend> {
+        Ok(Registry::standard().configured(&self.config).map_err(Failure::from)?)
+    }
+}
+
+/// The solver that an argument means: a name, or a [`Solver`].
+pub(crate) fn backend_of(argument: &Bound<'_, PyAny>) -> PyResult<Backend> {
+    match argument.extract::<&str>() {
+        Ok(name) => Solver { config: SolverConfig::new(name) }.backend(),
+        Err(_) => argument.cast::<Solver>()?.get().backend(),
+    }
+}
+
+/// The solvers, each with what it solves and the names of its schemes and formulations.
+#[pyfunction]
+pub(crate) fn solvers() -> Vec<(String, String, Vec<&'static str>, Vec<&'static str>)> {
+    let row = |entry: &::toss::SolverEntry| {
+        let schemes = entry.schemes().iter().map(|scheme| scheme.name()).collect();
+        let formulations = entry.formulations().iter().map(|formulation| formulation.name()).collect();
+        (entry.name().to_owned(), entry.summary().to_owned(), schemes, formulations)
+    };
+    Registry::standard().entries().iter().map(row).collect()
+}

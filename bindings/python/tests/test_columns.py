@@ -1,0 +1,295 @@
+"""Columns of launches: right in every layout, and an exception for every input that is none."""
+
+import threading
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import unfair_toss as ut
+from unfair_toss import errors
+
+X = np.array([1.0, 20.0, 0.0, -3.0])
+Y = np.array([1.0, 3.0, 30.0, 4.0])
+Z = np.array([2.5, 1.0, 0.0, 5.0])
+V = np.array([3.0, 2.0, 4.0, 5.0])
+
+
+def single(**settings):
+    return [ut.toss(ut.Toss((x, y, z), speed=v, **settings)) for x, y, z, v in zip(X, Y, Z, V, strict=True)]
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"tilt": 0.7},
+        {"attitude": (0.5, 0.1, -0.3, 2.0)},
+        {"attitude": Rotation.from_rotvec([0.3, 0.2, -1.0])},
+        {"body": "us-quarter", "gravity": 1.62},
+        {"body": ut.Body.from_moments((1.0, 1.5, 2.0))},
+        {"body": ut.Body.from_tensor([[2.0, 0.1, 0.2], [0.1, 2.5, 0.3], [0.2, 0.3, 3.0]]), "tilt": -0.4},
+    ],
+)
+def test_columns_are_the_landings_of_single_tosses(settings):
+    expected = single(**settings)
+    names = {1: "heads", -1: "tails", 0: "undecided"}
+    cos_tilt, faces = ut.cos_tilt(X, Y, Z, V, **settings), ut.outcome(X, Y, Z, V, **settings)
+    attitudes = ut.attitude(X, Y, Z, V, **settings)
+    assert np.abs(cos_tilt - [landing.cos_tilt for landing in expected]).max() < 1e-15
+    assert [names[face] for face in faces] == [landing.outcome for landing in expected]
+    turns = Rotation.from_quat(attitudes, scalar_first=True) * Rotation.from_quat(
+        [landing.attitude for landing in expected], scalar_first=True
+    ).inv()
+    assert turns.magnitude().max() < 3e-15
+    counts = ut.count(X, Y, Z, V, **settings)
+    assert (counts.heads, counts.tails, counts.certified) == ((faces == 1).sum(), (faces == -1).sum(), True)
+    assert sum(counts.proven_by.values()) == counts.points == 4
+
+
+def test_the_exact_solver_gives_the_bits_of_single_tosses():
+    assert (ut.cos_tilt(X, Y, Z, V, solver="exact") == [landing.cos_tilt for landing in single()]).all()
+    by_name = ut.cos_tilt(X, Y, Z, V, solver="quaternion")
+    assert (by_name == ut.cos_tilt(X, Y, Z, V, solver=ut.Solver("quaternion"))).all()
+    assert 0 < np.abs(by_name - ut.cos_tilt(X, Y, Z, V)).max() < 1e-8
+    counts = ut.count(X, Y, Z, V, solver="quaternion")
+    assert (counts.certified, counts.proven_by, counts.points) == (False, None, 4)
+
+
+def test_a_time_is_a_speed_without_gravity():
+    time = 2.0 * V / 9.81
+    assert np.abs(ut.cos_tilt(X, Y, Z, time=time) - ut.cos_tilt(X, Y, Z, V)).max() < 1e-14
+    single = [ut.toss(ut.Toss((x, y, z), time=t)).cos_tilt for x, y, z, t in zip(X, Y, Z, time, strict=True)]
+    assert np.abs(ut.cos_tilt(X, Y, Z, time=time) - single).max() < 1e-15
+
+
+def layouts(column):
+    """The same column in other layouts and types."""
+    spread = np.full(3 * column.size, np.nan)
+    spread[::3] = column
+    unaligned = np.zeros(8 * column.size + 1, np.uint8)
+    unaligned[1:] = np.frombuffer(column.tobytes(), np.uint8)
+    frozen = column.copy()
+    frozen.flags.writeable = False
+    return {
+        "list": column.tolist(),
+        "strided": spread[::3],
+        "reversed": column[::-1].copy()[::-1],
+        "unaligned": unaligned[1:].view(np.float64),
+        "big-endian": column.astype(">f8"),
+        "longdouble": column.astype(np.longdouble),
+        "object": np.array([Fraction(value) for value in column.tolist()], dtype=object),
+        "read-only": frozen,
+        "matrix": np.array([column, column])[0],
+        "record": np.array([(value, 0) for value in column.tolist()], dtype=[("a", "f8"), ("b", "i1")])["a"],
+    }
+
+
+@pytest.mark.parametrize("name", list(layouts(X)))
+@pytest.mark.parametrize("function", [ut.cos_tilt, ut.outcome, ut.attitude])
+def test_no_layout_changes_a_bit(function, name):
+    expected = function(X, Y, Z, V)
+    assert (function(*(layouts(column)[name] for column in (X, Y, Z, V))) == expected).all()
+    assert (function(X, layouts(Y)[name], Z, V) == expected).all()
+
+
+def test_columns_broadcast():
+    expected = ut.cos_tilt(*(column.reshape(-1).copy() for column in np.broadcast_arrays(X[:, None], Y, 2.5, 3)))
+    found = ut.cos_tilt(X[:, None], Y, 2.5, 3)
+    assert found.shape == (4, 4) and (found.reshape(-1) == expected).all()
+    assert (ut.cos_tilt(np.asfortranarray(np.tile(X[:, None], 4)), Y, 2.5, 3) == found).all()
+    assert ut.attitude(X[:, None, None], Y[:, None], Z, 3).shape == (4, 4, 4, 4)
+    assert ut.cos_tilt(1.0, 1.0, 2.5, 3.0).shape == () and ut.cos_tilt(X[:0], 1.0, 2.5, 3.0).shape == (0,)
+    assert ut.count(X[:0], 1, 2, 3).points == 0 and not ut.count(X[:0], 1, 2, 3).certified
+    with pytest.raises(errors.MalformedError, match="don't broadcast"):
+        ut.cos_tilt(X, Y[:3], Z, V)
+
+
+def test_many_launches_are_the_same_in_any_blocks_and_on_any_threads(launches):
+    x, y, z, speed = (column[:200_003] for column in launches)
+    whole = ut.cos_tilt(x, y, z, speed)
+    wide = np.stack([x, y, z, speed], axis=1)
+    for threads in (1, 2, 3, None):
+        assert (ut.cos_tilt(x, y, z, speed, threads=threads) == whole).all()
+        assert (ut.cos_tilt(*wide.T, threads=threads) == whole).all()
+        assert (ut.outcome(x, y, z, speed, threads=threads) == np.sign(whole)).all()
+        counts = ut.count(*wide.T, threads=threads)
+        assert (counts.heads, counts.tails) == ((whole > 0).sum(), (whole < 0).sum())
+    part = [column[:3000] for column in (x, y, z, speed)]
+    for solver in ("exact", "quaternion"):
+        one, two = (ut.attitude(*part, solver=solver, threads=threads) for threads in (1, 2))
+        assert (one == two).all()
+
+
+def test_results_go_where_they_are_wanted():
+    expected = ut.cos_tilt(X, Y, Z, V)
+    out = np.full(4, np.nan)
+    assert ut.cos_tilt(X, Y, Z, V, out=out) is out and (out == expected).all()
+    spread = np.full((4, 3), 7.0)
+    ut.cos_tilt(X, Y, Z, V, out=spread[:, 1])
+    assert (spread[:, 1] == expected).all() and (spread[:, ::2] == 7.0).all()
+    quaternions = np.empty((4, 4), order="F")
+    assert (ut.attitude(X, Y, Z, V, out=quaternions) == ut.attitude(X, Y, Z, V)).all()
+    faces = np.empty(4, np.int8)
+    assert (ut.outcome(X, Y, Z, V, out=faces) == [1, -1, 1, -1]).all() or (faces == np.sign(expected)).all()
+
+
+def test_a_result_may_overlap_the_input():
+    expected = ut.cos_tilt(X, Y, Z, V)
+    column = X.copy()
+    assert (ut.cos_tilt(column, Y, Z, V, out=column) == expected).all()
+    memory = np.concatenate([X, np.zeros(4)])
+    assert (ut.cos_tilt(memory[:4], Y, Z, V, out=memory[2:6]) == expected).all()
+    square = np.stack([X, Y, Z, V])
+    expected = ut.attitude(*square.copy())
+    assert (ut.attitude(*square, out=square) == expected).all()
+    assert (ut.cos_tilt(X, X, X, V) == ut.cos_tilt(X, X.copy(), X.copy(), V)).all()
+
+
+@pytest.mark.parametrize(
+    ("out", "words"),
+    [
+        (np.empty(3), "expected is float64"),
+        (np.empty(4, np.float32), "expected is float64"),
+        (np.empty((4, 1)), "expected is float64"),
+        ([0.0] * 4, "no array"),
+        (np.ma.zeros(4), "no array"),
+        (np.broadcast_to(np.float64(0.0), 4), "read-only"),
+        (np.zeros(4, ">f8"), "expected is float64"),
+    ],
+)
+def test_a_place_for_results_that_does_not_fit_is_refused(out, words):
+    with pytest.raises(errors.MalformedError, match=words) as caught:
+        ut.cos_tilt(X, Y, Z, V, out=out)
+    assert caught.value.field == "out"
+
+
+@pytest.mark.parametrize(
+    "column",
+    [
+        np.array(["1", "2", "3", "4"]),
+        np.array([1j, 2, 3, 4]),
+        np.array([True, False, True, False]),
+        np.array(["2020-01-01"] * 4, dtype="M8[D]"),
+        np.ma.masked_greater(X, 10.0),
+        [[1.0], [2.0, 3.0]],
+        [10**400, 1, 2, 3],
+        object(),
+        "speed",
+    ],
+    ids=repr,
+)
+def test_columns_that_are_no_real_numbers_are_refused(column):
+    for place in range(4):
+        columns = [X, Y, Z, V]
+        columns[place] = column
+        with pytest.raises(errors.MalformedError) as caught:
+            ut.cos_tilt(*columns)
+        assert caught.value.field == ("rate_x", "rate_y", "rate_z", "speed")[place]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("function", [ut.cos_tilt, ut.outcome, ut.attitude, ut.count])
+def test_the_first_impossible_launch_is_named(function, threads, bad, launches):
+    columns = [column[:150_000].copy() for column in launches]
+    columns[2][100_001] = bad
+    columns[0][140_000] = bad
+    for settings in ({}, {"tilt": 0.3}):
+        with pytest.raises(errors.OutOfRangeError, match="launch 100001: rate z") as caught:
+            function(*columns, threads=threads, **settings)
+        assert (caught.value.field, caught.value.index, caught.value.valid) == ("rate z [rad/s]", 100_001, "finite")
+    few = [column[100_000:100_002] for column in columns]
+    with pytest.raises(errors.OutOfRangeError) as caught:
+        function(*few, threads=threads, body=ut.Body.from_moments((1.0, 1.5, 2.0)))
+    assert (caught.value.index, isinstance(caught.value, ValueError)) == (1, True)
+
+
+def test_a_negative_speed_or_time_is_named_as_it_was_given():
+    for name, field in [("speed", "speed [m/s]"), ("time", "time [s]")]:
+        with pytest.raises(errors.OutOfRangeError) as caught:
+            ut.outcome(X, Y, Z, **{name: np.array([1.0, 2.0, -1.0, -2.0])})
+        assert (caught.value.field, caught.value.index) == (field, 2)
+    with pytest.raises(errors.PhaseTooLargeError) as caught:
+        ut.cos_tilt(X * 1e17, Y, Z, V)
+    assert caught.value.index == 0 and isinstance(caught.value, RuntimeError)
+
+
+@pytest.mark.parametrize(
+    ("settings", "field"),
+    [
+        ({"gravity": 0.0}, "gravity [m/s²]"),
+        ({"tilt": np.nan}, "tilt [rad]"),
+        ({"tilt": 0.1, "attitude": (1, 0, 0, 0)}, "attitude"),
+        ({"attitude": (0, 0, 0, 0)}, "attitude (largest component)"),
+        ({"threads": 0}, "threads"),
+        ({"threads": 5000}, "threads"),
+        ({"body": "groat"}, "coin"),
+        ({"solver": "magic"}, "solver"),
+        ({"time": V}, "speed"),
+    ],
+)
+def test_impossible_settings_are_refused(settings, field):
+    with pytest.raises(errors.InputError) as caught:
+        ut.cos_tilt(X, Y, Z, V, **settings)
+    assert caught.value.field == field
+
+
+def test_an_argument_without_effect_is_refused():
+    with pytest.raises(errors.MalformedError, match="gravity has no effect"):
+        ut.cos_tilt(X, Y, Z, time=V, gravity=9.81)
+    with pytest.raises(errors.MalformedError, match="one of speed and time"):
+        ut.cos_tilt(X, Y, Z)
+
+
+def test_a_billion_launches_that_are_all_the_same_need_no_memory():
+    many = np.broadcast_to(1.0, 10**9)
+    counts = ut.count(many, many, 2.5, 3.0)
+    assert (counts.heads, counts.tails, counts.undecided) == (10**9, 0, 0)
+    with pytest.raises(errors.OutOfRangeError) as caught:
+        ut.count(np.broadcast_to(np.nan, 10**9), many, 2.5, 3.0)
+    assert caught.value.index == 0
+
+
+def test_the_lock_of_python_is_released(launches):
+    done = threading.Event()
+    others = 0
+
+    def compute():
+        for _ in range(20):
+            ut.attitude(*launches, solver=None)
+        done.set()
+
+    worker = threading.Thread(target=compute)
+    worker.start()
+    start = time.perf_counter()
+    longest, last = 0.0, start
+    while not done.is_set():
+        time.sleep(0)
+        now = time.perf_counter()
+        longest, last, others = max(longest, now - last), now, others + 1
+    worker.join()
+    # With the lock held, this thread would get a turn after a call only.
+    assert others > 200, (others, longest)
+
+
+def test_two_threads_may_read_the_same_columns_but_not_write_the_same_result(launches):
+    out, failures = np.empty(1_000_000), []
+
+    def compute():
+        try:
+            for _ in range(5):
+                ut.cos_tilt(*launches, out=out)
+        except errors.MalformedError as error:
+            failures.append(error.field)
+
+    workers = [threading.Thread(target=compute) for _ in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    # Refused, or one after the other; never a crash.
+    assert set(failures) <= {"out"}
+    assert (out[:1000] == ut.cos_tilt(*(column[:1000] for column in launches))).all()

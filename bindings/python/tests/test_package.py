@@ -1,0 +1,89 @@
+"""The package: fast to import, fast to run, documented and typed, and its README's lines run."""
+
+import inspect
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from time import process_time_ns
+
+import numpy as np
+import pytest
+
+import unfair_toss as ut
+
+from conftest import ROOT
+
+
+def python_blocks(page: Path) -> list[str]:
+    return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md"])
+def test_the_lines_of_the_readme_run(page):
+    blocks = python_blocks(ROOT / page)
+    assert blocks
+    for block in blocks:
+        exec(compile(block, page, "exec"), {})
+
+
+def test_everything_public_is_documented_with_units_and_errors():
+    for name in ut.__all__:
+        thing = getattr(ut, name)
+        if name in ("__version__",):
+            continue
+        assert inspect.getdoc(thing), name
+        if inspect.isfunction(thing):
+            text = inspect.getdoc(thing)
+            for word in ("Parameters", "Returns", "Raises"):
+                assert f"{word}\n{'-' * len(word)}" in text, f"{name}: {word}"
+            for parameter in inspect.signature(thing).parameters:
+                assert re.search(rf"\b{parameter}\b", text), f"{name}: {parameter}"
+    assert (Path(ut.__file__).parent / "py.typed").exists()
+
+
+def test_each_exception_is_a_value_error_or_a_runtime_error():
+    for name, kind in inspect.getmembers(ut.errors, inspect.isclass):
+        if issubclass(kind, ut.errors.TossError) and kind is not ut.errors.TossError:
+            assert issubclass(kind, ValueError) != issubclass(kind, RuntimeError), name
+
+
+def test_the_import_takes_less_than_50_ms_beyond_numpys():
+    code = (
+        "import numpy, concurrent.futures, tempfile, time; start = time.process_time(); import unfair_toss; "
+        "print(time.process_time() - start)"
+    )
+    times = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(5)]
+    assert min(times) < 0.05, times
+    modules = subprocess.check_output([sys.executable, "-c", "import sys, unfair_toss; print(*sys.modules)"], text=True)
+    assert not {"scipy", "matplotlib", "dask", "distributed"} & set(modules.split())
+
+
+def best(work, repeats=7):
+    """The shortest time of the processor in ns."""
+    times = []
+    for _ in range(repeats):
+        start = process_time_ns()
+        work()
+        times.append(process_time_ns() - start)
+    return min(times)
+
+
+def closed_form(x, y, z, speed):
+    """cos θ by NumPy, as the README has it."""
+    along, across = 0.5 * z, x * x + y * y
+    square = across + along * along
+    part = along * along / square
+    return part + (1.0 - part) * np.cos(np.sqrt(square) * (2.0 * speed / 9.81))
+
+
+def test_columns_are_much_faster_than_numpy(launches):
+    out = np.empty(1_000_000)
+    assert np.abs(ut.cos_tilt(*launches) - closed_form(*launches)).max() < 1e-12
+    numpy = best(lambda: closed_form(*launches))
+    times = {"cos θ": best(lambda: ut.cos_tilt(*launches, out=out)), "counts": best(lambda: ut.count(*launches))}
+    shown = {name: round(numpy / time, 1) for name, time in times.items()}
+    print(f"NumPy {numpy / 1e6:.1f} ns a toss; times faster: {json.dumps(shown, ensure_ascii=False)}")
+    # The ratio is above 20 with AVX-512; a machine without it, or a busy one, has less.
+    assert min(shown.values()) > 5

@@ -1,0 +1,211 @@
+"""Single tosses: the same numbers as the command line, and results that travel."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import unfair_toss as ut
+from unfair_toss import errors
+
+CHEATED = ut.Toss((1.0, 1.0, 2.5), speed=3.0)
+BOOK = ut.Body.from_moments((1.0, 2.0, 2.8))
+TILTED = ut.Body.from_tensor([[2.0, 0.1, 0.2], [0.1, 2.5, 0.3], [0.2, 0.3, 3.0]])
+
+
+@pytest.mark.parametrize("solver", ["exact", "gamma", "euler", "quaternion"])
+@pytest.mark.parametrize(
+    ("arguments", "toss"),
+    [
+        (["--rate", "1,1,2.5", "--speed", "3"], CHEATED),
+        (
+            ["--rate", "12,-7,20", "--speed", "4", "--tilt", "1", "--drop", "0.5", "--gravity", "1.62", "--coin", "disc"],
+            ut.Toss((12, -7, 20), speed=4, tilt=1, drop=0.5, gravity=1.62, body="disc"),
+        ),
+        (
+            ["--rate", "9,4,3", "--time", "1.5", "--cylinder", "0.00567,0.01213,0.00175"],
+            ut.Toss((9, 4, 3), time=1.5, body=ut.Body.cylinder(0.00567, 0.01213, 0.00175)),
+        ),
+    ],
+)
+def test_a_toss_has_the_bits_of_the_command_line(ask, arguments, toss, solver):
+    expected = ask("toss", *arguments, "--solver", solver)
+    found = ut.toss(toss, solver)
+    assert (found.cos_tilt, found.outcome) == (expected["cos_tilt"], expected["outcome"])
+    assert (found.certified, found.flight_time) == (expected["certified"], expected["flight_time"])
+    assert (found.attitude.tolist(), found.rate.tolist()) == (expected["attitude"], expected["rate"])
+    assert (found.norm_error, found.scheme) == (expected["norm_error"], expected["scheme"])
+    assert vars(found.work) == expected["work"]
+    margins = ut.margins(toss)
+    assert {name: expected["margin"][name] for name in ("time", "speed", "gravity", "tilt")} == {
+        name: getattr(margins, name) for name in ("time", "speed", "gravity", "tilt")
+    }
+    assert (list(margins.rate), list(margins.rate_range)) == (
+        expected["margin"]["rate"],
+        expected["margin"]["rate_range"],
+    )
+
+
+def test_a_trace_has_the_bits_of_the_command_line(ask):
+    for solver in ("exact", "quaternion"):
+        points = ask("trace", "--rate", "9,4,3", "--time", "1.5", "--points", "31", "--solver", solver)["points"]
+        trace = ut.trace(ut.Toss((9, 4, 3), time=1.5), 31, solver=solver)
+        assert trace.t.tolist() == [point["time"] for point in points]
+        assert trace.attitude.tolist() == [point["attitude"] for point in points]
+        assert trace.angles.tolist() == [[point["alpha"], point["beta"], point["gamma"]] for point in points]
+        assert trace.normal.tolist() == [point["normal"] for point in points]
+        assert trace.face.tolist() == [point["face"] for point in points]
+        assert trace.cos_tilt.tolist() == [point["cos_tilt"] for point in points]
+    assert ut.trace(CHEATED, dt=0.1).t[-1] == CHEATED.flight_time
+    for arguments in ({}, {"points": 3, "dt": 0.1}, {"points": 1}, {"dt": 0.0}):
+        with pytest.raises(errors.InputError):
+            ut.trace(CHEATED, **arguments)
+
+
+def test_intervals_inverse_and_plan_have_the_bits_of_the_command_line(ask):
+    expected = ask("intervals", "--rate", "20,5,3", "--speed", "3:9", "--drop", "1.3")
+    found = ut.intervals(ut.Toss((20, 5, 3), speed=9, drop=1.3), 3)
+    assert (found.heads.tolist(), found.probability) == (expected["heads"], expected["probability"])
+    expected = ask("inverse", "--probability", "0.8", "--coin", "us-quarter")
+    assert {name: expected[name] for name in vars(ut.inverse(0.8))} == vars(ut.inverse(0.8, "us-quarter"))
+    expected = ask("plan", "--want", "attitude", "--accuracy", "1e-6", "--rate", "1,1,2.5", "--speed", "3", "--solver", "euler")
+    found = ut.plan("attitude", CHEATED, 1e-6, solver="euler")
+    for name in ("model", "solver", "scheme", "tolerance", "points", "expected_error", "expected_cost_ns"):
+        assert getattr(found, name) == expected[name], name
+    assert [{"model": model, "why": why} for model, why in found.passed_over] == expected["passed_over"]
+    expected = ask("plan", "--want", "probability", "--accuracy", "1e-4", "--space", "paper-fig4")
+    found = ut.plan("probability", ut.Space.named("paper-fig4"), 1e-4)
+    assert (found.method, found.points) == (expected["method"], expected["points"])
+
+
+def test_a_speed_is_in_an_interval_of_heads_if_it_lands_heads():
+    fast = ut.Toss((20, 5, 3), speed=9, drop=1.3)
+    heads = ut.intervals(fast, 3).heads
+    for speed in np.linspace(3.0, 9.0, 200):
+        inside = bool(((heads[:, 0] <= speed) & (speed <= heads[:, 1])).any())
+        assert inside == (ut.toss(ut.Toss((20, 5, 3), speed=speed, drop=1.3)).outcome == "heads")
+    with pytest.raises(errors.OutOfRangeError, match="slowest"):
+        ut.intervals(fast, 9.0)
+    with pytest.raises(errors.MalformedError, match="given by a time"):
+        ut.intervals(ut.Toss((20, 5, 3), time=1))
+
+
+def test_a_margin_is_where_the_outcome_flips():
+    margins = ut.margins(CHEATED)
+    for relative, outcome in [(1 - 1e-9, "heads"), (1 + 1e-9, "tails")]:
+        assert ut.toss(ut.Toss((1, 1, 2.5), speed=3 + relative * margins.speed)).outcome == outcome
+        assert ut.toss(ut.Toss((1 + relative * margins.rate[0], 1, 2.5), speed=3)).outcome == outcome
+
+
+@pytest.mark.parametrize("body", [BOOK, TILTED])
+def test_any_body_has_proven_outcomes(body):
+    for time in np.linspace(0.1, 9.0, 30):
+        landing = ut.toss(ut.Toss((0.3, 5.0, 0.1), time=time, body=body))
+        assert landing.certified and landing.outcome == ("heads" if landing.cos_tilt > 0 else "tails")
+        turned = Rotation.from_quat(landing.attitude, scalar_first=True).as_matrix()
+        assert abs(turned[2, 2] - landing.cos_tilt) < 1e-14
+    tensor = np.array(body.tensor)
+    # The angular momentum is the same in the laboratory, and so is the energy.
+    start, end = np.array([0.3, 5.0, 0.1]), landing.rate
+    assert np.abs(turned @ tensor @ end - tensor @ start).max() < 1e-13
+    assert abs(start @ tensor @ start - end @ tensor @ end) < 1e-12
+
+
+def test_margins_and_intervals_of_any_body_are_where_it_flips():
+    book = ut.Toss((0.3, 5.0, 0.1), speed=3, body=BOOK)
+    margins, heads = ut.margins(book), ut.intervals(book, 1.0).heads
+    names = {ut.toss(ut.Toss((0.3, 5, 0.1), speed=3 + part * margins.speed, body=BOOK)).outcome for part in (1 - 1e-9, 1 + 1e-9)}
+    assert names == {"heads", "tails"}
+    for speed in np.linspace(1.0, 3.0, 50):
+        inside = bool(((heads[:, 0] <= speed) & (speed <= heads[:, 1])).any())
+        assert inside == (ut.toss(ut.Toss((0.3, 5, 0.1), speed=speed, body=BOOK)).outcome == "heads")
+
+
+def test_a_trace_and_a_plan_take_any_body():
+    toss = ut.Toss((1, 2, 3), speed=3, body=BOOK)
+    landing = ut.trace(toss, 5)
+    assert ut.plan("tilt", toss, 1e-6) is not None
+    assert landing.cos_tilt[-1] == pytest.approx(ut.toss(toss).cos_tilt, abs=1e-14)
+
+
+def test_a_body_says_what_it_is():
+    quarter = ut.Body.named("us-quarter")
+    assert quarter.is_symmetric and 1.9 < quarter.inertia_ratio < 2.0
+    assert (BOOK.moments, BOOK.inertia_ratio, BOOK.is_symmetric) == ([1.0, 2.0, 2.8], None, False)
+    assert TILTED.moments is None and sorted(np.linalg.eigvalsh(TILTED.tensor)) == pytest.approx(TILTED.principal_moments)
+    assert dict(ut.bodies())["us-quarter"] and "quaternion" in [row[0] for row in ut.solvers()]
+    with pytest.raises(errors.NoBodyError) as caught:
+        ut.Body.from_moments((1, 1.5, 3.5))
+    assert caught.value.valid == "at most I1 + I2"
+    with pytest.raises(errors.UnknownNameError) as caught:
+        ut.Body.named("groat")
+    assert "us-quarter" in caught.value.valid
+    with pytest.raises(errors.MalformedError):
+        ut.Body.from_tensor([[1, 0.1, 0], [0.2, 1, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [
+        CHEATED,
+        ut.Toss((1.0, 2.0, 3.0), time=0.5, attitude=(1.0, 2.0, 0.0, 0.5), body=TILTED),
+        ut.Toss((1.0, 2.0, 3.0), speed=0.5, drop=1.0, tilt=0.1, gravity=9.0, body=ut.Body.cylinder(0.1, 0.2, 0.3)),
+        BOOK,
+        TILTED,
+        ut.Body.named("us-quarter"),
+        ut.Space(rate_x=(0.1, 0.7, 7), rate_y="x", rate_z=1 / 3, speed="normal:4:0.1", body="us-quarter", drop=0.1),
+        ut.Plan.sobol(64, scrambles=4, seed=7),
+        ut.tally(ut.Space.named("paper-fig4"), ut.Plan.exact_speed(64), (3, 40)),
+    ],
+    ids=lambda thing: type(thing).__name__,
+)
+def test_things_travel_to_other_processes(thing):
+    again = pickle.loads(pickle.dumps(thing))
+    assert again == thing and again is not thing and copy.deepcopy(thing) == thing
+    assert type(thing).__name__ in repr(thing)
+    if not isinstance(thing, ut.Tally):
+        assert hash(again) == hash(thing)
+
+
+def test_exceptions_travel_to_other_processes():
+    with pytest.raises(errors.OutOfRangeError) as caught:
+        ut.cos_tilt([1, 2], 1, 1, [1, -1])
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (type(again), str(again)) == (errors.OutOfRangeError, str(caught.value))
+    assert (again.field, again.index, again.valid) == ("speed [m/s]", 1, "finite and >= 0")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "field"),
+    [
+        ({}, errors.MalformedError, "speed"),
+        ({"speed": 3, "time": 1}, errors.MalformedError, "time"),
+        ({"time": 1, "gravity": 9}, errors.MalformedError, "gravity"),
+        ({"time": 1, "drop": 9}, errors.MalformedError, "drop"),
+        ({"speed": -1}, errors.OutOfRangeError, "speed [m/s]"),
+        ({"speed": 1, "drop": -9}, errors.OutOfRangeError, "drop [m]"),
+        ({"speed": 1, "tilt": float("inf")}, errors.OutOfRangeError, "tilt [rad]"),
+        ({"speed": 1, "body": "groat"}, errors.UnknownNameError, "coin"),
+    ],
+)
+def test_an_impossible_toss_is_refused(arguments, kind, field):
+    with pytest.raises(kind) as caught:
+        ut.Toss((1, 1, 2.5), **arguments)
+    assert (caught.value.field, caught.value.index) == (field, None)
+
+
+@pytest.mark.parametrize("rate", [(1, 2), "abc", None, (1, 2, "x"), np.ones((3, 3))])
+def test_a_rate_that_is_no_vector_is_a_type_or_value_error(rate):
+    with pytest.raises((TypeError, ValueError)):
+        ut.Toss(rate, speed=1)
+
+
+def test_a_rotation_is_an_attitude_without_reordering():
+    turn = Rotation.from_rotvec([0.3, 0.2, -1.0])
+    toss = ut.Toss((1, 2, 3), time=0.0, attitude=turn)
+    landing = Rotation.from_quat(ut.toss(toss).attitude, scalar_first=True)
+    assert (landing * turn.inv()).magnitude() < 1e-15
+    with pytest.raises(TypeError, match="single rotation"):
+        ut.Toss((1, 2, 3), time=0.0, attitude=Rotation.from_rotvec(np.zeros((2, 3))))

@@ -1,0 +1,119 @@
+"""Solvers in SciPy's words, and SciPy's own beside them."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+import unfair_toss as ut
+from unfair_toss import errors
+
+TOSS = ut.Toss((9.0, 4.0, 3.0), time=1.5, tilt=0.4)
+
+
+def rotation(_, y, k):
+    """The slope of many attitudes and rates in one vector: Q' = ½ Q ⊗ (0, ω), and Euler's equations for a coin."""
+    w, x, y, z, a, b, c = y.reshape(7, -1)
+    half = [-(x * a + y * b + z * c), w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a]
+    return np.concatenate([*(0.5 * part for part in half), (1 - k) * b * c, (k - 1) * a * c, 0.0 * c])
+
+
+@pytest.mark.parametrize("solver", ["exact", "gamma", "euler", "quaternion"])
+def test_every_solver_follows_the_flight_in_scipys_words(solver):
+    times = np.linspace(0.0, 1.5, 31)
+    solution = ut.solve(TOSS, solver, t_eval=times)
+    assert (solution.t == times).all() and solution.y.shape == (7, 31) and solution.success
+    assert (solution.nfev == 0) == (solver == "exact") and solution.nfev == solution.work.rhs_calls
+    trace = ut.trace(TOSS, 31)
+    assert np.abs(solution.cos_tilt - trace.cos_tilt).max() < 1e-8
+    assert np.abs((solution.rotation.inv() * Rotation.from_quat(trace.attitude, scalar_first=True)).magnitude()).max() < 1e-8
+    assert np.abs(np.linalg.norm(solution.attitude, axis=1) - 1).max() < 1e-14
+    assert np.abs(solution.rate[:, 2] - 3.0).max() < 1e-8 and abs(solution.error_estimate) < 1e-5
+
+
+def test_the_launch_and_the_landing_are_those_of_the_toss():
+    for solver in ("exact", "quaternion"):
+        solution, landing = ut.solve(TOSS, solver), ut.toss(TOSS, solver)
+        assert solution.t.tolist() == [0.0, 1.5] and np.allclose(solution.y[:4, 0], TOSS.attitude, atol=1e-15)
+        assert np.abs(solution.y[:4, -1] - landing.attitude).max() == 0.0
+        assert (solution.nfev, solution.error_estimate) == (landing.work.rhs_calls, landing.error_estimate)
+
+
+def test_settings_have_an_effect_or_are_refused():
+    rough, fine = (ut.solve(TOSS, "quaternion", rtol=rtol) for rtol in (1e-4, 1e-12))
+    assert rough.nfev < fine.nfev and rough.error_estimate > fine.error_estimate
+    assert ut.solve(TOSS, "quaternion", scheme="taylor").nfev != fine.nfev
+    assert ut.solve(TOSS, ut.Solver("gamma", scheme="rk4", step=0.01)).work.accepted_steps == 150
+    for solver, settings, field in [
+        ("exact", {"rtol": 1e-9}, "tolerance"),
+        ("quaternion", {"rtol": 2.0}, "tolerance"),
+        ("quaternion", {"rtol": 1e-9, "step": 0.1}, "step"),
+        ("quaternion", {"scheme": "heun"}, "scheme of this solver"),
+        ("euler", {"formulation": "sideways"}, "formulation"),
+        (ut.Solver("euler"), {"rtol": 1e-9}, "rtol"),
+        ("magic", {}, "solver"),
+    ]:
+        with pytest.raises(errors.InputError) as caught:
+            ut.solve(TOSS, solver, **settings)
+        assert caught.value.field == field
+    solver = ut.Solver("quaternion", rtol=1e-9)
+    assert (solver.scheme, solver.rtol, solver.step, solver.formulation) == ("dop853", 1e-9, None, None)
+    assert repr(solver) == "Solver('quaternion', rtol=1e-9)" and solver == ut.Solver("quaternion", rtol=1e-9)
+
+
+@pytest.mark.parametrize("times", [[1.0, 0.5], [-0.1, 1.0], [0.0, 1.6], [np.nan], [[0.0, 1.0]], 1.0, ["a"]])
+def test_impossible_times_are_refused(times):
+    with pytest.raises(errors.InputError) as caught:
+        ut.solve(TOSS, t_eval=times)
+    assert caught.value.field == "t_eval [s]"
+
+
+def test_a_solver_that_cannot_go_on_says_so():
+    standing = ut.Toss((0.0, 30.0, 1e-3), time=1.0)
+    with pytest.raises(errors.SolveError) as caught:
+        ut.solve(standing, "gamma", formulation="vertical")
+    assert isinstance(caught.value, RuntimeError)
+
+
+def test_any_body_is_followed_to_its_landing():
+    book = ut.Toss((0.01, 5.0, 0.02), time=12.0, body=ut.Body.from_moments((1.0, 2.0, 2.8)))
+    solution = ut.solve(book, t_eval=np.linspace(0, 12, 200))
+    reference = solve_ivp(
+        lambda _, w: [(2.0 - 2.8) * w[1] * w[2], (2.8 - 1.0) / 2 * w[2] * w[0], (1.0 - 2.0) / 2.8 * w[0] * w[1]],
+        (0, 12), book.rate, "DOP853", t_eval=solution.t, rtol=1e-12, atol=1e-14,
+    )  # fmt: skip
+    assert np.abs(solution.rate.T - reference.y).max() < 1e-8
+    # It turns over, again and again: the racket's flip.
+    assert (np.diff(np.sign(solution.rate[:, 1])) != 0).sum() >= 2
+
+
+def landings_by_scipy(x, y, z, time, k):
+    """Landings by SciPy's DOP853, all flights scaled to the same time and solved as one system."""
+    start = np.concatenate([np.ones_like(x), *np.zeros((3, x.size)), x * time, y * time, z * time])
+    ends = solve_ivp(rotation, (0.0, 1.0), start, "DOP853", args=(k,), rtol=1e-12, atol=1e-12)
+    assert ends.success
+    w, x, y, z = ends.y[:, -1].reshape(7, -1)[:4]
+    return (w * w + z * z - x * x - y * y) / (w * w + x * x + y * y + z * z)
+
+
+def compared_with_scipy(number):
+    random = np.random.default_rng(7)
+    errors_of_scipy = []
+    for _ in range(number // 500):
+        x, y, z = random.uniform(-40, 40, (3, 500))
+        time = random.uniform(0.2, 1.0, 500)
+        found = ut.cos_tilt(x, y, z, time=time, body=ut.Body.from_moments((1.0, 2.0)))
+        errors_of_scipy.append(np.abs(landings_by_scipy(x, y, z, time, 2.0) - found).max())
+    return max(errors_of_scipy)
+
+
+def test_landings_are_those_of_scipys_dop853_within_its_error():
+    # 100 × tolerance × (1 + phase), as integrators are judged here; the phase is below 110 rad.
+    assert compared_with_scipy(2_000) < 100 * 1e-12 * 111
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_landings_are_those_of_scipys_dop853():
+    worst = compared_with_scipy(100_000)
+    print(f"largest difference of cos θ: {worst:.1e}")
+    assert worst < 100 * 1e-12 * 111

@@ -1,0 +1,189 @@
+//! Rigid bodies with I1 ≠ I2: how they are given, what answers them, and that no command takes one for a coin.
+
+mod common;
+
+use common::{assert_near, assert_refused, json, run, stderr, stdout};
+
+/// The reference values of the exact motion of bodies: attitude at landing after `time` from horizontal.
+#[test]
+fn a_toss_of_any_body_lands_as_the_reference_says_and_is_proven() {
+    let cases = [
+        ("2,3,4", "0.5,-1.25,2", "25", [0.843159498103707, 0.094991018164872, 0.014213294380417, 0.529014885885418]),
+        ("1,2,2.25", "0.75,1,1", "10", [0.088776941851129, 0.172285221657342, 0.901367517439453, 0.387263547857371]),
+    ];
+    for (moments, rate, time, attitude) in cases {
+        let answer = json(&format!("toss --moments {moments} --rate {rate} --time {time}"), 0);
+        // Q and -Q are the same attitude; those of the reference have w > 0.
+        let part = |index: usize| answer["attitude"][index].as_f64().unwrap();
+        for (index, expected) in attitude.into_iter().enumerate() {
+            assert!((part(index) * part(0).signum() - expected).abs() < 2e-15, "{moments}: {}", answer["attitude"]);
+        }
+        assert_eq!(answer["certified"], true);
+        // The same body by its tensor, and in another unit, which changes no ratio of its moments.
+        let [x, y, z] = [0, 1, 2].map(|at| moments.split(',').nth(at).unwrap());
+        for same in [format!("--inertia {x},{y},{z},0,0,0"), format!("--moments {x}g·cm²,{y}g·cm²,{z}g·cm²")] {
+            let other = json(&format!("toss {same} --rate {rate} --time {time}"), 0);
+            assert_eq!((&other["outcome"], &other["certified"]), (&answer["outcome"], &true.into()), "{same}");
+            assert_near(&other["cos_tilt"], answer["cos_tilt"].as_f64().unwrap(), 2e-15);
+        }
+    }
+    let brick = json("toss --coin nasa-brick --rate 10deg/s,20deg/s,30deg/s --time 30", 0);
+    let expected = [12.6183907759142, -17.3974747616114, 31.1195888869443_f64];
+    for (found, expected) in brick["rate"].as_array().unwrap().iter().zip(expected) {
+        assert_near(found, expected.to_radians(), 1e-14);
+    }
+}
+
+#[test]
+fn a_body_with_two_equal_moments_is_the_coin_that_it_always_was() {
+    let coin = "--rate 20,3,1 --speed 3 --tilt 0.2";
+    for (one, other) in [
+        ("--moments 2,3", "--moments 2,2,3"),
+        ("--moments 2,3", "--inertia 2,2,3,0,0,0"),
+        ("--moments 5e-7,2.5e-7", "--coin paper"),
+    ] {
+        let [one, other] = [one, other].map(|body| stdout(&run(&format!("toss {body} {coin}"))));
+        assert_eq!(one, other);
+        assert!(one.contains("margin       ") && one.contains("k = "));
+    }
+}
+
+#[test]
+fn a_proof_does_not_outlive_the_rounding_of_a_unit() {
+    let toss = "toss --moments 2,3,4 --rate 0.5,-1.25,2";
+    assert_eq!(json(&format!("{toss} --time 250ms"), 0)["certified"], true);
+    let rounded = run(&format!("{toss} --time 0.1ms"));
+    assert!(stdout(&rounded).contains("heads, not proven: the conversion of a unit"), "{}", stdout(&rounded));
+    assert_eq!(json("toss --moments 2kg·m²,3g·cm²,2g·mm² --rate 1,1,1 --time 1", 2)["error"]["field"], "I1 [kg m²]");
+}
+
+#[test]
+fn the_margin_and_the_intervals_of_a_body_end_where_its_outcome_flips() {
+    let outcome = |options: &str| json(&format!("toss --coin racket --rate 1,12,3 {options}"), 0)["outcome"].clone();
+    let toss = json("toss --coin racket --rate 1,12,3 --speed 3 --margin", 0);
+    assert_eq!(json("toss --coin racket --rate 1,12,3 --speed 3", 0)["margin"], serde_json::Value::Null);
+    let change = toss["margin"]["speed"].as_f64().unwrap();
+    let at = |part: f64| outcome(&format!("--speed {}", 3.0 + part * change));
+    assert_eq!((at(0.999), at(1.001) == toss["outcome"]), (toss["outcome"].clone(), false));
+    let heads = json("intervals --coin racket --rate 1,12,3 --speed 2:5", 0)["heads"].clone();
+    let ends = heads.as_array().unwrap().iter().flat_map(|pair| pair.as_array().unwrap());
+    let inner: Vec<f64> = ends.map(|end| end.as_f64().unwrap()).filter(|end| (2.01..4.99).contains(end)).collect();
+    assert!(!inner.is_empty());
+    for end in inner {
+        let [below, above] = [end - 1e-6, end + 1e-6].map(|speed| outcome(&format!("--speed {speed}")));
+        assert_ne!(below, above, "{end}");
+    }
+}
+
+#[test]
+fn numbers_that_are_no_body_are_refused_with_what_is_wrong() {
+    let toss = "--rate 1,2,3 --speed 3";
+    let cases: Vec<(String, [&str; 2])> = [
+        ("--moments 1,2,3.5", ["I3 [kg m²]", "larger than I1 + I2 by 0.5"]),
+        ("--moments 4,2,1", ["I1 [kg m²]", "larger than I2 + I3 by 1.0"]),
+        ("--moments -1,2,2", ["I1 [kg m²]", "-1.0"]),
+        ("--moments 1,nan,2", ["I2 [kg m²]", "NaN"]),
+        ("--moments 1,inf,2", ["I2 [kg m²]", "inf"]),
+        ("--moments 1e-310,2,2", ["I1 [kg m²]", "2.3e-308"]),
+        ("--moments 0,0,0", ["I1 [kg m²]", "> 0"]),
+        ("--moments 1,2,3,4", ["moments", "I1,I3 or I1,I2,I3"]),
+        ("--inertia 1,2,3", ["inertia", "JXX,JYY,JZZ,JXY,JXZ,JYZ"]),
+        ("--inertia 2,3,4,nan,0,0", ["inertia tensor", "finite"]),
+        ("--inertia 2,3,4,1e308,0,0", ["inertia tensor", "4.4e307"]),
+        ("--inertia 2,3,4,9,0,0", ["inertia tensor (smallest principal moment)", "> 1e-12 of the largest"]),
+        ("--inertia 2,3,7,0.1,0,0", ["inertia tensor (largest principal moment)", "sum of the other two"]),
+        ("--inertia 0,0,0,0,0,0", ["inertia tensor", "2.3e-308"]),
+        ("--inertia 2g·cm²,3,4,0,0,0", ["inertia", "a unit after each"]),
+        ("--coin groat", ["coin", "racket"]),
+        ("--coin book --inertia 1,1,1,0,0,0", ["coin", "cannot be used"]),
+        ("--moments 1,1 --inertia 1,1,1,0,0,0", ["moments", "cannot be used"]),
+        ("--cylinder 1,1,1 --inertia 1,1,1,0,0,0", ["cylinder", "cannot be used"]),
+    ]
+    .into_iter()
+    .map(|(body, words)| (format!("toss {body} {toss}"), words))
+    .collect();
+    let cases: Vec<(&str, [&str; 2])> = cases.iter().map(|(command, words)| (command.as_str(), *words)).collect();
+    assert_refused(&cases);
+    // Plates, rods and moments of any size are bodies.
+    for body in ["1,2,3", "0,1,1", "1,1,0", "1e300,1.5e300,2e300", "1e-300,1.5e-300,2e-300", "0.1,0.7,0.8"] {
+        assert_eq!(json(&format!("toss --moments {body} {toss}"), 0)["certified"], true, "{body}");
+    }
+}
+
+#[test]
+fn solvers_for_coins_refuse_a_body_by_a_sentence() {
+    let refused = json("toss --coin book --rate 1,2,3 --speed 3 --solver gamma", 1);
+    assert_eq!(refused["error"]["kind"], "not_symmetric");
+    assert!(
+        refused["error"]["message"].as_str().unwrap().starts_with("solver 'gamma' is for bodies with I1 = I2 only")
+    );
+    let rows = json("compare --coin book --rate 1,2,3 --speed 3 --repeats 0", 0)["rows"].clone();
+    let of = |solver: &str| rows.as_array().unwrap().iter().find(|row| row["solver"] == solver).unwrap().clone();
+    assert_eq!((&of("exact")["failure"], &of("gamma")["failure"]["kind"]), (&().into(), &"not_symmetric".into()));
+}
+
+#[test]
+fn parts_of_a_probability_of_a_body_are_merged_to_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let space =
+        "--coin us-quarter-engraved --rate-x 20:30 --rate-y 5 --rate-z 3 --speed 3:4 --method sobol --points 2048";
+    let parts = [1, 2].map(|part| {
+        let path = folder.path().join(format!("{part}.json")).display().to_string();
+        let output = run(&format!("probability {space} --shard {part}/2 --out {path}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        path
+    });
+    let merged = json(&format!("merge {} {}", parts[0], parts[1]), 0);
+    let whole = json(&format!("probability {space}"), 0);
+    for field in ["heads", "tails", "probability", "interval"] {
+        assert_eq!(merged[field], whole[field], "{field}");
+    }
+    assert_eq!((&whole["certified"], &merged["certified"]), (&true.into(), &false.into()));
+}
+
+/// Every command that takes a coin either answers for a body, differently than for a coin, or refuses it.
+#[test]
+fn no_command_takes_a_body_for_a_coin() {
+    let toss = "--rate 20,5,3 --speed 3";
+    let space = "--rate-x 20:30:3 --rate-y 5 --rate-z 3:9:3 --speed 3:4:3";
+    let mapped = "--rate-x 20:30:3 --rate-y 5 --rate-z 3:9:3 --speed 3:4";
+    let drawn = "--rate-x 20:30 --rate-y 5 --rate-z 3 --speed 3:4";
+    for (command, answers) in [
+        (format!("toss {toss}"), true),
+        (format!("trace {toss} --points 3"), true),
+        (format!("compare {toss} --repeats 0"), true),
+        (format!("spread {toss} --heads 0.6 --points 64"), true),
+        (format!("plan {toss} --want tilt --accuracy 1e-3"), true),
+        (format!("plan {toss} --want tilt --accuracy 1e-3 --solver quaternion"), false),
+        ("toss --turn 20 --wobble 1 --speed 3".to_owned(), false),
+        ("intervals --rate 20,5,3 --speed 3:4".to_owned(), true),
+        ("inverse --probability 0.7".to_owned(), false),
+        ("limit --points 9".to_owned(), false),
+        (format!("probability {space} --method grid"), true),
+        (format!("probability {drawn} --method random --points 999"), true),
+        (format!("probability {drawn} --method exact-speed"), false),
+        (format!("probability {drawn} --accuracy 0.1"), true),
+        (format!("sample {space} --method grid"), true),
+        (format!("map {mapped}"), false),
+        (format!("map {mapped} --method sobol --points 64"), true),
+        (format!("convergence {space}"), true),
+        (format!("errors {drawn} --up-to 8 --replicates 1"), false),
+        ("plan --space tails --want probability --accuracy 0.1".to_owned(), true),
+        ("probability --space paper-fig4 --method random --points 999".to_owned(), true),
+    ] {
+        for body in ["--coin us-quarter-engraved", "--moments 1,1.5,2", "--inertia 2,2,3,0.1,0,0"] {
+            let output = run(&format!("{command} {body}"));
+            let coin = run(&format!("{command} --coin us-quarter"));
+            assert_eq!(coin.status.code(), Some(0), "{command}: {}", stderr(&coin));
+            if answers {
+                assert_eq!(output.status.code(), Some(0), "{command} {body}: {}", stderr(&output));
+                // Counts of a few launches may be the same for a body that is nearly a coin.
+                assert!(body != "--moments 1,1.5,2" || stdout(&output) != stdout(&coin), "{command} {body}");
+            } else {
+                let said = stderr(&output);
+                assert_eq!(output.status.code(), Some(2), "{command} {body}: {said}");
+                assert!(said.contains("I1 ≠ I2"), "{command} {body}: {said}");
+            }
+        }
+    }
+}

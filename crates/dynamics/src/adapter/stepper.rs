@@ -1,0 +1,106 @@
+//! The entry for a stepper from elsewhere, which integrates a [`FreeRotation`]. The package that steps needs no type of
+//! this workspace but this system.
+
+use std::borrow::Cow;
+
+use super::{ForeignError, failed};
+use crate::entry::{Settings, SolverEntry};
+use crate::error::SolveError;
+use crate::free_rotation::FreeRotation;
+use crate::launch::Toss;
+use crate::scheme::Scheme;
+use crate::solver::{Propagation, Solver, Work};
+use crate::stepping::Stepping;
+
+impl SolverEntry {
+    /// An entry for a stepper from elsewhere, which integrates a [`FreeRotation`] by one of `schemes`.
+    ///
+    /// `step` is given the system and the scheme with its tolerance or step, in the
+    /// [units of the system](FreeRotation::stepping). It returns the state at `system.duration()` and the work, which
+    /// [`FreeRotation::work`] makes. The error that the solver claims is that of [`Stepping::error_estimate`].
+    pub fn from_stepper(
+        name: impl Into<Cow<'static, str>>,
+        summary: impl Into<Cow<'static, str>>,
+        schemes: &[Scheme],
+        step: impl Fn(&FreeRotation, &Stepping) -> Result<([f64; 7], Work), ForeignError> + Clone + Send + Sync + 'static,
+    ) -> Self {
+        let name = name.into();
+        let called = name.clone();
+        let build = move |settings: &Settings| -> Box<dyn Solver> {
+            Box::new(Stepper { name: called.clone(), stepping: settings.stepping, step: step.clone() })
+        };
+        Self::new(name, summary, build).with_schemes(schemes)
+    }
+}
+
+/// A stepper from elsewhere with its settings.
+struct Stepper<S> {
+    name: Cow<'static, str>,
+    stepping: Stepping,
+    step: S,
+}
+
+impl<S> Solver for Stepper<S>
+where
+    S: Fn(&FreeRotation, &Stepping) -> Result<([f64; 7], Work), ForeignError> + Send + Sync,
+{
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.stepping)
+    }
+
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let system = FreeRotation::new(toss)?;
+        // Steppers differ in what they do with no time, and with one so short that a step of it is 0.
+        if system.duration() < f64::MIN_POSITIVE {
+            return system.landing(&system.start(), Work::default());
+        }
+        let stepping = system.stepping(&self.stepping)?;
+        let (end, work) = (self.step)(&system, &stepping).map_err(|error| failed(&self.name, error))?;
+        system.landing(&end, work)
+    }
+
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        self.stepping.error_estimate(toss).map(Some)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coin::Coin;
+    use crate::launch::Launch;
+    use crate::time_of_flight::TimeOfFlight;
+
+    fn toss(rate: [f64; 3], time: f64) -> Toss {
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+        Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.4).unwrap() }
+    }
+
+    #[test]
+    fn a_stepper_is_not_asked_beyond_the_largest_phase() {
+        let entry = SolverEntry::from_stepper("mine", "", &[Scheme::DOP853], |_, _| panic!("out of order"));
+        let (far, solver) = (toss([1e20, 0.0, 0.0], 1.0), entry.solver(&Settings::default()).unwrap());
+        assert_eq!(solver.propagate(&far).unwrap_err().kind(), "phase_too_large");
+        assert_eq!(solver.error_estimate(&far).unwrap_err().kind(), "phase_too_large");
+    }
+
+    #[test]
+    fn a_stepper_is_given_its_settings_in_the_units_of_the_system() {
+        let entry = SolverEntry::from_stepper("mine", "", &[Scheme::RK4], |system, stepping| {
+            assert_eq!(format!("{:?}", stepping.control()), format!("Step({:?})", system.duration() / 4.0));
+            Ok((system.start(), system.work(4, 0)))
+        });
+        let stepping = Stepping::fixed(Scheme::RK4, 0.2).unwrap();
+        let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
+        let toss = toss([3.0, 1.0, 2.0], 0.8);
+        let landing = solver.propagate(&toss).unwrap();
+        assert_eq!((landing.work.accepted_steps, solver.stepping()), (4, Some(stepping)));
+        assert_eq!(solver.error_estimate(&toss).unwrap(), stepping.error_estimate(&toss).ok());
+        // Without time the stepper is not called.
+        assert_eq!(solver.propagate(&self::toss([3.0, 1.0, 2.0], 0.0)).unwrap().work, Work::default());
+    }
+}

@@ -1,0 +1,170 @@
+//! [`SolverConfig`], the choice of a solver by its name with the settings that it is to have. A configuration file holds it;
+//! what it leaves out, the solver's entry decides.
+
+use crate::entry::{Settings, SolverEntry};
+use crate::error::{InputError, find_named};
+use crate::formulation::Formulation;
+use crate::scheme::Scheme;
+use crate::stepping::{StepControl, Stepping};
+
+/// A solver's name, and those of its settings that are not left to their defaults.
+///
+/// The numbers are within their ranges. Whether there is such a solver, and whether it has such a scheme, is known to the
+/// registry that it is looked up in.
+///
+/// ```
+/// use dynamics::SolverConfig;
+///
+/// let config = SolverConfig::new("quaternion").with_scheme("dop853").with_tolerance(1e-9)?;
+/// assert_eq!((config.name(), config.scheme()), ("quaternion", Some("dop853")));
+/// assert_eq!(config.with_tolerance(2.0).unwrap_err().field(), "tolerance");
+/// # Ok::<(), dynamics::InputError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolverConfig {
+    name: String,
+    scheme: Option<String>,
+    control: Option<StepControl>,
+    formulation: Option<Formulation>,
+}
+
+impl SolverConfig {
+    /// The solver called `name`, with default settings.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), scheme: None, control: None, formulation: None }
+    }
+
+    /// The same solver with the scheme called `scheme`.
+    #[must_use]
+    pub fn with_scheme(self, scheme: impl Into<String>) -> Self {
+        Self { scheme: Some(scheme.into()), ..self }
+    }
+
+    /// The same solver with steps that keep the local error below `tolerance`, instead of any step.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a tolerance below ε = 2^-52 or not below 1.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self, InputError> {
+        self.with_control(StepControl::Tolerance(tolerance))
+    }
+
+    /// The same solver with equal steps of at most `step` (s), instead of any tolerance.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a step that is not positive and finite.
+    pub fn with_step(self, step: f64) -> Result<Self, InputError> {
+        self.with_control(StepControl::Step(step))
+    }
+
+    pub(crate) fn with_control(self, control: StepControl) -> Result<Self, InputError> {
+        // Every scheme has the ranges of this one.
+        Stepping::new(Stepping::DEFAULT.scheme(), Some(control))?;
+        Ok(Self { control: Some(control), ..self })
+    }
+
+    /// The same solver in this formulation.
+    #[must_use]
+    pub fn with_formulation(self, formulation: Formulation) -> Self {
+        Self { formulation: Some(formulation), ..self }
+    }
+
+    /// The solver's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The name of the scheme, if one is chosen.
+    pub fn scheme(&self) -> Option<&str> {
+        self.scheme.as_deref()
+    }
+
+    /// The tolerance or the step, if one is chosen.
+    pub fn control(&self) -> Option<StepControl> {
+        self.control
+    }
+
+    /// The formulation, if one is chosen.
+    pub fn formulation(&self) -> Option<Formulation> {
+        self.formulation
+    }
+
+    /// The settings for the solver of `entry`: what is left out is the solver's default.
+    ///
+    /// # Errors
+    /// [`InputError`] for a scheme or a formulation that the solver does not offer, for a tolerance or a step that the scheme
+    /// does not take, and for any of them with a closed form, where it would have no effect.
+    pub fn settings(&self, entry: &SolverEntry) -> Result<Settings, InputError> {
+        let formulation = self.formulation_of(entry)?;
+        let Some(default) = entry.default_scheme() else {
+            self.require_no_steps()?;
+            return Ok(Settings { formulation, ..Settings::default() });
+        };
+        let scheme: Scheme = self.scheme.as_deref().map_or(Ok(default), |name| entry.scheme(name))?;
+        Ok(Settings { stepping: Stepping::new(scheme, self.control)?, formulation })
+    }
+
+    fn formulation_of(&self, entry: &SolverEntry) -> Result<Formulation, InputError> {
+        let Some(formulation) = self.formulation else { return Ok(Formulation::default()) };
+        if entry.formulations().is_empty() {
+            let expected = "none for a closed form, which integrates nothing";
+            return Err(InputError::Malformed { field: "formulation", value: formulation.to_string(), expected });
+        }
+        let field = "formulation of this solver";
+        find_named(field, formulation.name(), entry.formulations(), |offered| offered.name()).copied()
+    }
+
+    fn require_no_steps(&self) -> Result<(), InputError> {
+        let expected = "none for a closed form, which takes no steps";
+        let refused = |field, value| Err(InputError::Malformed { field, value, expected });
+        match (&self.scheme, self.control) {
+            (Some(scheme), _) => refused("scheme", scheme.clone()),
+            (None, Some(StepControl::Tolerance(tolerance))) => refused("tolerance", format!("{tolerance:?}")),
+            (None, Some(StepControl::Step(step))) => refused("step [s]", format!("{step:?}")),
+            (None, None) => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An entry with these schemes, whose solver is never made.
+    fn entry(schemes: &[Scheme]) -> SolverEntry {
+        let formulations: &[Formulation] = if schemes.is_empty() { &[] } else { &[Formulation::MOMENTUM] };
+        let never = SolverEntry::new("own", "", |_| unreachable!("no solver is made here"));
+        never.with_schemes(schemes).with_formulations(formulations)
+    }
+
+    #[test]
+    fn what_is_left_out_is_the_default_of_the_solver() {
+        let own = SolverConfig::new("own");
+        let stepping = |config: &SolverConfig, schemes: &[Scheme]| Ok(config.settings(&entry(schemes))?.stepping);
+        assert_eq!(own.settings(&entry(&Scheme::ALL)), Ok(Settings::default()));
+        assert_eq!(own.settings(&entry(&[])), Ok(Settings::default()));
+        assert_eq!(stepping(&own, &[Scheme::RK4]), Stepping::fixed(Scheme::RK4, Stepping::DEFAULT_STEP));
+        let fine = own.clone().with_tolerance(1e-6).unwrap();
+        assert_eq!(stepping(&fine, &Scheme::ALL), Stepping::adaptive(Scheme::DOP853, 1e-6));
+        let stepped = own.with_scheme("dopri5").with_step(0.25).unwrap();
+        assert_eq!(stepping(&stepped, &Scheme::ALL), Stepping::fixed(Scheme::DOPRI5, 0.25));
+    }
+
+    #[test]
+    fn what_would_have_no_effect_or_is_not_offered_is_refused() {
+        let own = || SolverConfig::new("own");
+        let fields = |config: SolverConfig| {
+            [&Scheme::ALL[..], &[]].map(|schemes| config.settings(&entry(schemes)).err().map(|error| error.field()))
+        };
+        assert_eq!(fields(own().with_scheme("heun")), [Some("scheme of this solver"), Some("scheme")]);
+        assert_eq!(fields(own().with_tolerance(1e-9).unwrap()), [None, Some("tolerance")]);
+        assert_eq!(fields(own().with_step(0.1).unwrap()), [None, Some("step [s]")]);
+        let raw = own().with_formulation(Formulation::RAW);
+        assert_eq!(fields(raw), [Some("formulation of this solver"), Some("formulation")]);
+        let rk4_by_tolerance = own().with_scheme("rk4").with_tolerance(1e-9).unwrap();
+        assert_eq!(fields(rk4_by_tolerance), [Some("scheme with a tolerance"), Some("scheme")]);
+        for step in [0.0, -1.0, f64::NAN] {
+            assert_eq!(own().with_step(step).unwrap_err().field(), "step [s]");
+        }
+        assert_eq!(own().with_tolerance(f64::NAN).unwrap_err().field(), "tolerance");
+    }
+}

@@ -1,0 +1,248 @@
+use std::fmt::Debug;
+
+use numerics::{Angle, AngleUnit, Quantity, Unit};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::Attitude;
+use crate::body::Body;
+use crate::coin::Coin;
+use crate::config::SolverConfig;
+use crate::entry::Settings;
+use crate::euler_angles::EulerAngles;
+use crate::formulation::Formulation;
+use crate::launch::{Launch, Toss};
+use crate::outcome::Outcome;
+use crate::quantity::{Dimension, Given};
+use crate::rigid_toss::RigidToss;
+use crate::scheme::Scheme;
+use crate::state::State;
+use crate::stepping::Stepping;
+use crate::time_of_flight::{DEFAULT_GRAVITY, TimeOfFlight};
+
+fn read(text: &str) -> Result<Toss, String> {
+    toml::from_str(text).map_err(|error| error.message().to_owned())
+}
+
+#[test]
+fn a_toss_is_read_with_its_defaults() {
+    let toss = read("[launch]\nrate = [1.0, 1.0, 2.5]\nspeed = 3").unwrap();
+    assert_eq!(toss.coin, Coin::PAPER);
+    assert_eq!(toss.launch.time_of_flight(), TimeOfFlight::Ballistic { speed: 3.0, gravity: DEFAULT_GRAVITY });
+    assert_eq!(toss.launch.attitude(), Attitude::IDENTITY);
+    let toss = read("coin = 'disc'\n[launch]\nrate = [1, 1, 2.5]\ntime = 3\ntilt = 0.5").unwrap();
+    assert_eq!((toss.coin, toss.launch.flight_time()), (Coin::DISC, 3.0));
+    assert_eq!(toss.launch.attitude(), Attitude::about_x(0.5));
+}
+
+#[test]
+fn a_toss_that_was_written_is_read_back() {
+    let thrown =
+        [TimeOfFlight::Given(0.3), TimeOfFlight::thrown(3.1, 9.78, None), TimeOfFlight::thrown(3.1, 9.78, Some(-0.2))];
+    for time in thrown {
+        let launch = Launch::new([0.1, -7.0, 1e-300], time).unwrap().with_tilt(1.1).unwrap();
+        let attitude = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
+        let coins = [Coin::from_moments(0.3, 0.1), Coin::from_cylinder(0.003, 0.01874, 0.00114)];
+        for (coin, launch) in coins.into_iter().zip([launch, launch.with_attitude(attitude)]) {
+            let toss = Toss { coin: coin.unwrap(), launch };
+            assert_eq!(read(&toml::to_string(&toss).unwrap()), Ok(toss));
+        }
+    }
+}
+
+#[test]
+fn invalid_input_is_refused_with_the_field_at_fault() {
+    let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
+    for (text, message) in [
+        (format!("coin = {{ moments = [1, 1.1, 2] }}\n{launch}"), "coin is outside the model: with I1 ≠ I2 "),
+        (format!("coin = {{ moments = [1, 1, 2, 3] }}\n{launch}"), "moments [kg m²] = '[1.0, 1.0, 2.0, 3.0]' can't"),
+        (format!("coin = 'racket'\n{launch}"), "coin is outside the model: with I1 ≠ I2 "),
+        (format!("coin = {{ moments = [1, 3] }}\n{launch}"), "I3 [kg m²] = 3.0 is outside its valid range"),
+        (format!("coin = {{ moments = [1, 1, 3] }}\n{launch}"), "I3 [kg m²] = 3.0 is larger than I1 + I2 by 1.0"),
+        (format!("coin = {{ moments = [1] }}\n{launch}"), "moments [kg m²] = '[1.0]' can't be used"),
+        (format!("{launch}drag = 0.4"), "drag is outside the model: the flight is free of torque and drag"),
+        (format!("{launch}bounce = true"), "bounce is outside the model: the flight ends at the first landing"),
+        (format!("{launch}time = 3"), "time [s] = 'given twice' can't be used"),
+        (format!("{launch}tilt = 1\nattitude = [1, 0, 0, 0]"), "tilt = 'given twice' can't be used"),
+        (format!("{launch}attitude = [0, 0, 0, 0]"), "attitude (largest component) = 0.0"),
+        (format!("{launch}drop = -1"), "drop [m] = -1.0 is outside its valid range"),
+        (format!("{launch}wind = 3"), "unknown field `wind`"),
+        (
+            format!("coin = {{ moments = [1, 1], cylinder = [1, 1, 1] }}\n{launch}"),
+            "coin = 'given twice' can't be used: expected one of moments, cylinder and inertia",
+        ),
+        (format!("coin = {{ moments = [1, 1], mass = 1 }}\n{launch}"), "unknown field `mass`"),
+        (format!("coin = {{ cylinder = [1, 1, 1, 1] }}\n{launch}"), "cylinder [kg, m, m] = '[1.0, 1.0, 1.0, 1.0]'"),
+        (format!("coin = {{ }}\n{launch}"), "coin is missing: expected a name, { moments = [I1, I3] }"),
+        (format!("coin = 3\n{launch}"), "invalid type: integer `3`, expected a name, { moments"),
+        (format!("{launch}attitude = [1, 0, 0, 0, 0]"), "attitude = '[1.0, 0.0, 0.0, 0.0, 0.0]'"),
+        ("[launch]\nrate = [1, 1, 2, 9]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0, 2.0, 9.0]'"),
+        ("[launch]\nrate = [1, 1]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0]'"),
+        ("[launch]\nrate = [1, 1, 2]".to_owned(), "speed [m/s] is missing"),
+    ] {
+        let found = read(&text).unwrap_err();
+        assert!(found.starts_with(message), "'{found}' for '{text}'");
+    }
+    assert!(read(&format!("coin = {{ moments = [1, 1, 2] }}\n{launch}")).is_ok());
+}
+
+#[test]
+fn a_body_that_was_written_is_read_back_and_a_toss_of_a_coin_is_one_of_a_body() {
+    let launch = Launch::new([0.1, -7.0, 1e-300], TimeOfFlight::Given(0.3)).unwrap();
+    let tensor = Body::from_inertia([2.0, 3.0, 4.0, 0.1, -0.2, 1e-9]).unwrap();
+    let quarter: Body = "us-quarter".parse().unwrap();
+    for body in [tensor, Body::from_moments([0.3, 0.1, 0.35]).unwrap(), quarter, Coin::PAPER.into()] {
+        assert_read_back(&body);
+        assert_read_back(&RigidToss { body, launch });
+    }
+    let toss = Toss { coin: quarter.symmetric().unwrap(), launch };
+    assert_eq!(toml::to_string(&RigidToss::from(toss)), toml::to_string(&toss));
+    let rigid = |text: &str| toml::from_str::<RigidToss>(text).map_err(|error| error.message().to_owned());
+    let launch = "[launch]\nrate = [1, 1, 2]\nspeed = 3\n";
+    assert_eq!(rigid(launch).unwrap().body, Coin::PAPER.into());
+    for (text, moments) in [
+        ("coin = 'racket'", [0.00121, 0.01638, 0.01748]),
+        ("body = { moments = [3, '2kg·m²', 4] }", [3.0, 2.0, 4.0]),
+        ("coin = { inertia = ['3e7g·cm²', 2, 4, 0, 0, 0] }", [3.0, 2.0, 4.0]),
+    ] {
+        assert_eq!(rigid(&format!("{text}\n{launch}")).unwrap().body.moments(), Some(moments), "{text}");
+    }
+    for (text, message) in [
+        ("coin = { moments = [1, 2, 3.5] }", "I3 [kg m²] = 3.5 is larger than I1 + I2 by 0.5"),
+        ("coin = { moments = [1, nan, 2] }", "I2 [kg m²] = NaN is outside"),
+        ("coin = { inertia = [1, 1, 1] }", "inertia [kg m²] = '[1.0, 1.0, 1.0]' can't be used"),
+        ("coin = { inertia = [1, 1, 1, 2, 0, 0] }", "inertia tensor (smallest principal moment) [kg m²] = -1.0"),
+        ("coin = { inertia = [1, 1, 1, '2m', 0, 0] }", "inertia [kg m²] = '2m' can't be used"),
+        ("coin = 'groat'", "coin = 'groat' is unknown; known: paper, "),
+        ("coin = 'book'\nbody = 'book'", "duplicate field"),
+    ] {
+        let found = rigid(&format!("{text}\n{launch}")).unwrap_err();
+        assert!(found.starts_with(message), "'{found}' for '{text}'");
+    }
+}
+
+/// A document with one value, since TOML has no value without a name.
+#[derive(Serialize, Deserialize)]
+struct File<T> {
+    of: T,
+}
+
+#[track_caller]
+fn assert_read_back<T: Serialize + DeserializeOwned + PartialEq + Debug>(of: &T) {
+    let text = toml::to_string(&File { of }).unwrap();
+    assert_eq!(toml::from_str::<File<T>>(&text).unwrap().of, *of, "{text}");
+}
+
+#[track_caller]
+fn assert_refused<T: DeserializeOwned + Debug>(text: &str, message: &str) {
+    let error = toml::from_str::<File<T>>(&format!("of = {text}")).map(|file| file.of).unwrap_err();
+    assert!(error.message().starts_with(message), "'{}' for {text}", error.message());
+}
+
+#[test]
+fn rates_tilts_and_cylinders_are_read_back_in_the_unit_that_they_were_given_in() {
+    let degree = Unit::ratio(1, 360).unwrap();
+    let per_minute = Dimension::TurnRate.given("rate", "1rpm").unwrap().unit().angle_unit();
+    let milli = Unit::ratio(1, 1000).unwrap();
+    let launch = Launch::in_unit([0.1, 0.0, 2280.0], per_minute, TimeOfFlight::Given(0.3)).unwrap();
+    let launch = launch.with_tilt(Angle::Turns(Quantity::new(15.1, degree))).unwrap();
+    let [mass, radius, thickness] = [5.67, 12.13, 1.75].map(|value| Quantity::new(value, milli));
+    let toss = Toss { coin: Coin::from_cylinder(mass, radius, thickness).unwrap(), launch };
+    assert_read_back(&toss);
+    let text = toml::to_string(&toss).unwrap();
+    for written in ["\"5.67g\"", "\"12.13mm\"", "\"2280.0rpm\"", "tilt = \"15.1deg\""] {
+        assert!(text.contains(written), "{text}");
+    }
+    let mixed =
+        read("[launch]\nrate = ['2rev/s', 0, '3rev/s']\nspeed = '250cm/s'\ndrop = '-50mm'\ntilt = '3deg'").unwrap();
+    assert_eq!(mixed.launch.given_rate().0.as_slice(), [2.0, 0.0, 3.0]);
+    assert_eq!(mixed.launch.time_of_flight(), TimeOfFlight::thrown(2.5, DEFAULT_GRAVITY, Some(-0.05)));
+    // A unit without a name: the nearest rate in rad/s.
+    let odd = Launch::in_unit([1.0, 2.0, 3.0], AngleUnit::Turns(Unit::ratio(1, 7).unwrap()), TimeOfFlight::Given(1.0));
+    let back: File<Launch> = toml::from_str(&toml::to_string(&File { of: odd.clone().unwrap() }).unwrap()).unwrap();
+    assert_eq!((back.of.rate(), back.of.given_rate().1), (odd.unwrap().rate(), AngleUnit::RADIAN));
+}
+
+#[test]
+fn attitudes_and_states_are_read_back_to_the_bit() {
+    let mut attitude = Attitude::from_components([0.3, -7.0, 0.5, 4e-5]).unwrap();
+    assert_read_back(&attitude);
+    assert_read_back(&Attitude::IDENTITY);
+    assert_read_back(&Attitude::about_x(-1.25));
+    // Products of turns are unit quaternions to rounding, and dividing them by their norm again changes some of them.
+    for turn in 1..200 {
+        attitude = attitude * Attitude::about_z(f64::from(turn)) * Attitude::about_x(0.7 * f64::from(turn));
+        assert_read_back(&State::new(attitude, [1.0 / f64::from(turn), -3.0, 1e-300]));
+    }
+    assert_read_back(&EulerAngles { alpha: 0.1, beta: -7.0, gamma: 1e9 });
+    assert_refused::<Attitude>("[1, 0, 0]", "attitude = '[1.0, 0.0, 0.0]' can't be used: expected four numbers");
+    assert_refused::<Attitude>("{ unit_quaternion = [0.6, 0.8, 0.1, 0] }", "unit_quaternion (norm) = 1.004");
+    assert_refused::<Attitude>("{ unit_quaternion = [nan, 0, 0, 0] }", "unit_quaternion (norm) = NaN");
+    assert_refused::<Attitude>("{ tilt = inf }", "tilt [rad] = inf");
+    assert_refused::<Attitude>("{ }", "attitude is missing");
+    assert_refused::<Attitude>("{ tilt = 1, unit_quaternion = [1, 0, 0, 0] }", "attitude = 'given twice'");
+    let attitude = "attitude = [1, 0, 0, 0]";
+    assert_refused::<State>(&format!("{{ {attitude}, rate = [1, nan, 0] }}"), "rate y [rad/s] = NaN");
+    assert_refused::<State>(&format!("{{ {attitude}, rate = [1, 0] }}"), "rate [rad/s] = '[1.0, 0.0]'");
+    assert_refused::<State>(&format!("{{ {attitude}, rate = [1, 0, 0], time = 1 }}"), "unknown field `time`");
+    assert_refused::<EulerAngles>("{ alpha = 0, beta = inf, gamma = 0 }", "beta [rad] = inf");
+}
+
+#[test]
+fn settings_are_read_back_and_refused_with_the_field_at_fault() {
+    for scheme in Scheme::ALL {
+        assert_read_back(&Settings { stepping: Stepping::of(scheme).unwrap(), formulation: Formulation::RAW });
+        assert_read_back(&scheme);
+    }
+    assert_read_back(&Stepping::fixed(Scheme::DOPRI5, 1.0 / 3.0).unwrap());
+    assert_read_back(&Stepping::adaptive(Scheme::TAYLOR, 1.0 / 3e9).unwrap());
+    assert_eq!(toml::from_str::<Settings>("").unwrap(), Settings::default());
+    let step = toml::from_str::<Stepping>("scheme = 'rk4'\nstep = '2ms'").unwrap();
+    assert_eq!(Ok(step), Stepping::fixed(Scheme::RK4, 0.002));
+    for (text, message) in [
+        ("{ scheme = 'heun' }", "scheme = 'heun' is unknown; known: dop853, dopri5, rk4, taylor"),
+        ("{ tolerance = 0 }", "tolerance = 0.0 is outside its valid range: 2.220446049250313e-16 <= tolerance < 1"),
+        ("{ scheme = 'rk4', tolerance = 1e-3 }", "scheme with a tolerance = 'rk4'"),
+        ("{ scheme = 'taylor', step = 1e-3 }", "scheme with a step = 'taylor'"),
+        ("{ scheme = 'rk4', step = -1 }", "step [s] = -1.0"),
+        ("{ scheme = 'rk4', step = '3mm' }", "step [s] = '3mm'"),
+        ("{ tolerance = 1e-9, step = 1 }", "step [s] = 'given twice'"),
+        ("{ tolerence = 1e-9 }", "unknown field `tolerence`"),
+        ("{ tolerance = 1e-9, step = [] }", "expected a number in SI units"),
+    ] {
+        assert_refused::<Settings>(text, message);
+        assert_refused::<Stepping>(text, message);
+    }
+    // The scheme is known to the solver alone, and what it takes.
+    for (text, message) in [
+        ("{ name = 'own', tolerance = 0 }", "tolerance = 0.0 is outside"),
+        ("{ name = 'own', step = 0 }", "step [s] = 0.0 is outside"),
+        ("{ name = 'own', tolerance = 1e-9, step = 1 }", "step [s] = 'given twice'"),
+        ("{ name = 'own', formulation = 'spin' }", "formulation = 'spin' is unknown"),
+        ("{ name = 'own', method = 'rk4' }", "unknown field `method`, expected one of `name`, `scheme`"),
+        ("{ scheme = 'rk4' }", "missing field `name`"),
+    ] {
+        assert_refused::<SolverConfig>(text, message);
+    }
+    let config = SolverConfig::new("own").with_scheme("heun").with_formulation(Formulation::VERTICAL);
+    assert_read_back(&config);
+    assert_read_back(&config.clone().with_tolerance(1e-9).unwrap());
+    assert_read_back(&config.with_step(0.1).unwrap());
+    assert_refused::<Settings>("{ formulation = 'spin' }", "formulation = 'spin' is unknown");
+}
+
+#[test]
+fn texts_and_times_of_flight_are_read_back() {
+    for outcome in Outcome::ALL {
+        assert_read_back(&outcome);
+    }
+    assert_refused::<Outcome>("'edge'", "outcome = 'edge' is unknown; known: heads, tails, undecided");
+    assert_eq!(toml::from_str::<File<Given>>("of = '24.26 mm'").unwrap().of.si(), 0.02426);
+    assert_read_back(&"24.26mm".parse::<Given>().unwrap());
+    assert_refused::<Given>("'24.26'", "quantity = '24.26'");
+    for time in [TimeOfFlight::Given(0.3), TimeOfFlight::thrown(3.0, 9.81, Some(-0.1))] {
+        assert_read_back(&time);
+    }
+    assert_refused::<TimeOfFlight>("{ time = -1 }", "time [s] = -1.0");
+    assert_refused::<TimeOfFlight>("{ speed = 3, drag = 1 }", "unknown field `drag`");
+}

@@ -1,0 +1,28 @@
+//! Times of the motion of a rigid body: a launch with its first time, a further time, and the proof of an outcome.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dynamics::{Body, Launch, RigidToss, TimeOfFlight, Vector3};
+use exact::{RigidMotion, certify_rigid};
+
+fn toss(rate: [f64; 3]) -> RigidToss {
+    let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(0.6)).expect("a valid launch");
+    RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).expect("a valid body"), launch }
+}
+
+fn rigid(criterion: &mut Criterion) {
+    for (name, rate) in [("series", [0.2, 0.5, 2.0]), ("gaussians", [7.5001, 10.0, 10.0])] {
+        let toss = toss(rate);
+        let motion = RigidMotion::new(&toss);
+        criterion
+            .bench_function(&format!("{name}: launch"), |bencher| bencher.iter(|| RigidMotion::new(black_box(&toss))));
+        criterion
+            .bench_function(&format!("{name}: cos θ"), |bencher| bencher.iter(|| motion.cos_tilt(black_box(0.6))));
+        criterion.bench_function(&format!("{name}: state"), |bencher| bencher.iter(|| motion.state(black_box(0.6))));
+        criterion.bench_function(&format!("{name}: proof"), |bencher| bencher.iter(|| certify_rigid(black_box(&toss))));
+    }
+}
+
+criterion_group!(benches, rigid);
+criterion_main!(benches);

@@ -1,0 +1,222 @@
+//! This file computes the exact motion of any rigid body: attitude, body rate and cos θ at any time after launch. A
+//! coin whose relief makes I1 ≠ I2, a book or a satellite moves by elliptic functions, and by nothing simpler.
+//!
+//! # The motion
+//! Let the principal axes be 1, 2, 3, m = I ω the angular momentum in the body frame (BF), G = |m|, T the kinetic
+//! energy and α_ij = (I_j - I_i)/(I_i I_j). The sign of
+//!
+//! ```text
+//! E = I3 (I3 - I2) ω3² - I1 (I2 - I1) ω1² = G² - 2 T I2
+//! ```
+//!
+//! tells which axis m circles in BF: that of the largest moment for E > 0, that of the smallest for E < 0, after which
+//! the axes are relabelled (1, 2, 3) → (3, -2, 1). Two axes are reversed if m3 < 0. Then, with no difference that
+//! cancels,
+//!
+//! ```text
+//! P1 = α12 m2² + α13 m3²,   P3 = α13 m1² + α23 m2²,   λ = ±√(P1 α23)                      the sign of α13
+//! k² = α12 P3/(α23 P1),     k'² = |α13 E|/(I2 |α23 P1|)
+//! m ~ (b1 cn u, b2 sn u, b3 dn u),   u = λt + u0,   b1 : b2 = √|α23| : √|α13|              C. G. J. Jacobi 1849
+//! c = F(atan √(α23/α12) | k'²),      v = K' - c = F(atan √(P1/P3) | k'²),   x = πu/(2K)
+//! ```
+//!
+//! and the attitude R, relative to axes of which the third is along m, is the quaternion w + iz = A, x + iy = B of
+//!
+//! ```text
+//! A : B = e^(iΩt/2) (θ4(z | q²) : θ1(z | q²)),    z = x - iπc/(2K),    q = exp(-πK'/K)
+//! Ω = G/I3 + G α13 (P3/P1) J/K,  or  G/I1 + G |α13| Π/K  for α13 < 0, where no part of a sum cancels another
+//! J = cel(k', p, 0, 1),  Π = cel(k', p, 1, 1),  p = α13 G²/P1   (complete_first_and_third)
+//! Q(t) = Q0 p⁻¹ R(0)⁻¹ R(t) p,      p from BF to the relabelled axes
+//! ```
+//!
+//! For q > 0.2 Jacobi's imaginary transformation turns θ4 and θ1 into Gaussians
+//! ([`GaussianPair`](numerics::elliptic::GaussianPair)). On the separatrix, E = 0, two of them are left. A body with
+//! two equal moments, or one that turns about a principal axis, needs no elliptic function.
+//!
+//! # Digits
+//! Next to the separatrix the period is -ln |E|, and rounding E would lose every digit after some turns: it is computed
+//! exactly. All constants of a launch and everything of a time are double-double, so that phases of 1e9 rad keep twenty
+//! digits after the point, and results are rounded once. A few launches need more digits, and their constants are
+//! rounded from those: tensors next to the separatrix, and launches whose components differ by more than 2^200.
+//!
+//! [`certify_rigid`] proves outcomes by the same formulas in [`Ball`](numerics::Ball), numbers that carry a bound of
+//! every rounding.
+
+mod certified;
+mod constants;
+mod curve;
+mod margin;
+mod quaternion;
+mod regime;
+mod sensitivity;
+mod walk;
+
+use dynamics::phase::require_phase;
+use dynamics::time_of_flight::ExactTime;
+use dynamics::{AngleUnit, Attitude, RigidToss, SolveError, State, Vector3};
+use numerics::big::exactly;
+use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
+use numerics::{Big, DoubleDouble, Elementary};
+
+pub use certified::certify_rigid;
+use curve::{Curve, Form};
+pub use margin::{RigidMargin, margin_rigid, rigid_speeds_of_heads};
+pub use regime::Regime;
+
+use crate::motion::ExactMotion;
+
+/// Digits of the constants of a launch where double-double has too few.
+const MANY_DIGITS: usize = 1536;
+
+/// The motion of a rigid body after its launch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidMotion {
+    launch: State,
+    kind: Kind,
+}
+
+/// How the motion is computed.
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    /// By the closed form for coins.
+    Coin(Box<ExactMotion>),
+    /// By that for any body, with the unit of the rates (rad/s): a power of two, and the factor of an angle's unit.
+    Rigid { curve: Box<Curve<DoubleDouble>>, exponent: i32, unit: DoubleDouble },
+}
+
+impl RigidMotion {
+    /// The motion of a toss. One of a body with I1 = I2 is that of [`ExactMotion`], to the last bit.
+    pub fn new(toss: &RigidToss) -> Self {
+        let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+        if let Some(toss) = toss.symmetric() {
+            return Self { launch, kind: Kind::Coin(Box::new(ExactMotion::new(&toss))) };
+        }
+        let (rate, unit) = toss.launch.given_rate();
+        let curve = curve_in_double_double(toss, rate);
+        let unit = if unit == AngleUnit::RADIAN { 1.0.into() } else { DoubleDouble::nearest(&unit.in_digits(160)) };
+        let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
+        Self { launch, kind: Kind::Rigid { curve: Box::new(curve), exponent, unit } }
+    }
+
+    /// The kind of motion.
+    pub fn regime(&self) -> Regime {
+        match &self.kind {
+            Kind::Coin(_) => Regime::Uniform,
+            Kind::Rigid { curve, .. } => match curve.form {
+                Form::Uniform { .. } => Regime::Uniform,
+                Form::Separatrix { .. } => Regime::Separatrix,
+                Form::Series { frequency, .. } | Form::Gaussian { frequency, .. } if frequency.hi() < 0.0 => {
+                    Regime::AroundSmallest
+                }
+                Form::Series { .. } | Form::Gaussian { .. } => Regime::AroundLargest,
+            },
+        }
+    }
+
+    /// The larger of two phases (rad), `time` (s) after launch: how far the body has turned about its angular momentum,
+    /// and how far the angular momentum has turned in the body.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
+    pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        match &self.kind {
+            Kind::Coin(motion) => motion.phase(time),
+            Kind::Rigid { .. } => self.own_time(time.into()).map(|(_, _, phase)| phase),
+        }
+    }
+
+    /// cos θ, `time` (s) after launch, with θ the angle between n and the vertical.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        if let Kind::Coin(motion) = &self.kind {
+            return motion.cos_tilt(time);
+        }
+        let (curve, time, _) = self.own_time(time.into())?;
+        Ok(cos_tilt(&curve.turn(&time), &self.launch.attitude.exact_vertical()).hi().clamp(-1.0, 1.0))
+    }
+
+    /// Attitude and body rate, `time` (s) after launch.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
+        let (exponent, unit) = match &self.kind {
+            Kind::Coin(motion) => return motion.state(time),
+            Kind::Rigid { exponent, unit, .. } => (*exponent, *unit),
+        };
+        let (curve, time, _) = self.own_time(time.into())?;
+        let turn = curve.turn(&time).map(DoubleDouble::hi);
+        // Its norm is not 0, for A and B never vanish together.
+        let turn = Attitude::from_components(turn).unwrap_or(Attitude::IDENTITY);
+        let rate = curve.rate(&time).map(|part| (part * unit).times_power_of_two(exponent).hi());
+        Ok(State { attitude: self.launch.attitude * turn, rate: Vector3::from(rate) })
+    }
+
+    /// The time in the unit of the curve, and the unit of the rates (rad/s); of a coin, both as they are.
+    fn time_and_unit(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
+        let Kind::Rigid { exponent, unit, .. } = &self.kind else {
+            return Ok((time.mantissa().times_power_of_two(time.exponent()), 1.0));
+        };
+        let own = self.own_time(time)?.1;
+        Ok((own, unit.times_power_of_two(*exponent).hi()))
+    }
+
+    /// The curve of a body that is no coin, the time in its unit, and the larger phase (rad).
+    fn own_time(&self, time: ExactTime) -> Result<(&Curve<DoubleDouble>, DoubleDouble, f64), SolveError> {
+        let Kind::Rigid { curve, exponent, unit } = &self.kind else {
+            return Err(SolveError::PhaseTooLarge { phase: f64::NAN });
+        };
+        let mantissa = time.mantissa() * *unit;
+        let turned = |rate: DoubleDouble| (rate * mantissa).times_power_of_two(exponent + time.exponent()).hi().abs();
+        let phase = require_phase(curve.rates().into_iter().map(turned).fold(0.0, larger))?;
+        // Of a body at rest the phase is 0 at any time, also at one that is infinite in its unit.
+        let time = mantissa.times_power_of_two(exponent + time.exponent());
+        let still = curve.rates().iter().all(|rate| rate.hi() == 0.0);
+        Ok((curve, if still { DoubleDouble::ZERO } else { time }, phase))
+    }
+}
+
+/// The larger number; NaN if one of them is.
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
+/// cos θ of a body that has turned by `turn` (of any norm) since launch, with the `vertical` in BF at launch.
+fn cos_tilt<N: Elementary>(turn: &quaternion::Quaternion<N>, vertical: &[N; 3]) -> N {
+    let [x, y, z] = quaternion::turned_normal(turn);
+    let [up_x, up_y, up_z] = vertical.clone();
+    (x * up_x + y * up_y + z * up_z) / quaternion::norm_squared(turn)
+}
+
+/// The curve in double-double, from more digits if these are too few.
+fn curve_in_double_double(toss: &RigidToss, rate: Vector3<f64>) -> Curve<DoubleDouble> {
+    let close =
+        if components_are_close(&rate) { Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO)) } else { None };
+    close.unwrap_or_else(|| {
+        let like = exactly(0.0).with_precision(MANY_DIGITS).value();
+        let curve: Option<Curve<Big>> = Curve::new(&toss.body, &scaled(&rate, &like));
+        // With so many digits a launch has a regime: only numbers with an error bound may lack one.
+        curve.map(|curve| curve.to_double_double()).unwrap_or_else(|| unreachable!("a regime"))
+    })
+}
+
+/// Whether squares and fourth powers of the components, relative to the largest, are in the range of f64.
+fn components_are_close(rate: &Vector3<f64>) -> bool {
+    let scale = power_of_two_scale(rate.amax());
+    rate.iter().all(|part| *part == 0.0 || (part / scale).abs() > 2f64.powi(-200))
+}
+
+/// The rate (BF) in a unit near its largest component, exactly.
+fn scaled<N: Elementary>(rate: &Vector3<f64>, like: &N) -> [N; 3] {
+    let scale = power_of_two_scale(rate.amax());
+    if components_are_close(rate) {
+        return [rate.x, rate.y, rate.z].map(|part| like.like(part / scale));
+    }
+    let (_, exponent) = mantissa_and_exponent(scale);
+    [rate.x, rate.y, rate.z].map(|part| like.like_big(&exactly(part).times_power_of_two(-exponent)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,170 @@
+//! This file proves the outcome of the toss of any rigid body: the closed form is evaluated in [`Ball`]s, which contain
+//! the true numbers, first in f64, then in double-double and then in more and more digits, until cos θ has a sign.
+//!
+//! The numbers as given are the moments or the tensor, the rates in their unit, the attitude, and the time or the
+//! speed, gravity and drop. They are exact, or balls contain them. The sign of E, and with it the formula, is exact for
+//! a body given by its moments; of a tensor it is proven, or more digits are tried.
+
+use dynamics::time_of_flight::ExactTime;
+use dynamics::{AngleUnit, Error, Outcome, RigidToss, SolveError};
+use numerics::big::exactly;
+use numerics::{Ball, Big, DoubleDouble, Elementary};
+
+use super::{RigidMotion, components_are_close, cos_tilt, scaled};
+use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::certified::certify;
+use crate::rigid::curve::Curve;
+
+/// Digits of the stages after double-double. Radii are f64, which ends the sequence.
+const DIGITS: [usize; 3] = [256, 448, 832];
+
+/// Phases (rad) from which on f64 is not tried.
+const LARGEST_PHASE_IN_F64: f64 = 1e12;
+
+/// Proves the outcome of a toss of any body. That of a coin is proven by [`certify`].
+///
+/// An outcome is undecided if cos θ is 0, as far as 832 digits can tell; if the rates are so unequal, by a factor of
+/// 1e135 or more, that the radii underflow; or if two principal moments of a tensor are equal, for its axes are then
+/// not known.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
+pub fn certify_rigid(toss: &RigidToss) -> Result<Certificate, SolveError> {
+    if let Some(toss) = toss.symmetric() {
+        return certify(&toss);
+    }
+    if let Some(outcome) = by_f64(toss) {
+        return Ok(Certificate::new(outcome, Stage::F64));
+    }
+    RigidMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    if let Some(outcome) = by_double_double(toss) {
+        return Ok(Certificate::new(outcome, Stage::DoubleDouble));
+    }
+    let outcome = DIGITS.iter().find_map(|digits| by_multiprecision(toss, *digits)).unwrap_or(Outcome::Undecided);
+    Ok(Certificate::new(outcome, Stage::Multiprecision))
+}
+
+impl ProvenCounts {
+    /// Proves and counts the outcomes of `tosses` of any bodies.
+    ///
+    /// # Errors
+    /// [`Error::Launch`] for the first toss that has no outcome.
+    pub fn of_rigid(tosses: impl IntoIterator<Item = RigidToss>) -> Result<Self, Error> {
+        let mut counts = Self::default();
+        for (index, toss) in (0..).zip(tosses) {
+            let certificate = certify_rigid(&toss);
+            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+        }
+        Ok(counts)
+    }
+}
+
+/// The outcome that cos θ proves, if it has a sign.
+fn outcome<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Outcome> {
+    let cos_tilt = cos_tilt_in_ball(toss, vertical, time)?;
+    match Outcome::of(cos_tilt.midpoint().to_f64(), cos_tilt.radius()) {
+        Outcome::Undecided => None,
+        decided => cos_tilt.has_sign().then_some(decided),
+    }
+}
+
+/// A ball with cos θ; `None` if the numbers have too few digits.
+fn cos_tilt_in_ball<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Ball<N>> {
+    let (rate, _) = toss.launch.given_rate();
+    let curve = Curve::new(&toss.body, &scaled(&rate, time))?;
+    // A large phase is left to its check. In f64 nothing would be decided by it.
+    let turned = curve.rates().map(|rate| (rate * time.clone()).to_f64().abs());
+    if time.digits() == 53 && !turned.iter().all(|phase| *phase < LARGEST_PHASE_IN_F64) {
+        return None;
+    }
+    Some(cos_tilt(&curve.turn(time), vertical))
+}
+
+/// The outcome in f64, for phases whose rounding leaves digits.
+fn by_f64(toss: &RigidToss) -> Option<Outcome> {
+    let (time, vertical) = in_double_double(toss)?;
+    outcome(toss, &vertical.each_ref().map(rounded), &rounded(&time))
+}
+
+/// A ball of f64 that contains a ball of double-double.
+pub(super) fn rounded(number: &Ball<DoubleDouble>) -> Ball<f64> {
+    let midpoint = number.midpoint();
+    Ball::new(midpoint.hi(), (midpoint.lo().abs() + number.radius()) * (1.0 + f64::EPSILON))
+}
+
+fn by_double_double(toss: &RigidToss) -> Option<Outcome> {
+    let (time, vertical) = in_double_double(toss)?;
+    outcome(toss, &vertical, &time)
+}
+
+/// The time in the unit of the rates, and the vertical (BF) at launch; `None` for rates that are not in rad/s or differ
+/// too much.
+fn in_double_double(toss: &RigidToss) -> Option<(Ball<DoubleDouble>, [Ball<DoubleDouble>; 3])> {
+    // The time to 25 u² of itself, and the vertical to 2^-67.
+    const TIME: f64 = 6.310_887_241_768_095e-30; // 2^-97
+    const VERTICAL: f64 = 6.776_263_578_034_403e-21; // 2^-67
+    let (rate, unit) = toss.launch.given_rate();
+    if !components_are_close(&rate) || unit != AngleUnit::RADIAN {
+        return None;
+    }
+    let time = ExactTime::from(toss.launch.time_of_flight());
+    let scale = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(rate.amax())).1;
+    let time = time.mantissa().times_power_of_two(time.exponent() + scale);
+    let vertical = toss.launch.attitude().exact_vertical().map(|part: DoubleDouble| Ball::new(part, VERTICAL));
+    Some((Ball::new(time, TIME * time.hi()), vertical))
+}
+
+fn by_multiprecision(toss: &RigidToss, digits: usize) -> Option<Outcome> {
+    let round = |value: Big| value.with_precision(digits).value();
+    let relative = (Big::ONE >> (digits as isize - 16)).to_f64().value();
+    let (rate, unit) = toss.launch.given_rate();
+    let scale = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(rate.amax())).1;
+    // The time in the unit of the rates; both factors are right to some roundings.
+    let time = round(toss.launch.time_of_flight().in_digits(digits)) * round(unit.in_digits(digits));
+    let time = time.times_power_of_two(scale);
+    let time = Ball::new(time.clone(), relative * time.to_f64().value());
+    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+    // The sign of cos θ does not need the norm, but its size decides what counts as small.
+    let size = norm.to_f64().value();
+    let vertical = vertical.map(|part| Ball::new(round(part) / round(exactly(size)), relative));
+    outcome(toss, &vertical, &time)
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Body, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// Tosses of four bodies, from horizontal and tilted, with phases of up to some thousand rad.
+    fn tosses() -> impl Iterator<Item = RigidToss> {
+        let bodies = [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 1.001, 2.0], [1.0, 2.0, 2.25]];
+        (0..2000).map(move |index| {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract();
+            let rate = [2.0, 3.0, 5.0].map(|square| 120.0 * part(square) - 60.0);
+            let time = [0.5, 0.7, 40.0][index as usize % 3] * part(7.0);
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+            let launch =
+                if index % 2 == 0 { launch } else { launch.with_attitude(Attitude::about_x(3.0 * part(11.0))) };
+            RigidToss { body: Body::from_moments(bodies[index as usize % 4]).unwrap(), launch }
+        })
+    }
+
+    /// A thousandth of the radius would not do, and the radius is so small that f64 decides nearly all.
+    #[test]
+    fn balls_of_f64_contain_those_of_double_double_and_decide_nearly_all_outcomes() {
+        let (mut decided, mut largest) = (0, 0.0_f64);
+        for toss in tosses() {
+            let (time, vertical) = in_double_double(&toss).unwrap();
+            let fine = cos_tilt_in_ball(&toss, &vertical, &time).unwrap();
+            let Some(rough) = cos_tilt_in_ball(&toss, &vertical.each_ref().map(rounded), &rounded(&time)) else {
+                continue;
+            };
+            let off = (fine.midpoint().hi() - rough.midpoint()).abs();
+            assert!(off <= rough.radius() + fine.radius(), "{toss:?}: {off:e} {rough:?}");
+            largest = largest.max(off / rough.radius());
+            decided += u32::from(by_f64(&toss).is_some());
+        }
+        assert!(decided > 1990 && largest > 1e-3, "{decided} {largest:e}");
+    }
+}

@@ -1,0 +1,110 @@
+//! The constants of a motion: its frequencies, its phase at launch, and the theta functions or Gaussians that it is
+//! made of. The formulas are those of [the module](super).
+
+use numerics::Elementary;
+use numerics::elliptic::{
+    GaussianPair, ThetaPair, complete_first_and_third, incomplete_and_complete_first, incomplete_first, nome,
+};
+
+use super::curve::Form;
+use super::regime::Start;
+
+/// The nome from which on Gaussians have fewer terms than the Fourier series.
+const LARGE_NOME: f64 = 0.2;
+
+/// P1, P3 and the α, of one sign each; see [the module](super).
+pub(super) struct Combinations<N> {
+    pub(super) alpha: [N; 3],
+    pub(super) p1: N,
+    pub(super) p3: N,
+}
+
+/// Ω/2 and the form of a motion off the separatrix.
+pub(super) fn periodic<N: Elementary>(
+    start: &Start<N>,
+    m: &[N; 3],
+    momentum: &N,
+    of: &Combinations<N>,
+) -> (N, Form<N>) {
+    let [a12, a13, a23] = &of.alpha;
+    let product = |a: &N, b: &N| a.clone() * b.clone();
+    let lambda = product(&of.p1, a23).sqrt();
+    let lambda = if a13.sign() < 0.0 { -lambda } else { lambda };
+    // k² = m = α12 P3/(α23 P1), k'² = |α13 E|/(I2 α23 P1): both without a difference.
+    let below = product(a23, &of.p1);
+    let complementary = (product(a13, &start.excess).magnitude() / product(&start.moments[1], &below)).sqrt();
+    let modulus = (product(a12, &of.p3) / below).sqrt();
+    let root = |number: &N| number.magnitude().sqrt();
+    let (k, half_rate) = mean_precession(start, momentum, of, &complementary);
+    let (k_prime, c, v) = if of.p3.to_f64().abs() <= of.p1.to_f64().abs() {
+        let [c, k_prime] = incomplete_and_complete_first(&root(a23), &root(a12), modulus);
+        (k_prime.clone(), c.clone(), k_prime - c)
+    } else {
+        let [v, k_prime] = incomplete_and_complete_first(&root(&of.p1), &root(&of.p3), modulus);
+        (k_prime.clone(), k_prime - v.clone(), v)
+    };
+    let frequency = lambda / (k.clone() + k.clone());
+    let [sin, cos] = [m[1].clone() * root(a23), m[0].clone() * root(a13)];
+    let launch = launch_phase(&sin, &cos, &complementary, &k) / (k.clone() + k.clone());
+    if nome(k.clone(), k_prime.clone()).to_f64() <= LARGE_NOME {
+        (half_rate, Form::Series { pair: ThetaPair::new(&k, &c, &v), frequency, launch })
+    } else {
+        let turn = k.pi() * c.clone() / (k_prime.clone() + k_prime.clone());
+        let half_rate = half_rate + turn.clone() * frequency.clone();
+        (half_rate, Form::Gaussian { pair: GaussianPair::new([&k, &k_prime], &c), turn, frequency, launch })
+    }
+}
+
+/// K, and half of Ω, the mean rate at which the body turns about the angular momentum. Each part of a sum has the sign
+/// of the sum.
+fn mean_precession<N: Elementary>(start: &Start<N>, momentum: &N, of: &Combinations<N>, complementary: &N) -> (N, N) {
+    let [first, _, third] = &start.moments;
+    let [_, a13, _] = &of.alpha;
+    let parameter = a13.clone() * momentum.clone() * momentum.clone() / of.p1.clone();
+    let (steady, weights, share) = if a13.sign() > 0.0 {
+        (third, [0.0, 1.0], of.p3.clone() / of.p1.clone())
+    } else {
+        (first, [1.0, 1.0], a13.like(-1.0))
+    };
+    let [k, integral] = complete_first_and_third(complementary.clone(), &parameter, weights);
+    let rate = momentum.clone() * (a13.like(1.0) / steady.clone() + a13.clone() * share * integral / k.clone());
+    (k, rate.halved())
+}
+
+/// u0 with sn u0 : cn u0 = `sin` : `cos`, from F of the smaller one of two amplitudes.
+fn launch_phase<N: Elementary>(sin: &N, cos: &N, complementary: &N, k: &N) -> N {
+    let scaled = complementary.clone() * sin.magnitude();
+    if (scaled.clone() - cos.magnitude()).sign() <= 0.0 {
+        let phase = incomplete_first(sin, &cos.magnitude(), complementary.clone());
+        return if cos.sign() < 0.0 { k.clone() + k.clone() - phase } else { phase };
+    }
+    let phase = k.clone() - incomplete_first(cos, &scaled, complementary.clone());
+    if sin.sign() < 0.0 { -phase } else { phase }
+}
+
+/// Ω/2 and the form of a motion on the separatrix.
+pub(super) fn separatrix<N: Elementary>(
+    start: &Start<N>,
+    m: &[N; 3],
+    momentum: &N,
+    of: &Combinations<N>,
+) -> (N, Form<N>) {
+    let [a12, _, a23] = &of.alpha;
+    let rate = momentum.clone() * (a12.clone() * a23.clone()).sqrt();
+    let size = norm(&[a12.sqrt(), a23.sqrt(), rate.like(0.0)]);
+    let angle = [a12.sqrt() / size.clone(), a23.sqrt() / size];
+    // e^u0 with sinh u0 = m2/√(m1² + m3²), without a difference.
+    let across = norm(&[m[0].clone(), m[2].clone(), rate.like(0.0)]);
+    let launch = if m[1].sign() >= 0.0 {
+        (m[1].clone() + momentum.clone()) / across
+    } else {
+        across / (momentum.clone() - m[1].clone())
+    };
+    ((momentum.clone() / start.moments[1].clone()).halved(), Form::Separatrix { rate, launch, angle })
+}
+
+/// The length of a vector.
+pub(super) fn norm<N: Elementary>(vector: &[N; 3]) -> N {
+    let [x, y, z] = vector.clone().map(|part| part.clone() * part);
+    (x + y + z).sqrt()
+}

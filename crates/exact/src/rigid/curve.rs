@@ -1,0 +1,243 @@
+//! The motion of a rigid body as a curve of quaternions, in any kind of number: its two frequencies, and the functions
+//! that are periodic in them.
+
+use dynamics::Body;
+use numerics::elliptic::{GaussianPair, ThetaPair};
+use numerics::{DoubleDouble, Elementary};
+
+use super::constants::{Combinations, norm, periodic, separatrix};
+use super::quaternion::{Quaternion, conjugate, norm_squared, of_axes, product, turned};
+use super::regime::{Regime, Start};
+
+/// The turn of a body since its launch as a function of time.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Curve<N> {
+    /// |L|, the angular momentum, in the units of [`Start`].
+    momentum: N,
+    moments: [N; 3],
+    axes: [[N; 3]; 3],
+    /// p, from BF to the relabelled axes, of any norm.
+    labels: Quaternion<N>,
+    /// p⁻¹ R(0)⁻¹, of any norm.
+    from_launch: Quaternion<N>,
+    /// Ω/2, the rate of the phase about the angular momentum.
+    half_rate: N,
+    pub(super) form: Form<N>,
+}
+
+/// The part of the motion that is periodic in the body.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Form<N> {
+    /// The turn about the fixed `direction` (BF at launch), then the spin at the rate -2 `half_spin` about the axis
+    /// `about`.
+    Uniform { direction: [N; 3], half_spin: N, about: usize, rate: [N; 3] },
+    /// By Fourier series: half-periods of the angular momentum in the unit of time, and at launch.
+    Series { pair: ThetaPair<N>, frequency: N, launch: N },
+    /// By Gaussians; `turn` is the angle c' of the phase that a half-period takes.
+    Gaussian { pair: GaussianPair<N>, turn: N, frequency: N, launch: N },
+    /// λ, e^u at launch, and (cos c, sin c).
+    Separatrix { rate: N, launch: N, angle: [N; 2] },
+}
+
+impl<N: Elementary> Curve<N> {
+    /// The motion of `body` from the `rate` (BF) in a unit near its largest component. `None` if the numbers have too
+    /// few digits.
+    pub(super) fn new(body: &Body, rate: &[N; 3]) -> Option<Self> {
+        let start = Start::new(body, rate)?;
+        let m: [N; 3] = [0, 1, 2].map(|axis: usize| start.moments[axis].clone() * start.rate[axis].clone());
+        let momentum = norm(&m);
+        if start.regime == Regime::Uniform {
+            return Some(Self::uniform(start, &m, momentum));
+        }
+        let square = |part: &N| part.clone() * part.clone();
+        let [a12, a13, a23] = [start.alpha(0, 1), start.alpha(0, 2), start.alpha(1, 2)];
+        let p1 = a12.clone() * square(&m[1]) + a13.clone() * square(&m[2]);
+        let p3 = a13.clone() * square(&m[0]) + a23.clone() * square(&m[1]);
+        let combinations = Combinations { alpha: [a12, a13, a23], p1, p3 };
+        let (half_rate, form) = if start.regime == Regime::Separatrix {
+            separatrix(&start, &m, &momentum, &combinations)
+        } else {
+            periodic(&start, &m, &momentum, &combinations)
+        };
+        let labels = of_axes(&start.axes);
+        let from_launch = conjugate(&labels);
+        let mut curve =
+            Self { momentum, moments: start.moments, axes: start.axes, labels, from_launch, half_rate, form };
+        let at_launch = curve.relative(&curve.half_rate.like(0.0));
+        curve.from_launch = product(&curve.from_launch, &conjugate(&at_launch));
+        Some(curve)
+    }
+
+    /// Precession about the angular momentum and spin about the axis of symmetry, or about none.
+    fn uniform(start: Start<N>, m: &[N; 3], momentum: N) -> Self {
+        let [first, second, third] = &start.moments;
+        let is_0 = |part: N| part.sign() == 0.0;
+        let [x, y, _] = &start.rate;
+        // The axis that has its moment alone; of a sphere, any one. A body that turns about a principal axis does not
+        // spin about another.
+        let symmetric = [is_0(third.clone() - second.clone()), is_0(second.clone() - first.clone())];
+        let about = if symmetric[0] { 0 } else { 2 };
+        let across = if symmetric[0] || symmetric[1] {
+            second.clone()
+        } else if !is_0(x.clone()) {
+            first.clone()
+        } else if !is_0(y.clone()) {
+            second.clone()
+        } else {
+            third.clone()
+        };
+        let spin = if symmetric[0] || symmetric[1] {
+            start.rate[about].clone() * (start.moments[about].clone() - across.clone()) / across.clone()
+        } else {
+            across.like(0.0)
+        };
+        let is_still = momentum.sign() == 0.0;
+        let direction = if is_still { m.clone() } else { m.clone().map(|part| part / momentum.clone()) };
+        let form = Form::Uniform { direction, half_spin: spin.halved(), about, rate: start.rate.clone() };
+        let labels = of_axes(&start.axes);
+        let half_rate = (momentum.clone() / across).halved();
+        let from_launch = conjugate(&labels);
+        Self { momentum, moments: start.moments, axes: start.axes, labels, from_launch, half_rate, form }
+    }
+
+    /// The turn (of any norm) from the body at launch to the body after `time`, in the unit of the inverse rates.
+    pub(super) fn turn(&self, time: &N) -> Quaternion<N> {
+        product(&product(&self.from_launch, &self.relative(time)), &self.labels)
+    }
+
+    /// R(t), from the relabelled axes to axes of which the third is along the angular momentum; of a uniform motion, to
+    /// those at launch. Of any norm.
+    fn relative(&self, time: &N) -> Quaternion<N> {
+        let phase = self.half_rate.clone() * time.clone();
+        let ([a, b], phase) = match &self.form {
+            Form::Uniform { direction, half_spin, about, .. } => {
+                let [sin, cos] = phase.sine_and_cosine();
+                let [x, y, z] = direction.clone().map(|part| part * sin.clone());
+                let [spin_sin, spin_cos] = (half_spin.clone() * time.clone()).sine_and_cosine();
+                let mut spin = [spin_cos, sin.like(0.0), sin.like(0.0), sin.like(0.0)];
+                spin[about + 1] = -spin_sin;
+                return product(&[cos, x, y, z], &spin);
+            }
+            Form::Series { pair, frequency, launch } => {
+                let (rest, whole) = rounded_off(&(frequency.clone() * time.clone() + launch.clone()));
+                let [even, odd] = pair.at(&(rest.pi() * rest).sine_and_cosine());
+                ([even, signed(odd, whole)], phase)
+            }
+            Form::Gaussian { pair, turn, frequency, launch } => {
+                let quarter = launch.like(0.5);
+                let (rest, whole) = rounded_off(&(frequency.clone() * time.clone() + launch.clone() + quarter));
+                let [even, odd] = pair.at(&rest);
+                ([even, signed(odd, whole)], phase - turn.clone() * turn.like(whole))
+            }
+            Form::Separatrix { rate, launch, angle: [cos, sin] } => {
+                let shift = rate.clone() * time.clone();
+                // e^u with u = λt + u0; the larger one of e^(u/2) and e^(-u/2) is divided out.
+                let one = rate.like(1.0);
+                let falling = (-shift.clone()).exp() / launch.clone();
+                let (even, odd) =
+                    if falling.to_f64() <= 1.0 { (falling, one) } else { (one, shift.exp() * launch.clone()) };
+                let (along, across) = (odd.clone() * cos.clone(), -(odd * sin.clone()));
+                ([[along.clone() + even.clone(), across.clone()], [along - even, across]], phase)
+            }
+        };
+        let [sin, cos] = phase.sine_and_cosine();
+        let turned = |[re, im]: [N; 2]| {
+            [re.clone() * cos.clone() - im.clone() * sin.clone(), re * sin.clone() + im * cos.clone()]
+        };
+        let ([a_re, a_im], [b_re, b_im]) = (turned(a), turned(b));
+        [a_re, b_re, b_im, a_im]
+    }
+
+    /// The body rate (BF) after `time`, in the unit of the rates.
+    pub(super) fn rate(&self, time: &N) -> [N; 3] {
+        let relative = self.relative(time);
+        let size = norm_squared(&relative);
+        let along_axes = if let Form::Uniform { half_spin, about, rate, .. } = &self.form {
+            // ω is fixed but for the spin, which turns it about the axis of symmetry.
+            let [sin, cos] = (half_spin.clone() * time.clone()).sine_and_cosine();
+            let mut spin = [cos, sin.like(0.0), sin.like(0.0), sin.like(0.0)];
+            spin[about + 1] = sin;
+            turned(&spin, rate)
+        } else {
+            let zero = size.like(0.0);
+            let m = turned(&conjugate(&relative), &[zero.clone(), zero, self.momentum.clone()]);
+            let [x, y, z] = m.map(|part| part / size.clone());
+            let [first, second, third] = self.moments.clone();
+            [x / first, y / second, z / third]
+        };
+        [0, 1, 2].map(|column: usize| {
+            let [first, second, third] = self.axes.each_ref().map(|axis| axis[column].clone());
+            let [x, y, z] = along_axes.clone();
+            first * x + second * y + third * z
+        })
+    }
+
+    /// Whether the motions around this one are of another form: on the separatrix, about a principal axis, and at rest.
+    pub(super) fn is_special(&self) -> bool {
+        let [first, second, third] = &self.moments;
+        let is_0 = |part: N| part.sign() == 0.0;
+        let symmetric = is_0(second.clone() - first.clone()) || is_0(third.clone() - second.clone());
+        match self.form {
+            Form::Series { .. } | Form::Gaussian { .. } => false,
+            Form::Separatrix { .. } => true,
+            Form::Uniform { .. } => !symmetric || is_0(self.momentum.clone()),
+        }
+    }
+
+    /// The rates of the two phases: Ω about the angular momentum, and that of the angular momentum in the body.
+    pub(super) fn rates(&self) -> [N; 2] {
+        let periodic = match &self.form {
+            Form::Uniform { half_spin, .. } => half_spin.clone() + half_spin.clone(),
+            Form::Series { frequency, .. } | Form::Gaussian { frequency, .. } => frequency.clone() * frequency.pi(),
+            Form::Separatrix { rate, .. } => rate.clone(),
+        };
+        [self.half_rate.clone() + self.half_rate.clone(), periodic]
+    }
+}
+
+impl<N: Elementary> Curve<N> {
+    /// The same motion, rounded to double-double.
+    pub(super) fn to_double_double(&self) -> Curve<DoubleDouble> {
+        let one = |number: &N| number.to_double_double();
+        let three = |numbers: &[N; 3]| numbers.each_ref().map(one);
+        let form = match &self.form {
+            Form::Uniform { direction, half_spin, about, rate } => Form::Uniform {
+                direction: three(direction),
+                half_spin: one(half_spin),
+                about: *about,
+                rate: three(rate),
+            },
+            Form::Series { pair, frequency, launch } => {
+                Form::Series { pair: pair.map(one), frequency: one(frequency), launch: one(launch) }
+            }
+            Form::Gaussian { pair, turn, frequency, launch } => {
+                Form::Gaussian { pair: pair.map(one), turn: one(turn), frequency: one(frequency), launch: one(launch) }
+            }
+            Form::Separatrix { rate, launch, angle } => {
+                Form::Separatrix { rate: one(rate), launch: one(launch), angle: angle.each_ref().map(one) }
+            }
+        };
+        Curve {
+            momentum: one(&self.momentum),
+            moments: three(&self.moments),
+            axes: self.axes.each_ref().map(three),
+            labels: self.labels.each_ref().map(one),
+            from_launch: self.from_launch.each_ref().map(one),
+            half_rate: one(&self.half_rate),
+            form,
+        }
+    }
+}
+
+/// A number less its nearest whole number, and that number.
+fn rounded_off<N: Elementary>(number: &N) -> (N, f64) {
+    let whole = number.to_f64().round_ties_even();
+    // A phase that is not finite ends as a number without digits.
+    let whole = if whole.is_finite() { whole } else { 0.0 };
+    (number.clone() - number.like(whole), whole)
+}
+
+/// Both parts reversed for an odd number of half-periods.
+fn signed<N: Elementary>(value: [N; 2], half_periods: f64) -> [N; 2] {
+    if half_periods.rem_euclid(2.0) == 0.0 { value } else { value.map(|part| -part) }
+}

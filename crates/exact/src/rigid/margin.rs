@@ -1,0 +1,171 @@
+//! How far the toss of any rigid body is from the other outcome, and the speeds with which it lands heads.
+//!
+//! A step of the search evaluates cos θ in a [`Ball`](numerics::Ball) that contains a whole interval of one input, so
+//! that an interval whose ball has the sign of the launch holds no flip. Steps shrink towards a flip, and no flip is
+//! passed over. Next to one they are double-double. On the separatrix no ball has a sign, because the motion has another
+//! form there; cos θ of a given time is continuous, and a shortest step passes it as it passes a touch.
+
+use dynamics::{Outcome, RigidToss, SolveError, TimeOfFlight};
+use numerics::DoubleDouble;
+
+use super::walk::{End, Input, Line, Walk};
+use super::{RigidMotion, certify_rigid, cos_tilt};
+use crate::margin::{Margin, margin, speed_and_gravity};
+
+/// Changes of a rate that are searched (rad/s), and of the turn (rad), as for coins.
+const RATE_RANGE: f64 = 1000.0;
+const TURN_RANGE: f64 = 2000.0;
+
+/// The margin of the toss of any body, with the range that was searched in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidMargin {
+    /// The changes to the nearest flips. Those of the time, the speed and gravity are `None` also where no flip is in
+    /// the range, or where the nearest of them might lie beyond it.
+    pub margin: Margin,
+    /// The largest changes of the time of flight that were searched: earlier, down to 0 at most, and later (s).
+    /// Infinite where all times were.
+    pub time_range: [f64; 2],
+}
+
+/// The margin of the toss of any body. That of a coin is by [`margin`].
+///
+/// Two flips nearer to each other than 5e-13 of their distance may count as none. All inputs take some hundred
+/// milliseconds.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub fn margin_rigid(toss: &RigidToss) -> Result<RigidMargin, SolveError> {
+    if let Some(toss) = toss.symmetric() {
+        return Ok(RigidMargin { margin: margin(&toss)?, time_range: [f64::INFINITY; 2] });
+    }
+    let outcome = certify_rigid(toss)?.outcome();
+    if outcome == Outcome::Undecided {
+        return Ok(on_edge(toss));
+    }
+    let (time, speed, gravity, time_range) = of_flight(toss, outcome);
+    let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, outcome));
+    let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
+    let margin = Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range };
+    Ok(RigidMargin { margin, time_range })
+}
+
+/// The margin of an undecided toss: 0 of each input.
+fn on_edge(toss: &RigidToss) -> RigidMargin {
+    let thrown = if matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { Some(0.0) };
+    let margin = Margin {
+        time: Some(0.0),
+        speed: thrown,
+        gravity: thrown,
+        tilt: Some(0.0),
+        rate: [Some(0.0); 3],
+        rate_range: [0.0; 3],
+    };
+    RigidMargin { margin, time_range: [0.0; 2] }
+}
+
+/// The first flip in the direction of `sense` up to `limit`, and how far the search went.
+fn first(line: &Line<'_>, outcome: Outcome, sense: f64, limit: f64) -> (Option<f64>, f64) {
+    let mut walk = Walk::new(line, outcome, sense, limit, 0.0);
+    match walk.next_flip() {
+        End::Flip(distance) => (Some(sense * distance), distance),
+        End::Limit => (None, limit),
+        End::Spent(distance) => (None, distance),
+    }
+}
+
+/// Of the time of flight, the speed and gravity, and the range of times that was searched.
+fn of_flight(toss: &RigidToss, outcome: Outcome) -> (Option<f64>, Option<f64>, Option<f64>, [f64; 2]) {
+    let flight = toss.launch.time_of_flight();
+    let turn_rate = toss.launch.turn_rate();
+    if turn_rate == 0.0 {
+        return (None, None, None, [f64::INFINITY; 2]);
+    }
+    let line = Line::new(toss, Input::Time);
+    let limits = [flight.seconds(), TURN_RANGE / turn_rate];
+    let [earlier, later] =
+        [(-1.0, limits[0]), (1.0, limits[1])].map(|(sense, limit)| first(&line, outcome, sense, limit));
+    let range = [earlier.1, later.1];
+    // The nearer one of both directions, unless the other one was not searched as far.
+    let nearest = |size: &dyn Fn(f64) -> Option<f64>| {
+        let changes = [earlier.0, later.0].map(|flip| flip.and_then(size));
+        let found = changes.into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        let covers = |at: f64, is_all: bool| is_all || size(at).is_none_or(|end| end.abs() >= found.abs());
+        let all_earlier = earlier.0.is_none() && earlier.1 >= limits[0];
+        (covers(-earlier.1, all_earlier) && covers(later.1, false)).then_some(found)
+    };
+    let thrown = |change: f64| speed_and_gravity(flight, change);
+    (nearest(&Some), nearest(&|change| thrown(change)[0]), nearest(&|change| thrown(change)[1]), range)
+}
+
+/// Of a rate, and the largest change that was searched.
+fn of_rate(toss: &RigidToss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
+    let line = Line::new(toss, Input::Rate(axis));
+    let largest = toss.launch.rate().amax();
+    let range = (10.0 * largest).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX);
+    let (up, up_range) = first(&line, outcome, 1.0, range);
+    let (down, down_range) = first(&line, outcome, -1.0, up_range);
+    match (up, down) {
+        (_, Some(down)) => (Some(down), range),
+        // The search downwards has to reach as far as the flip upwards.
+        (Some(up), None) if down_range >= up_range => (Some(up), range),
+        _ => (None, down_range),
+    }
+}
+
+/// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
+fn of_tilt(toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+    let motion = RigidMotion::new(toss);
+    let (curve, time, _) = motion.own_time(toss.launch.time_of_flight().into())?;
+    let (turn, attitude) = (curve.turn(&time), toss.launch.attitude());
+    let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
+        .map(|vertical| cos_tilt(&turn, &vertical));
+    Ok(Some(-(height / turned).hi().atan()).filter(|change| change.is_finite()))
+}
+
+/// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if its time of flight
+/// was given without a speed; none if `slowest` is not slower. Two flips nearer to each other than 1e-12 of the time of flight may count as none.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`]; [`SolveError::StepLimit`] if the motion stays so near to cos θ = 0, or so near to the
+/// separatrix, that the search ended before the last speed.
+pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
+    let (speed, gravity, drop) = match toss.launch.time_of_flight() {
+        TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, 0.0),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, drop),
+        TimeOfFlight::Given(_) => return Ok(None),
+    };
+    if let Some(toss) = toss.symmetric() {
+        return crate::thrown_speeds_of_heads(&toss, slowest);
+    }
+    RigidMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    let to = toss.launch.flight_time();
+    let from = TimeOfFlight::BallisticTo { speed: slowest, gravity, drop }.seconds();
+    let speed_of = |time: f64| (0.5 * gravity * time - drop / time).clamp(slowest.min(speed), speed);
+    if from.is_nan() || from >= to {
+        return Ok(Some(Vec::new()));
+    }
+    let line = Line::new(toss, Input::Time);
+    let first = line.outcome_at(from - to);
+    let mut flips = Walk::new(&line, first, 1.0, to - from, from).starting_at(from - to);
+    let (mut intervals, mut begin) = (Vec::new(), (first == Outcome::Heads).then_some(slowest));
+    loop {
+        match flips.next_flip() {
+            End::Flip(change) => {
+                let at = speed_of(to + change);
+                match begin.take() {
+                    Some(begin) => intervals.push([begin, at]),
+                    None => begin = Some(at),
+                }
+            }
+            End::Limit => break,
+            End::Spent(change) => {
+                return Err(SolveError::StepLimit { time: to + change, limit: super::walk::MOST_STEPS });
+            }
+        }
+    }
+    intervals.extend(begin.map(|begin| [begin, speed]));
+    Ok(Some(intervals))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,131 @@
+//! Tests of the margins and of the speeds of heads: against dense scans of the exact motion, and at the flips.
+
+use dynamics::{Attitude, Body, Launch, Vector3};
+
+use super::*;
+
+fn toss(moments: [f64; 3], rate: [f64; 3], flight: TimeOfFlight, tilt: f64) -> RigidToss {
+    let launch = Launch::new(rate, flight).unwrap().with_attitude(Attitude::about_x(tilt));
+    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+}
+
+fn tosses() -> impl Iterator<Item = RigidToss> {
+    let bodies = [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 1.1, 2.0], [2.0, 3.0, 4.0]];
+    (0..8_u32).map(move |index| {
+        let part = |square: f64| (f64::from(index + 1) * square.sqrt()).fract();
+        let rate = [2.0, 3.0, 5.0].map(|square| 30.0 * part(square) - 10.0);
+        let flight = match index % 3 {
+            0 => TimeOfFlight::Ballistic { speed: 1.0 + part(7.0), gravity: 9.81 },
+            1 => TimeOfFlight::BallisticTo { speed: 1.0 + part(7.0), gravity: 9.81, drop: 0.2 },
+            _ => TimeOfFlight::Given(0.4 * part(7.0)),
+        };
+        toss(bodies[index as usize % 4], rate, flight, 2.0 * part(11.0))
+    })
+}
+
+fn with_rate(toss: &RigidToss, rate: Vector3<f64>) -> RigidToss {
+    let launch = Launch::new(rate, toss.launch.time_of_flight()).unwrap().with_attitude(toss.launch.attitude());
+    RigidToss { launch, ..*toss }
+}
+
+fn with_flight(toss: &RigidToss, flight: TimeOfFlight) -> RigidToss {
+    let launch = Launch::new(toss.launch.rate(), flight).unwrap().with_attitude(toss.launch.attitude());
+    RigidToss { launch, ..*toss }
+}
+
+/// The toss with a change of one of six inputs: the rates, the time, the speed, gravity.
+fn changed(toss: &RigidToss, input: usize, change: f64) -> RigidToss {
+    let flight = toss.launch.time_of_flight();
+    match (input, flight) {
+        (0..3, _) => with_rate(toss, toss.launch.rate() + Vector3::ith(input, change)),
+        (3, _) => with_flight(toss, TimeOfFlight::Given(flight.seconds() + change)),
+        (4, TimeOfFlight::Ballistic { speed, gravity }) => {
+            with_flight(toss, TimeOfFlight::Ballistic { speed: speed + change, gravity })
+        }
+        (4, TimeOfFlight::BallisticTo { speed, gravity, drop }) => {
+            with_flight(toss, TimeOfFlight::BallisticTo { speed: speed + change, gravity, drop })
+        }
+        (_, TimeOfFlight::Ballistic { speed, gravity }) => {
+            with_flight(toss, TimeOfFlight::Ballistic { speed, gravity: gravity + change })
+        }
+        (_, TimeOfFlight::BallisticTo { speed, gravity, drop }) => {
+            with_flight(toss, TimeOfFlight::BallisticTo { speed, gravity: gravity + change, drop })
+        }
+        _ => *toss,
+    }
+}
+
+#[test]
+fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
+    let mut flips = 0;
+    for toss in tosses() {
+        let outcome = certify_rigid(&toss).unwrap().outcome();
+        let found = margin_rigid(&toss).unwrap();
+        let Margin { rate: [x, y, z], time, speed, gravity, .. } = found.margin;
+        for (input, change) in [x, y, z, time, speed, gravity].into_iter().enumerate() {
+            let Some(change) = change else { continue };
+            flips += 1;
+            let at = |factor: f64| certify_rigid(&changed(&toss, input, factor * change)).unwrap().outcome();
+            assert_eq!(at(1.0 - 2e-12), outcome, "{input}: {change} {toss:?}");
+            assert_ne!(at(1.0 + 2e-12), outcome, "{input}: {change} {toss:?}");
+            for step in 0..400 {
+                let factor = f64::from(step - 200) / 200.5;
+                assert_eq!(at(factor), outcome, "{input}: {change} {factor} {toss:?}");
+            }
+        }
+        let tilt = found.margin.tilt.unwrap();
+        let cos_tilt = |further: f64| {
+            let attitude = Attitude::about_x(further) * toss.launch.attitude();
+            let launch = toss.launch.with_attitude(attitude);
+            RigidMotion::new(&RigidToss { launch, ..toss }).cos_tilt(toss.launch.time_of_flight()).unwrap()
+        };
+        assert!(cos_tilt(tilt).abs() < 1e-15 && tilt.abs() <= std::f64::consts::FRAC_PI_2, "{tilt}");
+    }
+    assert!(flips >= 30, "{flips}");
+}
+
+#[test]
+fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
+    // Next to the spin about the largest axis, the normal stays up for ever.
+    let steady = toss([1.0, 2.0, 2.5], [0.1, 0.2, 30.0], TimeOfFlight::Given(0.5), 0.1);
+    let found = margin_rigid(&steady).unwrap();
+    assert_eq!((found.margin.time, found.margin.speed), (None, None));
+    assert!(found.time_range[0] >= 0.5 && found.time_range[1] > 10.0, "{found:?}");
+    // ω = (0.75, 1, 1) of this body is on the separatrix, and this rate is 0.01 above it.
+    let near = toss([1.0, 2.0, 2.25], [0.76, 1.0, 1.0], TimeOfFlight::Given(0.3), 0.0);
+    let outcome = |change: f64| certify_rigid(&changed(&near, 0, change)).unwrap().outcome();
+    let change = margin_rigid(&near).unwrap().margin.rate[0].unwrap();
+    assert!(change.abs() > 1.0 && outcome(1.000_001 * change) != outcome(0.0), "{change}");
+    for step in -99..=99 {
+        assert_eq!(outcome(f64::from(step) * 1e-2 * change), outcome(0.0), "{step}");
+    }
+}
+
+#[test]
+fn a_coin_has_the_margin_that_it_had() {
+    let coin = dynamics::Coin::PAPER;
+    let launch = Launch::new([20.0, 3.0, 40.0], TimeOfFlight::Ballistic { speed: 2.0, gravity: 9.81 }).unwrap();
+    let toss = dynamics::Toss { coin, launch };
+    assert_eq!(margin_rigid(&toss.into()).unwrap().margin, margin(&toss).unwrap());
+    let heads = crate::thrown_speeds_of_heads(&toss, 1.0);
+    assert_eq!(rigid_speeds_of_heads(&toss.into(), 1.0), heads);
+}
+
+#[test]
+fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
+    for drop in [None, Some(0.4)] {
+        let flight = TimeOfFlight::thrown(3.0, 9.81, drop);
+        let toss = toss([1.0, 2.0, 2.5], [18.0, 9.0, 12.0], flight, 0.4);
+        let heads = rigid_speeds_of_heads(&toss, 1.0).unwrap().unwrap();
+        assert!(heads.len() > 1, "{heads:?}");
+        for speed in (0..=2000).map(|step| 1.0 + f64::from(step) * 1e-3) {
+            let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
+            let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
+            let thrown = with_flight(&toss, TimeOfFlight::thrown(speed, 9.81, drop));
+            let found = certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads;
+            assert!(found == expected || nearest < 1e-11, "{drop:?}, {speed} m/s");
+        }
+    }
+    let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
+    assert_eq!(rigid_speeds_of_heads(&given, 0.0), Ok(None));
+}

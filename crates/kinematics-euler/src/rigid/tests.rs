@@ -1,0 +1,128 @@
+//! Tests of the three angles of any rigid body against the exact motion, in both frames, and of their singular points.
+
+use dynamics::{Body, Launch, Scheme, Solver, TimeOfFlight};
+use exact::RigidMotion;
+
+use super::*;
+use crate::{EulerAnglesSolver, GammaSolver};
+
+fn stepping() -> Stepping {
+    Stepping::adaptive(Scheme::DOP853, 1e-12).unwrap()
+}
+
+fn solver(formulation: Formulation) -> EulerAnglesSolver {
+    EulerAnglesSolver::new(stepping(), formulation)
+}
+
+fn tosses(time: f64) -> Vec<RigidToss> {
+    let moments = [
+        [1.0, 2.0, 2.5],
+        [2.5, 1.0, 2.0],
+        [2.0, 2.5, 1.0],
+        [2.0, 1.0, 2.5],
+        [1.0, 2.0, 3.0],
+        [1.0, 1.001, 1.002],
+        [0.0, 1.0, 1.0],
+    ];
+    let mut bodies: Vec<Body> = moments.map(|moments| Body::from_moments(moments).unwrap()).into();
+    bodies.push(Body::from_tensor([[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]]).unwrap());
+    let rates = [
+        [1.0, 2.0, -3.0],
+        [-3.0, 0.2, 0.1],
+        [0.1, 0.0, 4.0],
+        [0.0, 0.0, -2.0],
+        [0.0, 3.0, 0.0],
+        [2.0, -1.5, 0.0],
+        [0.0; 3],
+    ];
+    let each = |body: &Body| {
+        let body = *body;
+        rates
+            .into_iter()
+            .map(move |rate| RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() })
+    };
+    bodies.iter().flat_map(each).collect()
+}
+
+fn errors(toss: &RigidToss, formulation: Formulation) -> Result<(f64, f64), SolveError> {
+    let landing = solver(formulation).propagate_rigid(toss)?.state;
+    let exact = RigidMotion::new(toss).state(toss.launch.time_of_flight())?;
+    Ok((exact.attitude.angle_to(&landing.attitude), (exact.rate - landing.rate).norm()))
+}
+
+#[test]
+fn along_the_momentum_no_launch_is_singular() {
+    for toss in tosses(3.0) {
+        for tilt in [0.0, 1.0, PI] {
+            let toss = RigidToss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
+            let (attitude, rate) = errors(&toss, Formulation::MOMENTUM).unwrap();
+            let allowed = solver(Formulation::MOMENTUM).error_estimate_rigid(&toss).unwrap().unwrap_or(1.0);
+            assert!(attitude < allowed && rate < 10.0 * allowed, "{toss:?}: {attitude:e}, {rate:e}, {allowed:e}");
+        }
+    }
+}
+
+/// The angle of the chosen axis to the momentum, all along the exact motion.
+#[test]
+fn along_the_momentum_the_angle_stays_away_from_both_poles() {
+    for toss in tosses(20.0) {
+        let flight = RigidFlight::new(&toss).unwrap();
+        let start = Start::along_momentum(&toss, &flight);
+        let motion = RigidMotion::new(&toss);
+        let momentum = |time: f64| {
+            let momentum = toss.body.angular_momentum(&motion.state(time).unwrap().rate);
+            let along = toss.body.principal().to_principal(&momentum);
+            Vector3::from(along).dot(&Vector3::from(start.system.axes[2])) / momentum.norm()
+        };
+        for step in 0..100 {
+            let cosine = momentum(0.2 * f64::from(step));
+            // At rest, and for a rod that spins about itself, there is no momentum.
+            assert!(cosine.is_nan() || cosine.abs() < 0.5_f64.sqrt() + 1e-12, "{toss:?}: {cosine}");
+        }
+    }
+}
+
+#[test]
+fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
+    for toss in tosses(0.3) {
+        for tilt in [0.0, 0.9, PI] {
+            let toss = RigidToss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
+            match errors(&toss, Formulation::VERTICAL) {
+                Ok((attitude, rate)) => assert!(attitude < 2e-10 && rate < 2e-10, "{toss:?}: {attitude:e}, {rate:e}"),
+                // A tensor whose rate is along n for one moment, and a rod without momentum at a pole of its frame.
+                Err(error) => {
+                    let along_n = toss.launch.rate().xy() == Vector3::<f64>::zeros().xy();
+                    assert!(
+                        along_n && toss.body.moments().is_none() && error.kind() == "singular",
+                        "{toss:?}: {error}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_return_to_the_vertical_is_an_error_with_its_time() {
+    let launch = Launch::new([3.0, 0.0, 0.0], TimeOfFlight::Given(2.0)).unwrap().with_tilt(0.5).unwrap();
+    let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+    let fixed = Stepping::fixed(Scheme::RK4, 1e-3).unwrap();
+    let error = EulerAnglesSolver::new(fixed, Formulation::VERTICAL).propagate_rigid(&toss).unwrap_err();
+    let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
+    assert!((time - (PI - 0.5) / 3.0).abs() < 2e-3, "{time}");
+}
+
+#[test]
+fn equations_for_coins_refuse_other_bodies_and_say_why() {
+    let toss = tosses(1.0)[0];
+    let gamma: Vec<Box<dyn Solver>> = Formulation::ALL
+        .map(|formulation| Box::new(GammaSolver::new(stepping(), formulation)) as Box<dyn Solver>)
+        .into();
+    let raw: Box<dyn Solver> = Box::new(solver(Formulation::RAW));
+    for solver in gamma.into_iter().chain([raw]) {
+        for error in [solver.propagate_rigid(&toss).unwrap_err(), solver.error_estimate_rigid(&toss).unwrap_err()] {
+            let SolveError::NotSymmetric { solver: name, why } = error else { panic!("{error}") };
+            assert!(name == solver.name() && why.contains("I1 = I2 and a constant ωz"), "{name}: {why}");
+        }
+    }
+}

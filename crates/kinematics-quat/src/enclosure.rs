@@ -1,0 +1,122 @@
+//! A bound of the error of a whole flight by Taylor series: the sum of the bounds of its steps, and what the rounding of
+//! the toss itself adds. The theorem and its proof are in `docs/proofs/enclosure.md`, whose numbers of formulas stand here
+//! in brackets.
+//!
+//! No step magnifies an error, because each one multiplies unit quaternions. The error of the rates is split in two parts.
+//! An error of the direction of η is a turn of the coin about its own axis, which changes the flight no more than that turn
+//! itself. An error of |η| is measured, because the true |η| never changes.
+
+use dynamics::body_rate::body_precession_rate;
+use dynamics::{AngleUnit, Flight, Toss};
+use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
+use numerics::{DoubleDouble, UNIT_ROUNDOFF};
+
+use crate::defect::{StepBound, Steps};
+
+/// What a bound of the error has to know of the steps of a flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Record {
+    /// The number of steps.
+    pub(crate) steps: u64,
+    /// The least and the largest |η|, in the unit of the flight.
+    pub(crate) moduli: [f64; 2],
+    /// The longest step, in the unit of the flight.
+    pub(crate) longest: f64,
+}
+
+/// A |η| below which it turns the coin by less than can be told from no turn.
+const NO_RATE: f64 = 1e-140;
+
+/// More than underflow, and an |η| below [`NO_RATE`], can add to the error of an attitude.
+const TINY: f64 = 1e-90;
+
+/// The largest error of an attitude for which the bounds of second order hold.
+const LARGEST: f64 = 1e-3;
+
+/// What the bound of the steps of a flight with this `record` depends on.
+pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
+    let [least, most] = record.moduli;
+    if record.steps == 0 {
+        return Steps::default();
+    }
+    Steps {
+        modulus: most,
+        spread: if most > NO_RATE { (most - least) / most } else { 0.0 },
+        half_z: 0.5 * flight.rate.z,
+        q: body_precession_rate(toss.coin.inertia_ratio(), flight.rate.z),
+        longest: record.longest,
+    }
+}
+
+/// An upper bound of the distance between the computed quaternion P, divided by its norm, and that of the ideal flight;
+/// infinite where the theorem does not apply. It is the formula (4).
+pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step: &StepBound) -> f64 {
+    let rate = flight.rate;
+    let modulus = modulus(flight);
+    let has_rate = modulus.hi() > NO_RATE;
+    let eta = if has_rate { step.eta } else { 0.0 };
+    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+    let steps = record.steps as f64;
+    let of_steps = steps * (step.turn + step.rates + eta);
+    let of_launch = Launched::new(toss, flight);
+    let drift = if has_rate && record.steps > 0 {
+        let off = |measured: f64| (measured - modulus.hi()).abs();
+        record.moduli.into_iter().map(off).fold(0.0, f64::max) + modulus.lo().abs()
+    } else {
+        0.0
+    };
+    let along = drift + of_launch.rate * (modulus.hi() + 0.5 * rate.z.abs()) + 2.0 * of_launch.q;
+    let of_time = 0.5 * rate.norm() * of_launch.time;
+    let sum = of_steps + along * flight.span() + of_launch.rate + of_time + TINY;
+    // The steps multiply quaternions whose norm is 1 to within the error itself, and the last factor covers the rounding of
+    // this sum.
+    let bound = sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9);
+    if bound < LARGEST { bound } else { f64::INFINITY }
+}
+
+/// |η| at launch, in the unit of the flight, to 12 u² of itself.
+fn modulus(flight: &Flight) -> DoubleDouble {
+    let square = |part: f64| DoubleDouble::product(part, part);
+    (square(flight.rate.x) + square(flight.rate.y)).sqrt().half()
+}
+
+/// By how much the numbers of a flight differ from those of its toss.
+struct Launched {
+    /// Relative error of each rate.
+    rate: f64,
+    /// Of q, in the unit of the flight.
+    q: f64,
+    /// Of the time of flight, in the unit of the flight.
+    time: f64,
+}
+
+impl Launched {
+    fn new(toss: &Toss, flight: &Flight) -> Self {
+        /// More than the error of 25 u² of the inertia ratio and of the time, and of the operations on them.
+        const OF_DOUBLE_DOUBLE: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+        let (k, rate_z) = (toss.coin.exact_inertia_ratio(), flight.rate.z);
+        let q = (k - 1.0.into()) * rate_z - body_precession_rate(k.hi(), rate_z).into();
+        let exact = toss.launch.time_of_flight().exact();
+        // The mantissa of the scale, a power of two, is ½ or 1 by convention, and its exponent is exact.
+        let (mantissa, exponent) = mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax()));
+        let time = (exact.mantissa() * mantissa).times_power_of_two(exact.exponent() + exponent);
+        let rate = rate_error(toss);
+        Self {
+            rate,
+            q: q.hi().abs() * (1.0 + 4.0 * UNIT_ROUNDOFF) + (OF_DOUBLE_DOUBLE + 1.01 * rate) * 2.0 * rate_z.abs(),
+            time: (time - flight.span().into()).hi().abs() + OF_DOUBLE_DOUBLE * flight.span(),
+        }
+    }
+}
+
+/// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.
+fn rate_error(toss: &Toss) -> f64 {
+    const SLOWEST: f64 = 1e-200;
+    if toss.launch.given_rate().1 == AngleUnit::RADIAN {
+        0.0
+    } else if toss.launch.rate().amax() >= SLOWEST {
+        1.01 * UNIT_ROUNDOFF
+    } else {
+        f64::INFINITY
+    }
+}

@@ -1,0 +1,260 @@
+//! Tests of proofs by integration.
+
+use dynamics::{Angle, AngleUnit, Coin, Formulation, Launch, Quantity, Scheme, Stepping, TimeOfFlight, Unit};
+use exact::{ExactMotion, certify};
+use nalgebra::Vector3;
+
+use super::*;
+use crate::enclosure::Record;
+
+fn solver(tolerance: f64) -> QuaternionSolver {
+    QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
+}
+
+/// Numbers in [0, 1) from a linear congruential generator.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / 2f64.powi(53)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() * count as f64) as usize
+    }
+
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.next()
+    }
+}
+
+/// A random toss whose phase is about this large.
+fn random(numbers: &mut Numbers, phase: f64) -> Toss {
+    let coin = Coin::from_moments(1.0, numbers.between(0.0, 2.0)).unwrap();
+    let rate = Vector3::from_fn(|_, _| numbers.between(-1.0, 1.0));
+    let time = TimeOfFlight::Ballistic { speed: phase * numbers.between(0.5, 1.0), gravity: numbers.between(1.0, 3.0) };
+    let launch = Launch::new(rate, time).unwrap().with_tilt(numbers.between(-3.0, 3.0)).unwrap();
+    Toss { coin, launch }
+}
+
+const TOLERANCES: [f64; 5] = [1e-3, 1e-7, 1e-10, 1e-12, f64::EPSILON];
+
+/// A random toss from numbers that have to be rounded to become rates in rad/s, a ratio of moments, a time or an attitude.
+fn awkward(numbers: &mut Numbers, phase: f64) -> Toss {
+    let coin = Coin::from_cylinder(0.003, 0.01 * numbers.between(0.5, 2.0), 0.01 * numbers.next()).unwrap();
+    let degree = Unit::ratio(1, 360).unwrap();
+    let rate = Vector3::from_fn(|_, _| 30.0 * numbers.between(-1.0, 1.0));
+    let time = TimeOfFlight::thrown(phase * numbers.between(0.5, 1.0), 1.9, Some(numbers.next()));
+    let launch = Launch::in_unit(rate, AngleUnit::Turns(degree), time).unwrap();
+    let tilt = Angle::Turns(Quantity::new(100.0 * numbers.between(-3.0, 3.0), degree));
+    Toss { coin, launch: launch.with_tilt(tilt).unwrap() }
+}
+
+/// Errors of cos θ and of the attitude, divided by their bounds.
+fn shares(found: &IntegratedCertificate, toss: &Toss) -> [f64; 2] {
+    let landed = ExactMotion::new(toss).state(toss.launch.time_of_flight()).unwrap();
+    // Half the angle between attitudes is the distance of their quaternions, to third order.
+    let distance = 0.5 * found.landing().state.attitude.angle_to(&landed.attitude);
+    let error = (found.cos_tilt() - exact::certified::cos_tilt(toss).unwrap()).abs();
+    [error / found.error_bound(), distance / found.attitude_error_bound()]
+}
+
+#[test]
+fn errors_are_below_their_bounds_and_not_far_below() {
+    for tolerance in TOLERANCES {
+        let (solver, mut numbers, mut largest) = (solver(tolerance), Numbers(7), 0.0_f64);
+        for phase in [0.1, 3.0, 30.0, 300.0, 3e3] {
+            for index in 0..60 {
+                let toss = if index % 3 == 0 { awkward(&mut numbers, phase) } else { random(&mut numbers, phase) };
+                let found = solver.enclose(&toss).unwrap();
+                for share in shares(&found, &toss) {
+                    assert!(share <= 1.0, "{tolerance:e}, {phase}: {share} of the bound, {toss:?}");
+                    largest = largest.max(share);
+                }
+            }
+        }
+        // A tenth of the bound would be broken, but where rounding is most of it.
+        assert!(tolerance < 1e-11 || largest > 0.1, "{tolerance:e}: at most {largest} of the bound");
+    }
+}
+
+/// The defect of the attitude alone does not bound its error: the rates are integrated too.
+#[test]
+fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
+    let (coin, time) = (Coin::from_moments(1.0, 0.0).unwrap(), TimeOfFlight::Given(100.0));
+    for (x, ratio) in [(1.0, 2.0), (0.2, 8.0), (0.05, 14.0)] {
+        let toss = Toss { coin, launch: Launch::new([x, 0.0, 1.0], time).unwrap() };
+        // |ω| h = 0.1, at order 4.
+        let plans = Plans::fixed(4, 0.1 / x.hypot(1.0));
+        let mut landed = None;
+        fly::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
+        let landed = landed.unwrap();
+        let record = landed.record.unwrap();
+        let step = steps(&toss, &landed.flight, &record);
+        let step = bounds(plans.of(false), SimdLevel::for_one_lane(), &[step])[0];
+        let landing = Attitude::from_components(landed.turn).unwrap();
+        let error = 0.5 * landing.angle_to(&ExactMotion::new(&toss).state(time).unwrap().attitude);
+        let defects = record.steps as f64 * step.turn;
+        assert!(error > ratio * defects, "{error:e}, {defects:e}");
+        assert!(error < attitude_bound(&toss, &landed.flight, &record, &step));
+    }
+}
+
+/// Each fault is one that the bound has to notice, because it follows the numbers of the steps.
+#[test]
+fn the_bound_grows_with_each_fault_of_a_step() {
+    let (toss, plans) = (random(&mut Numbers(3), 30.0), Plans::of_coins(1e-10));
+    let mut landed = None;
+    fly::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
+    let Landed { flight, record, .. } = landed.unwrap();
+    let record = record.unwrap();
+    let bound = |record: Record, longer: f64| {
+        let mut step = steps(&toss, &flight, &record);
+        step.longest *= longer;
+        let step = bounds(plans.of(false), SimdLevel::for_one_lane(), &[step])[0];
+        attitude_bound(&toss, &flight, &record, &step)
+    };
+    let right = bound(record, 1.0);
+    let [least, most] = record.moduli;
+    assert!(bound(record, 1.1) > 5.0 * right, "a longer step");
+    assert!(bound(Record { steps: 2 * record.steps, ..record }, 1.0) > 1.9 * right, "more steps");
+    assert!(bound(Record { moduli: [least * (1.0 - 1e-9), most], ..record }, 1.0) > right + 1e-9, "another rate");
+}
+
+#[test]
+fn bounds_of_the_toss_cover_what_rounding_it_changes() {
+    let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+    let rate = [100.0, 30.0, 77.0];
+    let launch = |time| Launch::in_unit(rate, degree, time).unwrap();
+    let time = TimeOfFlight::Ballistic { speed: 3.3, gravity: 9.81 };
+    let coin = Coin::from_moments(3.0, 1.0).unwrap();
+    let toss = Toss { coin, launch: launch(time) };
+    let solver = solver(f64::EPSILON);
+    let found = solver.enclose(&toss).unwrap().attitude_error_bound();
+    let rounded = Toss { launch: launch(TimeOfFlight::Given(time.seconds())), ..toss };
+    let of_time = found - solver.enclose(&rounded).unwrap().attitude_error_bound();
+    let exact = time.exact();
+    let lost = (exact.mantissa().times_power_of_two(exact.exponent()) - time.seconds().into()).hi().abs();
+    approx::assert_relative_eq!(of_time, 0.5 * toss.launch.turn_rate() * lost, max_relative = 1e-2);
+    let in_radians = Toss { launch: Launch::new(toss.launch.rate(), time).unwrap(), ..toss };
+    let of_unit = found - solver.enclose(&in_radians).unwrap().attitude_error_bound();
+    assert!(of_unit > UNIT_ROUNDOFF * 0.5 * toss.launch.turn_rate() * time.seconds(), "{of_unit:e}");
+}
+
+#[test]
+fn landings_are_those_of_the_solver_and_the_same_at_every_simd_level() {
+    let mut numbers = Numbers(5);
+    let tosses: Vec<Toss> = (0..40).map(|index| random(&mut numbers, [1.0, 40.0, 400.0][index % 3])).collect();
+    let solver = solver(1e-10);
+    let alone: Vec<_> = tosses.iter().map(|toss| solver.certify(toss)).collect();
+    for level in SimdLevel::all() {
+        assert_eq!(solver.certify_all(&tosses, level), alone, "{}", level.name());
+    }
+    for (toss, landing) in tosses.iter().zip(solver.propagate_all(&tosses, SimdLevel::widest())) {
+        let (enclosed, landing) = (solver.enclose(toss).unwrap(), landing.unwrap());
+        assert_eq!((enclosed.landing().state, enclosed.work()), (landing.state, landing.work));
+        assert!((enclosed.cos_tilt() - landing.cos_tilt).abs() < 1e-14);
+    }
+}
+
+/// A toss whose cos θ at landing is about `margin`, after ten turns and a quarter.
+fn near_edge(margin: f64) -> Toss {
+    let ten_turns = 20.0 * std::f64::consts::PI / 1.61_f64.sqrt();
+    let (mut early, mut late) = (ten_turns, ten_turns + 2.0);
+    let toss = |time| {
+        let launch = Launch::new([1.0, 0.5, 0.3], TimeOfFlight::Given(time)).unwrap();
+        Toss { coin: Coin::DISC, launch }
+    };
+    for _ in 0..200 {
+        let middle = f64::midpoint(early, late);
+        let heads = exact::certified::cos_tilt(&toss(middle)).unwrap() > 0.0;
+        if heads { early = middle } else { late = middle }
+    }
+    toss(early - margin)
+}
+
+#[test]
+fn undecided_outcomes_are_decided_by_the_next_integration() {
+    for (margin, integration) in [
+        (1e-2, Integration::AsConfigured),
+        (1e-11, Integration::Finest),
+        (1e-14, Integration::DoubleDouble),
+        (0.0, Integration::DoubleDouble),
+        (-1e-14, Integration::DoubleDouble),
+    ] {
+        let toss = near_edge(margin);
+        let found = solver(1e-5).certify(&toss).unwrap();
+        assert_eq!(found.integration(), integration, "{margin}: {found:?}");
+        assert_eq!(found.outcome(), certify(&toss).unwrap().outcome(), "{margin}");
+        assert!(found.cos_tilt().abs() > found.error_bound());
+        assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{margin}");
+        let first = solver(1e-5).enclose(&toss).unwrap().work().accepted_steps;
+        assert_eq!(found.work().accepted_steps > first, integration != Integration::AsConfigured);
+    }
+}
+
+#[test]
+fn more_digits_decide_what_double_double_does_not_and_leave_ties() {
+    let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
+    let toss = |rate: [f64; 3], time| {
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+        Toss { coin: Coin::DISC, launch: launch.with_attitude(edge) }
+    };
+    let solver = solver(1e-10);
+    for rate in [1e-40, -1e-40] {
+        // The coin is on its edge but for a turn of 1e-40 rad.
+        let toss = toss([rate, 7.0, 0.0], 1.0);
+        let found = solver.certify(&toss).unwrap();
+        assert_eq!(
+            (found.integration(), found.outcome()),
+            (Integration::MoreDigits, certify(&toss).unwrap().outcome())
+        );
+        assert_ne!(found.outcome(), Outcome::Undecided);
+    }
+    for tie in [toss([0.0, 7.0, 0.0], 1.0), toss([0.0; 3], 1.0), toss([1.0, 2.0, 3.0], 0.0)] {
+        let found = solver.certify(&tie).unwrap();
+        assert_eq!((found.outcome(), certify(&tie).unwrap().outcome()), (Outcome::Undecided, Outcome::Undecided));
+        assert!(found.error_bound() < 1e-200);
+    }
+}
+
+#[test]
+fn extreme_numbers_have_bounds_or_errors() {
+    let (mut numbers, solver) = (Numbers(11), solver(1e-10));
+    for _ in 0..2000 {
+        let rate = Vector3::from_fn(|_, _| {
+            let size = [0.0, 5e-324, 1e-310, 1e-160, 1e-30, 1.0, 1e30, 1e300][numbers.below(8)];
+            size * numbers.between(-1.0, 1.0)
+        });
+        let time = 50.0 * numbers.next() / rate.amax().max(1e-300);
+        let ratio = [0.0, 1e-300, 0.3, 1.0, 2.0][numbers.below(5)];
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+        let launch = launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap();
+        let toss = Toss { coin: Coin::from_moments(1.0, ratio).unwrap(), launch };
+        match solver.enclose(&toss) {
+            Ok(found) => {
+                let parts = [found.error_bound(), found.attitude_error_bound(), found.cos_tilt()];
+                assert!(parts.iter().all(|part| part.is_finite()) && found.error_bound() < 1e-8, "{toss:?}: {found:?}");
+                assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{toss:?}");
+            }
+            Err(error) => assert!(matches!(error, SolveError::PhaseTooLarge { .. }), "{toss:?}: {error}"),
+        }
+        assert_eq!(solver.certify(&toss).map(|found| found.outcome()), certify(&toss).map(exact::Certificate::outcome));
+    }
+}
+
+#[test]
+fn what_proves_nothing_refuses_to() {
+    let toss = random(&mut Numbers(1), 1.0);
+    let dop853 = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
+    let raw = QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap(), Formulation::RAW);
+    for (solver, why) in [(dop853, "only taylor"), (raw, "division by the norm")] {
+        let refused = solver.certify(&toss).unwrap_err();
+        assert!(matches!(refused, SolveError::NotProven { .. }) && refused.to_string().contains(why), "{refused}");
+        assert_eq!(solver.enclose(&toss).unwrap_err(), refused);
+        assert_eq!(solver.certify_all(&[toss; 2], SimdLevel::widest()), [Err(refused.clone()), Err(refused)]);
+    }
+    let too_long = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1e17)).unwrap(), ..toss };
+    assert!(matches!(solver(1e-9).certify(&too_long), Err(SolveError::PhaseTooLarge { .. })));
+}

@@ -1,0 +1,218 @@
+//! Numbers with a bound of their error: a midpoint and a radius, together a ball that contains the true number. A
+//! formula evaluated in balls has a bound that covers every rounding, and so proves what it decides.
+//!
+//! Sums, products and functions of balls contain the results for all numbers in the balls (F. Johansson, IEEE Trans.
+//! Comput. 66 (2017), 1281, describes the technique). Let a, b be the midpoints, r, s the radii, and ε the rounding
+//! error of one operation on midpoints. The radius of a result is at least
+//!
+//! ```text
+//! a + b      r + s                                      + ε |a + b|
+//! a b        |a| s + |b| r + r s                        + ε |a b|
+//! a/b        (r + |a/b| s)/(|b| - s)                    + ε |a/b|     infinite for |b| ≤ s
+//! √a         r/√(a - r), or √(a + r) for a ≤ r          + ε √a
+//! e^a        e^a (e^r - 1)                              + ε e^a
+//! sin        r                                          + ε min(1, |a|)
+//! cos        r                                          + ε
+//! atan2      1.5 ((|b| + s) r + (|a| + r) s)/(a² + b²)   + ε |angle|   7 next to the origin; up to a turn at the cut
+//! ```
+//!
+//! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the standard library, to less
+//! than 2^-52. It is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions
+//! to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
+//! roundings of its own and by 2^-902, which is more than underflow can take away.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::big::Big;
+use crate::double_double::DoubleDouble;
+use crate::elementary::Elementary;
+use crate::number::Number;
+
+/// What underflow may take from a double-double result: its product is exact above 2^-968.
+const TINY: f64 = f64::MIN_POSITIVE * 1.152_921_504_606_847e18 * 1.152_921_504_606_847e18; // 2^-902
+
+/// A number that is within `radius` of `midpoint`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball<N> {
+    midpoint: N,
+    radius: f64,
+}
+
+impl<N: Elementary> Ball<N> {
+    /// The number `midpoint`, right to `radius` ≥ 0.
+    pub fn new(midpoint: N, radius: f64) -> Self {
+        Self { midpoint, radius }
+    }
+
+    /// The midpoint.
+    pub fn midpoint(&self) -> &N {
+        &self.midpoint
+    }
+
+    /// The largest distance of the true number from the midpoint; infinite or NaN if nothing is known.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether all numbers of the ball have the same sign, and are not 0.
+    pub fn has_sign(&self) -> bool {
+        self.midpoint.to_f64().abs() > self.radius
+    }
+
+    /// |midpoint|, rounded, and not below the range of f64.
+    fn size(&self) -> f64 {
+        self.midpoint.to_f64().abs() + f64::MIN_POSITIVE
+    }
+
+    /// A result with the propagated error `error`, and rounding errors for a result of this size.
+    fn rounded(midpoint: N, error: f64, size: f64) -> Self {
+        let mut ball = Self { midpoint, radius: 0.0 };
+        ball.radius = (error + ball.midpoint.rounding() * size) * (1.0 + 8.0 * f64::EPSILON) + TINY;
+        ball
+    }
+
+    /// A ball of which nothing is known.
+    fn anything(&self) -> Self {
+        Self { midpoint: self.midpoint.like(0.0), radius: f64::INFINITY }
+    }
+
+    /// Smallest and largest absolute value.
+    fn sizes(&self) -> [f64; 2] {
+        let (size, margin) = (self.size(), self.radius * (1.0 + 4.0 * f64::EPSILON));
+        [(size * (1.0 - 4.0 * f64::EPSILON) - margin).max(0.0), size * (1.0 + 4.0 * f64::EPSILON) + margin]
+    }
+}
+
+impl<N: Elementary> Add for Ball<N> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let sum = self.midpoint + other.midpoint;
+        if self.radius + other.radius == 0.0 && sum.sign() == 0.0 {
+            // No digit of a sum underflows, so that a difference of 0 is exact.
+            return Self { midpoint: sum, radius: 0.0 };
+        }
+        let size = sum.to_f64().abs();
+        Self::rounded(sum, self.radius + other.radius, size)
+    }
+}
+
+impl<N: Elementary> Neg for Ball<N> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { midpoint: -self.midpoint, radius: self.radius }
+    }
+}
+
+impl<N: Elementary> Sub for Ball<N> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<N: Elementary> Mul for Ball<N> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let (size, other_size) = (self.size(), other.size());
+        let error = size * other.radius + other_size * self.radius + self.radius * other.radius;
+        Self::rounded(self.midpoint * other.midpoint, error * (1.0 + 8.0 * f64::EPSILON), size * other_size)
+    }
+}
+
+impl<N: Elementary> Div for Ball<N> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let [least, _] = other.sizes();
+        if least == 0.0 {
+            return self.anything();
+        }
+        let quotient = self.midpoint / other.midpoint;
+        let size = quotient.to_f64().abs();
+        let error = (self.radius + size * other.radius) / least;
+        Self::rounded(quotient, error * (1.0 + 8.0 * f64::EPSILON), size)
+    }
+}
+
+impl<N: Elementary> Number for Ball<N> {}
+
+impl<N: Elementary> Elementary for Ball<N> {
+    fn like(&self, value: f64) -> Self {
+        let midpoint = self.midpoint.like(value);
+        // Exact: no precision has fewer digits than f64.
+        Self { midpoint, radius: 0.0 }
+    }
+
+    fn like_big(&self, value: &Big) -> Self {
+        let midpoint = self.midpoint.like_big(value);
+        let size = midpoint.to_f64().abs();
+        Self::rounded(midpoint, 0.0, size)
+    }
+
+    fn to_f64(&self) -> f64 {
+        self.midpoint.to_f64()
+    }
+
+    fn to_double_double(&self) -> DoubleDouble {
+        self.midpoint.to_double_double()
+    }
+
+    fn to_big(&self) -> Big {
+        self.midpoint.to_big()
+    }
+
+    fn digits(&self) -> i32 {
+        self.midpoint.digits()
+    }
+
+    fn sqrt(&self) -> Self {
+        let ([least, largest], root) = (self.sizes(), self.midpoint.sqrt());
+        let size = root.to_f64();
+        let error = if least > 0.0 { self.radius / least.sqrt() } else { largest.sqrt() };
+        Self::rounded(root, error, size)
+    }
+
+    fn exp(&self) -> Self {
+        let power = self.midpoint.exp();
+        let size = power.to_f64();
+        Self::rounded(power, size * self.radius.exp_m1(), size)
+    }
+
+    fn sine_and_cosine(&self) -> [Self; 2] {
+        let [sin, cos] = self.midpoint.sine_and_cosine();
+        [Self::rounded(sin, self.radius, self.size().min(1.0)), Self::rounded(cos, self.radius, 1.0)]
+    }
+
+    fn atan2(&self, x: &Self) -> Self {
+        let (distance, error) = (self.size().hypot(x.size()), self.radius.hypot(x.radius));
+        let angle = self.midpoint.atan2(&x.midpoint);
+        let size = angle.to_f64().abs();
+        // Of NaN, too, nothing is known but that it is an angle.
+        let is_clear = 8.0 * error < distance;
+        let across = (x.size() + x.radius) * self.radius + (self.size() + self.radius) * x.radius;
+        Self::rounded(angle, if is_clear { 1.5 * across / distance / distance } else { 7.0 }, size)
+    }
+
+    fn pi(&self) -> Self {
+        Self::rounded(self.midpoint.pi(), 0.0, 4.0)
+    }
+
+    fn times_power_of_two(&self, exponent: i32) -> Self {
+        let factor = 2f64.powi(exponent);
+        Self { midpoint: self.midpoint.times_power_of_two(exponent), radius: self.radius * factor + TINY }
+    }
+
+    fn sign(&self) -> f64 {
+        self.midpoint.sign()
+    }
+
+    fn error(&self) -> f64 {
+        self.radius
+    }
+
+    fn widened(self, error: f64) -> Self {
+        Self { radius: (self.radius + error) * (1.0 + 2.0 * f64::EPSILON), ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,42 @@
+//! How do you put a solver of your own under the checks of this workspace? Write it as a `Solver`, and give its registry
+//! to `verify::main`. The program then has all options of `cargo xtask verify`: `cargo run --release -- --quick`.
+//!
+//! The solver here is the free motion as two turns, one after the other: about the angular momentum, whose direction is
+//! fixed, and about the coin's normal.
+
+use std::process::ExitCode;
+
+use toss::{Attitude, Propagation, Registry, SolveError, Solver, SolverEntry, State, Toss, Vector3, Work};
+use verify::Suite;
+
+struct TwoTurns;
+
+impl Solver for TwoTurns {
+    fn name(&self) -> &str {
+        "two-turns"
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        let (rate, time, k) = (toss.launch.rate(), toss.launch.flight_time(), toss.coin.inertia_ratio());
+        // The turns by precession and by spin (rad). Rates times the time first: the square of a slow rate may be 0.
+        let (precession, spin) = (Vector3::new(rate.x, rate.y, k * rate.z) * time, (1.0 - k) * rate.z * time);
+        let axis = precession.try_normalize(0.0).unwrap_or(Vector3::z());
+        let about_momentum = Attitude::about_unit_axis(&axis, (0.5 * precession.norm()).sin_cos());
+        let attitude = toss.launch.attitude() * about_momentum * Attitude::about_z(spin);
+        let (sin, cos) = (-spin).sin_cos();
+        let rate = Vector3::new(cos * rate.x - sin * rate.y, sin * rate.x + cos * rate.y, rate.z);
+        Ok(Propagation::new(State { attitude, rate }, Work::default()))
+    }
+    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(Some((3e-16 * (4.0 + 2.0 * toss.launch.turn_rate() * toss.launch.flight_time())).min(2.0)))
+    }
+}
+
+/// The solver as the entry of a registry.
+pub(crate) fn entry() -> SolverEntry {
+    SolverEntry::new("two-turns", "two turns in f64", |_| Box::new(TwoTurns))
+}
+
+fn main() -> ExitCode {
+    let registry = Registry::empty().with(entry()).expect("a name of its own");
+    verify::main(Suite::new(registry))
+}

@@ -1,0 +1,101 @@
+//! The options that put a program in another language under the checks, in place of the solvers of the suite.
+
+use std::path::Path;
+use std::time::Duration;
+
+use clap::Args;
+use toss::{InputError, Registry, SolverEntry};
+
+use crate::measure::replay::Commands;
+use crate::process::{Limits, Program};
+use crate::suite::Suite;
+
+/// The name of the program in rows.
+const NAME: &str = "command";
+
+/// A program, its claim and its limits.
+#[derive(Debug, Args)]
+pub(super) struct Foreign {
+    /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-integrator.md
+    #[arg(long, value_name = "LINE")]
+    command: Option<String>,
+    /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
+    #[arg(long, value_name = "ERROR", requires = "command")]
+    claim: Option<f64>,
+    /// End the program if it takes longer for an answer; the first of a process may take six times as long [default:
+    /// 10]
+    #[arg(long, value_name = "S", requires = "command", value_parser = seconds)]
+    answer_seconds: Option<Duration>,
+    /// Ask the program no more after so much time for all answers [default: 1800]
+    #[arg(long, value_name = "S", requires = "command", value_parser = seconds)]
+    total_seconds: Option<Duration>,
+    /// End the program if it uses more memory with its children; on Linux only [default: 2048]
+    #[arg(long, value_name = "MB", requires = "command", value_parser = megabytes)]
+    memory_mb: Option<u64>,
+}
+
+impl Foreign {
+    /// The suite of the program, or `suite` without one. Its baseline and records are in a folder below `out`, unless
+    /// `suite` has another one than the standard suite.
+    ///
+    /// # Errors
+    /// As [`Foreign::entry`].
+    pub(super) fn in_place_of(&self, suite: Suite, out: &Path) -> Result<Suite, InputError> {
+        let Some(entry) = self.entry()? else { return Ok(suite) };
+        let is_standard = *suite.commands() == Commands::Workspace && suite.data() == Suite::standard().data();
+        let folder = if is_standard { out.join(NAME) } else { suite.data().to_owned() };
+        let commands = Commands::With(Box::new(suite.commands().clone()), self.options());
+        Ok(Suite::new(Registry::empty().with(entry)?).folder(folder).repeated_by(commands))
+    }
+
+    /// The options that give the same program, for the command that repeats a row.
+    fn options(&self) -> String {
+        let quoted = |line: &String| format!(" --command '{}'", line.replace('\'', "'\\''"));
+        let seconds = |name: &str, value: Option<Duration>| {
+            value.map(|value| format!(" --{name}-seconds {:?}", value.as_secs_f64())).unwrap_or_default()
+        };
+        [
+            self.command.as_ref().map(quoted).unwrap_or_default(),
+            self.claim.map(|claim| format!(" --claim {claim:e}")).unwrap_or_default(),
+            seconds("answer", self.answer_seconds),
+            seconds("total", self.total_seconds),
+            self.memory_mb.map(|megabytes| format!(" --memory-mb {megabytes}")).unwrap_or_default(),
+        ]
+        .concat()
+    }
+
+    /// The program as an entry, if there is one.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a claim that is not above 0 and below 1.
+    fn entry(&self) -> Result<Option<SolverEntry>, InputError> {
+        let Some(command) = &self.command else { return Ok(None) };
+        let usual = Limits::default();
+        let limits = Limits {
+            answer: self.answer_seconds.unwrap_or(usual.answer),
+            total: self.total_seconds.unwrap_or(usual.total),
+            memory: self.memory_mb.map_or(usual.memory, |megabytes| megabytes << 20),
+        };
+        let program = Program::new(command).with_limits(limits);
+        let program = match self.claim {
+            Some(claim) => program.with_claim(claim)?,
+            None => program,
+        };
+        Ok(Some(program.entry(NAME)))
+    }
+}
+
+/// A time from a millisecond to a day.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let valid = |seconds: &f64| (1e-3..=86_400.0).contains(seconds);
+    let seconds = text.parse().ok().filter(valid).ok_or("expected 0.001 to 86400 s")?;
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+/// An amount of memory from a megabyte to a terabyte.
+fn megabytes(text: &str) -> Result<u64, String> {
+    if !cfg!(target_os = "linux") {
+        return Err("memory is looked at on Linux only".to_owned());
+    }
+    text.parse().ok().filter(|megabytes| (1..=1 << 20).contains(megabytes)).ok_or("expected 1 to 1048576 MB".to_owned())
+}

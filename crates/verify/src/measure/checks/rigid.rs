@@ -1,0 +1,119 @@
+//! These checks compare the motion of any rigid body with the 256-bit reference, in families of bodies and launches
+//! each of which is hard for a method of its own, with phases up to 1e9 rad.
+
+use dynamics::RigidToss;
+use exact::{RigidMotion, certify_rigid};
+use rayon::prelude::*;
+use toss::{Certificate, Launch, TimeOfFlight};
+
+use super::certified::tries;
+use crate::measure::bodies::{FAMILIES, Family, LONG, launches};
+use crate::measure::check::{Basis, Check, Judges};
+use crate::measure::context::Context;
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::rigid::RigidReference;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "rigid-cos-tilt",
+    claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the bound, for phases \
+            from 1 to 1e9 rad.",
+    basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    unit: "1",
+    ceiling: 1e-15,
+    measure: |context| {
+        errors(context, COS_TILT.id, |toss, reference| {
+            let found = RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
+            found.map_or(f64::INFINITY, |cos_tilt| reference.cos_tilt_error(cos_tilt))
+        })
+    },
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "rigid-attitude",
+    claim: "The attitude at landing of any rigid body differs from the 256-bit reference by at most the bound, for \
+            phases from 1 to 1e9 rad.",
+    basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    unit: "rad",
+    ceiling: 1e-14,
+    measure: |context| {
+        errors(context, ATTITUDE.id, |toss, reference| {
+            let found = RigidMotion::new(toss).state(toss.launch.time_of_flight());
+            found.map_or(f64::INFINITY, |state| reference.attitude_error(&state.attitude))
+        })
+    },
+};
+
+pub(super) const OUTCOMES: Check = Check {
+    id: "rigid-outcomes",
+    claim: "The proven outcomes of any rigid body are those of the 256-bit reference within 3 ulp of a time at which \
+            the outcome changes. Measured: the number of tosses that differ or are undecided; one is enough to fail.",
+    basis: Basis::ClosedForm,
+    judges: Judges::Library,
+    unit: "tosses",
+    ceiling: 0.0,
+    measure: |context| {
+        let measure = |family: &Family| {
+            let tosses: Vec<RigidToss> =
+                launches(family, number(context), LONG).filter_map(|toss| at_an_edge(&toss)).collect();
+            let differs = |toss: &RigidToss| {
+                let outcome = certify_rigid(toss).map(Certificate::outcome).ok();
+                outcome.is_none() || outcome != RigidReference::new(toss).map(|reference| reference.outcome())
+            };
+            let found: Vec<bool> = tosses.par_iter().map(differs).collect();
+            let first = found.iter().position(|differs| *differs).map(|index| format!("{:?}", tosses[index]));
+            let wrong = found.iter().filter(|differs| **differs).count() as f64;
+            Measurement::figure(OUTCOMES.id, family.name, wrong, found.len() as u64, first.unwrap_or_default())
+        };
+        Ok(FAMILIES.iter().map(measure).collect())
+    },
+};
+
+/// The number of tosses in a family.
+fn number(context: &Context) -> u64 {
+    tries(context) / 20
+}
+
+/// The largest of the errors in each family.
+fn errors(
+    context: &Context,
+    check: &str,
+    error: fn(&RigidToss, &RigidReference) -> f64,
+) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |family: &Family| {
+        let tosses: Vec<RigidToss> = launches(family, number(context), LONG).collect();
+        let of =
+            |toss: &RigidToss| RigidReference::new(toss).map_or(f64::INFINITY, |reference| error(toss, &reference));
+        let errors: Vec<f64> = tosses.par_iter().map(of).collect();
+        let worst = (0..errors.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+        let (measured, input) =
+            worst.map_or((f64::INFINITY, String::new()), |index| (errors[index], format!("{:?}", tosses[index])));
+        Measurement::figure(check, family.name, measured, errors.len() as u64, input)
+    };
+    Ok(FAMILIES.iter().map(measure).collect())
+}
+
+/// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
+/// none is found.
+fn at_an_edge(toss: &RigidToss) -> Option<RigidToss> {
+    let motion = RigidMotion::new(toss);
+    let rate = toss.launch.rate().norm();
+    let heads = |time: f64| motion.cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0).ok();
+    let start = toss.launch.flight_time();
+    let first = heads(start)?;
+    let end = (1..100).map(|step| start + f64::from(step) * 0.3 / rate).find(|time| heads(*time) == Some(!first))?;
+    let (mut before, mut after) = (start.max(end - 0.3 / rate), end);
+    if heads(before)? != first {
+        return None;
+    }
+    while before.next_up() < after {
+        let middle = before + 0.5 * (after - before);
+        if heads(middle)? == first { before = middle } else { after = middle }
+    }
+    // By turns 3 ulp before and behind the edge.
+    let ulps = (start.to_bits() % 7) as i64 - 3;
+    let time = f64::from_bits(after.to_bits().wrapping_add_signed(ulps));
+    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).ok()?;
+    Some(RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+}

@@ -1,0 +1,134 @@
+//! The command that repeats a worst case. A toss is repeated by the program that knows its solver: `unfair-toss` knows
+//! those of this workspace, and only the suite that measured them knows others.
+
+use std::path::Path;
+
+use toss::Registry;
+
+use super::case::Case;
+use super::subject::Subject;
+
+/// What repeats a worst case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Replay {
+    /// One toss by one solver.
+    Toss {
+        /// The toss as hex floats, which the command `replay` of a suite takes.
+        input: String,
+        /// The command of `unfair-toss` with the solver and its settings, if it is a solver of this workspace.
+        command: Option<String>,
+    },
+    /// The whole check of this id, for a number that belongs to no toss.
+    Check(String),
+}
+
+impl Replay {
+    /// Repeats `case` by the solver of `subject`.
+    pub fn toss(case: &Case, subject: &Subject) -> Self {
+        Self::Toss { input: case.hex(), command: command(case, subject) }
+    }
+
+    /// Repeats the toss by the solver of `subject` too, with which the other was compared.
+    #[must_use]
+    pub fn beside(self, subject: &Subject) -> Self {
+        let Self::Toss { input, command: by_the_other } = self else { return self };
+        let first = Case::from_hex(&input).ok().and_then(|case| command(&case, subject));
+        let both = first.zip(by_the_other).map(|(first, then)| format!("{first} && {then}"));
+        Self::Toss { input, command: both }
+    }
+}
+
+/// The command of `unfair-toss` that solves `case`, if the solver of `subject` is one of this workspace.
+fn command(case: &Case, subject: &Subject) -> Option<String> {
+    let is_ours = Registry::standard().named(subject.entry.name()).is_ok();
+    is_ours.then(|| case.command(subject))
+}
+
+/// How the program of a suite is started from a shell.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Commands {
+    /// `cargo xtask verify` in this workspace.
+    Workspace,
+    /// A program with a suite of its own: everything before its arguments, such as `cargo run --release --`.
+    Program(String),
+    /// The same commands with these options at their end, which begin with a space.
+    With(Box<Self>, String),
+}
+
+impl Commands {
+    /// The command of the program that is running, as far as the place of its file tells: a binary or an example that
+    /// cargo built, or any other file.
+    pub fn of_this_program() -> Self {
+        let path = std::env::current_exe().unwrap_or_default();
+        Self::Program(of(&path))
+    }
+
+    /// The command that does `replay`.
+    pub fn line(&self, replay: &Replay) -> String {
+        match (self, replay) {
+            (Self::With(commands, options), _) => commands.line(replay) + options,
+            (Self::Workspace, Replay::Toss { command: Some(command), .. }) => command.clone(),
+            (Self::Workspace, Replay::Toss { input, command: None }) => {
+                format!("cargo xtask verify --replay \"{input}\"")
+            }
+            (Self::Workspace, Replay::Check(check)) => format!("cargo xtask verify --only {check}"),
+            (Self::Program(program), Replay::Toss { input, .. }) => format!("{program} replay \"{input}\""),
+            (Self::Program(program), Replay::Check(check)) => format!("{program} --only {check}"),
+        }
+    }
+
+    /// The command that runs the checks and accepts what is better or new.
+    pub fn bless(&self) -> String {
+        match self {
+            Self::Workspace => "cargo xtask verify --bless".to_owned(),
+            Self::With(commands, options) => commands.bless() + options,
+            Self::Program(program) => format!("{program} --bless"),
+        }
+    }
+}
+
+fn of(path: &Path) -> String {
+    let name = |path: &Path| path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let folders: Vec<String> = path.ancestors().skip(1).take(2).map(name).collect();
+    match folders.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["release", _] => format!("cargo run --release --bin {} --", name(path)),
+        ["debug", _] => format!("cargo run --bin {} --", name(path)),
+        ["examples", "release"] => format!("cargo run --release --example {} --", name(path)),
+        ["examples", "debug"] => format!("cargo run --example {} --", name(path)),
+        _ => path.display().to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_place_of_a_program_tells_its_command() {
+        for (path, command) in [
+            ("/mine/target/release/checks", "cargo run --release --bin checks --"),
+            ("/mine/target/debug/checks", "cargo run --bin checks --"),
+            ("/mine/target/release/examples/own", "cargo run --release --example own --"),
+            ("/usr/bin/checks", "/usr/bin/checks"),
+        ] {
+            assert_eq!(of(Path::new(path)), command);
+        }
+    }
+
+    #[test]
+    fn only_the_workspaces_own_suite_repeats_a_toss_by_its_command_line() {
+        let case = crate::measure::adversary::launch(3, 0).unwrap();
+        let replay = Replay::toss(&case, &Subject::exact());
+        assert!(Commands::Workspace.line(&replay).starts_with("cargo run -q --release --bin unfair-toss -- toss "));
+        let elsewhere = Commands::Program("checks".to_owned());
+        assert_eq!(elsewhere.line(&replay), format!("checks replay \"{}\"", case.hex()));
+        assert_eq!(elsewhere.line(&Replay::Check("c".to_owned())), "checks --only c");
+        let foreign = Replay::Toss { input: case.hex(), command: None };
+        assert_eq!(Commands::Workspace.line(&foreign), format!("cargo xtask verify --replay \"{}\"", case.hex()));
+        let with = |commands| Commands::With(Box::new(commands), " --claim 1".to_owned());
+        let line = format!("cargo xtask verify --replay \"{}\" --claim 1", case.hex());
+        assert_eq!(with(Commands::Workspace).line(&foreign), line);
+        assert_eq!(with(elsewhere.clone()).line(&Replay::Check("c".to_owned())), "checks --only c --claim 1");
+        assert_eq!(with(elsewhere).bless(), "checks --bless --claim 1");
+    }
+}

@@ -1,0 +1,124 @@
+//! The processes of one program, as many as threads ask at once, and the judgement when the program is given up: a run
+//! of the suite has thousands of launches, and has to end although each of them could cost a time-out.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use toss::Toss;
+
+use super::Limits;
+use super::child::{Fault, Process};
+use super::protocol::{Answer, question};
+
+/// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
+const LOSSES: u32 = 6;
+
+/// The processes of a program.
+pub(super) struct Pool {
+    command: String,
+    limits: Limits,
+    state: Mutex<State>,
+}
+
+#[derive(Default)]
+struct State {
+    idle: Vec<Idle>,
+    /// Whether its answers have the field `error`; `None` before the first answer.
+    gives_errors: Option<bool>,
+    /// How long the first process took for its first answer.
+    start: Option<Duration>,
+    /// Time spent on answers, and on what was none.
+    answering: Duration,
+    lost: Duration,
+    given_up: Option<String>,
+}
+
+/// A process that waits for a question, and what it answered last.
+struct Idle {
+    process: Process,
+    last: (Toss, f64, Answer),
+}
+
+impl Pool {
+    pub(super) fn new(command: &str, limits: Limits) -> Self {
+        Self { command: command.to_owned(), limits, state: Mutex::default() }
+    }
+
+    /// Whether the program gives its own error with each answer; `None` before its first answer.
+    pub(super) fn gives_errors(&self) -> Option<bool> {
+        self.state().gives_errors
+    }
+
+    /// What the program answers where `toss` lands by steps of this `tolerance`.
+    ///
+    /// # Errors
+    /// What the program did instead, in words; at once if it was given up.
+    pub(super) fn ask(&self, toss: &Toss, tolerance: f64) -> Result<Answer, String> {
+        let (idle, start) = {
+            let mut state = self.state();
+            if let Some(why) = &state.given_up {
+                return Err(why.clone());
+            }
+            // An error estimate is asked for after the landing of the same toss.
+            let known = |idle: &&Idle| idle.last.0 == *toss && idle.last.1 == tolerance;
+            if let Some(idle) = state.idle.iter().find(known) {
+                return Ok(idle.last.2.clone());
+            }
+            (state.idle.pop().map(|idle| idle.process), state.start)
+        };
+        // A process that replaces one that hung would else be given the time to load its libraries for each launch on
+        // which it hangs.
+        let longest = LOSSES * self.limits.answer;
+        let start = start.map_or(longest, |took| longest.min(self.limits.answer + 3 * took));
+        let began = Instant::now();
+        let asked = idle.map_or_else(|| Process::start(&self.command), Ok).and_then(|mut process| {
+            let answer = process.ask(|id| question(id, toss, tolerance), start, &self.limits)?;
+            Ok(Idle { process, last: (*toss, tolerance, answer) })
+        });
+        let (took, mut state) = (began.elapsed(), self.state());
+        match asked {
+            Ok(idle) => state.take(idle, took, &self.limits),
+            Err(fault) => Err(state.note(&fault, took, &self.limits)),
+        }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    /// Keeps a process for the next question, and returns its answer.
+    fn take(&mut self, idle: Idle, took: Duration, limits: &Limits) -> Result<Answer, String> {
+        let answer = idle.last.2.clone();
+        if let Answer::Landing(landing) = &answer {
+            let gives_error = landing.error.is_some();
+            if *self.gives_errors.get_or_insert(gives_error) != gives_error {
+                return Err("gives an error with some of its answers and none with others".to_owned());
+            }
+        }
+        self.start.get_or_insert(took);
+        self.answering += took;
+        if self.answering > limits.total {
+            self.give_up(&format!("took more than {} s for all its answers", limits.total.as_secs_f64()));
+        } else {
+            self.idle.push(idle);
+        }
+        Ok(answer)
+    }
+
+    /// Notes that a process did not answer, and returns what it did in words.
+    fn note(&mut self, fault: &Fault, took: Duration, limits: &Limits) -> String {
+        self.lost += took;
+        let words = fault.to_string();
+        if self.answering == Duration::ZERO || self.lost > LOSSES * limits.answer {
+            self.give_up(&words);
+        }
+        words
+    }
+
+    fn give_up(&mut self, why: &str) {
+        self.idle.clear();
+        self.given_up.get_or_insert_with(|| format!("is no longer asked: it {why}"));
+    }
+}

@@ -1,0 +1,122 @@
+//! The lines that are exchanged with a program: a header, then a question and an answer for each launch. They are plain
+//! numbers between commas, which every language reads without a library.
+//!
+//! An answer repeats the number of its question. Without it, one line too many on standard output would shift all
+//! answers that follow, and an answer to another launch would be taken for a wrong one.
+
+use toss::Toss;
+
+/// The names of the columns of a question, which are the first line that a program reads: the number of the question;
+/// the moments of inertia (kg m²); the body rate (BF, rad/s); the unit quaternion of the attitude at launch (from BF to
+/// LF); the time of flight (s); the tolerance.
+pub const HEADER: &str = "id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance";
+
+/// What a program answered.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Answer {
+    Landing(Landing),
+    /// It has no answer, in its own words.
+    Failed(String),
+}
+
+/// An attitude at landing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Landing {
+    /// (w, x, y, z), as it was answered.
+    pub(super) quaternion: [f64; 4],
+    /// The error of cos θ that the program claims.
+    pub(super) error: Option<f64>,
+    /// Calls of the right-hand side; 0 if the program does not count them.
+    pub(super) calls: u64,
+}
+
+/// The question number `id`: where `toss` lands, by steps of this `tolerance`.
+pub(super) fn question(id: u64, toss: &Toss, tolerance: f64) -> String {
+    let rate = toss.launch.rate();
+    let [w, x, y, z] = toss.launch.attitude().components();
+    let (i1, i3, time) = (toss.coin.i1(), toss.coin.i3(), toss.launch.flight_time());
+    let numbers = [i1, i3, rate.x, rate.y, rate.z, w, x, y, z, time, tolerance];
+    numbers.iter().fold(id.to_string(), |line, number| format!("{line},{number:?}"))
+}
+
+/// The answer in `line` to the question number `id`.
+///
+/// # Errors
+/// What is wrong with the line, if it is no answer to that question.
+pub(super) fn answer(line: &str, id: u64) -> Result<Answer, String> {
+    let columns: Vec<&str> = line.trim().split(',').map(str::trim).collect();
+    if let [number, "failed", ..] = columns[..] {
+        require_id(number, id)?;
+        return Ok(Answer::Failed(columns[2..].join(", ")));
+    }
+    let [number, w, x, y, z, ref fields @ ..] = columns[..] else {
+        return Err(format!("{} columns where {id},w,x,y,z is expected", columns.len()));
+    };
+    require_id(number, id)?;
+    let mut landing = Landing { quaternion: [0.0; 4], error: None, calls: 0 };
+    for (part, text) in landing.quaternion.iter_mut().zip([w, x, y, z]) {
+        *part = number_in(text)?;
+    }
+    for field in fields {
+        match field.split_once('=') {
+            Some(("error", text)) => landing.error = Some(number_in(text)?),
+            Some(("calls", text)) => {
+                landing.calls = text.parse().map_err(|_| format!("'{text}' is no number of calls"))?;
+            }
+            _ => return Err(format!("'{field}' where error=NUMBER or calls=NUMBER is expected")),
+        }
+    }
+    Ok(Answer::Landing(landing))
+}
+
+fn require_id(text: &str, id: u64) -> Result<(), String> {
+    if text == id.to_string() { Ok(()) } else { Err(format!("it begins with '{text}', not with the number {id}")) }
+}
+
+fn number_in(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| format!("'{text}' is no number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use toss::{Coin, Launch, TimeOfFlight, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn a_question_has_the_columns_of_the_header_with_every_bit() {
+        let launch = Launch::new(Vector3::new(0.1, -2e-300, 3.0), TimeOfFlight::Given(1.0 / 3.0)).unwrap();
+        let toss = Toss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
+        let line = question(17, &toss, 1e-9);
+        assert_eq!(line, "17,5e-7,2.5e-7,0.1,-2e-300,3.0,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9");
+        assert_eq!(line.split(',').count(), HEADER.split(',').count());
+    }
+
+    #[test]
+    fn an_answer_is_read_with_and_without_its_optional_fields() {
+        let landing = |error, calls| Answer::Landing(Landing { quaternion: [0.5, -0.5, 5e-1, -5e-1], error, calls });
+        assert_eq!(answer("7,0.5,-.5,5e-1,-5E-01\r", 7), Ok(landing(None, 0)));
+        assert_eq!(answer("7, 0.5, -0.5, 0.5, -0.5, calls=12, error=1e-9", 7), Ok(landing(Some(1e-9), 12)));
+        assert_eq!(answer("7,failed,too fast, sorry", 7), Ok(Answer::Failed("too fast, sorry".to_owned())));
+        // NaN is a number to the protocol; the solver refuses it.
+        assert!(matches!(answer("7,nan,0,0,inf", 7), Ok(Answer::Landing(_))));
+    }
+
+    #[test]
+    fn a_line_that_is_no_answer_says_why() {
+        for (line, why) in [
+            ("", "1 columns where 7,w,x,y,z is expected"),
+            ("y", "1 columns"),
+            ("0.5,0.5,0.5,0.5", "4 columns"),
+            ("6,0.5,0.5,0.5,0.5", "it begins with '6', not with the number 7"),
+            ("6,failed,words", "it begins with '6'"),
+            ("7,0.5,0.5,0.5,half", "'half' is no number"),
+            ("7,0.5,0.5,0.5,0.5,1e-9", "'1e-9' where error=NUMBER"),
+            ("7,0.5,0.5,0.5,0.5,calls=-1", "'-1' is no number of calls"),
+            (HEADER, "it begins with 'id'"),
+        ] {
+            let error = answer(line, 7).unwrap_err();
+            assert!(error.contains(why), "{line}: {error}");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Renders the report for GitHub Actions: annotations, which are lines on standard output that GitHub shows beside the
+//! run, and a summary in Markdown for the page of the run.
+//!
+//! The syntax and its escapes are those of GitHub's documentation, "Workflow commands for GitHub Actions".
+
+use std::fmt::Write;
+
+use super::words::{Block, comparison, margin, worst_first};
+use super::{Report, moves};
+use crate::judge::Row;
+use crate::judge::baseline::{Direction, Move};
+
+/// GitHub shows so many annotations of a kind for each step and drops the rest, so the last one says how many are left.
+const SHOWN: usize = 10;
+
+/// The summary shows so many failing rows and as many that became worse: GitHub refuses a summary of more than 1 MiB.
+const IN_FULL: usize = 100;
+
+/// One `::error` for each failing row and one `::warning` for each that became worse, the worst first, each with the
+/// command that repeats it.
+pub fn annotations(report: &Report<'_>) -> String {
+    let mut failing: Vec<&Row> = report.rows.iter().filter(|row| !row.status.passes()).collect();
+    failing.sort_by(|a, b| worst_first(a, b));
+    let errors = failing.iter().map(|row| {
+        let replay = row.replay.as_ref().map_or_else(String::new, |replay| format!("\nRepeat with: {replay}"));
+        let why = row.failure.as_ref().map_or_else(String::new, |why| format!("\n{why}"));
+        let text = format!("{}: {} ({}){why}{replay}", row.status.name(), comparison(row), margin(row));
+        (format!("{} / {}", row.check, row.subject), text)
+    });
+    let warnings = worse(report).into_iter().map(|moved| {
+        let replay = moves::replay(moved, report.rows);
+        let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", moves::change(moved));
+        (format!("{} / {}", moved.check, moved.subject), text)
+    });
+    listed("error", errors.collect()) + &listed("warning", warnings.collect())
+}
+
+fn listed(kind: &str, all: Vec<(String, String)>) -> String {
+    let number = all.len();
+    let shown = if number > SHOWN { SHOWN - 1 } else { number };
+    let mut out = String::new();
+    for (title, text) in all.into_iter().take(shown) {
+        let _ = writeln!(out, "::{kind} title={}::{}", property(&title), data(&text));
+    }
+    if number > shown {
+        let rest = format!("{} more; the summary and the artifact have all of them", number - shown);
+        let _ = writeln!(out, "::{kind} title=and {} more::{}", number - shown, data(&rest));
+    }
+    out
+}
+
+/// The message of a workflow command, in which line breaks and percent signs are escaped.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// A property of a workflow command, in which colons and commas are escaped, too.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// The summary: the verdict, the pattern, one line a check, what fails and what became worse with the commands that
+/// repeat it.
+pub fn summary(report: &Report<'_>) -> String {
+    let failing = report.rows.iter().filter(|row| !row.status.passes()).count();
+    let verdict = match (report.passed, worse(report).is_empty()) {
+        (true, true) => "✅ PASS",
+        (true, false) => "⚠️ WORSE than the baseline",
+        (false, _) => "❌ FAIL",
+    };
+    let mut out = format!("## {verdict}: {} of {} rows pass\n\n", report.rows.len() - failing, report.rows.len());
+    let _ = writeln!(out, "{}\n", cell(&report.pattern));
+    let _ = writeln!(out, "{}\n", report.baseline.words(report.moves));
+    let blocks = Block::all(report.rows);
+    let bad: Vec<&Row> =
+        blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes()).collect();
+    out += &in_full("Fails", bad.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
+    let moved =
+        |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), moves::change(moved));
+    let moved = |found: &&Move| (moved(found), moves::replay(found, report.rows));
+    out += &in_full("Worse than the baseline", worse(report).iter().map(moved));
+    out += "\n<details><summary>All checks, the worst first</summary>\n\n";
+    out += "| | check | rows | worst row | measured and bound | |\n|---|---|---|---|---|---|\n";
+    for block in &blocks {
+        let (worst, sign) = (block.worst(), if block.failing() == 0 { "✅" } else { "❌" });
+        let (check, subject, rows) = (cell(&worst.check), cell(&worst.subject), block.rows.len());
+        let _ = writeln!(out, "| {sign} | {check} | {rows} | {subject} | {} | {} |", comparison(worst), margin(worst));
+    }
+    out + "\n</details>\n"
+}
+
+fn failed(row: &Row) -> String {
+    let why = row.failure.as_ref().map_or_else(String::new, |why| format!(". {}", cell(why)));
+    let name = format!("**{} / {}**", cell(&row.check), cell(&row.subject));
+    format!("{name}: {}, {} ({}){why}", row.status.name(), comparison(row), margin(row))
+}
+
+/// A heading, and each item with its command; empty without items.
+fn in_full(heading: &str, items: impl ExactSizeIterator<Item = (String, String)>) -> String {
+    let number = items.len();
+    if number == 0 {
+        return String::new();
+    }
+    let mut out = format!("### {heading}: {number}\n\n");
+    for (text, replay) in items.take(IN_FULL) {
+        let _ = writeln!(out, "- {text}");
+        if !replay.is_empty() {
+            let _ = writeln!(out, "  ```sh\n  {replay}\n  ```");
+        }
+    }
+    if number > IN_FULL {
+        let _ = writeln!(out, "- and {} more", number - IN_FULL);
+    }
+    out + "\n"
+}
+
+fn worse<'a>(report: &Report<'a>) -> Vec<&'a Move> {
+    report.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect()
+}
+
+/// Text without the characters that would end a cell of a table or begin markup.
+fn cell(text: &str) -> String {
+    let mut out = String::new();
+    for character in text.chars() {
+        match character {
+            '\n' | '\r' => out.push(' '),
+            '|' | '*' | '_' | '`' | '<' | '[' | '\\' | '~' => out.extend(['\\', character]),
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

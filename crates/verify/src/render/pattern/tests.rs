@@ -1,0 +1,93 @@
+//! The paragraph on patterns that faults make.
+
+use super::*;
+use crate::judge::{Row, Status};
+use crate::render::tests::{library, row};
+
+/// The rows of a small suite, of which those fail that `fails` selects.
+fn rows(fails: impl Fn(&str, &str) -> bool) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for check in ["random-attitude", "reference-cos-tilt", "invariant-energy"] {
+        for subject in ["exact", "gamma/dop853", "gamma/rk4", "euler/dop853", "euler/rk4"] {
+            rows.push(row(check, subject, if fails(check, subject) { 2.0 } else { 0.5 }, 1.0));
+        }
+    }
+    for (check, subject) in
+        [("batch-outcomes", "random"), ("batch-attitude", "corners"), ("sampling-errors", "grid/2^14")]
+    {
+        rows.push(library(check, subject, if fails(check, subject) { 2.0 } else { 0.5 }, 1.0));
+    }
+    rows
+}
+
+#[test]
+fn names_all_integrators_and_what_passes() {
+    let text = of_rows(&rows(|_, subject| subject.contains('/') && !subject.contains('^')));
+    assert_eq!(
+        text,
+        "Fails: all integrators, every scheme, under every check of solvers (3). Passes: exact, batches, sampling. The \
+         integrators share the flight, the step control and the body's equations, not the closed form."
+    );
+}
+
+#[test]
+fn names_one_solver_one_scheme_and_the_checks() {
+    let text = of_rows(&rows(|check, subject| check == "invariant-energy" && subject.starts_with("gamma")));
+    assert!(
+        text.starts_with("Fails: gamma, every scheme, under the check invariant-energy alone. Passes: euler, exact")
+    );
+    let text = of_rows(&rows(|check, subject| check != "invariant-energy" && subject.ends_with("/rk4")));
+    assert!(text.starts_with(
+        "Fails: all integrators, by rk4 alone, under 2 of 3 checks of solvers (random-attitude, reference-cos-tilt). \
+         Passes: exact, batches, sampling. The solvers that fail share the scheme"
+    ));
+    let text = of_rows(&rows(|_, subject| subject == "gamma/rk4" || subject == "euler/dop853"));
+    assert!(text.contains("not by every scheme (euler/dop853, gamma/rk4)"), "{text}");
+}
+
+#[test]
+fn names_the_part_of_the_library_that_fails() {
+    let text = of_rows(&rows(|check, _| check == "batch-outcomes"));
+    assert_eq!(
+        text,
+        "Fails: the library's batches (1 of 2 rows). Passes: euler, exact, gamma, sampling. No solver is wrong: the \
+         fault is in the library beside its solvers."
+    );
+}
+
+#[test]
+fn an_impostor_called_exact_is_not_taken_for_the_library() {
+    let mut found = rows(|_, subject| subject == "exact");
+    found.push(library("exact-speed-share", "exact", 0.0, 1.0));
+    let text = of_rows(&found);
+    assert!(
+        text.starts_with("Fails: exact, under every check of solvers (3). Passes: euler, gamma, batches, sampling")
+    );
+    assert!(!text.contains("library"), "{text}");
+}
+
+#[test]
+fn says_which_formulation_fails_and_which_bounds_were_not_measured() {
+    let mut found = rows(|_, _| false);
+    found.push(row("atlas-answers", "gamma/dop853/vertical", 2.0, 1.0));
+    assert!(of_rows(&found).contains("gamma, by dop853 alone, in the formulation vertical alone"), "{found:?}");
+    let unused = Row { judges: None, status: Status::NotMeasured, measured: None, ..row("gone", "gamma", 1.0, 1.0) };
+    assert!(of_rows(&[unused]).starts_with("Fails: not measured in time or not at all: gone."));
+}
+
+#[test]
+fn comparisons_blame_no_solver_and_all_rows_may_pass() {
+    let mut found = rows(|_, _| false);
+    let passes = of_rows(&found);
+    assert_eq!(passes, "All 18 rows pass: euler, exact, gamma, batches, sampling.");
+    found.push(row("cross-method-attitude", "gamma ~ euler/rk4", 2.0, 1.0));
+    assert!(of_rows(&found).starts_with("Fails: comparisons alone (gamma ~ euler/rk4). Passes: euler, exact, gamma"));
+}
+
+#[test]
+fn every_family_is_that_of_a_check() {
+    for (start, family) in FAMILIES {
+        let known = crate::CHECKS.iter().any(|check| check.id.starts_with(start));
+        assert!(known, "no check begins with {start}, of {family}");
+    }
+}

@@ -1,0 +1,249 @@
+//! A suite puts the solvers of a registry under all checks. It is a value with a builder, so that a crate elsewhere can
+//! judge its own solver, with bounds, baseline and records in its own repository.
+//!
+//! ```no_run
+//! use toss::{Registry, SolverEntry};
+//! use verify::{Effort, Suite, Verdict};
+//!
+//! // Your own solver takes the place of this one.
+//! let mine = SolverEntry::new("mine", "the exact motion again", |_| unimplemented!());
+//! let suite = Suite::new(Registry::standard().with(mine)?).effort(Effort::Quick);
+//! let verified = suite.run()?;
+//! verified.write("target/verify".as_ref())?;
+//! assert_eq!(verified.verdict(), Verdict::Pass, "{} rows", verified.rows().len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod selection;
+mod verified;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context as _, ensure};
+use toss::Registry;
+
+use crate::files;
+use crate::host::Host;
+use crate::judge::baseline::{self, Baseline};
+use crate::judge::bounds::Bounds;
+use crate::judge::time::Timing;
+use crate::judge::{Judge, LeftOut, record, require_distinct, unused_bounds};
+use crate::measure::check::{Check, Judges};
+use crate::measure::context::Context;
+use crate::measure::effort::Effort;
+use crate::measure::replay::Commands;
+use crate::watch::{self, End};
+use crate::{Error, Row};
+
+pub(crate) use selection::named as check_named;
+pub(crate) use verified::PROPOSAL;
+pub use verified::{Verdict, Verified};
+
+/// Where a suite reads its bounds and its baseline, unless it says otherwise.
+const FOLDER: &str = "validation";
+
+/// The solvers of a registry, and how they are verified.
+#[derive(Debug, Clone)]
+pub struct Suite {
+    registry: Registry,
+    effort: Effort,
+    only: Option<String>,
+    bounds: Option<Bounds>,
+    folder: PathBuf,
+    commands: Commands,
+    of_the_library: bool,
+    time_factor: f64,
+}
+
+/// What a run tells while it goes on.
+pub(crate) enum Progress<'a> {
+    /// A check begins; there are so many in all.
+    Begins(&'a Check, usize),
+    /// A check has ended with these rows, and took this time.
+    Ended(&'a [Row], &'a Timing),
+}
+
+impl Suite {
+    /// A suite for the solvers of `registry`, under the checks that judge solvers.
+    ///
+    /// Solvers of this workspace that are among them are judged by the bounds of this workspace. Any other solver is
+    /// judged by the bounds in `validation/bounds.toml`, relative to the folder in which the program runs, and where
+    /// there are none by its own error estimate.
+    pub fn new(registry: Registry) -> Self {
+        Self {
+            registry,
+            effort: Effort::Standard,
+            only: None,
+            bounds: None,
+            folder: FOLDER.into(),
+            commands: Commands::of_this_program(),
+            of_the_library: false,
+            time_factor: 1.0,
+        }
+    }
+
+    /// The suite of this workspace: its own solvers and its library, under all checks.
+    pub fn standard() -> Self {
+        Self { commands: Commands::Workspace, ..Self::new(Registry::standard().clone()) }.with_library_checks()
+    }
+
+    /// The same suite with `bounds` in place of those in its folder.
+    #[must_use]
+    pub fn bounds(self, bounds: Bounds) -> Self {
+        Self { bounds: Some(bounds), ..self }
+    }
+
+    /// The same suite with this number of cases.
+    #[must_use]
+    pub fn effort(self, effort: Effort) -> Self {
+        Self { effort, ..self }
+    }
+
+    /// The same suite with this check alone, also if it judges the library.
+    #[must_use]
+    pub fn only(self, id: &str) -> Self {
+        Self { only: Some(id.to_owned()), ..self }
+    }
+
+    /// The same suite with its bounds, baseline and records in this folder.
+    #[must_use]
+    pub fn folder(self, folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), ..self }
+    }
+
+    /// The same suite, whose program is started by `command`, such as `cargo run --release --`. The rows' commands begin
+    /// with it. Without it the place of the program's file tells.
+    #[must_use]
+    pub fn command(self, command: &str) -> Self {
+        Self { commands: Commands::Program(command.to_owned()), ..self }
+    }
+
+    /// The same suite with the checks that judge this library: its exact motion, proofs, batches, sampling methods and
+    /// planner.
+    #[must_use]
+    pub fn with_library_checks(self) -> Self {
+        Self { of_the_library: true, ..self }
+    }
+
+    /// The same suite with the time limits of all checks multiplied by `factor`, for a slow machine or a slow solver.
+    /// Where it is not finite and above 0, [`run`](Self::run) says so.
+    #[must_use]
+    pub fn time_factor(self, factor: f64) -> Self {
+        Self { time_factor: factor, ..self }
+    }
+
+    /// The solvers.
+    pub fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    /// The folder with bounds, baseline and records.
+    pub fn data(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The same suite, whose rows are repeated by these commands.
+    pub(crate) fn repeated_by(self, commands: Commands) -> Self {
+        Self { commands, ..self }
+    }
+
+    /// How its program is started.
+    pub(crate) fn commands(&self) -> &Commands {
+        &self.commands
+    }
+
+    /// Runs the checks, judges every row, and compares them with the baseline.
+    ///
+    /// # Errors
+    /// If a check of [`only`](Self::only) is unknown, the bounds or the baseline can't be read, or no check measures
+    /// anything. A solver that fails or panics, and a check that never ends, are no errors but rows that fail.
+    pub fn run(&self) -> Result<Verified, Error> {
+        Ok(self.run_showing(&|_| {})?)
+    }
+
+    /// The same, and calls `show` as the run goes on.
+    pub(crate) fn run_showing(&self, show: &dyn Fn(Progress<'_>)) -> anyhow::Result<Verified> {
+        ensure!(
+            self.time_factor.is_finite() && self.time_factor > 0.0,
+            "time_factor = {}: must be finite and above 0",
+            self.time_factor
+        );
+        let bounds = self.all_bounds()?;
+        let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
+        let (checks, mut left_out) = self.checks()?;
+        let (mut rows, timings) = self.measure(&checks, &context, &bounds, show)?;
+        let is_complete = self.only.is_none() && timings.len() == checks.len();
+        let unused = match is_complete {
+            true => unused_bounds(&rows, &bounds, |check, subject| self.measures(&checks, check, subject)),
+            false => Vec::new(),
+        };
+        if !self.of_the_library && self.only.is_none() {
+            rows.retain(|row| row.judges != Some(Judges::Library));
+        }
+        let without_rows = |check: &&&Check| !rows.iter().any(|row| row.check == check.id);
+        left_out.extend(
+            checks.iter().take(timings.len()).filter(without_rows).map(|check| LeftOut::without_a_subject(check)),
+        );
+        rows.extend(unused);
+        ensure!(!rows.is_empty(), "no check measured anything");
+        require_distinct(&rows)?;
+        Verified::new(self, is_complete, rows, timings, context, left_out)
+    }
+
+    fn measure(
+        &self,
+        checks: &[&'static Check],
+        context: &Arc<Context>,
+        bounds: &Bounds,
+        show: &dyn Fn(Progress<'_>),
+    ) -> anyhow::Result<(Vec<Row>, Vec<Timing>)> {
+        let judge = Judge { bounds, commands: &self.commands, effort: context.effort };
+        let (mut rows, mut timings) = (Vec::new(), Vec::new());
+        let start = |check: &Check| show(Progress::Begins(check, checks.len()));
+        let end = |check: &Check, timing: Timing, end: End| {
+            let judged = end.rows(check, &timing, judge);
+            show(Progress::Ended(&judged, &timing));
+            rows.extend(judged);
+            timings.push(timing);
+            Ok(())
+        };
+        watch::run(checks, context, self.time_factor, start, end)?;
+        Ok((rows, timings))
+    }
+
+    /// Takes what is better or new than the baseline into it, and after a run of standard effort writes a dated record.
+    /// What is worse is not taken.
+    ///
+    /// # Errors
+    /// If a file can't be written, a row fails, or only one check was run.
+    pub fn accept(&self, verified: &Verified) -> Result<(), Error> {
+        Ok(self.accepted(verified)?)
+    }
+
+    fn accepted(&self, verified: &Verified) -> anyhow::Result<()> {
+        ensure!(self.only.is_none(), "a run of one check is not accepted into the baseline");
+        ensure!(verified.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
+        let path = self.baseline_path();
+        let accepted = Baseline::read(&path)?.unwrap_or_default();
+        files::write(&path, &accepted.ratcheted(verified.found()).csv()?)?;
+        let sweep = verified.context().records().sweep;
+        if let Some(sweep) = sweep.filter(|_| self.effort == Effort::Standard) {
+            record::write(&self.folder.join("record"), &Host::here(), verified.found(), sweep)?;
+        }
+        Ok(())
+    }
+
+    fn baseline_path(&self) -> PathBuf {
+        baseline::file(&self.folder.join("baseline"), self.effort)
+    }
+
+    /// Its own bounds and, for what these leave open, those of this workspace.
+    fn all_bounds(&self) -> anyhow::Result<Bounds> {
+        let own = match &self.bounds {
+            Some(bounds) => bounds.clone(),
+            None => Bounds::read_if_any(&self.folder.join("bounds.toml"))?,
+        };
+        Ok(own.over(Bounds::of_this_workspace().context("in the bounds of this workspace")?))
+    }
+}

@@ -1,0 +1,315 @@
+//! Programs as solvers: what answers is judged like any solver, and what hangs, dies, floods or answers nonsense
+//! becomes an error that says so, in bounded time and without a process left behind.
+#![cfg(target_os = "linux")]
+
+use std::time::{Duration, Instant};
+
+use toss::{
+    Coin, ExactSolver, Launch, Propagation, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
+    Vector3,
+};
+use verify::process::{Limits, OWN, Program};
+
+/// A loop of the shell that reads the header and then answers each question by `body`, which has the number in `$id`
+/// and the time of flight in `$time`.
+fn answering(body: &str) -> String {
+    format!("read -r header; while IFS=, read -r id i1 i3 a b c w x y z time tolerance; do {body}; done")
+}
+
+/// Limits that keep the tests short.
+const SHORT: Limits = Limits { answer: Duration::from_millis(500), total: Duration::from_secs(60), memory: 200 << 20 };
+
+fn entry(command: &str) -> SolverEntry {
+    Program::new(command).with_limits(SHORT).entry("program")
+}
+
+/// The solver of `entry` at a tolerance of 1e-10.
+fn made(entry: &SolverEntry) -> Box<dyn Solver> {
+    let stepping = Stepping::adaptive(OWN, 1e-10).expect("a valid tolerance");
+    entry.solver(&Settings { stepping, ..Settings::default() }).expect("its scheme")
+}
+
+/// A toss that lasts so many seconds.
+fn toss(time: f64) -> Toss {
+    let launch = Launch::new(Vector3::new(3.0, -1.0, 2.0), TimeOfFlight::Given(time)).expect("a valid launch");
+    Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.3).expect("a valid tilt") }
+}
+
+/// What `solver` answers on tosses of 1, 2, … s.
+fn landings(solver: &dyn Solver, count: u32) -> Vec<Result<Propagation, String>> {
+    let land = |time| solver.propagate(&toss(f64::from(time))).map_err(|error| error.to_string());
+    (1..=count).map(land).collect()
+}
+
+/// The ids of the processes of this program that match `is`, out of `/proc`.
+fn children(is: impl Fn(&str) -> bool) -> Vec<u32> {
+    let stat = |entry: std::fs::DirEntry| {
+        let text = std::fs::read_to_string(entry.path().join("stat")).ok()?;
+        let (head, rest) = text.rsplit_once(") ")?;
+        let (id, mut fields) = (head.split(' ').next()?.parse().ok()?, rest.split(' '));
+        let (state, parent) = (fields.next()?, fields.next()?.parse::<u32>().ok()?);
+        (parent == std::process::id() && is(state)).then_some(id)
+    };
+    std::fs::read_dir("/proc").expect("Linux").flatten().filter_map(stat).collect()
+}
+
+#[test]
+fn what_is_no_solver_is_an_error_that_says_why_in_bounded_time() {
+    for (command, whys) in [
+        ("true", ["ended (exit status: 0) without an answer"].as_slice()),
+        ("false", &["ended (exit status: 1) without an answer"]),
+        ("echo 'no such module' >&2; exit 3", &["ended (exit status: 3) without an answer: no such module"]),
+        ("/no/such/program", &["ended (exit status: 127) without an answer", "not found"]),
+        ("kill -SEGV $$", &["ended (signal: 11"]),
+        ("cat", &["wrote \"id,i1,i3"]),
+        ("yes", &["wrote \"y\""]),
+        ("tr -d '\\n' < /dev/zero", &["wrote \"\\0"]),
+        ("sleep 1000", &["gave no answer within 3 s", "without buffering"]),
+        ("exec 0<&-; sleep 1000", &["answer"]),
+        ("exec 1>&-; sleep 1000", &["closed its standard input or output"]),
+        ("echo Welcome; cat > /dev/null", &["wrote \"Welcome\""]),
+        (&answering("echo $id"), &["1 columns where 1,w,x,y,z is expected"]),
+        (&answering("echo $id,1,0,0"), &["4 columns"]),
+        (&answering("echo $w,$x,$y,$z,0"), &["it begins with '0.98"]),
+        (&answering("echo $id,1,0,0,zero"), &["'zero' is no number"]),
+        (&answering("printf '%s,1,0,0,0' $id; exit"), &["ended (exit status: 0)"]),
+    ] {
+        let began = Instant::now();
+        let found = landings(&*made(&entry(command)), 200);
+        let error = found[0].as_ref().unwrap_err();
+        assert!(whys.iter().all(|why| error.contains(why)), "{command}: {error}");
+        let last = found[199].as_ref().unwrap_err();
+        assert!(last.starts_with("solver 'program' failed: is no longer asked: it "), "{command}: {last}");
+        assert!(began.elapsed() < Duration::from_secs(12), "{command}: {:?}", began.elapsed());
+    }
+    // Those of the tests that run at the same time may have just ended.
+    for _ in 0..50 {
+        if children(|state| state == "Z").is_empty() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    panic!("zombies: {:?}", children(|state| state == "Z"));
+}
+
+#[test]
+fn a_process_that_takes_more_and_more_memory_is_ended() {
+    // It looks for the last lines of an input without an end.
+    let limits = Limits { answer: Duration::from_secs(10), ..SHORT };
+    let solver = made(&Program::new("tail /dev/zero").with_limits(limits).entry("program"));
+    let error = solver.propagate(&toss(1.0)).unwrap_err().to_string();
+    assert!(error.contains("of memory, and 200 MB are its limit"), "{error}");
+}
+
+#[test]
+fn answers_that_are_no_attitude_are_errors_of_their_toss_alone() {
+    for (answer, why) in [
+        ("nan,0,0,0", "the norm of the quaternion = NaN"),
+        ("0,0,0,0", "the norm of the quaternion = 0"),
+        ("inf,0,0,0", "the norm of the quaternion = inf"),
+        ("1,1,0,0", "the norm of the quaternion = 1.414"),
+        ("failed,too far for me", "failed: too far for me"),
+        ("1,0,0,0,error=-1", "claims an error of -1"),
+    ] {
+        let body = format!("case $time in 2.0) echo $id,{answer};; *) echo $id,$w,$x,$y,$z,error=1e-9;; esac");
+        let only = answering(&body);
+        let solver = made(&entry(&only));
+        let outcomes: Vec<Result<_, SolveError>> = [1.0, 2.0, 3.0].map(|time| solver.outcome(&toss(time))).into();
+        assert!(outcomes[0].is_ok() && outcomes[2].is_ok(), "{answer}: {outcomes:?}");
+        let error = outcomes[1].as_ref().unwrap_err().to_string();
+        // An answer without the field `error` where the others have it is refused before its numbers are.
+        let told = error.contains(why) || error.contains("an error with some of its answers");
+        assert!(told, "{answer}: {error}");
+    }
+}
+
+#[test]
+fn a_process_that_dies_or_hangs_now_and_then_is_started_again() {
+    let dies = answering("case $time in 3.0) kill -SEGV $$;; *) echo $id,$w,$x,$y,$z;; esac");
+    let hangs = answering("case $time in 3.0) sleep 9;; *) echo $id,$w,$x,$y,$z;; esac");
+    for (command, why) in [(dies, "ended (signal: 11"), (hangs, "gave no answer within 0.5 s")] {
+        let found = landings(&*made(&entry(&command)), 6);
+        let failed: Vec<usize> = (0..6).filter(|index| found[*index].is_err()).collect();
+        assert_eq!(failed, [2], "{command}: {found:?}");
+        assert!(found[2].as_ref().unwrap_err().contains(why), "{found:?}");
+    }
+}
+
+#[test]
+fn a_process_that_hangs_often_is_given_up_with_what_it_did() {
+    let hangs = answering("case $time in 1.0) echo $id,$w,$x,$y,$z;; *) sleep 9;; esac");
+    let began = Instant::now();
+    let found = landings(&*made(&entry(&hangs)), 300);
+    assert!(found[0].is_ok() && found[1..].iter().all(Result::is_err));
+    let last = found[299].as_ref().unwrap_err();
+    assert!(last.contains("is no longer asked: it gave no answer within"), "{last}");
+    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
+}
+
+#[test]
+fn a_line_too_many_is_noticed_and_not_taken_for_an_answer() {
+    let chatters = answering("echo $id,$w,$x,$y,$z; echo done with $id; sleep 0.05");
+    let found = landings(&*made(&entry(&chatters)), 4);
+    assert!(found[0].is_ok());
+    let error = found[1].as_ref().unwrap_err();
+    assert!(error.contains("wrote \"done with 1\""), "{error}");
+    // The next toss is asked of a new process.
+    assert!(found[2].is_ok(), "{found:?}");
+}
+
+#[test]
+fn the_limit_of_all_answers_ends_a_slow_program() {
+    let slow = answering("sleep 0.05; echo $id,$w,$x,$y,$z");
+    let limits = Limits { total: Duration::from_millis(300), ..SHORT };
+    let solver = made(&Program::new(slow).with_limits(limits).entry("program"));
+    let found = landings(&*solver, 12);
+    assert!(found[2].is_ok());
+    let error = found[11].as_ref().unwrap_err();
+    assert!(error.contains("took more than 0.3 s for all its answers"), "{error}");
+}
+
+#[test]
+fn processes_and_their_children_end_with_the_solver() {
+    let marker = format!("999{}", std::process::id());
+    let solver = made(&entry(&answering(&format!("sleep {marker} & echo $id,$w,$x,$y,$z; wait"))));
+    assert!(solver.propagate(&toss(1.0)).is_ok());
+    let asleep = || {
+        let is_it = |entry: &std::fs::DirEntry| {
+            let line = std::fs::read(entry.path().join("cmdline")).unwrap_or_default();
+            line == format!("sleep\0{marker}\0").as_bytes()
+        };
+        std::fs::read_dir("/proc").unwrap().flatten().filter(is_it).count()
+    };
+    // Between fork and exec a child still has the command line of its parent.
+    let becomes = |count: usize| {
+        (0..100).any(|_| {
+            std::thread::sleep(Duration::from_millis(20));
+            asleep() == count
+        })
+    };
+    assert!(becomes(1), "{} children", asleep());
+    drop(solver);
+    assert!(becomes(0), "the child of the process runs on");
+}
+
+#[test]
+fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
+    let toss = toss(0.5);
+    let repeats = answering("echo $id,$w,$x,$y,$z");
+    let solver = made(&entry(&repeats));
+    let by_tolerance = Stepping::DEFAULT.error_estimate(&toss).unwrap();
+    assert_eq!(solver.error_estimate(&toss), Ok(Some(by_tolerance)));
+    assert!(entry(&repeats).integrates());
+    let own = made(&entry(&answering("echo $id,$w,$x,$y,$z,error=$tolerance,calls=7")));
+    assert_eq!(own.error_estimate(&toss), Ok(Some(1e-10)));
+    assert_eq!(own.propagate(&toss).unwrap().work.rhs_calls, 7);
+    let claims = Program::new(repeats.clone()).with_claim(0.25).unwrap().with_limits(SHORT).entry("program");
+    assert!(!claims.integrates());
+    let claims = made(&claims);
+    assert_eq!((claims.error_estimate(&toss), claims.stepping()), (Ok(Some(0.25)), None));
+    for claim in [0.0, -1.0, 1.0, f64::NAN] {
+        assert_eq!(Program::new("true").with_claim(claim).unwrap_err().field(), "claim");
+    }
+    // The coin lands as it was launched, so that the body rate is not that of the motion, but its momentum is.
+    let landing = solver.propagate(&toss).unwrap();
+    assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15);
+    assert!((landing.state.rate - toss.launch.rate()).norm() < 1e-14);
+    assert!((landing.cos_tilt - ExactSolver.cos_tilt(&toss).unwrap()).abs() > 1e-3);
+}
+
+/// The program in Python that the page for authors shows, as a file.
+fn example(folder: &std::path::Path) -> String {
+    let page = include_str!("../../../docs/your-integrator.md");
+    let script = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a program");
+    let file = folder.join("mine.py");
+    std::fs::write(&file, script).expect("a file");
+    format!("python3 '{}'", file.display())
+}
+
+#[test]
+fn the_program_of_the_documentation_lands_as_the_exact_motion() {
+    let python = std::process::Command::new("python3").arg("--version").output();
+    if !python.is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: there is no python3");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let limits = Limits { answer: Duration::from_secs(10), ..SHORT };
+    let program = Program::new(example(folder.path())).with_limits(limits).with_claim(1e-12).unwrap();
+    let solver = made(&program.entry("program"));
+    for time in 0..200 {
+        let toss = toss(0.1 * f64::from(time));
+        let (found, exact) = (solver.propagate(&toss).unwrap(), ExactSolver.propagate(&toss).unwrap());
+        assert!((found.cos_tilt - exact.cos_tilt).abs() < 1e-13, "{found:?}, not {exact:?}");
+        assert!((found.state.rate - exact.state.rate).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn the_page_for_authors_states_the_columns_and_the_limits() {
+    let page = include_str!("../../../docs/your-integrator.md");
+    assert!(page.contains(&format!("```text\n{}\n1,", verify::process::HEADER)));
+    let limits = Limits::default();
+    let start = 6 * limits.answer;
+    let says = [
+        format!("within {} s ({} s for the first", limits.answer.as_secs(), start.as_secs()),
+        format!("more than {} GB", limits.memory >> 30),
+        format!("loses {} s in such ways, or has used {} minutes", start.as_secs(), limits.total.as_secs() / 60),
+    ];
+    for words in says {
+        assert!(page.contains(&words), "{words}");
+    }
+}
+
+/// What `verify run` with a program prints and its exit code.
+fn verified(arguments: &[&str]) -> (String, Option<i32>) {
+    let out = tempfile::tempdir().expect("a folder");
+    let mut verify = std::process::Command::new(env!("CARGO_BIN_EXE_verify"));
+    let found =
+        verify.args(["run", "--quick", "--only", "random-cos-tilt"]).args(arguments).arg("--out").arg(out.path());
+    let found = found.output().expect("it starts");
+    let text = [found.stdout, found.stderr].concat();
+    (String::from_utf8_lossy(&text).into_owned(), found.status.code())
+}
+
+#[test]
+fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
+    let nonsense = "where an answer is expected";
+    for (command, why) in [
+        ("true", "ended (exit status: 0)"),
+        ("false", "ended (exit status: 1)"),
+        ("cat", "wrote \"id,i1,i3"),
+        ("yes", "wrote \"y\""),
+        ("sleep 1000", "gave no answer within 3 s"),
+        (&*answering("echo $id"), nonsense),
+        (&*answering("echo $id,nan,0,0,0"), "the norm of the quaternion = NaN"),
+    ] {
+        let began = Instant::now();
+        let limits = ["--answer-seconds", "0.5", "--memory-mb", "200"];
+        let (text, code) = verified(&[&["--command", command], &limits[..]].concat());
+        assert!(code == Some(1) && text.contains(why), "{command}: {code:?}, {text}");
+        let repeated = "cargo xtask verify --replay \"";
+        assert!(text.contains(repeated) || text.contains("cargo xtask verify --only random-cos-tilt"), "{text}");
+        assert!(text.contains(&format!(" --command '{command}' --answer-seconds 0.5 --memory-mb 200")), "{text}");
+        assert!(began.elapsed() < Duration::from_secs(60), "{command}: {:?}", began.elapsed());
+    }
+    for arguments in [["--claim", "1e-9"], ["--command", "true --claim"]] {
+        let refused = verified(&[&arguments[..], &["--claim", "2"]].concat());
+        assert!(matches!(refused.1, Some(2 | 4)), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_claim() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = example(folder.path());
+    if !std::process::Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: there is no python3");
+        return;
+    }
+    let (text, code) = verified(&["--command", &command, "--claim", "1e-12"]);
+    assert!(code == Some(0) && text.contains("PASS: 1 of 1 rows pass"), "{code:?}, {text}");
+    // It is off by its rounding errors, which are above this claim.
+    let (text, code) = verified(&["--command", &command, "--claim", "1e-18"]);
+    assert!(code == Some(1) && text.contains("above its own claim"), "{code:?}, {text}");
+}

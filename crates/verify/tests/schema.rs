@@ -1,0 +1,239 @@
+//! `docs/report.schema.json` describes report.json for programs that read it. These tests compare it with reports in
+//! both directions: a key that was added or renamed in the code is not in the schema, and one that was removed is
+//! required by it.
+//!
+//! The validator knows the keywords of JSON Schema that the file uses, and refuses others.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+use toss::{Coin, ExactSolver, Propagation, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
+use verify::judge::baseline::Baseline;
+use verify::judge::bounds::Bounds;
+use verify::judge::time::Timing;
+use verify::judge::unused_bounds;
+use verify::render::Report;
+use verify::render::report::Compared;
+use verify::{CHECKS, Check, Context, Effort, LeftOut, Row, judge};
+
+fn schema() -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/report.schema.json");
+    serde_json::from_str(&std::fs::read_to_string(path).expect("the schema")).expect("JSON")
+}
+
+/// Compares values with the schema `root`.
+struct Validator<'a> {
+    root: &'a Value,
+    /// Where values differ from the schema.
+    errors: Vec<String>,
+    /// The definitions that a value was compared with.
+    used: BTreeSet<String>,
+}
+
+impl Validator<'_> {
+    fn errors(root: &Value, value: &Value) -> (Vec<String>, BTreeSet<String>) {
+        let mut validator = Validator { root, errors: Vec::new(), used: BTreeSet::new() };
+        validator.compare(root, value, "");
+        (validator.errors, validator.used)
+    }
+
+    fn compare(&mut self, schema: &Value, value: &Value, at: &str) {
+        for (keyword, wanted) in schema.as_object().expect("a schema is an object") {
+            let holds = match keyword.as_str() {
+                "$schema" | "title" | "description" | "$defs" | "required" | "additionalProperties" => true,
+                "$ref" => self.definition(wanted, value, at),
+                "type" => is_of_type(wanted, value),
+                "const" => wanted == value,
+                "enum" => wanted.as_array().is_some_and(|all| all.contains(value)),
+                "minimum" => value.as_f64() >= wanted.as_f64() || value.is_null(),
+                "minItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) >= wanted.as_u64()),
+                "maxItems" => value.as_array().is_some_and(|all| Some(all.len() as u64) <= wanted.as_u64()),
+                "properties" => self.properties(schema, wanted, value, at),
+                "items" => self.items(value, at, |_| Some(wanted)),
+                "prefixItems" => self.items(value, at, |index| wanted.get(index)),
+                "oneOf" => self.one_of(wanted, value, at),
+                unknown => panic!("the keyword {unknown} is not known to this validator"),
+            };
+            if !holds {
+                let shown: String = value.to_string().chars().take(80).collect();
+                self.errors.push(format!("{at}: {shown} does not satisfy {keyword}"));
+            }
+        }
+    }
+
+    fn definition(&mut self, reference: &Value, value: &Value, at: &str) -> bool {
+        let name = reference.as_str().and_then(|text| text.strip_prefix("#/$defs/")).expect("a definition's name");
+        self.used.insert(name.to_owned());
+        let root = self.root;
+        self.compare(&root["$defs"][name], value, at);
+        true
+    }
+
+    fn properties(&mut self, schema: &Value, properties: &Value, value: &Value, at: &str) -> bool {
+        let (Some(known), Some(found)) = (properties.as_object(), value.as_object()) else { return false };
+        let required = schema["required"].as_array().expect("a list of required keys");
+        for key in required.iter().filter_map(Value::as_str).filter(|key| !found.contains_key(*key)) {
+            self.errors.push(format!("{at}: {key} is missing"));
+        }
+        for (key, value) in found {
+            match known.get(key) {
+                Some(schema) => self.compare(schema, value, &format!("{at}/{key}")),
+                None => self.errors.push(format!("{at}: {key} is not in the schema")),
+            }
+        }
+        true
+    }
+
+    fn items<'s>(&mut self, value: &Value, at: &str, schema: impl Fn(usize) -> Option<&'s Value>) -> bool {
+        let Some(all) = value.as_array() else { return value.is_null() };
+        for (index, item) in all.iter().enumerate() {
+            match schema(index) {
+                Some(schema) => self.compare(schema, item, &format!("{at}[]")),
+                None => self.errors.push(format!("{at}: too many items")),
+            }
+        }
+        true
+    }
+
+    /// Exactly one of the schemas has to fit. If none does, the errors are those of the last, which is not `null`.
+    fn one_of(&mut self, schemas: &Value, value: &Value, at: &str) -> bool {
+        let all = schemas.as_array().expect("a list");
+        let mut tried: Vec<Self> = all
+            .iter()
+            .map(|schema| {
+                let mut one = Validator { root: self.root, errors: Vec::new(), used: BTreeSet::new() };
+                one.compare(schema, value, at);
+                one
+            })
+            .collect();
+        let fitting: Vec<usize> = (0..tried.len()).filter(|index| tried[*index].errors.is_empty()).collect();
+        let chosen = fitting.first().copied().unwrap_or(tried.len() - 1);
+        let Self { errors, used, .. } = tried.swap_remove(chosen);
+        self.errors.extend(errors);
+        self.used.extend(used);
+        fitting.len() <= 1
+    }
+}
+
+fn is_of_type(wanted: &Value, value: &Value) -> bool {
+    let is = |name: &str| match name {
+        "null" => value.is_null(),
+        "boolean" => value.is_boolean(),
+        "integer" => value.is_u64() || value.is_i64(),
+        "number" => value.is_number(),
+        "string" => value.is_string(),
+        "array" => value.is_array(),
+        "object" => value.is_object(),
+        unknown => panic!("no type is called {unknown}"),
+    };
+    match wanted {
+        Value::Array(names) => names.iter().filter_map(Value::as_str).any(is),
+        name => name.as_str().is_some_and(is),
+    }
+}
+
+/// A solver that fails on every toss, so that a report has failures.
+struct Refuses;
+
+impl Solver for Refuses {
+    fn name(&self) -> &str {
+        "refuses"
+    }
+    fn propagate(&self, _: &Toss) -> Result<Propagation, SolveError> {
+        let reason = Coin::from_moments(-1.0, 1.0).expect_err("a negative moment");
+        Err(SolveError::failed(self.name(), reason))
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(Some(1e-9))
+    }
+}
+
+/// A report in which every kind of record, row, move and failure occurs.
+fn report() -> Value {
+    let stepper = SolverEntry::new("stepper", "", |settings| {
+        Box::new(QuaternionSolver::new(settings.stepping, settings.formulation))
+    });
+    let stepper = stepper.with_schemes(&[Scheme::DOPRI5, Scheme::RK4]);
+    let registry = [ExactSolver::entry(), stepper, SolverEntry::new("refuses", "", |_| Box::new(Refuses))];
+    let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
+    let computed = (context.atlas(), context.long_flights(), context.convergence(), context.trial());
+    assert!(computed.0.is_ok() && computed.1.is_ok() && computed.2.is_ok() && computed.3.is_ok());
+    assert!(context.sweep().is_ok() && context.probabilities().is_ok() && context.fig4().is_ok());
+    let bounds = Bounds::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("bounds");
+    let of = |id: &str| -> Vec<Row> {
+        let check: &Check = CHECKS.iter().find(|check| check.id == id).expect("a check");
+        judge(check, (check.measure)(&context).expect("measurements"), &bounds)
+    };
+    let mut rows = [of("reference-cos-tilt"), of("convergence-order"), of("certified-outcomes")].concat();
+    rows.extend(unused_bounds(&rows, &bounds, |_, _| true));
+    let timing = |t_processor_s| Timing { check: "slow".to_owned(), t_wall_s: 1.5, t_processor_s, limit_s: 50.0 };
+    rows.push(timing(Some(51.0)).row().expect("a slow check"));
+    let before = "check,subject,error,calls\nreference-cos-tilt,exact,0,\ngone,all,1.5,7\n";
+    let moves = Baseline::parse(before).expect("a baseline").moves(&Baseline::of(&rows, None), true);
+    let compared = Compared { file: "quick.csv".to_owned(), found: true };
+    let (timings, left_out) = ([timing(Some(51.0)), timing(None)], [LeftOut::about_the_library(&CHECKS[0])]);
+    let report = Report::new(Effort::Quick, &rows, &timings, compared, &moves, &left_out, context.records());
+    serde_json::from_str(&report.json().expect("JSON")).expect("JSON")
+}
+
+/// Every object within `value`, which is changed by `change`.
+fn each_object(value: &mut Value, change: &mut impl FnMut(&mut Map<String, Value>)) {
+    match value {
+        Value::Object(map) => {
+            map.values_mut().for_each(|value| each_object(value, change));
+            change(map);
+        }
+        Value::Array(all) => all.iter_mut().take(1).for_each(|value| each_object(value, change)),
+        _ => {}
+    }
+}
+
+#[test]
+fn a_report_and_its_schema_have_the_same_keys_in_both_directions() {
+    let (root, report) = (schema(), report());
+    let (errors, used) = Validator::errors(&root, &report);
+    assert!(errors.is_empty(), "{:#?}", &errors[..errors.len().min(10)]);
+    let defined: BTreeSet<String> = root["$defs"].as_object().expect("definitions").keys().cloned().collect();
+    assert_eq!(used, defined, "every definition describes something");
+    // The validator sees each renamed, added and removed key, wherever it is.
+    let mut objects = 0;
+    each_object(&mut report.clone(), &mut |_| objects += 1);
+    assert!(objects > 15, "{objects}");
+    for broken in 0..objects {
+        for fault in ["renamed", "added", "removed"] {
+            let (mut report, mut index) = (report.clone(), 0);
+            each_object(&mut report, &mut |map| {
+                if index == broken {
+                    let first = map.keys().next().cloned().unwrap_or_default();
+                    let value = if fault == "added" { None } else { map.remove(&first) };
+                    if fault != "removed" {
+                        map.insert("another_name".to_owned(), value.unwrap_or(Value::Null));
+                    }
+                }
+                index += 1;
+            });
+            assert!(!Validator::errors(&root, &report).0.is_empty(), "object {broken}, {fault}");
+        }
+    }
+}
+
+#[test]
+fn every_object_of_the_schema_is_strict_and_every_key_is_described() {
+    let mut root = schema();
+    each_object(&mut root, &mut |map| {
+        if let Some(properties) = map.get("properties").and_then(Value::as_object)
+            && map.get("type") == Some(&json!("object"))
+        {
+            let keys: Vec<&String> = properties.keys().collect();
+            let required: Vec<&str> =
+                map["required"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+            assert_eq!(required.len(), keys.len(), "{keys:?}");
+            assert_eq!(map["additionalProperties"], false, "{keys:?}");
+            for (key, property) in properties {
+                let described = property["description"].is_string() || property["$ref"].is_string();
+                assert!(described, "{key} is not described");
+            }
+        }
+    });
+}

@@ -1,0 +1,249 @@
+//! The faults that are seeded, one a solver, each with the checks that must catch it. A solver with a fault is the exact
+//! motion with one change of the toss that it is given or of the landing that it answers.
+
+use std::f64::consts::PI;
+
+use toss::{
+    Attitude, Coin, ExactSolver, Launch, Propagation, SolveError, Solver, State, TimeOfFlight, Toss, Vector3, Work,
+};
+
+/// What a foreign solver answers.
+pub(super) type Answer = Result<Propagation, SolveError>;
+
+/// A foreign solver with a fault.
+pub(super) struct Foreign {
+    pub(super) name: &'static str,
+    pub(super) claim: f64,
+    pub(super) fly: fn(&Toss) -> Answer,
+}
+
+impl Solver for Foreign {
+    fn name(&self) -> &str {
+        self.name
+    }
+    fn propagate(&self, toss: &Toss) -> Answer {
+        (self.fly)(toss)
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(Some(self.claim))
+    }
+}
+
+/// A fault: the solver's name, the error that it claims, its flight, and the checks that must fail.
+pub(super) type Fault = (&'static str, f64, fn(&Toss) -> Answer, &'static [&'static str]);
+
+/// What an honest solver of this accuracy claims.
+pub(super) const HONEST: f64 = 1e-12;
+
+pub(super) const FAULTS: &[Fault] = &[
+    // Inputs that are ignored or misread.
+    ("ignores-drop", HONEST, |toss| fly(timed(toss, level)), &["reference-cos-tilt", "random-attitude", SILENCE]),
+    ("first-crossing", HONEST, |toss| fly(timed(toss, rising)), &["reference-attitude", "random-attitude", SILENCE]),
+    (
+        "hard-codes-g",
+        HONEST,
+        |toss| fly(timed(toss, |time| gravity(time, |_| 9.81))),
+        &["reference-cos-tilt", "random-attitude"],
+    ),
+    ("standard-gravity", HONEST, |toss| fly(timed(toss, standard)), &["reference-cos-tilt", "random-attitude"]),
+    (
+        "ignores-tilt",
+        HONEST,
+        |toss| fly(held(toss, |_| Attitude::IDENTITY)),
+        &["reference-attitude", "random-attitude"],
+    ),
+    ("tilts-back", HONEST, |toss| fly(held(toss, |tilt| tilt.inverse())), &["reference-attitude", "random-attitude"]),
+    ("unit-i1", HONEST, |toss| fly(body(toss, |_, i3| (1.0, i3.min(2.0)))), &["reference-attitude", "random-attitude"]),
+    (
+        "no-small-moments",
+        HONEST,
+        |toss| fly(body(toss, |i1, i3| if i1 < 1e-9 { (1.0, 1.0) } else { (i1, i3) })),
+        &["reference-attitude", "random-attitude", SILENCE],
+    ),
+    ("all-discs", HONEST, |toss| fly(body(toss, |i1, _| (i1, 2.0 * i1))), &["reference-attitude", "random-attitude"]),
+    ("no-rods", HONEST, |toss| fly(body(toss, |i1, i3| (i1, i3.max(0.4 * i1)))), &["reference-attitude", SILENCE]),
+    (
+        "left-handed",
+        HONEST,
+        |toss| fly(spun(toss, |rate| Vector3::new(rate.x, rate.y, -rate.z))),
+        &["reference-attitude", "random-attitude"],
+    ),
+    (
+        "swapped-axes",
+        HONEST,
+        |toss| fly(spun(toss, |rate| Vector3::new(rate.y, rate.x, rate.z))),
+        &["reference-attitude", "random-attitude"],
+    ),
+    // Times.
+    (
+        "fast-clock",
+        HONEST,
+        |toss| fly(timed(toss, |time| TimeOfFlight::Given(time.seconds() * (1.0 + 1e-9)))),
+        &["reference-attitude", "random-attitude"],
+    ),
+    ("single-precision", HONEST, |toss| fly(timed(toss, single)), &["reference-attitude", "random-attitude"]),
+    (
+        "milliseconds",
+        HONEST,
+        |toss| fly(timed(toss, |time| TimeOfFlight::Given((time.seconds() * 1e3).floor() / 1e3))),
+        &["reference-attitude", "random-attitude", "first-flip"],
+    ),
+    // Answers.
+    ("flipped", HONEST, |toss| Ok(turned(fly(*toss)?, Attitude::about_x(PI))), FLIPPED),
+    (
+        "negated",
+        HONEST,
+        |toss| fly(*toss).map(|landing| landing.with_cos_tilt(-landing.cos_tilt)),
+        &["random-cos-tilt", "invariant-projection", "fig4-same-counts"],
+    ),
+    (
+        "yawed",
+        HONEST,
+        |toss| Ok(turned(fly(*toss)?, Attitude::about_z(1e-3))),
+        &["random-attitude", "invariant-momentum-vector"],
+    ),
+    (
+        "conjugate",
+        HONEST,
+        |toss| {
+            fly(*toss).map(|Propagation { state, work, .. }| {
+                Propagation::new(State { attitude: state.attitude.inverse(), ..state }, work)
+            })
+        },
+        &["random-attitude", "invariant-normal-momentum-body"],
+    ),
+    (
+        "rate-of-launch",
+        HONEST,
+        |toss| {
+            fly(*toss).map(|Propagation { state, work, .. }| {
+                Propagation::new(State { rate: toss.launch.rate(), ..state }, work)
+            })
+        },
+        &["invariant-momentum-vector"],
+    ),
+    (
+        "slow-is-still",
+        HONEST,
+        |toss| if toss.launch.turn_rate() < 1e-3 { Ok(still(toss)) } else { fly(*toss) },
+        &["random-attitude", SILENCE],
+    ),
+    (
+        "long-is-still",
+        HONEST,
+        |toss| if toss.launch.turn_rate() * toss.launch.flight_time() > 1e3 { Ok(still(toss)) } else { fly(*toss) },
+        &[SILENCE, "long-flight-error"],
+    ),
+    // Refusals.
+    ("refuses-all", HONEST, |_| Err(SolveError::NotFinite { time: 0.0 }), &["random-attitude", "adversarial-refusals"]),
+    (
+        "refuses-tilts",
+        HONEST,
+        |toss| {
+            if toss.launch.attitude() == Attitude::IDENTITY {
+                fly(*toss)
+            } else {
+                Err(SolveError::NotFinite { time: 0.0 })
+            }
+        },
+        &["random-attitude", "adversarial-refusals"],
+    ),
+    // Claims.
+    ("claims-2", 2.0, |toss| fly(*toss), &["claims-measured", "random-cos-tilt", "random-attitude", SILENCE]),
+    ("claims-a-thousand-times", 3e-6, |toss| Ok(turned(fly(*toss)?, Attitude::about_x(1e-9))), &["claims-measured"]),
+    (
+        "claims-0",
+        0.0,
+        |toss| Ok(turned(fly(*toss)?, Attitude::about_x(1e-9))),
+        &["random-cos-tilt", "random-attitude", SILENCE],
+    ),
+    ("claims-2-and-is-flipped", 2.0, |toss| Ok(turned(fly(*toss)?, Attitude::about_x(PI))), FLIPPED),
+];
+
+pub(super) const SILENCE: &str = "adversarial-silence";
+
+/// The checks that a solver with heads for tails cannot pass by any table of bounds.
+pub(super) const FLIPPED: &[&str] = &[
+    "reference-cos-tilt",
+    "reference-attitude",
+    "random-cos-tilt",
+    "random-attitude",
+    "invariant-momentum-vector",
+    "cheated-heads-in-flight",
+    "tails-in-flight",
+    "first-flip",
+    "fig4-same-counts",
+    SILENCE,
+];
+
+pub(super) fn fly(toss: Toss) -> Answer {
+    ExactSolver.propagate(&toss)
+}
+
+fn still(toss: &Toss) -> Propagation {
+    Propagation::new(State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }, Work::default())
+}
+
+/// The landing turned by `turn` about an axis of the laboratory, and cos θ accordingly.
+pub(super) fn turned(landing: Propagation, turn: Attitude) -> Propagation {
+    let State { attitude, rate } = landing.state;
+    Propagation::new(State { attitude: turn * attitude, rate }, landing.work)
+}
+
+/// The toss with another time of flight, or unchanged where that one is not valid.
+fn timed(toss: &Toss, change: fn(TimeOfFlight) -> TimeOfFlight) -> Toss {
+    let changed = Launch::new(toss.launch.rate(), change(toss.launch.time_of_flight()));
+    let attitude = toss.launch.attitude();
+    Toss { launch: changed.map_or(toss.launch, |launch| launch.with_attitude(attitude)), ..*toss }
+}
+
+fn held(toss: &Toss, change: fn(Attitude) -> Attitude) -> Toss {
+    Toss { launch: toss.launch.with_attitude(change(toss.launch.attitude())), ..*toss }
+}
+
+fn spun(toss: &Toss, change: fn(Vector3<f64>) -> Vector3<f64>) -> Toss {
+    let launch = Launch::new(change(toss.launch.rate()), toss.launch.time_of_flight()).expect("as valid as it was");
+    Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }
+}
+
+/// The toss of a coin with other moments, or unchanged where they are not valid.
+fn body(toss: &Toss, change: fn(f64, f64) -> (f64, f64)) -> Toss {
+    let (i1, i3) = change(toss.coin.i1(), toss.coin.i3());
+    Toss { coin: Coin::from_moments(i1, i3).unwrap_or(toss.coin), ..*toss }
+}
+
+fn level(time: TimeOfFlight) -> TimeOfFlight {
+    match time {
+        TimeOfFlight::BallisticTo { speed, gravity, .. } => TimeOfFlight::Ballistic { speed, gravity },
+        other => other,
+    }
+}
+
+/// Caught above the launch on the way up.
+fn rising(time: TimeOfFlight) -> TimeOfFlight {
+    match time {
+        TimeOfFlight::BallisticTo { speed, gravity, drop } if drop < 0.0 => {
+            TimeOfFlight::Given(2.0 * speed / gravity - time.seconds())
+        }
+        other => other,
+    }
+}
+
+fn gravity(time: TimeOfFlight, change: fn(f64) -> f64) -> TimeOfFlight {
+    match time {
+        TimeOfFlight::Ballistic { speed, gravity } => TimeOfFlight::Ballistic { speed, gravity: change(gravity) },
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            TimeOfFlight::BallisticTo { speed, gravity: change(gravity), drop }
+        }
+        other => other,
+    }
+}
+
+fn standard(time: TimeOfFlight) -> TimeOfFlight {
+    gravity(time, |given| if given == 9.81 { 9.80665 } else { given })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the fault")]
+fn single(time: TimeOfFlight) -> TimeOfFlight {
+    TimeOfFlight::Given(f64::from(time.seconds() as f32))
+}

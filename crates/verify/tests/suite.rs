@@ -1,0 +1,118 @@
+//! These tests use the suite as a crate elsewhere does, for the solver of the example `own_solver` and for parts of our
+//! registry: what it judges, what it leaves out, the bounds that it proposes, and the program that it gives.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use toss::Registry;
+use verify::judge::baseline;
+use verify::judge::bounds::Bounds;
+use verify::{CHECKS, Effort, Judges, Row, Status, Suite, Verdict, Verified};
+
+#[path = "../examples/own_solver.rs"]
+#[expect(dead_code, reason = "its main function is tested as a program")]
+mod own_solver;
+
+fn of_one_solver() -> Suite {
+    let registry = Registry::empty().with(own_solver::entry()).expect("a name of its own");
+    Suite::new(registry).effort(Effort::Quick).command("cargo run --release --")
+}
+
+fn failing(verified: &Verified) -> Vec<&Row> {
+    verified.rows().iter().filter(|row| !row.status.passes()).collect()
+}
+
+#[test]
+fn a_solver_from_elsewhere_is_judged_alone_and_gets_bounds_that_it_then_passes() {
+    let folder = tempfile::tempdir().unwrap();
+    let suite = of_one_solver().folder(folder.path());
+    let verified = suite.run().unwrap();
+    assert_eq!(failing(&verified), Vec::<&Row>::new());
+    assert_eq!((verified.verdict(), verified.exit_code()), (Verdict::Pass, 0));
+    for row in verified.rows() {
+        assert_eq!((row.subject.as_str(), row.judges), ("two-turns", Some(Judges::Solver)), "{row:?}");
+        let replay = row.replay.as_deref();
+        assert!(replay.is_none_or(|replay| replay.starts_with("cargo run --release -- ")), "{replay:?}");
+    }
+    let run: Vec<&str> = verified.rows().iter().map(|row| row.check.as_str()).collect();
+    for check in ["reference-attitude", "random-cos-tilt", "adversarial-silence", "atlas-answers", "fig4-same-counts"] {
+        assert!(run.contains(&check), "{check}");
+    }
+    let left_out = |check: &str| verified.left_out().iter().any(|left_out| left_out.check == check);
+    assert!(left_out("batch-cos-tilt") && left_out("cross-method-attitude"), "{:?}", verified.left_out());
+    assert!(CHECKS.iter().all(|check| run.contains(&check.id) || left_out(check.id)));
+
+    let proposed = verified.proposed_bounds().expect("no row has a bound");
+    let judged = of_one_solver().bounds(Bounds::parse(&proposed).unwrap()).run().unwrap();
+    let by_bounds = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose);
+    assert!(judged.rows().iter().all(by_bounds), "{:#?}", judged.rows());
+    assert_eq!(judged.proposed_bounds(), None);
+
+    suite.accept(&verified).unwrap();
+    assert!(baseline::file(&folder.path().join("baseline"), Effort::Quick).exists());
+    assert!(suite.run().unwrap().moves().is_empty(), "a second run finds what the first one did");
+}
+
+#[test]
+fn a_part_of_our_registry_is_judged_by_our_bounds_and_needs_no_rows_of_the_others() {
+    let registry = Registry::standard().only(&["gamma"]).unwrap();
+    let verified = Suite::new(registry).effort(Effort::Quick).folder("no/such/folder").run().unwrap();
+    assert_eq!(failing(&verified), Vec::<&Row>::new());
+    assert!(verified.rows().iter().all(|row| row.subject.starts_with("gamma") && row.bound.is_some()));
+    assert_eq!(verified.proposed_bounds(), None);
+}
+
+#[test]
+fn a_misspelt_bound_and_an_unknown_check_are_found() {
+    let misspelt = "[random-cos-tilt]\nreason = 'r'\nallowed = { two-turn = 1e-9 }";
+    let verified = of_one_solver().bounds(Bounds::parse(misspelt).unwrap()).run().unwrap();
+    let failing = failing(&verified);
+    assert_eq!(failing.len(), 1, "{failing:?}");
+    assert_eq!((failing[0].subject.as_str(), failing[0].status), ("two-turn", Status::NotMeasured));
+    assert_eq!(verified.exit_code(), 1);
+    let error = of_one_solver().only("random").run().err().expect("an error").to_string();
+    assert!(error.starts_with("no such check: 'random'; known: reference-cos-tilt, "), "{error}");
+    let error = of_one_solver().only("detest-b5").run().unwrap().verdict();
+    assert_eq!(error, Verdict::Pass, "a check of the library is run if it is asked for by name");
+}
+
+#[test]
+fn the_document_shows_the_code_of_the_example() {
+    let (document, example) = (include_str!("../../../docs/your-solver.md"), include_str!("../examples/own_solver.rs"));
+    let blocks: Vec<&str> = document.split("```rust\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(blocks.len(), 2);
+    assert!(blocks.iter().all(|block| example.contains(block)), "{blocks:?}");
+}
+
+/// Runs the example as a program in `folder`.
+fn program(arguments: &[&str], folder: &Path) -> Output {
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let profile = test.ancestors().nth(2).expect("target/PROFILE/deps/TEST");
+    let example = profile.join("examples/own_solver").with_extension(std::env::consts::EXE_EXTENSION);
+    let output = Command::new(&example).args(arguments).current_dir(folder).output();
+    output.unwrap_or_else(|error| panic!("{}: {error}; `cargo test -p verify` builds it", example.display()))
+}
+
+#[test]
+fn the_program_of_another_crate_keeps_its_files_in_its_own_folder_and_knows_its_solver() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = program(&["--only", "random-attitude"], folder.path());
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{table}");
+    assert!(table.contains("proposed bounds: target/verify/bounds.proposed.toml"), "{table}");
+    let proposed = std::fs::read_to_string(folder.path().join("target/verify/bounds.proposed.toml")).unwrap();
+    assert!(proposed.contains("[random-attitude.allowed]\n\"two-turns\" = "), "{proposed}");
+
+    std::fs::create_dir(folder.path().join("validation")).unwrap();
+    let tight = "[random-attitude]\nreason = 'a test'\nallowed = { two-turns = 1e-18 }";
+    std::fs::write(folder.path().join("validation/bounds.toml"), tight).unwrap();
+    let output = program(&["--only", "random-attitude"], folder.path());
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{table}");
+    let repeat = "repeat with: cargo run --release --example own_solver -- replay \"";
+    let command = table.lines().find_map(|line| line.trim().strip_prefix(repeat)).expect(&table);
+    let output = program(&["replay", command.trim_end_matches('"')], folder.path());
+    let answers = String::from_utf8(output.stdout).unwrap();
+    assert!(answers.contains("two-turns") && answers.contains("right"), "{answers}");
+    assert!(!answers.contains("gamma"), "the solvers are those of the suite: {answers}");
+}

@@ -1,0 +1,118 @@
+//! Every row of the verification prints a command that repeats its worst case. These tests give the command of every row
+//! of a quick run to the program that it names, which has to accept it and to run what the row measured.
+
+use toss::Registry;
+use verify::judge::Judge;
+use verify::judge::bounds::Bounds;
+use verify::measure::case::Case;
+use verify::measure::checks::of_toss;
+use verify::measure::replay::Commands;
+use verify::{CHECKS, Context, Effort, Row};
+
+const TOSS: &str = "cargo run -q --release --bin unfair-toss -- toss ";
+const ALL: &str = "cargo xtask verify --replay ";
+const CHECK: &str = "cargo xtask verify --only ";
+
+/// Checks that are left out because they sample or plan for a minute; all their rows are repeated by the whole check.
+const LONG: [&str; 7] = [
+    "sampling-errors",
+    "interval-coverage",
+    "clopper-pearson-coverage",
+    "plan-delivers",
+    "plan-expects",
+    "plan-tight",
+    "plan-regret",
+];
+
+/// What a replay command was seen to run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Replays {
+    Solver,
+    Library,
+    Check,
+}
+
+fn rows() -> Vec<Row> {
+    let context = Context::new(Registry::standard().entries(), Effort::Quick).expect("the data inside the crate");
+    let bounds = Bounds::of_this_workspace().expect("the data inside the crate");
+    let judge = Judge { bounds: &bounds, commands: &Commands::Workspace, effort: Effort::Quick };
+    let short = CHECKS.iter().filter(|check| !LONG.contains(&check.id));
+    short.flat_map(|check| judge.rows(check, (check.measure)(&context).expect("a measurement"))).collect()
+}
+
+/// Runs the command of `row` in its program, and says what is wrong with it.
+fn replay(row: &Row) -> Result<Replays, String> {
+    let command = row.replay.as_deref().ok_or("no command")?;
+    if command.starts_with(TOSS) {
+        return solved(row, command).map(|()| Replays::Solver);
+    }
+    if let Some(line) = command.strip_prefix(ALL) {
+        return measured_again(row, line).map(|()| Replays::Library);
+    }
+    let arguments = command.strip_prefix(CHECK).ok_or("an unknown program")?;
+    let expected = format!("{} --quick", row.check);
+    if arguments == expected { Ok(Replays::Check) } else { Err(format!("runs '{arguments}', not '{expected}'")) }
+}
+
+/// Whether the program accepts the commands, and solves the toss with the solvers, schemes and formulations of the row's
+/// subject. Of two solvers that are compared, the first is named without the scheme, which is that of the second.
+fn solved(row: &Row, command: &str) -> Result<(), String> {
+    let each = command.split(" && ").map(|one| subject_of(one.strip_prefix(TOSS).unwrap_or(one)));
+    let subjects = each.collect::<Result<Vec<String>, String>>()?;
+    let is_right = match (&subjects[..], row.subject.split_once(" ~ ")) {
+        ([only], None) => *only == row.subject,
+        ([first, second], Some((one, other))) => {
+            let scheme = other.split_once('/').map(|(_, scheme)| scheme);
+            let with_scheme = scheme.map(|scheme| format!("{one}/{scheme}"));
+            second == other && (first == one || Some(first) == with_scheme.as_ref())
+        }
+        _ => false,
+    };
+    if is_right { Ok(()) } else { Err(format!("solves with {}", subjects.join(" and "))) }
+}
+
+/// The solver, scheme and formulation of a command line of the program, which it accepts.
+fn subject_of(arguments: &str) -> Result<String, String> {
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let line = ["unfair-toss", "toss"].iter().chain(&arguments);
+    unfair_toss::program().try_get_matches_from(line).map_err(|error| error.to_string())?;
+    let option = |name: &str| arguments.windows(2).find(|pair| pair[0] == name).map(|pair| pair[1]);
+    let parts = ["--solver", "--scheme", "--formulation"].into_iter().filter_map(option);
+    Ok(parts.collect::<Vec<_>>().join("/"))
+}
+
+/// Whether the row's quantity is among those that the replay takes, with the deviation of the row.
+fn measured_again(row: &Row, line: &str) -> Result<(), String> {
+    let line = line.strip_prefix('"').and_then(|line| line.strip_suffix('"')).ok_or("the input is not quoted")?;
+    let case = Case::from_hex(line).map_err(|error| error.to_string())?;
+    let all = of_toss::replay(&case);
+    let mut of_check = all.iter().filter(|(one, _)| one.check == row.check);
+    let found = of_check.find(|(one, _)| one.part.is_empty() || one.part == row.subject);
+    let (_, deviation) = found.ok_or("does not take its measure")?;
+    let deviation = deviation.as_ref().map_err(ToString::to_string)?;
+    // A row that counts tosses is of many, of which the command repeats the first.
+    let is_same = if row.unit == "tosses" {
+        (*deviation > 0.0) == (row.measured > Some(0.0))
+    } else {
+        Some(*deviation) == row.measured
+    };
+    if is_same { Ok(()) } else { Err(format!("measures {deviation:e}, not {:?}", row.measured)) }
+}
+
+#[test]
+fn the_command_of_every_row_runs_what_the_row_measured() {
+    let rows = rows();
+    let replayed: Vec<_> = rows.iter().map(|row| (row, replay(row))).collect();
+    let wrong = replayed.iter().filter_map(|(row, found)| {
+        let error = found.as_ref().err()?;
+        Some(format!("{} / {}: {error}\n  {:?}\n", row.check, row.subject, row.replay))
+    });
+    let wrong: String = wrong.collect();
+    assert!(wrong.is_empty(), "{wrong}");
+    let number = |of: Replays| replayed.iter().filter(|(_, found)| found == &Ok(of)).count();
+    assert!([Replays::Solver, Replays::Library, Replays::Check].into_iter().all(|of| number(of) > 20));
+    // Each quantity of the library is one that a row repeats.
+    for one in of_toss::OF_TOSS {
+        assert!(rows.iter().any(|row| row.check == one.check), "{} has no row", one.check);
+    }
+}

@@ -1,0 +1,106 @@
+//! Uses `toss` as other people do: from a crate outside this workspace, which has a path dependency and nothing else of it.
+//! The Rust of README.md and of the front page of `toss` has to compile and run there, too.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What the crate depends on beside `toss`: what the examples name themselves.
+const MANIFEST: &str = "[package]
+name = \"downstream\"
+version = \"0.0.0\"
+edition = \"2024\"
+
+[workspace]
+
+[dependencies]
+serde = { version = \"1\", features = [\"derive\"] }
+toml = \"1\"
+toss = { path = ";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace")
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The blocks of Rust in a text of Markdown, without the marks of hidden lines. A block without a language is Rust in the
+/// documentation of a crate (`bare`), and not in a file of its own.
+fn blocks(markdown: &str, bare: bool) -> Vec<String> {
+    let mut blocks = Vec::new();
+    let mut open: Option<(bool, String)> = None;
+    for line in markdown.lines() {
+        match (line.strip_prefix("```"), &mut open) {
+            (Some(language), None) => open = Some((language == "rust" || bare && language.is_empty(), String::new())),
+            (Some(_), Some(_)) => blocks.extend(open.take().filter(|(is_rust, _)| *is_rust).map(|(_, block)| block)),
+            (None, Some((_, block))) => {
+                block.push_str(line.strip_prefix("# ").unwrap_or(line));
+                block.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    blocks
+}
+
+/// The documentation of a crate, from the lines `//!` of its first file.
+fn documentation(source: &str) -> String {
+    let lines = source.lines().map_while(|line| line.strip_prefix("//!"));
+    lines.flat_map(|line| [line.strip_prefix(' ').unwrap_or(line), "\n"]).collect()
+}
+
+/// A module with a block of Rust in it, in a function `main` if it has none.
+fn module(index: usize, block: &str) -> String {
+    let body = if block.contains("fn main()") {
+        block.replace("fn main()", "pub fn main()")
+    } else {
+        format!("pub fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{block}}}\n")
+    };
+    format!("mod block_{index} {{\n{body}}}\n")
+}
+
+/// A new crate with these blocks, whose program runs all of them. It has the lock file of the workspace, and so the same
+/// versions of what it depends on.
+fn write_crate(blocks: &[String]) -> PathBuf {
+    let folder = root().join("target/downstream");
+    std::fs::create_dir_all(folder.join("src")).expect("a folder");
+    let toss = root().join("crates/toss");
+    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n", toss.display().to_string()))
+        .expect("written");
+    std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
+    let modules: String = blocks.iter().enumerate().map(|(index, block)| module(index, block)).collect();
+    let calls: String = (0..blocks.len()).map(|index| format!("    block_{index}::main()?;\n")).collect();
+    let main = format!("{modules}fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{calls}    Ok(())\n}}\n");
+    std::fs::write(folder.join("src/main.rs"), main).expect("written");
+    folder
+}
+
+#[test]
+fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_workspace() {
+    let readme = blocks(&read("README.md"), false);
+    let front_page = blocks(&documentation(&read("crates/toss/src/lib.rs")), true);
+    assert!(!readme.is_empty() && front_page.len() >= 8, "{} and {} blocks", readme.len(), front_page.len());
+    let folder = write_crate(&[readme, front_page].concat());
+    // What the workspace has built is not built again: target/PROFILE/deps/TEST.
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let target = test.ancestors().nth(3).expect("the folder of builds");
+    let run = Command::new(env!("CARGO"))
+        .args(["run", "--release", "--offline", "--quiet", "--target-dir"])
+        .arg(target)
+        .current_dir(&folder)
+        .output()
+        .expect("cargo starts");
+    let (stdout, stderr) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+    assert!(run.status.success(), "{stdout}{stderr}");
+    // What the README says that its program prints.
+    assert_eq!(stdout, "heads: 0.66566129, integrated 0.66566129\n");
+}
+
+#[test]
+fn blocks_of_rust_are_found_and_others_are_not() {
+    let text = "a\n```rust\none\n# hidden\n```\n```text\nnone\n```\n```\ntwo\n```\n";
+    assert_eq!(blocks(text, false), ["one\nhidden\n"]);
+    assert_eq!(blocks(text, true), ["one\nhidden\n", "two\n"]);
+    assert_eq!(documentation("//! a\n//!\n//!  b\nmod c;\n//! d\n"), "a\n\n b\n");
+}
