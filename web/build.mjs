@@ -1,0 +1,52 @@
+// Builds the page: `node build.mjs LIBRARY.wasm FOLDER`. The folder then works from a disk, without a server: scripts are
+// classic ones, because modules cannot be loaded from file:, and the library is inside of its script, compressed.
+import { build } from "esbuild";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [wasm, folder] = process.argv.slice(2);
+if (!wasm || !folder) {
+  console.error("usage: node build.mjs LIBRARY.wasm FOLDER");
+  process.exit(2);
+}
+
+/** Makes the import "library.wasm.gz" the compressed library, as a Uint8Array. */
+const library = {
+  name: "library",
+  setup(of) {
+    of.onResolve({ filter: /^library\.wasm\.gz$/ }, () => ({ path: wasm, namespace: "library" }));
+    of.onLoad({ filter: /.*/, namespace: "library" }, () => ({
+      contents: gzipSync(readFileSync(wasm), { level: 9 }),
+      loader: "binary",
+    }));
+  },
+};
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+const size = {};
+for (const [entry, file] of [["main.js", "page.js"], ["scene/index.js", "scene.js"]]) {
+  await build({
+    entryPoints: [join(here, "page", entry)],
+    outfile: join(folder, file),
+    bundle: true,
+    format: "iife",
+    target: "es2022",
+    minify: true,
+    legalComments: "eof",
+    plugins: [library],
+    logLevel: "warning",
+  });
+}
+for (const file of ["index.html", "style.css"]) copyFileSync(join(here, "page", file), join(folder, file));
+const uplot = readFileSync(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8");
+writeFileSync(join(folder, "style.css"), uplot + readFileSync(join(here, "page/style.css"), "utf8"));
+for (const file of ["index.html", "style.css", "page.js", "scene.js"]) {
+  size[file] = gzipSync(readFileSync(join(folder, file)), { level: 9 }).length;
+}
+const kilobytes = (bytes) => `${(bytes / 1000).toFixed(0)} kB`;
+const own = size["index.html"] + size["style.css"] + size["page.js"];
+console.log(`${folder}: ${kilobytes(own)} gzipped, and three.js with the scene ${kilobytes(size["scene.js"])}`);

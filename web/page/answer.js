@@ -1,0 +1,81 @@
+// The answer: heads or tails, proven, and how far each input is from the other outcome.
+import { byId, fill, make } from "./dom.js";
+import { all, degrees, short, signed } from "./format.js";
+import { command } from "./state.js";
+
+/** Shows the answer of the question "toss". */
+export function showAnswer(answer) {
+  const outcome = byId("outcome");
+  outcome.className = answer.outcome;
+  outcome.textContent = { heads: "Heads", tails: "Tails", undecided: "On its edge" }[answer.outcome];
+  byId("proof").textContent = proof(answer);
+  byId("cos-tilt").textContent = all(answer.cos_tilt);
+  fill(byId("facts"), ...facts(answer).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
+  fill(byId("margins"), ...rows(answer));
+  const no = byId("no-margins");
+  no.hidden = Boolean(answer.margin);
+  no.textContent = "The nearest flip is searched for bodies with I1 = I2 only.";
+  byId("margins-table").hidden = !answer.margin;
+  byId("command").textContent = command();
+}
+
+/** Shows that there is no answer, and why. */
+export function showRefusal(refusal) {
+  byId("outcome").className = "refused";
+  byId("outcome").textContent = "No answer";
+  byId("proof").textContent = refusal.message;
+  byId("cos-tilt").textContent = "–";
+  fill(byId("facts"));
+  fill(byId("margins"));
+  byId("margins-table").hidden = true;
+}
+
+function proof({ certified, outcome, stage }) {
+  if (certified) return outcome === "undecided" ? "proven: an exact tie" : `proven (${stage})`;
+  if (outcome === "undecided") return "not decided, as far as 832 digits can tell";
+  return "not proven: the conversion of a unit may have changed it";
+}
+
+function facts({ flight_time, apex, motion, coin, regime }) {
+  const found = [["time of flight", `${short(flight_time, 5)} s`]];
+  if (apex !== null) found.push(["apex", `${short(apex, 4)} m`]);
+  if (motion) {
+    const { cone_angle, precession_rate, least_cos_tilt, k } = motion;
+    found.push(["ψ, between n and S", degrees(cone_angle, 5)], ["turns of n about S", turns(precession_rate * flight_time)]);
+    found.push(["k = I3/I1", short(k, 5)], ["at worst", least_cos_tilt >= 0 ? "heads at every instant" : `cos θ = ${short(least_cos_tilt, 4)}`]);
+  } else {
+    found.push(["I1, I2, I3", `${["i1", "i2", "i3"].map((name) => short(coin[name])).join(", ")} kg·m²`]);
+    found.push(["motion", REGIMES[regime] ?? regime]);
+  }
+  return found;
+}
+
+const REGIMES = {
+  AroundLargest: "S circles the axis of the largest moment",
+  AroundSmallest: "S circles the axis of the smallest moment",
+  Separatrix: "S approaches the axis of the middle moment for ever",
+  Uniform: "even",
+};
+
+const turns = (phase) => short(phase / (2 * Math.PI), 4);
+
+function rows({ margin, input }) {
+  if (!margin) return [];
+  const { rate, speed, gravity, tilt } = input;
+  const given = speed === null ? [["T", "s", margin.time, null]] : [["v₀", "m/s", margin.speed, speed], ["g", "m/s²", margin.gravity, gravity]];
+  const all = [
+    ...given,
+    ["tilt", "rad", margin.tilt, tilt],
+    ...["ωx", "ωy", "ωz"].map((name, axis) => [name, "rad/s", margin.rate[axis], rate[axis], margin.rate_range[axis]]),
+  ];
+  return all.map(([name, unit, change, value, range]) => row(name, unit, change, value, range));
+}
+
+function row(name, unit, change, value, range) {
+  const none = range ? `none within ±${short(range, 4)} ${unit}` : "none";
+  const cells = change === null
+    ? [make("td", { colspan: 2, class: "none" }, none)]
+    : [make("td", {}, `${signed(change, 5)} ${unit}`), make("td", {}, value === null ? "" : `${short(value + change, 5)} ${unit}`)];
+  const number = change === null ? "" : String(change);
+  return make("tr", { "data-input": name, "data-change": number }, make("th", { scope: "row" }, name), ...cells);
+}

@@ -1,0 +1,46 @@
+// Small helpers for the document.
+
+/** The element with this id. */
+export const byId = (id) => document.getElementById(id);
+
+/** A new element: `make("p", { class: "note" }, "text", child)`. Keys that begin with "on" are listeners. */
+export function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value != null) element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child) => child != null));
+  return element;
+}
+
+/** Puts `children` in place of what `element` holds. */
+export const fill = (element, ...children) => element.replaceChildren(...children.filter((child) => child != null));
+
+/** Calls `act` once, when nothing has called it for `wait` milliseconds. */
+export function later(wait, act) {
+  let timer = 0;
+  return (...given) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => act(...given), wait);
+  };
+}
+
+/** Calls `act` at most once a frame, with what was given last. */
+export function onceAFrame(act) {
+  let pending = null;
+  return (...given) => {
+    if (!pending) requestAnimationFrame(() => {
+      const last = pending;
+      pending = null;
+      act(...last);
+    });
+    pending = given;
+  };
+}
+
+/** Options of a select: pairs of value and text. */
+export function options(select, pairs, chosen) {
+  fill(select, ...pairs.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
+}

@@ -1,0 +1,64 @@
+// P(heads) for a hand that varies, and how precise a hand must be.
+import { ask } from "./library.js";
+import { byId, later } from "./dom.js";
+import { percent, short } from "./format.js";
+import { change, question, state } from "./state.js";
+
+/** The hand. */
+export class Hand {
+  constructor() {
+    const take = (text) => change({ view: { spread: text } }, "spread");
+    byId("spread").addEventListener("input", ({ target }) => take(target.value));
+    byId("spread-slider").addEventListener("input", ({ target }) => take(`${target.value}%`));
+    byId("find-precision").addEventListener("click", () => this.find());
+    this.update = later(120, () => this.compute());
+  }
+
+  /** Shows the spread of the view. */
+  show() {
+    const { spread } = state.view;
+    if (document.activeElement !== byId("spread")) byId("spread").value = spread;
+    const number = Number.parseFloat(spread) * (spread.includes("%") ? 1 : 100);
+    if (Number.isFinite(number) && document.activeElement !== byId("spread-slider")) byId("spread-slider").value = number;
+    byId("precision").textContent = "";
+    this.update();
+  }
+
+  compute() {
+    try {
+      const { probability, interval, interval_kind, points } = ask({ ask: "hand", scene: question(), spread: state.view.spread });
+      const error = interval ? (interval[1] - interval[0]) / 2 : 5e-5;
+      byId("chance").textContent = percent(probability, error);
+      byId("chance").dataset.probability = String(probability);
+      const range = interval ? `${percent(interval[0], error)} to ${percent(interval[1], error)} (${interval_kind})` : interval_kind;
+      byId("chance-note").textContent = `${range}; ${points} launches, each at all its speeds`;
+      this.refuse(null);
+    } catch (refusal) {
+      byId("chance").textContent = "–";
+      byId("chance-note").textContent = "";
+      this.refuse(refusal);
+    }
+  }
+
+  refuse(refusal) {
+    byId("spread").toggleAttribute("aria-invalid", refusal?.field === "spread");
+    byId("spread-error").textContent = refusal?.message ?? "";
+    byId("spread-error").hidden = !refusal;
+  }
+
+  find() {
+    const heads = byId("wanted").value;
+    try {
+      const found = ask({ ask: "precision", scene: question(), heads });
+      const text = {
+        up_to: `a spread of up to ${short(100 * found.spread, 3)} % of each rate and of the speed`,
+        any: "any spread up to 12 %, the largest that is tried",
+        toss_is_not_heads: "none: the toss itself does not land heads",
+        below_smallest: "none that can be told from 0: the toss lands next to its edge",
+      }[found.answer];
+      byId("precision").textContent = text;
+    } catch (refusal) {
+      byId("precision").textContent = refusal.message;
+    }
+  }
+}

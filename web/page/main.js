@@ -1,0 +1,170 @@
+// Starts the page: the library, the first answer, then what is slower.
+import { ask, frame, start } from "./library.js";
+import { showAnswer, showRefusal } from "./answer.js";
+import { Controls } from "./controls.js";
+import { byId, later, onceAFrame } from "./dom.js";
+import { flight, fly } from "./flight.js";
+import { typed } from "./format.js";
+import { Hand } from "./hand.js";
+import { Integrators } from "./integrators.js";
+import { MapView } from "./map.js";
+import { FRAME } from "./memory.js";
+import { Player } from "./player.js";
+import { address, change, fromAddress, ofPreset, onChange, question, state } from "./state.js";
+import { apply, colours, onTheme, toggle } from "./theme.js";
+import { Traces } from "./traces.js";
+
+const STILL = matchMedia("(prefers-reduced-motion: reduce)");
+const parts = {};
+/** For the tests: what was measured. */
+const measured = (window.measured = { firstAnswer: null, map: null, frames: null });
+let toss = null;
+
+async function main() {
+  apply();
+  await start();
+  const known = ask({ ask: "known" });
+  Object.assign(parts, { controls: new Controls(known), map: new MapView(), hand: new Hand(), traces: new Traces() });
+  parts.integrators = new Integrators(known);
+  parts.player = new Player(show);
+  Object.assign(measured, { map: parts.map.timing, frames: parts.player.frames });
+  byId("version").textContent = known.version;
+  onChange((what) => (what === "scene" ? sceneChanged() : viewChanged()));
+  onTheme(recolour);
+  byId("theme").addEventListener("click", toggle);
+  byId("copy").addEventListener("click", copy);
+  addEventListener("hashchange", () => location.hash.slice(1) !== address() && readAddress());
+  // The page is at its place only when it has its height; the address chooses what it shows.
+  readAddress();
+  measured.firstAnswer = performance.now();
+  document.documentElement.dataset.ready = "answer";
+  requestAnimationFrame(() => setTimeout(loadScene));
+}
+
+/** Takes the scene of the address, or the first preset. */
+function readAddress() {
+  try {
+    const text = location.hash.slice(1);
+    byId("address-error").hidden = true;
+    change(text ? fromAddress(text) : ofPreset("cheated"));
+  } catch (error) {
+    byId("address-error").textContent = `${error.message}; this is the paper's cheated toss instead`;
+    byId("address-error").hidden = false;
+    change(ofPreset("cheated"));
+  }
+}
+
+const announce = later(700, (text) => (byId("announcement").textContent = text));
+
+/** Answers the scene. What is quick is done at once; the map follows in the next frame. */
+function sceneChanged() {
+  parts.controls.show();
+  parts.player.refresh();
+  try {
+    toss = ask({ ask: "toss", scene: question() });
+    fly(toss);
+    showAnswer(toss);
+    parts.controls.refuse(null);
+    announce(`${byId("outcome").textContent}, ${byId("proof").textContent}`);
+  } catch (refusal) {
+    toss = null;
+    parts.player.pause();
+    showRefusal(refusal);
+    parts.controls.refuse(refusal);
+    announce(refusal.message);
+    document.body.classList.add("unanswered");
+    return;
+  }
+  document.body.classList.remove("unanswered");
+  parts.scene?.launch(flight, toss);
+  parts.player.at(flight.time);
+  restOfAnswer();
+}
+
+const restOfAnswer = onceAFrame(() => {
+  if (!toss) return;
+  parts.map.update(toss);
+  parts.traces.draw();
+  parts.traces.mark(flight.time);
+  parts.hand.show();
+  parts.integrators.show();
+});
+
+function viewChanged() {
+  parts.player.refresh();
+  if (!toss) return;
+  parts.map.update(toss);
+  parts.hand.show();
+  parts.integrators.show();
+}
+
+/** Shows the flight at its time. Gives the time (ms) that drawing by three.js took, which is not our own. */
+function show() {
+  const now = frame(flight.time).slice();
+  parts.traces.mark(flight.time);
+  showHeight(now[FRAME.height]);
+  return parts.scene?.at(now, flight.time / flight.answer.flight_time) ?? 0;
+}
+
+function showHeight(height) {
+  const { apex, drop } = flight.answer;
+  byId("ruler").hidden = apex === 0;
+  if (apex === 0) return;
+  const bottom = Math.min(0, -drop);
+  byId("ruler").style.setProperty("--part", String((height - bottom) / (apex - bottom)));
+  byId("height").textContent = `${height.toFixed(apex < 1 ? 3 : 2)} m`;
+}
+
+function recolour() {
+  if (!toss) return;
+  parts.traces.recolour();
+  parts.map.draw();
+  parts.integrators.show();
+  parts.scene?.recolour(colours());
+  parts.player.at(flight.time);
+}
+
+async function copy() {
+  const text = location.href;
+  try {
+    await navigator.clipboard.writeText(text);
+    byId("announcement").textContent = "The address of this toss is copied.";
+  } catch {
+    byId("announcement").textContent = "The address is in the address bar.";
+  }
+}
+
+/** Loads three.js with the scene, after the first answer. */
+function loadScene() {
+  const script = document.createElement("script");
+  script.src = "scene.js";
+  script.onload = () => {
+    try {
+      parts.scene = window.makeScene(byId("scene"), { aimed: onceAFrame(aimed), colours: colours() });
+      if (toss) parts.scene.launch(flight, toss);
+      if (toss) parts.player.at(flight.time);
+      if (!STILL.matches) parts.player.play();
+    } catch (error) {
+      byId("scene-message").textContent = `The scene needs WebGL 2, which this browser does not offer (${error.message}).`;
+      byId("scene-message").hidden = false;
+    }
+    document.documentElement.dataset.ready = "scene";
+  };
+  script.onerror = () => (document.documentElement.dataset.ready = "scene");
+  document.head.append(script);
+}
+
+/** Takes the launch whose S was dragged in this direction (LF). */
+function aimed(direction) {
+  if (!toss) return;
+  const { rate } = ask({ ask: "aim", scene: question(), direction });
+  parts.player.pause();
+  flight.time = 0;
+  change({ scene: { by: "rate", rate: rate.map((part) => typed(part)) } }, "scene");
+}
+
+main().catch((error) => {
+  byId("outcome").textContent = "The page can't start";
+  byId("proof").textContent = error.message;
+});
+window.tossState = state;

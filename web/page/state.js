@@ -1,0 +1,122 @@
+// The state of the page: the scene, as the texts that a person typed, and what is shown of it. The address holds it, in the
+// words of the command line's options.
+import { PRESETS } from "./presets.js";
+
+/** A scene of which nothing was said. */
+export const BLANK = {
+  body: "coin",
+  coin: "paper",
+  cylinder: "5.67g,12.13mm,1.75mm",
+  moments: "5e-7,2.5e-7",
+  by: "rate",
+  rate: ["1", "1", "2.5"],
+  turn: "38rev/s",
+  wobble: "60deg",
+  flight: "speed",
+  speed: "3",
+  time: "0.6",
+  gravity: "9.81",
+  drop: "0",
+  tilt: "0deg",
+};
+
+/** What is shown at first. */
+const VIEW = {
+  map: "rate_z",
+  shade: "outcome",
+  spread: "5%",
+  solver: "all",
+  scheme: "dop853",
+  tolerance: "1e-9",
+  step: "1ms",
+  formulation: "momentum",
+  pace: "0.1",
+};
+
+/** The scene and the view; they change by `change` alone. */
+export const state = { scene: { ...BLANK }, view: { ...VIEW } };
+
+const listeners = [];
+
+/** Calls `listener` with what has changed, "scene" or "view", after each change. */
+export const onChange = (listener) => listeners.push(listener);
+
+/** Changes the scene or the view, writes it into the address, and tells everybody. */
+export function change({ scene, view }, source = null) {
+  if (scene) state.scene = { ...state.scene, ...scene };
+  if (view) state.view = { ...state.view, ...view };
+  history.replaceState(null, "", `#${address()}`);
+  for (const listener of listeners) listener(scene ? "scene" : "view", source);
+}
+
+/** The scene as the library takes it: what does not apply or is blank is left out. */
+export function question(scene = state.scene) {
+  const asked = { [scene.body]: scene[scene.body] };
+  if (scene.by === "rate") asked.rate = scene.rate;
+  else Object.assign(asked, { turn: scene.turn, wobble: scene.wobble });
+  if (scene.flight === "time") asked.time = scene.time;
+  else {
+    asked.speed = scene.speed;
+    for (const name of ["gravity", "drop"]) if (isGiven(scene, name)) asked[name] = scene[name];
+  }
+  if (isGiven(scene, "tilt")) asked.tilt = scene.tilt;
+  return asked;
+}
+
+/** Whether a text is neither blank nor what the library takes without it. */
+const isGiven = (scene, name) => !["", BLANK[name]].includes(scene[name].trim());
+
+/** The same toss on the command line. */
+export function command() {
+  const quoted = (text) => (/^[\w.,:+-]*$/.test(text) ? text : `'${text}'`);
+  const options = Object.entries(question()).map(([name, value]) => `--${name} ${quoted(String(value))}`);
+  return `unfair-toss toss ${options.join(" ")}`;
+}
+
+/** The state as the part of the address behind the #. */
+export function address() {
+  const shown = Object.entries(state.view).filter(([name, value]) => value !== VIEW[name]);
+  const pairs = [...Object.entries(question()), ...shown];
+  return pairs.map(([name, value]) => `${name}=${escaped(String(value))}`).join("&");
+}
+
+const escaped = (text) => encodeURIComponent(text).replaceAll("%2F", "/").replaceAll("%2C", ",");
+
+/** Reads an address. Gives the scene and the view, or throws an error that names what is wrong. */
+export function fromAddress(text) {
+  const given = {};
+  for (const pair of text.split("&").filter(Boolean)) {
+    const [name, value = ""] = pair.split(/=(.*)/s);
+    if (name in given) throw new Error(`the address gives '${name}' twice`);
+    if (name !== "preset" && !(name in BLANK) && !(name in VIEW)) throw new Error(`the address has '${name}', which is unknown`);
+    if (["body", "by", "flight"].includes(name)) throw new Error(`the address has '${name}', which is unknown`);
+    given[name] = decodeURIComponent(value);
+  }
+  if (given.preset) return ofPreset(given.preset);
+  const view = { ...VIEW };
+  for (const name of Object.keys(VIEW)) if (name in given) view[name] = given[name];
+  return { scene: sceneOf(given), view };
+}
+
+function sceneOf(given) {
+  const scene = { ...BLANK };
+  for (const name of Object.keys(BLANK)) if (name in given) scene[name] = given[name];
+  const one = (names, chosen) => {
+    const found = names.filter((name) => name in given);
+    if (found.length > 1) throw new Error(`the address gives ${found.join(" and ")}: only one of them can be used`);
+    return found[0] ?? chosen;
+  };
+  scene.body = one(["coin", "cylinder", "moments"], "coin");
+  scene.flight = one(["speed", "time"], "speed");
+  if ("turn" in given || "wobble" in given) scene.by = one(["rate", "turn"], "turn");
+  if (given.rate) scene.rate = given.rate.split(",");
+  if (scene.rate.length !== 3) throw new Error("the address has a rate that is not three numbers");
+  return scene;
+}
+
+/** The scene and the view of a preset. */
+export function ofPreset(name) {
+  const preset = PRESETS.find((preset) => preset.name === name);
+  if (!preset) throw new Error(`the address has the preset '${name}', which is unknown`);
+  return { scene: { ...BLANK, ...preset.scene }, view: { ...state.view, pace: String(preset.pace) } };
+}

@@ -1,0 +1,153 @@
+//! The questions of the page and their answers.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::flight::Flight;
+use crate::integrators::Chosen;
+use crate::map::Grid;
+use crate::page::Page;
+use crate::thrown::Scene;
+use crate::{aim, hand, integrators, known, line, map, outcome};
+
+/// A question, as `{NAME: {...}}`, or its name alone if there is no more to it.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Question {
+    /// What can be chosen: solvers, coins, units.
+    Known,
+    /// A text as a quantity of this kind: its number in SI units, and its unit.
+    Quantity {
+        /// Such as `rate`.
+        kind: String,
+        /// Such as `38rev/s`.
+        text: String,
+    },
+    /// How the toss lands, and by how much.
+    Toss {
+        /// The body and its launch.
+        scene: Scene,
+    },
+    /// The flight: a trace into [`Page::numbers`], and from then on [`Page::frame`].
+    Fly {
+        /// The body and its launch.
+        scene: Scene,
+        /// Points of the trace.
+        points: usize,
+    },
+    /// The body rate with which the angular momentum points elsewhere.
+    Aim {
+        /// The body and its launch.
+        scene: Scene,
+        /// The direction (LF).
+        direction: [f64; 3],
+    },
+    /// The cells of a map, into [`Page::cells`].
+    Map {
+        /// The body and its launch.
+        scene: Scene,
+        /// The grid.
+        grid: Grid,
+    },
+    /// The lines of a map.
+    Lines {
+        /// The body and its launch.
+        scene: Scene,
+        /// The grid.
+        grid: Grid,
+    },
+    /// P(heads) for a hand.
+    Hand {
+        /// The body and its launch.
+        scene: Scene,
+        /// The relative standard deviation of each rate and of the speed.
+        spread: String,
+    },
+    /// How precise a hand must be.
+    Precision {
+        /// The body and its launch.
+        scene: Scene,
+        /// The wanted P(heads).
+        heads: String,
+    },
+    /// Every solver with each of its schemes: their settings, to be asked for one by one.
+    Candidates {
+        /// The tolerance of the schemes that take one.
+        tolerance: String,
+        /// The step of the others.
+        step: String,
+        /// The formulation of the solvers that have a choice.
+        formulation: String,
+    },
+    /// Where a solver lands.
+    Landing {
+        /// The body and its launch.
+        scene: Scene,
+        /// The solver.
+        by: Chosen,
+    },
+    /// How the error of a solver grows along the flight.
+    Growth {
+        /// The body and its launch.
+        scene: Scene,
+        /// The solver.
+        by: Chosen,
+        /// Points of the curve.
+        points: u32,
+    },
+    /// The same flight again and again, for a clock outside.
+    Repeat {
+        /// The body and its launch.
+        scene: Scene,
+        /// The solver.
+        by: Chosen,
+        /// How often.
+        times: u32,
+    },
+}
+
+impl Page {
+    /// Answers a question in JSON by JSON: with the answer, or with an error. It never panics on a question.
+    pub fn ask(&mut self, question: &str) -> String {
+        let answer = serde_json::from_str(question).map_err(Failure::from).and_then(|question| self.answer(question));
+        answer.unwrap_or_else(|failure| failure.to_json()).to_string()
+    }
+
+    fn answer(&mut self, question: Question) -> Result<Value, Failure> {
+        match question {
+            Question::Known => Ok(known::known()),
+            Question::Quantity { kind, text } => known::quantity(&kind, &text),
+            Question::Toss { scene } => to_value(&outcome::answer(&scene.thrown()?)?),
+            Question::Fly { scene, points } => self.fly(&scene, points),
+            Question::Aim { scene, direction } => to_value(&aim::aim(&scene.thrown()?, direction)?),
+            Question::Map { scene, grid } => {
+                self.cells.clear();
+                to_value(&map::map(&scene.thrown()?, &grid, &mut self.cells)?)
+            }
+            Question::Lines { scene, grid } => to_value(&line::lines(&scene.thrown()?, &grid)?),
+            Question::Hand { scene, spread } => to_value(&hand::probability(&scene.thrown()?, &spread)?),
+            Question::Precision { scene, heads } => to_value(&hand::precision(&scene.thrown()?, &heads)?),
+            Question::Candidates { tolerance, step, formulation } => {
+                to_value(&integrators::candidates(&tolerance, &step, &formulation)?)
+            }
+            Question::Landing { scene, by } => to_value(&integrators::landing(&scene.thrown()?, &by)?),
+            Question::Growth { scene, by, points } => to_value(&integrators::growth(&scene.thrown()?, &by, points)?),
+            Question::Repeat { scene, by, times } => {
+                Ok(json!({ "answered": integrators::repeat(&scene.thrown()?, &by, times)? }))
+            }
+        }
+    }
+
+    fn fly(&mut self, scene: &Scene, points: usize) -> Result<Value, Failure> {
+        let flight = Flight::new(&scene.thrown()?);
+        self.numbers.clear();
+        let answer = flight.trace(points, &mut self.numbers)?;
+        self.flight = Some(flight);
+        to_value(&answer)
+    }
+}
+
+fn to_value(answer: &impl Serialize) -> Result<Value, Failure> {
+    Ok(serde_json::to_value(answer)?)
+}

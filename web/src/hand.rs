@@ -1,0 +1,76 @@
+//! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
+
+use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
+use serde::Serialize;
+use toss::InputError;
+
+use crate::failure::Failure;
+use crate::thrown::{Thrown, malformed};
+
+/// Launches of an estimate, each at all its speeds.
+const POINTS: u64 = 4096;
+
+/// Launches of each of the estimates that the search for a spread makes.
+const POINTS_OF_SEARCH: u64 = 1024;
+
+const SEED: u64 = 1;
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Answer {
+    probability: f64,
+    interval: Option<[f64; 2]>,
+    interval_kind: String,
+    points: u64,
+}
+
+/// How large a spread may be.
+#[derive(Debug, Serialize)]
+pub(crate) struct Precision {
+    /// As in the answer of `unfair-toss spread`.
+    answer: &'static str,
+    spread: Option<f64>,
+    probability: Option<f64>,
+}
+
+/// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
+pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Failure> {
+    let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
+    let found = Sampler::exact().estimate(&space, plan(&space))?;
+    Ok(Answer {
+        probability: found.probability,
+        interval: found.interval.map(|interval| [interval.lo, interval.hi]),
+        interval_kind: found.interval_kind.to_string(),
+        points: found.points,
+    })
+}
+
+/// The largest spread with which P(heads) is at least `heads`.
+pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Failure> {
+    let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
+    let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
+    let (answer, spread, estimate) = match &found {
+        LargestSpread::UpTo(spread, estimate) => ("up_to", Some(*spread), Some(estimate)),
+        LargestSpread::Any(estimate) => ("any", Some(LARGEST_SPREAD), Some(estimate)),
+        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None, None),
+        LargestSpread::BelowSmallest(_) => ("below_smallest", None, None),
+    };
+    Ok(Precision { answer, spread, probability: estimate.map(|found| found.probability) })
+}
+
+/// The most accurate plan for a space that spreads.
+fn plan(space: &Space) -> Plan {
+    let free: Vec<Coordinate> = space.free().collect();
+    match free[..] {
+        [] => Plan::Grid,
+        _ if space.drop().is_some() || !free.contains(&Coordinate::Speed) => Plan::Sobol(Scrambled::new(POINTS, SEED)),
+        [_] => Plan::ExactSpeed(Rest::Grid),
+        _ => Plan::ExactSpeed(Rest::Sobol(Scrambled::new(POINTS, SEED))),
+    }
+}
+
+/// A part of a whole, such as `0.05` or `5%`.
+pub(crate) fn part(field: &'static str, text: &str) -> Result<f64, InputError> {
+    let (number, whole) = text.trim().strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
+    let part = number.trim().parse::<f64>().map(|number| number / whole);
+    part.map_err(|_| malformed(field, text, "a number, or a percentage such as 5%"))
+}

@@ -1,0 +1,79 @@
+// The page in headless Chromium, from its folder on the disk, and what the tests share.
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
+const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
+
+/** The folder of the page. */
+export const PAGE = join(root, "target/web");
+/** The command line, by which the page is judged. */
+export const PROGRAM = join(target, "release/unfair-toss");
+/** Where pictures go. */
+export const PICTURES = join(root, "target/web-pictures");
+/** The picture of the README. */
+export const PICTURE = join(root, "docs/page.png");
+
+mkdirSync(PICTURES, { recursive: true });
+const index = pathToFileURL(join(PAGE, "index.html")).href;
+const found = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
+
+/** Starts the browser. It does without a sandbox, which a container does not give, and without a graphics card. */
+export const launchBrowser = () =>
+  chromium.launch({
+    executablePath: found,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"],
+  });
+
+/**
+ * Opens the page at `address`, the part behind the #, and waits for its first answer, or for the scene too. Whatever the
+ * console says, and every request that is not for a file of the page, is kept in `page.faults`.
+ */
+export async function open(browser, address = "", { until = "answer", ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce", ...options });
+  context.setDefaultTimeout(120_000);
+  const page = await context.newPage();
+  page.faults = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.faults.push(message.text()));
+  page.on("pageerror", (error) => page.faults.push(error.message));
+  page.on("request", (request) => !isOwn(request.url()) && page.faults.push(`a request for ${request.url()}`));
+  await page.goto(address ? `${index}#${address}` : index);
+  await ready(page, until);
+  return page;
+}
+
+const isOwn = (url) => url.startsWith(pathToFileURL(PAGE).href) || url.startsWith("data:") || url.startsWith("blob:");
+
+/** Waits for the first answer, or for the scene. */
+export const ready = (page, until) =>
+  page.waitForFunction(
+    (until) => ["scene", until].includes(document.documentElement.dataset.ready),
+    until,
+    { timeout: 180_000 },
+  );
+
+/** Closes a page that had no faults. */
+export async function close(page) {
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+}
+
+/** What the page answers, as its reader sees it, with a plain minus. */
+export const answer = (page) =>
+  page.evaluate(() => ({
+    outcome: document.getElementById("outcome").className,
+    isProven: document.getElementById("proof").textContent.startsWith("proven"),
+    cosTilt: document.getElementById("cos-tilt").textContent.replace("\u2212", "-"),
+    margins: Object.fromEntries(
+      [...document.querySelectorAll("#margins tr")].map((row) => [row.dataset.input, row.dataset.change]),
+    ),
+  }));
+
+/** The text of an element. */
+export const text = (page, id) => page.locator(`#${id}`).innerText();
+
+/** The part of the address behind the #. */
+export const address = (page) => page.evaluate(() => location.hash.slice(1));
