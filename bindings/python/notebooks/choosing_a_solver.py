@@ -23,7 +23,8 @@ problems = tomllib.loads((folder / "problems.toml").read_text(encoding="utf-8"))
 def toss_of(problem):
     """The toss of a problem, if it is a single one."""
     launch = {name: problem[name] for name in ("speed", "time", "gravity", "drop", "tilt") if name in problem}
-    return ut.Toss(problem["rate"], body=problem["coin"], **launch)
+    body = problem["coin"] if "coin" in problem else ut.Body.from_moments(problem["moments"])
+    return ut.Toss(problem["rate"], body=body, **launch)
 
 
 tosses = {problem["name"]: toss_of(problem) for problem in problems if "rate" in problem}
