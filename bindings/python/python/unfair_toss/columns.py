@@ -2,38 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Batch, Body, Solver
-from .errors import MalformedError
+from ._native import Body, Solver
+from .launches import Launches
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
-
-Columns = tuple[npt.NDArray[np.float64], ...]
-"""Rates about x, y, z in rad/s, and speeds in m/s or times in s."""
-
-_Result = TypeVar("_Result", np.float64, np.int8)
-
-_OPERAND: Any = ["readonly", "contig", "aligned", "nbo"]
-"""How each block of a column has to be; NumPy's stubs do not know "contig"."""
-
-_NAMES = ("rate_x", "rate_y", "rate_z", "speed")
-
-_BLOCK = 1 << 16
-"""Launches for which columns are copied at a time, if they are not contiguous."""
-
-_LONG_BLOCK = 1 << 21
-"""The same for several threads, whose start takes as long as thousands of launches."""
-
-_SLOW_BLOCK = 1 << 10
-"""The same for launches that are solved one by one, so that Ctrl-C is heard."""
 
 
 @dataclass(frozen=True)
@@ -74,126 +54,6 @@ STAGES = ("keller", "certain", "f64", "double_double", "multiprecision")
 def stages(numbers: Sequence[int] | None) -> dict[str, int] | None:
     """The numbers of proven outcomes by the names of the stages."""
     return None if numbers is None else dict(zip(STAGES, numbers, strict=True))
-
-
-class _Launches:
-    """Columns that have been checked, and how their launches are solved."""
-
-    def __init__(
-        self,
-        columns: tuple[npt.ArrayLike | None, ...],
-        *,
-        time: npt.ArrayLike | None,
-        gravity: float | None,
-        tilt: float | None,
-        attitude: Sequence[float] | Rotation | None,
-        body: str | Body,
-        solver: str | Solver | None,
-        threads: int | None,
-    ) -> None:
-        *rates, speed = columns
-        if (speed is None) == (time is None):
-            raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
-        if time is not None and gravity is not None:
-            raise MalformedError("gravity has no effect with time", field="gravity", valid="None, or a speed")
-        last = _column("time", time) if time is not None else _column("speed", speed)
-        self.columns = tuple(_column(name, rate) for name, rate in zip(_NAMES, rates, strict=False)) + (last,)
-        try:
-            self.shape = np.broadcast_shapes(*(column.shape for column in self.columns))
-        except ValueError:
-            shapes = ", ".join(str(column.shape) for column in self.columns)
-            raise MalformedError(f"columns of the shapes {shapes} don't broadcast", field="columns") from None
-        self.size = math.prod(self.shape)
-        self.batch = Batch(
-            body,
-            tilt=tilt,
-            attitude=attitude,
-            gravity=9.81 if gravity is None else gravity,
-            timed=time is not None,
-            solver=solver,
-            threads=threads,
-        )
-        if not self.batch.is_vectorised:
-            self.block = _SLOW_BLOCK * (threads or 64)
-        else:
-            self.block = _BLOCK if threads == 1 else _LONG_BLOCK
-
-    def blocks(self) -> Iterator[tuple[int, Columns]]:
-        """Blocks of contiguous columns, each with the index of its first launch. Only what is not contiguous is copied."""
-        if self.size == 0:
-            return
-        plain = [_plain(column, self.shape) for column in self.columns]
-        if any(column is None for column in plain):
-            yield from self._copied()
-            return
-        block = min(self.block, self.size)
-        # A constant is written once, and read again for each block.
-        columns = [np.full(block, part) if part.size == 1 else part for part in plain if part is not None]
-        for first in range(0, self.size, block):
-            more = min(block, self.size - first)
-            starts = (0 if column.size == block else first for column in columns)
-            yield first, tuple(column[start : start + more] for column, start in zip(columns, starts, strict=True))
-
-    def _copied(self) -> Iterator[tuple[int, Columns]]:
-        """The blocks of columns that are not contiguous."""
-        iterator = np.nditer(
-            self.columns,
-            flags=["external_loop", "buffered"],
-            op_flags=[_OPERAND] * len(self.columns),
-            op_dtypes=[np.dtype(np.float64)] * len(self.columns),
-            casting="same_kind",
-            order="C",
-            buffersize=self.block,
-        )
-        first = 0
-        for columns in iterator:
-            yield first, columns
-            first += columns[0].size
-
-    def results(
-        self, out: npt.NDArray[_Result] | None, dtype: type[_Result], width: tuple[int, ...] = ()
-    ) -> tuple[npt.NDArray[_Result], npt.NDArray[_Result]]:
-        """Where results are returned, and a contiguous array, the same if possible, that they are written to."""
-        shape = self.shape + width
-        if out is None:
-            out = np.empty(shape, dtype)
-            return out, out
-        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray):
-            raise MalformedError("out is no array of NumPy", field="out", valid="a numpy.ndarray")
-        if out.shape != shape or out.dtype != dtype:
-            found, expected = f"{out.dtype} {out.shape}", f"{np.dtype(dtype)} {shape}"
-            raise MalformedError(f"out is {found}, expected is {expected}", field="out", valid=expected)
-        if not out.flags.writeable:
-            raise MalformedError("out is read-only", field="out", valid="an array that can be written")
-        shared = any(np.may_share_memory(out, column) for column in self.columns)
-        if out.flags.c_contiguous and out.flags.aligned and not shared:
-            return out, out
-        return out, np.empty(shape, dtype)
-
-
-def _plain(column: npt.NDArray[np.generic], shape: tuple[int, ...]) -> npt.NDArray[np.float64] | None:
-    """The column in one dimension if nothing has to be copied: one number, or all of them in a row; else None."""
-    if all(stride == 0 or length == 1 for stride, length in zip(column.strides, column.shape, strict=True)):
-        return np.array(column[(0,) * column.ndim], np.float64).reshape(1)
-    if column.shape == shape and column.dtype == np.float64 and column.flags.c_contiguous and column.flags.aligned:
-        return column.reshape(-1).view(np.float64)
-    return None
-
-
-def _column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
-    """The column as an array of numbers, in whatever type and layout it comes."""
-    expected = "real numbers"
-    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
-        raise MalformedError(f"{name} has masked elements", field=name, valid=expected)
-    try:
-        array = np.asarray(value)
-        if array.dtype.kind == "O":
-            array = array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise MalformedError(f"{name}: {error}", field=name, valid=expected) from None
-    if array.dtype.kind not in "iuf":
-        raise MalformedError(f"{name} has the type {array.dtype}, not real numbers", field=name, valid=expected)
-    return array
 
 
 def cos_tilt(
@@ -254,17 +114,11 @@ def cos_tilt(
     -----
     Python's lock is released meanwhile. Arrays must not be written by another thread at the same time.
     """
-    launches = _Launches(
+    launches = Launches(
         (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
         solver=solver, threads=threads,
     )  # fmt: skip
-    result, target = launches.results(out, np.float64)
-    flat = target.reshape(-1)
-    for first, columns in launches.blocks():
-        launches.batch.cos_tilts(columns, flat[first : first + columns[0].size], first)
-    if result is not target:
-        np.copyto(result, target)
-    return result
+    return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
 def outcome(
@@ -304,17 +158,11 @@ def outcome(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = _Launches(
+    launches = Launches(
         (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
         solver=solver, threads=threads,
     )  # fmt: skip
-    result, target = launches.results(out, np.int8)
-    flat = target.reshape(-1)
-    for first, columns in launches.blocks():
-        launches.batch.outcomes(columns, flat[first : first + columns[0].size], first)
-    if result is not target:
-        np.copyto(result, target)
-    return result
+    return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
 def attitude(
@@ -352,17 +200,11 @@ def attitude(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = _Launches(
+    launches = Launches(
         (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
         solver=solver, threads=threads,
     )  # fmt: skip
-    result, target = launches.results(out, np.float64, (4,))
-    flat = target.reshape(-1)
-    for first, columns in launches.blocks():
-        launches.batch.attitudes(columns, flat[4 * first : 4 * (first + columns[0].size)], first)
-    if result is not target:
-        np.copyto(result, target)
-    return result
+    return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
 def count(
@@ -396,7 +238,7 @@ def count(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = _Launches(
+    launches = Launches(
         (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
         solver=solver, threads=threads,
     )  # fmt: skip
