@@ -1,14 +1,11 @@
 """The package: fast to import, fast to run, documented and typed, and its README's lines run."""
 
 import inspect
-import json
 import re
 import subprocess
 import sys
 from pathlib import Path
-from time import process_time_ns
 
-import numpy as np
 import pytest
 
 import unfair_toss as ut
@@ -60,30 +57,13 @@ def test_the_import_takes_less_than_50_ms_beyond_numpys():
     assert not {"scipy", "matplotlib", "dask", "distributed"} & set(modules.split())
 
 
-def best(work, repeats=7):
-    """The shortest time of the processor in ns."""
-    times = []
-    for _ in range(repeats):
-        start = process_time_ns()
-        work()
-        times.append(process_time_ns() - start)
-    return min(times)
-
-
-def closed_form(x, y, z, speed):
-    """cos θ by NumPy, as the README has it."""
-    along, across = 0.5 * z, x * x + y * y
-    square = across + along * along
-    part = along * along / square
-    return part + (1.0 - part) * np.cos(np.sqrt(square) * (2.0 * speed / 9.81))
-
-
-def test_columns_are_much_faster_than_numpy(launches):
-    out = np.empty(1_000_000)
-    assert np.abs(ut.cos_tilt(*launches) - closed_form(*launches)).max() < 1e-12
-    numpy = best(lambda: closed_form(*launches))
-    times = {"cos θ": best(lambda: ut.cos_tilt(*launches, out=out)), "counts": best(lambda: ut.count(*launches))}
-    shown = {name: round(numpy / time, 1) for name, time in times.items()}
-    print(f"NumPy {numpy / 1e6:.1f} ns a toss; times faster: {json.dumps(shown, ensure_ascii=False)}")
-    # The ratio is above 20 with AVX-512; a machine without it, or a busy one, has less.
-    assert min(shown.values()) > 5
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("columns", ["--tosses", "1000", "--rounds", "1", "--no-rust"], "count: "),
+        ("executors", ["--launches", "1000000", "--rounds", "1"], " heads of 1000000 by both"),
+    ],
+)
+def test_a_benchmark_runs(name, options, words):
+    script = ROOT / "bindings" / "python" / "benchmarks" / f"{name}.py"
+    assert words in subprocess.check_output([sys.executable, script, *options], text=True)

@@ -252,18 +252,3 @@ def test_impossible_plans_are_refused():
             make()
     with pytest.raises(errors.InputError):
         ut.probability(ut.Space(rate_x=(0, 1), rate_y=0, rate_z=0, speed=1), ut.Plan.grid())
-
-
-@pytest.mark.slow
-def test_ten_billion_launches_over_two_processes():
-    """The overhead of an engine: the time of two processes of one thread, over that of one process of two threads."""
-    from time import perf_counter
-
-    plan = ut.Plan.random(10**10)
-    start = perf_counter()
-    whole = ut.probability(FIG4, plan, threads=2)
-    between = perf_counter()
-    found = ut.probability(FIG4, plan, executor=processes)
-    end = perf_counter()
-    print(f"one process {between - start:.1f} s, two {end - between:.1f} s, heads {found.heads}")
-    assert (found.heads, found.tails) == (whole.heads, whole.tails)
