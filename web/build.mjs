@@ -1,6 +1,7 @@
 // Builds the page: `node build.mjs LIBRARY.wasm FOLDER`. The folder then works from a disk, without a server: scripts are
 // classic ones, because modules cannot be loaded from file:, and the library is inside of its script, compressed.
 import { build } from "esbuild";
+import { compress } from "lzma1";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -13,13 +14,13 @@ if (!wasm || !folder) {
   process.exit(2);
 }
 
-/** Makes the import "library.wasm.gz" the compressed library, as a Uint8Array. */
+/** Makes the import "library.wasm.lzma" the compressed library, as a Uint8Array. */
 const library = {
   name: "library",
   setup(of) {
-    of.onResolve({ filter: /^library\.wasm\.gz$/ }, () => ({ path: wasm, namespace: "library" }));
+    of.onResolve({ filter: /^library\.wasm\.lzma$/ }, () => ({ path: wasm, namespace: "library" }));
     of.onLoad({ filter: /.*/, namespace: "library" }, () => ({
-      contents: gzipSync(readFileSync(wasm), { level: 9 }),
+      contents: compress(readFileSync(wasm), 9),
       loader: "binary",
     }));
   },

@@ -1,5 +1,6 @@
 // The library, in WebAssembly: questions in JSON, and numbers read from its memory.
-import compressed from "library.wasm.gz";
+import compressed from "library.wasm.lzma";
+import { decompress } from "lzma1";
 import { FRAME, POINT } from "./memory.js";
 
 const encoder = new TextEncoder();
@@ -18,8 +19,7 @@ export class Refused extends Error {
 
 /** Unpacks and starts the library. */
 export async function start() {
-  const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+  module = await WebAssembly.compile(decompress(compressed));
   await restart();
 }
 

@@ -24,12 +24,10 @@ export class MapView {
     this.canvas.addEventListener("pointerup", () => this.release());
     this.canvas.addEventListener("pointercancel", () => this.release());
     this.canvas.addEventListener("keydown", (event) => this.key(event));
-    for (const name of ["map-over", "map-shade"]) byId(name).addEventListener("change", () => this.choose());
+    for (const [id, name] of [["map-over", "map"], ["map-shade", "shade"]]) {
+      byId(id).addEventListener("change", ({ target }) => change({ view: { [name]: target.value } }, "map"));
+    }
     new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
-  }
-
-  choose() {
-    change({ view: { map: byId("map-over").value, shade: byId("map-shade").value } }, "map");
   }
 
   /** Computes the map of a toss, and draws it. */

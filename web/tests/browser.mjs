@@ -72,6 +72,13 @@ export const answer = (page) =>
     ),
   }));
 
+/** Waits until what was done is drawn: the page answers at once, and draws in one of the next frames. */
+export const drawn = (page) =>
+  page.evaluate(async () => {
+    for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
+    await new Promise((done) => setTimeout(done));
+  });
+
 /** The text of an element. */
 export const text = (page, id) => page.locator(`#${id}`).innerText();
 

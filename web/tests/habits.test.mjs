@@ -1,7 +1,7 @@
 // How the page behaves: dragging, presets, the address, bad input, keys.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { address, answer, close, launchBrowser, open, text } from "./browser.mjs";
+import { address, answer, close, drawn, launchBrowser, open, text } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launchBrowser()));
@@ -96,7 +96,7 @@ test("dragging S turns the launch, and dragging elsewhere the camera", async () 
     await page.mouse.down();
     await page.mouse.move(toX, toY, { steps: 4 });
     await page.mouse.up();
-    await page.waitForTimeout(300);
+    await drawn(page);
   };
   await drag([box.x + 20, box.y + box.height - 20], [box.x + 90, box.y + box.height - 20]);
   assert.deepEqual(await answer(page), before);
@@ -118,7 +118,7 @@ test("the launch is a point in the map, for the pointer and for keys", async () 
   await page.locator("#map").scrollIntoViewIfNeeded();
   const box = await page.locator("#map").boundingBox();
   await page.mouse.click(box.x + 70, box.y + 40);
-  await page.waitForTimeout(300);
+  await drawn(page);
   assert.equal((await answer(page)).outcome, "heads");
   const before = await page.inputValue("#rate-x");
   await page.locator("#map").focus();
@@ -147,9 +147,11 @@ test("everything has a name and can be reached by the keyboard", async () => {
 test("it moves by itself only where motion is welcome", async () => {
   for (const reducedMotion of ["reduce", "no-preference"]) {
     const page = await open(browser, "preset=racket", { until: "scene", reducedMotion });
-    await page.waitForTimeout(1200);
-    const isMoving = Number(await page.inputValue("#clock")) > 0;
-    assert.equal(isMoving, reducedMotion === "no-preference");
+    if (reducedMotion === "no-preference") await page.waitForFunction(() => document.getElementById("clock").value > 0);
+    else {
+      await page.waitForTimeout(1200);
+      assert.equal(await page.inputValue("#clock"), "0");
+    }
     await close(page);
   }
 });
