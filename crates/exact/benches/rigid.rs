@@ -11,15 +11,22 @@ fn toss(rate: [f64; 3]) -> RigidToss {
     RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).expect("a valid body"), launch }
 }
 
+/// How to make the motion of a toss.
+type Motion = fn(&RigidToss) -> RigidMotion;
+
 fn rigid(criterion: &mut Criterion) {
     for (name, rate) in [("series", [0.2, 0.5, 2.0]), ("gaussians", [7.5001, 10.0, 10.0])] {
         let toss = toss(rate);
-        let motion = RigidMotion::new(&toss);
-        criterion
-            .bench_function(&format!("{name}: launch"), |bencher| bencher.iter(|| RigidMotion::new(black_box(&toss))));
-        criterion
-            .bench_function(&format!("{name}: cos θ"), |bencher| bencher.iter(|| motion.cos_tilt(black_box(0.6))));
-        criterion.bench_function(&format!("{name}: state"), |bencher| bencher.iter(|| motion.state(black_box(0.6))));
+        let motions: [(&str, Motion); 2] =
+            [("double-double", RigidMotion::new), ("compensated", RigidMotion::compensated)];
+        for (kind, of) in motions {
+            let (name, motion) = (format!("{name}, {kind}"), of(&toss));
+            criterion.bench_function(&format!("{name}: launch"), |bencher| bencher.iter(|| of(black_box(&toss))));
+            criterion
+                .bench_function(&format!("{name}: cos θ"), |bencher| bencher.iter(|| motion.cos_tilt(black_box(0.6))));
+            criterion
+                .bench_function(&format!("{name}: state"), |bencher| bencher.iter(|| motion.state(black_box(0.6))));
+        }
         criterion.bench_function(&format!("{name}: proof"), |bencher| bencher.iter(|| certify_rigid(black_box(&toss))));
     }
 }

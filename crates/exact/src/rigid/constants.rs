@@ -7,6 +7,7 @@ use numerics::elliptic::{
 };
 
 use super::curve::Form;
+use super::phases::Phases;
 use super::regime::Start;
 
 /// The nome from which on Gaussians have fewer terms than the Fourier series.
@@ -20,12 +21,12 @@ pub(super) struct Combinations<N> {
 }
 
 /// Ω/2 and the form of a motion off the separatrix.
-pub(super) fn periodic<N: Elementary>(
+pub(super) fn periodic<N: Phases<M>, M: Elementary>(
     start: &Start<N>,
     m: &[N; 3],
     momentum: &N,
     of: &Combinations<N>,
-) -> (N, Form<N>) {
+) -> (N, Form<N, M>) {
     let [a12, a13, a23] = &of.alpha;
     let product = |a: &N, b: &N| a.clone() * b.clone();
     let lambda = product(&of.p1, a23).sqrt();
@@ -33,24 +34,26 @@ pub(super) fn periodic<N: Elementary>(
     // k² = m = α12 P3/(α23 P1), k'² = |α13 E|/(I2 α23 P1): both without a difference.
     let below = product(a23, &of.p1);
     let complementary = (product(a13, &start.excess).magnitude() / product(&start.moments[1], &below)).sqrt();
-    let modulus = (product(a12, &of.p3) / below).sqrt();
-    let root = |number: &N| number.magnitude().sqrt();
     let (k, half_rate) = mean_precession(start, momentum, of, &complementary);
-    let (k_prime, c, v) = if of.p3.to_f64().abs() <= of.p1.to_f64().abs() {
+    let frequency = lambda / (k.clone() + k.clone());
+    let k = k.part();
+    let modulus = (product(a12, &of.p3) / below).part().sqrt();
+    let root = |number: &N| number.magnitude().part().sqrt();
+    // The smaller one of c and v, whose tangents are 1/k of each other's, has all its digits.
+    let (k_prime, c, v) = if product(&of.p3, a23).to_f64().abs() < product(&of.p1, a12).to_f64().abs() {
         let [c, k_prime] = incomplete_and_complete_first(&root(a23), &root(a12), modulus);
         (k_prime.clone(), c.clone(), k_prime - c)
     } else {
         let [v, k_prime] = incomplete_and_complete_first(&root(&of.p1), &root(&of.p3), modulus);
         (k_prime.clone(), k_prime - v.clone(), v)
     };
-    let frequency = lambda / (k.clone() + k.clone());
-    let [sin, cos] = [m[1].clone() * root(a23), m[0].clone() * root(a13)];
-    let launch = launch_phase(&sin, &cos, &complementary, &k) / (k.clone() + k.clone());
+    let [sin, cos] = [m[1].part() * root(a23), m[0].part() * root(a13)];
+    let launch = launch_phase(&sin, &cos, &complementary.part(), &k) / (k.clone() + k.clone());
+    let launch = N::of_part(launch);
     if nome(k.clone(), k_prime.clone()).to_f64() <= LARGE_NOME {
         (half_rate, Form::Series { pair: ThetaPair::new(&k, &c, &v), frequency, launch })
     } else {
         let turn = k.pi() * c.clone() / (k_prime.clone() + k_prime.clone());
-        let half_rate = half_rate + turn.clone() * frequency.clone();
         (half_rate, Form::Gaussian { pair: GaussianPair::new([&k, &k_prime], &c), turn, frequency, launch })
     }
 }
@@ -74,7 +77,8 @@ fn mean_precession<N: Elementary>(start: &Start<N>, momentum: &N, of: &Combinati
 /// u0 with sn u0 : cn u0 = `sin` : `cos`, from F of the smaller one of two amplitudes.
 fn launch_phase<N: Elementary>(sin: &N, cos: &N, complementary: &N, k: &N) -> N {
     let scaled = complementary.clone() * sin.magnitude();
-    if (scaled.clone() - cos.magnitude()).sign() <= 0.0 {
+    // The smaller one of u0 and K - u0 has all its digits: at K/2 the tangent is 1/√k'.
+    if (complementary.sqrt() * sin.magnitude() - cos.magnitude()).sign() <= 0.0 {
         let phase = incomplete_first(sin, &cos.magnitude(), complementary.clone());
         return if cos.sign() < 0.0 { k.clone() + k.clone() - phase } else { phase };
     }
@@ -83,12 +87,12 @@ fn launch_phase<N: Elementary>(sin: &N, cos: &N, complementary: &N, k: &N) -> N 
 }
 
 /// Ω/2 and the form of a motion on the separatrix.
-pub(super) fn separatrix<N: Elementary>(
+pub(super) fn separatrix<N: Phases<M>, M: Elementary>(
     start: &Start<N>,
     m: &[N; 3],
     momentum: &N,
     of: &Combinations<N>,
-) -> (N, Form<N>) {
+) -> (N, Form<N, M>) {
     let [a12, _, a23] = &of.alpha;
     let rate = momentum.clone() * (a12.clone() * a23.clone()).sqrt();
     let size = norm(&[a12.sqrt(), a23.sqrt(), rate.like(0.0)]);
@@ -100,7 +104,10 @@ pub(super) fn separatrix<N: Elementary>(
     } else {
         across / (momentum.clone() - m[1].clone())
     };
-    ((momentum.clone() / start.moments[1].clone()).halved(), Form::Separatrix { rate, launch, angle })
+    (
+        (momentum.clone() / start.moments[1].clone()).halved(),
+        Form::Separatrix { rate, launch: launch.part(), angle: angle.each_ref().map(N::part) },
+    )
 }
 
 /// The length of a vector.

@@ -1,45 +1,51 @@
 //! The motion of a rigid body as a curve of quaternions, in any kind of number: its two frequencies, and the functions
-//! that are periodic in them.
+//! that are periodic in them. The frequencies need more digits than the functions, because they are multiplied by the
+//! time: the two may be numbers of different kinds.
 
 use dynamics::Body;
 use numerics::elliptic::{GaussianPair, ThetaPair};
 use numerics::{DoubleDouble, Elementary};
 
 use super::constants::{Combinations, norm, periodic, separatrix};
+use super::phases::Phases;
 use super::quaternion::{Quaternion, conjugate, norm_squared, of_axes, product, turned};
 use super::regime::{Regime, Start};
 
-/// The turn of a body since its launch as a function of time.
+/// Steepness of Gaussians up to which they change by less than a few ulp with an ulp of their phase.
+const STEEPEST: f64 = 4.0;
+
+/// The turn of a body since its launch as a function of time, by frequencies of the type `N` and functions of the type
+/// `M`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve<N> {
+pub(super) struct Curve<N, M = N> {
     /// |L|, the angular momentum, in the units of [`Start`].
-    momentum: N,
-    moments: [N; 3],
-    axes: [[N; 3]; 3],
+    momentum: M,
+    moments: [M; 3],
+    axes: [[M; 3]; 3],
     /// p, from BF to the relabelled axes, of any norm.
-    labels: Quaternion<N>,
+    labels: Quaternion<M>,
     /// p⁻¹ R(0)⁻¹, of any norm.
-    from_launch: Quaternion<N>,
+    from_launch: Quaternion<M>,
     /// Ω/2, the rate of the phase about the angular momentum.
     half_rate: N,
-    pub(super) form: Form<N>,
+    pub(super) form: Form<N, M>,
 }
 
 /// The part of the motion that is periodic in the body.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Form<N> {
+pub(super) enum Form<N, M = N> {
     /// The turn about the fixed `direction` (BF at launch), then the spin at the rate -2 `half_spin` about the axis
     /// `about`.
-    Uniform { direction: [N; 3], half_spin: N, about: usize, rate: [N; 3] },
+    Uniform { direction: [M; 3], half_spin: N, about: usize, rate: [M; 3] },
     /// By Fourier series: half-periods of the angular momentum in the unit of time, and at launch.
-    Series { pair: ThetaPair<N>, frequency: N, launch: N },
+    Series { pair: ThetaPair<M>, frequency: N, launch: N },
     /// By Gaussians; `turn` is the angle c' of the phase that a half-period takes.
-    Gaussian { pair: GaussianPair<N>, turn: N, frequency: N, launch: N },
+    Gaussian { pair: GaussianPair<M>, turn: M, frequency: N, launch: N },
     /// λ, e^u at launch, and (cos c, sin c).
-    Separatrix { rate: N, launch: N, angle: [N; 2] },
+    Separatrix { rate: N, launch: M, angle: [M; 2] },
 }
 
-impl<N: Elementary> Curve<N> {
+impl<N: Phases<M>, M: Elementary> Curve<N, M> {
     /// The motion of `body` from the `rate` (BF) in a unit near its largest component. `None` if the numbers have too
     /// few digits.
     pub(super) fn new(body: &Body, rate: &[N; 3]) -> Option<Self> {
@@ -47,7 +53,7 @@ impl<N: Elementary> Curve<N> {
         let m: [N; 3] = [0, 1, 2].map(|axis: usize| start.moments[axis].clone() * start.rate[axis].clone());
         let momentum = norm(&m);
         if start.regime == Regime::Uniform {
-            return Some(Self::uniform(start, &m, momentum));
+            return Some(Self::uniform(&start, &m, &momentum));
         }
         let square = |part: &N| part.clone() * part.clone();
         let [a12, a13, a23] = [start.alpha(0, 1), start.alpha(0, 2), start.alpha(1, 2)];
@@ -59,17 +65,23 @@ impl<N: Elementary> Curve<N> {
         } else {
             periodic(&start, &m, &momentum, &combinations)
         };
-        let labels = of_axes(&start.axes);
-        let from_launch = conjugate(&labels);
-        let mut curve =
-            Self { momentum, moments: start.moments, axes: start.axes, labels, from_launch, half_rate, form };
+        let mut curve = Self::of_parts(&start, &momentum, half_rate, form);
         let at_launch = curve.relative(&curve.half_rate.like(0.0));
         curve.from_launch = product(&curve.from_launch, &conjugate(&at_launch));
         Some(curve)
     }
 
+    /// A motion whose R(0) is 1.
+    fn of_parts(start: &Start<N>, momentum: &N, half_rate: N, form: Form<N, M>) -> Self {
+        let three = |numbers: &[N; 3]| numbers.each_ref().map(N::part);
+        let axes = start.axes.each_ref().map(three);
+        let labels = of_axes(&axes);
+        let from_launch = conjugate(&labels);
+        Self { momentum: momentum.part(), moments: three(&start.moments), axes, labels, from_launch, half_rate, form }
+    }
+
     /// Precession about the angular momentum and spin about the axis of symmetry, or about none.
-    fn uniform(start: Start<N>, m: &[N; 3], momentum: N) -> Self {
+    fn uniform(start: &Start<N>, m: &[N; 3], momentum: &N) -> Self {
         let [first, second, third] = &start.moments;
         let is_0 = |part: N| part.sign() == 0.0;
         let [x, y, _] = &start.rate;
@@ -92,75 +104,90 @@ impl<N: Elementary> Curve<N> {
             across.like(0.0)
         };
         let is_still = momentum.sign() == 0.0;
-        let direction = if is_still { m.clone() } else { m.clone().map(|part| part / momentum.clone()) };
-        let form = Form::Uniform { direction, half_spin: spin.halved(), about, rate: start.rate.clone() };
-        let labels = of_axes(&start.axes);
-        let half_rate = (momentum.clone() / across).halved();
-        let from_launch = conjugate(&labels);
-        Self { momentum, moments: start.moments, axes: start.axes, labels, from_launch, half_rate, form }
+        let along = |part: &N| if is_still { part.part() } else { (part.clone() / momentum.clone()).part() };
+        let form = Form::Uniform {
+            direction: m.each_ref().map(along),
+            half_spin: spin.halved(),
+            about,
+            rate: start.rate.each_ref().map(N::part),
+        };
+        Self::of_parts(start, momentum, (momentum.clone() / across).halved(), form)
     }
 
     /// The turn (of any norm) from the body at launch to the body after `time`, in the unit of the inverse rates.
-    pub(super) fn turn(&self, time: &N) -> Quaternion<N> {
-        product(&product(&self.from_launch, &self.relative(time)), &self.labels)
+    pub(super) fn turn(&self, time: &N) -> Quaternion<M> {
+        self.since_launch(&self.relative(time))
+    }
+
+    /// The turn, and the body rate (BF) after `time` in the unit of the rates.
+    pub(super) fn turn_and_rate(&self, time: &N) -> (Quaternion<M>, [M; 3]) {
+        let relative = self.relative(time);
+        (self.since_launch(&relative), self.rate(&relative, time))
+    }
+
+    /// The turn since launch to R(t).
+    fn since_launch(&self, relative: &Quaternion<M>) -> Quaternion<M> {
+        product(&product(&self.from_launch, relative), &self.labels)
     }
 
     /// R(t), from the relabelled axes to axes of which the third is along the angular momentum; of a uniform motion, to
     /// those at launch. Of any norm.
-    fn relative(&self, time: &N) -> Quaternion<N> {
+    fn relative(&self, time: &N) -> Quaternion<M> {
         let phase = self.half_rate.clone() * time.clone();
         let ([a, b], phase) = match &self.form {
             Form::Uniform { direction, half_spin, about, .. } => {
-                let [sin, cos] = phase.sine_and_cosine();
+                let [sin, cos] = phase.circle();
                 let [x, y, z] = direction.clone().map(|part| part * sin.clone());
-                let [spin_sin, spin_cos] = (half_spin.clone() * time.clone()).sine_and_cosine();
+                let [spin_sin, spin_cos] = (half_spin.clone() * time.clone()).circle();
                 let mut spin = [spin_cos, sin.like(0.0), sin.like(0.0), sin.like(0.0)];
                 spin[about + 1] = -spin_sin;
                 return product(&[cos, x, y, z], &spin);
             }
             Form::Series { pair, frequency, launch } => {
                 let (rest, whole) = rounded_off(&(frequency.clone() * time.clone() + launch.clone()));
+                let rest = rest.part();
                 let [even, odd] = pair.at(&(rest.pi() * rest).sine_and_cosine());
                 ([even, signed(odd, whole)], phase)
             }
             Form::Gaussian { pair, turn, frequency, launch } => {
                 let quarter = launch.like(0.5);
-                let (rest, whole) = rounded_off(&(frequency.clone() * time.clone() + launch.clone() + quarter));
-                let [even, odd] = pair.at(&rest);
-                ([even, signed(odd, whole)], phase - turn.clone() * turn.like(whole))
+                let (rest, whole) = rounded_off(&(frequency.clone() * time.clone() + launch.clone() + quarter.clone()));
+                let [even, odd] = pair.at(&rest.part());
+                // The half-periods since launch less the whole ones of them: a few at most.
+                let left = (rest - launch.clone() - quarter).part();
+                ([even, signed(odd, whole)], phase + N::of_part(turn.clone() * left))
             }
-            Form::Separatrix { rate, launch, angle: [cos, sin] } => {
-                let shift = rate.clone() * time.clone();
+            Form::Separatrix { rate, launch, angle: [angle_cos, angle_sin] } => {
+                let shift = (rate.clone() * time.clone()).part();
                 // e^u with u = λt + u0; the larger one of e^(u/2) and e^(-u/2) is divided out.
-                let one = rate.like(1.0);
+                let one = shift.like(1.0);
                 let falling = (-shift.clone()).exp() / launch.clone();
                 let (even, odd) =
                     if falling.to_f64() <= 1.0 { (falling, one) } else { (one, shift.exp() * launch.clone()) };
-                let (along, across) = (odd.clone() * cos.clone(), -(odd * sin.clone()));
+                let (along, across) = (odd.clone() * angle_cos.clone(), -(odd * angle_sin.clone()));
                 ([[along.clone() + even.clone(), across.clone()], [along - even, across]], phase)
             }
         };
-        let [sin, cos] = phase.sine_and_cosine();
-        let turned = |[re, im]: [N; 2]| {
+        let [sin, cos] = phase.circle();
+        let turned = |[re, im]: [M; 2]| {
             [re.clone() * cos.clone() - im.clone() * sin.clone(), re * sin.clone() + im * cos.clone()]
         };
         let ([a_re, a_im], [b_re, b_im]) = (turned(a), turned(b));
         [a_re, b_re, b_im, a_im]
     }
 
-    /// The body rate (BF) after `time`, in the unit of the rates.
-    pub(super) fn rate(&self, time: &N) -> [N; 3] {
-        let relative = self.relative(time);
-        let size = norm_squared(&relative);
+    /// The body rate (BF) at R(t) = `relative`.
+    fn rate(&self, relative: &Quaternion<M>, time: &N) -> [M; 3] {
+        let size = norm_squared(relative);
         let along_axes = if let Form::Uniform { half_spin, about, rate, .. } = &self.form {
             // ω is fixed but for the spin, which turns it about the axis of symmetry.
-            let [sin, cos] = (half_spin.clone() * time.clone()).sine_and_cosine();
+            let [sin, cos] = (half_spin.clone() * time.clone()).circle();
             let mut spin = [cos, sin.like(0.0), sin.like(0.0), sin.like(0.0)];
             spin[about + 1] = sin;
             turned(&spin, rate)
         } else {
             let zero = size.like(0.0);
-            let m = turned(&conjugate(&relative), &[zero.clone(), zero, self.momentum.clone()]);
+            let m = turned(&conjugate(relative), &[zero.clone(), zero, self.momentum.clone()]);
             let [x, y, z] = m.map(|part| part / size.clone());
             let [first, second, third] = self.moments.clone();
             [x / first, y / second, z / third]
@@ -175,12 +202,33 @@ impl<N: Elementary> Curve<N> {
     /// Whether the motions around this one are of another form: on the separatrix, about a principal axis, and at rest.
     pub(super) fn is_special(&self) -> bool {
         let [first, second, third] = &self.moments;
-        let is_0 = |part: N| part.sign() == 0.0;
+        let is_0 = |part: M| part.sign() == 0.0;
         let symmetric = is_0(second.clone() - first.clone()) || is_0(third.clone() - second.clone());
         match self.form {
             Form::Series { .. } | Form::Gaussian { .. } => false,
             Form::Separatrix { .. } => true,
             Form::Uniform { .. } => !symmetric || is_0(self.momentum.clone()),
+        }
+    }
+
+    /// The kind of motion.
+    pub(super) fn regime(&self) -> Regime {
+        match &self.form {
+            Form::Uniform { .. } => Regime::Uniform,
+            Form::Separatrix { .. } => Regime::Separatrix,
+            Form::Series { frequency, .. } | Form::Gaussian { frequency, .. } if frequency.to_f64() < 0.0 => {
+                Regime::AroundSmallest
+            }
+            Form::Series { .. } | Form::Gaussian { .. } => Regime::AroundLargest,
+        }
+    }
+
+    /// Whether the motion is on the separatrix or so close to it that rounding a phase to f64 costs digits.
+    pub(super) fn is_close_to_separatrix(&self) -> bool {
+        match &self.form {
+            Form::Uniform { .. } | Form::Series { .. } => false,
+            Form::Gaussian { pair, .. } => pair.steepness().to_f64() > STEEPEST,
+            Form::Separatrix { .. } => true,
         }
     }
 

@@ -115,8 +115,7 @@ fn of_rate(toss: &RigidToss, axis: usize, outcome: Outcome) -> (Option<f64>, f64
 /// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
 fn of_tilt(toss: &RigidToss) -> Result<Option<f64>, SolveError> {
     let motion = RigidMotion::new(toss);
-    let (curve, time, _) = motion.own_time(toss.launch.time_of_flight().into())?;
-    let (turn, attitude) = (curve.turn(&time), toss.launch.attitude());
+    let (turn, attitude) = (motion.turn(toss.launch.time_of_flight().into())?, toss.launch.attitude());
     let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
         .map(|vertical| cos_tilt(&turn, &vertical));
     Ok(Some(-(height / turned).hi().atan()).filter(|change| change.is_finite()))

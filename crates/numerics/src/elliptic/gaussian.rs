@@ -48,6 +48,11 @@ impl<N: Elementary> GaussianPair<N> {
         Self { rate, weights, truncated }
     }
 
+    /// κ = π K/(2K'), the steepness of the sums: |ρ| changes them by up to e^(2κ).
+    pub fn steepness(&self) -> &N {
+        &self.rate
+    }
+
     /// θ4 and θ1 at `rho` = ρ, |ρ| ≤ ½, up to a common factor.
     pub fn at(&self, rho: &N) -> [Complex<N>; 2] {
         let one = rho.like(1.0);

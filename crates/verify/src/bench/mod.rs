@@ -6,6 +6,7 @@
 //! that a machine that slows down affects all alike. Times are not judged, because they vary from run to run;
 //! [`instructions`] are.
 
+mod bodies;
 mod contest;
 pub mod instructions;
 mod integrators;
@@ -46,7 +47,8 @@ impl Table {
         let flown = tosses::Columns::new(integrators::FLOWN);
         let mut contests = kernels::contests(&columns);
         contests.extend(launches::contests()?);
-        contests.extend(integrators::contests(&flown)?);
+        contests.extend(bodies::contests(&flown));
+        contests.extend(integrators::contests(&flown, bodies::body())?);
         let times = race(&mut contests, reference.as_mut())?;
         let row = |contest: &Contest<'_>, nanoseconds: f64| Row {
             group: contest.group,

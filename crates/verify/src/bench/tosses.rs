@@ -1,7 +1,7 @@
 //! This file makes the tosses that all benchmarks solve, so that their times and errors can be compared. They are the
 //! same in every run.
 
-use toss::{Attitude, Batch, Coin, SimdLevel, Toss, Tosses};
+use toss::{Attitude, Batch, Body, Coin, RigidToss, SimdLevel, Toss, Tosses};
 
 /// Number of tosses, so few that their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
@@ -36,5 +36,10 @@ impl Columns {
     pub(super) fn each(&self) -> Vec<Toss> {
         let tosses = self.tosses();
         (0..tosses.len()).map(|index| tosses.toss(index).expect("a valid toss")).collect()
+    }
+
+    /// The same launches of a body.
+    pub(super) fn each_of(&self, body: Body) -> Vec<RigidToss> {
+        self.each().into_iter().map(|toss| RigidToss { body, launch: toss.launch }).collect()
     }
 }

@@ -39,6 +39,26 @@ pub(super) const WITHIN_ESTIMATE: Check = Check {
     },
 };
 
+pub(super) const STATED: Check = Check {
+    id: "bodies-stated",
+    claim: "A solver that lands a body states an estimate of its error. Measured: the share of tosses without one, \
+            which no other check judges; of the families of `bodies-within-estimate`.",
+    basis: Basis::ClosedForm,
+    judges: Judges::Solver,
+    ceiling: 0.5,
+    unit: "1",
+    measure: |context| {
+        let row = |subject: &Subject, findings: &[BodyFinding]| {
+            let silent: Vec<&BodyFinding> =
+                findings.iter().filter(|one| matches!(one.errors, Ok(BodyErrors { estimate: None, .. }))).collect();
+            let share = silent.len() as f64 / findings.len() as f64;
+            let input = silent.first().map_or_else(String::new, |one| format!("first {}: {:?}", one.family, one.toss));
+            Measurement::figure(STATED.id, &subject.name, share, findings.len() as u64, input).without_claim()
+        };
+        Ok(rows(context, row))
+    },
+};
+
 pub(super) const ATTITUDE: Check = Check {
     id: "bodies-attitude",
     claim: "On bodies of five families, away from the separatrix and the middle axis, with phases of 1 to 30 rad, the \

@@ -22,11 +22,21 @@ pub(super) const COS_TILT: Check = Check {
     unit: "1",
     ceiling: 1e-15,
     measure: |context| {
-        errors(context, COS_TILT.id, |toss, reference| {
-            let found = RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
-            found.map_or(f64::INFINITY, |cos_tilt| reference.cos_tilt_error(cos_tilt))
+        errors(context, COS_TILT.id, |toss, reference| cos_tilt_error(&RigidMotion::new(toss), toss, reference))
+    },
+};
+
+pub(super) const COMPENSATED_COS_TILT: Check = Check {
+    id: "rigid-compensated-cos-tilt",
+    claim: "cos θ at landing of any rigid body by the compensated motion, whose sums are in f64, differs from the \
+            256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
+    measure: |context| {
+        errors(context, COMPENSATED_COS_TILT.id, |toss, reference| {
+            cos_tilt_error(&RigidMotion::compensated(toss), toss, reference)
         })
     },
+    ceiling: 1e-14,
+    ..COS_TILT
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -38,11 +48,20 @@ pub(super) const ATTITUDE: Check = Check {
     unit: "rad",
     ceiling: 1e-14,
     measure: |context| {
-        errors(context, ATTITUDE.id, |toss, reference| {
-            let found = RigidMotion::new(toss).state(toss.launch.time_of_flight());
-            found.map_or(f64::INFINITY, |state| reference.attitude_error(&state.attitude))
+        errors(context, ATTITUDE.id, |toss, reference| attitude_error(&RigidMotion::new(toss), toss, reference))
+    },
+};
+
+pub(super) const COMPENSATED_ATTITUDE: Check = Check {
+    id: "rigid-compensated-attitude",
+    claim: "The attitude at landing of any rigid body by the compensated motion, whose sums are in f64, differs from \
+            the 256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
+    measure: |context| {
+        errors(context, COMPENSATED_ATTITUDE.id, |toss, reference| {
+            attitude_error(&RigidMotion::compensated(toss), toss, reference)
         })
     },
+    ..ATTITUDE
 };
 
 pub(super) const OUTCOMES: Check = Check {
@@ -73,6 +92,16 @@ pub(super) const OUTCOMES: Check = Check {
 /// The number of tosses in a family.
 fn number(context: &Context) -> u64 {
     tries(context) / 20
+}
+
+fn cos_tilt_error(motion: &RigidMotion, toss: &RigidToss, reference: &RigidReference) -> f64 {
+    let found = motion.cos_tilt(toss.launch.time_of_flight());
+    found.map_or(f64::INFINITY, |cos_tilt| reference.cos_tilt_error(cos_tilt))
+}
+
+fn attitude_error(motion: &RigidMotion, toss: &RigidToss, reference: &RigidReference) -> f64 {
+    let found = motion.state(toss.launch.time_of_flight());
+    found.map_or(f64::INFINITY, |state| reference.attitude_error(&state.attitude))
 }
 
 /// The largest of the errors in each family.

@@ -1,0 +1,73 @@
+//! This file times the exact motion of a body with three moments: a launch with its landing, further times of the same
+//! launch, and the proof of an outcome.
+
+use toss::{Attitude, Body, RigidMotion, RigidToss, certify_rigid};
+
+use super::contest::Contest;
+use super::tosses::Columns;
+
+/// Number of times that each launch is solved for, where its constants are to cost nothing.
+const TIMES: usize = 64;
+
+/// A body of moments 1, 2 and 2.25, as far from symmetric as most things are.
+pub(super) fn body() -> Body {
+    Body::from_moments([1.0, 2.0, 2.25]).expect("moments of a body")
+}
+
+/// How to make the motion of a toss.
+type Motion = fn(&RigidToss) -> RigidMotion;
+
+/// The ways to compute the motion.
+const MOTIONS: [(&str, Motion); 2] =
+    [("compensated", RigidMotion::compensated), ("in double-double", RigidMotion::new)];
+
+/// All ways to solve the launches of the columns.
+pub(super) fn contests<'a>(columns: &Columns) -> Vec<Contest<'a>> {
+    let tosses = columns.each_of(body());
+    let mut contests = Vec::new();
+    for (name, motion) in MOTIONS {
+        let launches = tosses.clone();
+        let cos_tilt = move |toss: &RigidToss| motion(toss).cos_tilt(toss.launch.time_of_flight()).unwrap_or(f64::NAN);
+        let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(cos_tilt(toss)));
+        contests.push(contest("cos θ", name, tosses.len(), None, run));
+        let launches = tosses.clone();
+        let attitude = move |toss: &RigidToss| {
+            motion(toss).state(toss.launch.time_of_flight()).map_or(Attitude::IDENTITY, |state| state.attitude)
+        };
+        let error = tosses.iter().map(|toss| attitude(toss).angle_to(&exact(toss))).fold(0.0, f64::max);
+        let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(attitude(toss)));
+        contests.push(contest("attitude", name, tosses.len(), Some(error), run));
+        contests.push(further_times(&tosses, name, motion));
+    }
+    let launches = tosses.clone();
+    let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify_rigid(toss)));
+    contests.push(contest("proven outcome", "one by one", tosses.len(), None, run));
+    contests
+}
+
+/// cos θ at many times of a few launches, whose constants are computed before.
+fn further_times<'a>(tosses: &[RigidToss], name: &str, motion: Motion) -> Contest<'a> {
+    let few: Vec<(RigidMotion, f64)> =
+        tosses.iter().take(TIMES).map(|toss| (motion(toss), toss.launch.flight_time())).collect();
+    let solved = few.len() * TIMES;
+    let run = move || {
+        for (motion, flight_time) in &few {
+            for step in 1..=TIMES {
+                let time = flight_time * step as f64 / TIMES as f64;
+                std::hint::black_box(motion.cos_tilt(time).unwrap_or(f64::NAN));
+            }
+        }
+    };
+    contest("cos θ at a further time", name, solved, None, run)
+}
+
+/// The attitude in double-double.
+fn exact(toss: &RigidToss) -> Attitude {
+    let state = RigidMotion::new(toss).state(toss.launch.time_of_flight());
+    state.map_or(Attitude::IDENTITY, |state| state.attitude)
+}
+
+fn contest<'a>(what: &str, name: &str, tosses: usize, error: Option<f64>, run: impl FnMut() + 'a) -> Contest<'a> {
+    const GROUP: &str = "exact motion of a body with moments 1, 2, 2.25";
+    Contest { group: GROUP, name: format!("{what}, {name}"), error, tosses, run: Box::new(run) }
+}
