@@ -2,8 +2,8 @@
 //! coin's normal n turns, and its angle ψ to the angular momentum S.
 
 use clap::Args;
-use dynamics::quantity::{Given, NamedUnit};
-use dynamics::{AngleUnit, rate_of_precession};
+use dynamics::quantity::{Given, common_unit};
+use dynamics::rate_of_precession;
 use toss::{Body, Dimension, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::failure::Failure;
@@ -58,7 +58,7 @@ impl RateArgs {
         let unit = if self.rate.is_some() { common_unit(&self.components()?) } else { None };
         let Some(unit) = unit else { return Ok(Launch::new(self.rate(body)?, time_of_flight)?) };
         let rate = Vector3::from(self.components()?.map(Given::value));
-        Ok(Launch::in_unit(rate, unit, time_of_flight)?)
+        Ok(Launch::in_unit(rate, unit.angle_unit(), time_of_flight)?)
     }
 
     /// Whether the rate of [`RateArgs::launch`] is rounded from what was given.
@@ -75,11 +75,4 @@ impl RateArgs {
         let read = |text: &String| quantity::rates(text).map_err(|error: InputError| Failure::from(error));
         self.rate.as_ref().ok_or_else(missing).and_then(read)
     }
-}
-
-/// The unit of all components; one that is 0 may have any. `None` if they differ.
-fn common_unit(components: &[Given; 3]) -> Option<AngleUnit> {
-    let mut units = components.iter().filter(|given| given.value() != 0.0).map(|given| given.unit());
-    let Some(first) = units.next() else { return Some(AngleUnit::RADIAN) };
-    units.all(|unit: NamedUnit| unit == first).then(|| first.angle_unit())
 }

@@ -5,10 +5,9 @@ use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
 use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use exact::certified::holds_within;
 use toss::{
-    Backend, Body, Coin, Dimension, InputError, Outcome, QuaternionSolver, Registry, RigidToss, TimeOfFlight,
-    certify_rigid,
+    Backend, Body, BodyRounding, Coin, Dimension, InputError, QuaternionSolver, Registry, RigidToss, Rounding,
+    TimeOfFlight,
 };
 
 use crate::failure::Failure;
@@ -86,20 +85,9 @@ impl CoinArgs {
         }
     }
 
-    /// Whether the body is rounded from what was given.
-    fn is_rounded(&self) -> Result<bool, InputError> {
-        Ok(!self.elements()?.unwrap_or_default().into_iter().all(Given::is_exact_in_si))
-    }
-
-    /// The body in the unit that its moments or its tensor were given in, if that is one.
-    fn in_own_unit(&self) -> Result<Option<Body>, InputError> {
-        let elements = self.elements()?.unwrap_or_default();
-        let mut units = elements.iter().filter(|given| given.value() != 0.0).map(|given| given.unit());
-        let Some(first) = units.next() else { return Ok(None) };
-        if units.any(|unit| unit != first) {
-            return Ok(None);
-        }
-        Ok(self.of_elements(elements.into_iter().map(Given::value).collect()).ok())
+    /// How the body is rounded from what was given.
+    fn rounding(&self) -> Result<BodyRounding, InputError> {
+        Ok(BodyRounding::of(&self.elements()?.unwrap_or_default(), |elements| self.of_elements(elements)))
     }
 }
 
@@ -162,27 +150,11 @@ impl TossArgs {
         self.tilt.map_or(0.0, Given::si)
     }
 
-    /// Whether the outcome of `toss` is the same for the numbers as they were typed: `false` if numbers were rounded when
-    /// their units were converted, and cos θ is so near to 0 that this could have changed it. `outcome` is the proven one.
-    pub(crate) fn is_beyond_rounding(&self, toss: &RigidToss, outcome: Outcome) -> Result<bool, Failure> {
+    /// What the conversion of units has rounded.
+    pub(crate) fn rounding(&self) -> Result<Rounding, Failure> {
         let times = [self.speed, self.time, self.gravity, self.drop];
-        let is_time_rounded = !times.into_iter().flatten().all(Given::is_exact_in_si);
-        if !is_time_rounded && !self.coin.is_rounded()? && !self.rate.is_rounded()? {
-            return Ok(true);
-        }
-        let Some(coin_toss) = toss.symmetric() else {
-            // How much a rounding of the launch changes has no simple bound next to the separatrix.
-            let is_launch_rounded = is_time_rounded || self.rate.is_rounded()?;
-            let as_given = if is_launch_rounded { None } else { self.coin.in_own_unit()? };
-            let proven = as_given.map(|body| certify_rigid(&RigidToss { body, ..*toss })).transpose()?;
-            return Ok(proven.is_some_and(|proven| proven.outcome() == outcome));
-        };
-        // A landing above the launch may end the flight near its top, where the time depends on the speed without a bound.
-        if is_time_rounded && self.drop.is_some_and(|drop| drop.si() < 0.0) {
-            return Ok(false);
-        }
-        // With u = 2^-53, conversions change the rates by up to 8 u of themselves, k by 3 u and T by 4 u.
-        Ok(holds_within(&coin_toss, 4.0 * f64::EPSILON)?)
+        let flight = !times.into_iter().flatten().all(Given::is_exact_in_si);
+        Ok(Rounding { flight, rate: self.rate.is_rounded()?, body: self.coin.rounding()? })
     }
 }
 

@@ -262,6 +262,13 @@ impl Dimension {
     }
 }
 
+/// The unit of all of these, or of the first if all are 0; any other 0 may have any unit. `None` if the units differ.
+pub fn common_unit(given: &[Given]) -> Option<NamedUnit> {
+    let mut units = given.iter().filter(|given| given.value != 0.0).map(|given| given.unit);
+    let Some(first) = units.next() else { return given.first().map(|given| given.unit) };
+    units.all(|unit| unit == first).then_some(first)
+}
+
 /// Reads several quantities that belong together. Either all of them have a unit or none has, since a unit after the last
 /// number alone could be meant for all. A 0 needs no unit.
 ///

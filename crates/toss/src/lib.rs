@@ -238,6 +238,7 @@ mod plan;
 #[cfg(feature = "planner")]
 mod reason;
 mod registry;
+mod rounding;
 #[cfg(feature = "planner")]
 mod samples;
 #[cfg(feature = "planner")]
@@ -285,6 +286,7 @@ pub use model::{MODELS, Model};
 pub use plan::Solution;
 #[cfg(feature = "planner")]
 pub use reason::{Nanoseconds, Reason};
+pub use rounding::{BodyRounding, Rounding};
 #[cfg(feature = "planner")]
 pub use scene::{Integrator, Scene, Want, WantKind};
 #[cfg(feature = "integrators")]

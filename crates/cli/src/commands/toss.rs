@@ -111,7 +111,7 @@ impl Args {
             let (outcome, answer) = Answer::new(&toss, &backend, self.margin)?;
             (toss, outcome, answer)
         };
-        if answer.certified && !self.flight.toss().is_beyond_rounding(&toss, outcome)? {
+        if answer.certified && !self.flight.toss().rounding()?.keeps(&toss, outcome)? {
             (answer.certified, answer.proof) = (false, None);
             ", not proven: the conversion of a unit may have changed it".clone_into(&mut answer.remark);
         }
