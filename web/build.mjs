@@ -26,21 +26,25 @@ const library = {
   },
 };
 
+/** Makes the import "worker.js as text" the text of that script, with what it imports. */
+const worker = {
+  name: "worker",
+  setup(of) {
+    of.onResolve({ filter: /^worker\.js as text$/ }, () => ({ path: join(here, "page/worker.js"), namespace: "worker" }));
+    of.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => {
+      const built = await build({ ...script, entryPoints: [path], write: false });
+      return { contents: built.outputFiles[0].text, loader: "text" };
+    });
+  },
+};
+
+const script = { bundle: true, format: "iife", target: "es2022", minify: true, legalComments: "eof", logLevel: "warning" };
+
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const size = {};
 for (const [entry, file] of [["main.js", "page.js"], ["scene/index.js", "scene.js"]]) {
-  await build({
-    entryPoints: [join(here, "page", entry)],
-    outfile: join(folder, file),
-    bundle: true,
-    format: "iife",
-    target: "es2022",
-    minify: true,
-    legalComments: "eof",
-    plugins: [library],
-    logLevel: "warning",
-  });
+  await build({ ...script, entryPoints: [join(here, "page", entry)], outfile: join(folder, file), plugins: [library, worker] });
 }
 for (const file of ["index.html", "style.css"]) copyFileSync(join(here, "page", file), join(folder, file));
 const uplot = readFileSync(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8");

@@ -1,7 +1,8 @@
 // The answer: heads or tails, proven, and how far each input is from the other outcome.
-import { byId, fill, make } from "./dom.js";
+import { askAside, dropAside } from "./aside.js";
+import { byId, fill, later, make } from "./dom.js";
 import { all, degrees, short, signed } from "./format.js";
-import { command } from "./state.js";
+import { command, question } from "./state.js";
 
 /** Shows the answer of the question "toss". */
 export function showAnswer(answer) {
@@ -11,13 +12,29 @@ export function showAnswer(answer) {
   byId("proof").textContent = proof(answer);
   byId("cos-tilt").textContent = all(answer.cos_tilt);
   fill(byId("facts"), ...facts(answer).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
-  fill(byId("margins"), ...rows(answer));
-  const no = byId("no-margins");
-  no.hidden = Boolean(answer.margin);
-  no.textContent = "The nearest flip is searched for bodies with I1 = I2 only.";
-  byId("margins-table").hidden = !answer.margin;
-  byId("command").textContent = command();
+  byId("command").textContent = command(answer.margin ? [] : ["--margin"]);
+  stop();
+  if (answer.margin) return showMargins(answer, answer.margin);
+  showMargins(answer, null, "The nearest flip of this body is searched …");
+  search(answer);
 }
+
+/** Shows the changes to the nearest flips, or `words` if there are none. */
+function showMargins(answer, margin, words = "") {
+  fill(byId("margins"), ...(margin ? rows(answer, margin) : []));
+  byId("margins-table").hidden = !margin;
+  byId("no-margins").textContent = words;
+  byId("no-margins").hidden = !words;
+}
+
+function stop() {
+  search.drop();
+  dropAside();
+}
+
+/** Searches the nearest flips of a body with I1 ≠ I2, when the launch has stayed the same for a while. */
+const search = later(250, (answer) =>
+  askAside({ ask: "margins", scene: question() }, (margin) => showMargins(answer, margin), ({ message }) => showMargins(answer, null, message)));
 
 /** Shows that there is no answer, and why. */
 export function showRefusal(refusal) {
@@ -26,8 +43,8 @@ export function showRefusal(refusal) {
   byId("proof").textContent = refusal.message;
   byId("cos-tilt").textContent = "–";
   fill(byId("facts"));
-  fill(byId("margins"));
-  byId("margins-table").hidden = true;
+  stop();
+  showMargins(null, null);
 }
 
 function proof({ certified, outcome, stage }) {
@@ -59,20 +76,29 @@ const REGIMES = {
 
 const turns = (phase) => short(phase / (2 * Math.PI), 4);
 
-function rows({ margin, input }) {
-  if (!margin) return [];
+function rows({ input, flight_time }, margin) {
   const { rate, speed, gravity, tilt } = input;
-  const given = speed === null ? [["T", "s", margin.time, null]] : [["v₀", "m/s", margin.speed, speed], ["g", "m/s²", margin.gravity, gravity]];
+  const none = flights(margin.time_range, flight_time);
+  const given = speed === null
+    ? [["T", "s", margin.time, flight_time, none]]
+    : [["v₀", "m/s", margin.speed, speed, none], ["g", "m/s²", margin.gravity, gravity, none]];
   const all = [
     ...given,
     ["tilt", "rad", margin.tilt, tilt],
-    ...["ωx", "ωy", "ωz"].map((name, axis) => [name, "rad/s", margin.rate[axis], rate[axis], margin.rate_range[axis]]),
+    ...["ωx", "ωy", "ωz"].map((name, axis) =>
+      [name, "rad/s", margin.rate[axis], rate[axis], `none within ±${short(margin.rate_range[axis], 4)} rad/s`]),
   ];
-  return all.map(([name, unit, change, value, range]) => row(name, unit, change, value, range));
+  return all.map((one) => row(...one));
 }
 
-function row(name, unit, change, value, range) {
-  const none = range ? `none within ±${short(range, 4)} ${unit}` : "none";
+/** The flights that were searched in vain: of a body with I1 ≠ I2, some times only. */
+function flights(range, time) {
+  if (!range || range[1] === null) return "none";
+  const earliest = Math.max(0, time - range[0]);
+  return `none of a flight of ${short(earliest)} to ${short(time + range[1])} s`;
+}
+
+function row(name, unit, change, value, none = "none") {
   const cells = change === null
     ? [make("td", { colspan: 2, class: "none" }, none)]
     : [make("td", {}, `${signed(change, 5)} ${unit}`), make("td", {}, value === null ? "" : `${short(value + change, 5)} ${unit}`)];

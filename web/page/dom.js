@@ -18,13 +18,14 @@ export function make(tag, attributes = {}, ...children) {
 /** Puts `children` in place of what `element` holds. */
 export const fill = (element, ...children) => element.replaceChildren(...children.filter((child) => child != null));
 
-/** Calls `act` once, when nothing has called it for `wait` milliseconds. */
+/** Calls `act` once, when nothing has called it for `wait` milliseconds. Its `drop` takes a call back. */
 export function later(wait, act) {
   let timer = 0;
-  return (...given) => {
+  const call = (...given) => {
     clearTimeout(timer);
     timer = setTimeout(() => act(...given), wait);
   };
+  return Object.assign(call, { drop: () => clearTimeout(timer) });
 }
 
 /** Calls `act` at most once a frame, with what was given last. */

@@ -66,11 +66,11 @@ export function question(scene = state.scene) {
 /** Whether a text is neither blank nor what the library takes without it. */
 const isGiven = (scene, name) => !["", BLANK[name]].includes(scene[name].trim());
 
-/** The same toss on the command line. */
-export function command() {
+/** The same toss on the command line, with further options. */
+export function command(further = []) {
   const quoted = (text) => (/^[\w.,:+-]*$/.test(text) ? text : `'${text}'`);
   const options = Object.entries(question()).map(([name, value]) => `--${name} ${quoted(String(value))}`);
-  return `unfair-toss toss ${options.join(" ")}`;
+  return ["unfair-toss toss", ...options, ...further].join(" ");
 }
 
 /** The state as the part of the address behind the #. */

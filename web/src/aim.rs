@@ -1,9 +1,8 @@
 //! The launch whose angular momentum S points elsewhere and is as large, for a person who drags S.
 
 use serde::Serialize;
-use toss::{InputError, Vector3};
+use toss::{Error, InputError, Vector3};
 
-use crate::failure::Failure;
 use crate::thrown::Thrown;
 
 #[derive(Debug, Serialize)]
@@ -13,7 +12,7 @@ pub(crate) struct Answer {
 }
 
 /// The body rate with which S has the `direction` (LF, of any length but 0) and its present size.
-pub(crate) fn aim(thrown: &Thrown, direction: [f64; 3]) -> Result<Answer, Failure> {
+pub(crate) fn aim(thrown: &Thrown, direction: [f64; 3]) -> Result<Answer, Error> {
     let toss = &thrown.toss;
     let refused = |value: String, expected| InputError::Malformed { field: "direction of S", value, expected };
     let length = Vector3::from(direction).norm();

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use toss::Error;
 
-use crate::failure::Failure;
+use crate::failure::{not_understood, to_json};
 use crate::flight::Flight;
 use crate::integrators::Chosen;
 use crate::map::Grid;
@@ -26,6 +27,11 @@ pub enum Question {
     },
     /// How the toss lands, and by how much.
     Toss {
+        /// The body and its launch.
+        scene: Scene,
+    },
+    /// The nearest flip in each input, which takes up to some seconds for a body with I1 ≠ I2.
+    Margins {
         /// The body and its launch.
         scene: Scene,
     },
@@ -110,15 +116,16 @@ pub enum Question {
 impl Page {
     /// Answers a question in JSON by JSON: with the answer, or with an error. It never panics on a question.
     pub fn ask(&mut self, question: &str) -> String {
-        let answer = serde_json::from_str(question).map_err(Failure::from).and_then(|question| self.answer(question));
-        answer.unwrap_or_else(|failure| failure.to_json()).to_string()
+        let asked = serde_json::from_str(question).map_err(|error| not_understood(&error));
+        asked.and_then(|question| self.answer(question)).unwrap_or_else(|failure| to_json(&failure)).to_string()
     }
 
-    fn answer(&mut self, question: Question) -> Result<Value, Failure> {
+    fn answer(&mut self, question: Question) -> Result<Value, Error> {
         match question {
             Question::Known => Ok(known::known()),
             Question::Quantity { kind, text } => known::quantity(&kind, &text),
             Question::Toss { scene } => to_value(&outcome::answer(&scene.thrown()?)?),
+            Question::Margins { scene } => to_value(&outcome::margins(&scene.thrown()?)?),
             Question::Fly { scene, points } => self.fly(&scene, points),
             Question::Aim { scene, direction } => to_value(&aim::aim(&scene.thrown()?, direction)?),
             Question::Map { scene, grid } => {
@@ -139,7 +146,7 @@ impl Page {
         }
     }
 
-    fn fly(&mut self, scene: &Scene, points: usize) -> Result<Value, Failure> {
+    fn fly(&mut self, scene: &Scene, points: usize) -> Result<Value, Error> {
         let flight = Flight::new(&scene.thrown()?);
         self.numbers.clear();
         let answer = flight.trace(points, &mut self.numbers)?;
@@ -148,6 +155,6 @@ impl Page {
     }
 }
 
-fn to_value(answer: &impl Serialize) -> Result<Value, Failure> {
-    Ok(serde_json::to_value(answer)?)
+fn to_value(answer: &impl Serialize) -> Result<Value, Error> {
+    serde_json::to_value(answer).map_err(|error| not_understood(&error))
 }

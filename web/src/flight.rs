@@ -2,9 +2,8 @@
 //! animation reads them sixty times a second.
 
 use serde::Serialize;
-use toss::{InputError, RigidMotion, RigidToss, SolveError, TimeOfFlight, Vector3};
+use toss::{Error, InputError, RigidMotion, RigidToss, SolveError, TimeOfFlight, Vector3};
 
-use crate::failure::Failure;
 use crate::thrown::Thrown;
 
 /// The numbers of a frame: attitude w, x, y, z (BF to LF); n, a vector in the face (the body's x axis) and the angular
@@ -51,7 +50,7 @@ impl Flight {
     ///
     /// # Errors
     /// [`InputError`] for fewer than 2 or more than [`MOST_POINTS`] points, and a phase that is too large.
-    pub(crate) fn trace(&self, points: usize, numbers: &mut Vec<f64>) -> Result<Answer, Failure> {
+    pub(crate) fn trace(&self, points: usize, numbers: &mut Vec<f64>) -> Result<Answer, Error> {
         if !(2..=MOST_POINTS).contains(&points) {
             let expected = "2 to 20000";
             return Err(InputError::Malformed { field: "points", value: points.to_string(), expected }.into());

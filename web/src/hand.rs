@@ -2,9 +2,8 @@
 
 use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::InputError;
+use toss::{Error, InputError};
 
-use crate::failure::Failure;
 use crate::thrown::{Thrown, malformed};
 
 /// Launches of an estimate, each at all its speeds.
@@ -33,7 +32,7 @@ pub(crate) struct Precision {
 }
 
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
-pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Failure> {
+pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
     let found = Sampler::exact().estimate(&space, plan(&space))?;
     Ok(Answer {
@@ -45,7 +44,7 @@ pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Failu
 }
 
 /// The largest spread with which P(heads) is at least `heads`.
-pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Failure> {
+pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
     let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
     let (answer, spread, estimate) = match &found {

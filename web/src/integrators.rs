@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 use toss::{Backend, Error, ExactSolver, Formulation, Launch, Registry, RigidToss, Solver, SolverConfig, TimeOfFlight};
 
-use crate::failure::Failure;
 use crate::known::scheme_of;
 use crate::thrown::{Thrown, malformed};
 
@@ -47,7 +46,7 @@ pub(crate) struct Growth {
 }
 
 impl Chosen {
-    fn backend(&self) -> Result<Backend, Failure> {
+    fn backend(&self) -> Result<Backend, Error> {
         let mut config = SolverConfig::new(self.solver.clone());
         if let Some(scheme) = &self.scheme {
             config = config.with_scheme(scheme.clone());
@@ -65,24 +64,24 @@ impl Chosen {
     }
 }
 
-fn tolerance(text: &str) -> Result<f64, Failure> {
+fn tolerance(text: &str) -> Result<f64, Error> {
     text.trim().parse().map_err(|_| malformed("tolerance", text, "a number such as 1e-9").into())
 }
 
 /// Where the chosen solver lands.
-pub(crate) fn landing(thrown: &Thrown, chosen: &Chosen) -> Result<Landing, Failure> {
+pub(crate) fn landing(thrown: &Thrown, chosen: &Chosen) -> Result<Landing, Error> {
     Ok(Landing::of(&thrown.toss, &chosen.backend()?))
 }
 
 /// Flies the toss `times` times, for a clock outside.
-pub(crate) fn repeat(thrown: &Thrown, chosen: &Chosen, times: u32) -> Result<u32, Failure> {
+pub(crate) fn repeat(thrown: &Thrown, chosen: &Chosen, times: u32) -> Result<u32, Error> {
     let backend = chosen.backend()?;
     let flights = (0..times).map(|_| backend.solver().propagate_rigid(&thrown.toss).is_ok());
     Ok(flights.map(u32::from).sum())
 }
 
 /// Every solver with each of its schemes, and of those with formulations the one called `formulation`.
-pub(crate) fn candidates(tolerance: &str, step: &str, formulation: &str) -> Result<Vec<Chosen>, Failure> {
+pub(crate) fn candidates(tolerance: &str, step: &str, formulation: &str) -> Result<Vec<Chosen>, Error> {
     let wanted = Formulation::named(formulation)?;
     let mut all = Vec::new();
     for entry in Registry::standard().entries() {
@@ -145,7 +144,7 @@ impl Landing {
 }
 
 /// The error of the chosen solver at up to `points` times along the flight.
-pub(crate) fn growth(thrown: &Thrown, chosen: &Chosen, points: u32) -> Result<Growth, Failure> {
+pub(crate) fn growth(thrown: &Thrown, chosen: &Chosen, points: u32) -> Result<Growth, Error> {
     let backend = chosen.backend()?;
     let whole = Landing::of(&thrown.toss, &backend);
     // A flight that fails may have cost as many steps as are allowed.
@@ -180,7 +179,7 @@ impl Growth {
 }
 
 /// The same toss, caught `time` (s) after its launch.
-fn until(toss: &RigidToss, time: f64) -> Result<RigidToss, Failure> {
+fn until(toss: &RigidToss, time: f64) -> Result<RigidToss, Error> {
     let (rate, unit) = toss.launch.given_rate();
     let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time))?.with_attitude(toss.launch.attitude());
     Ok(RigidToss { body: toss.body, launch })

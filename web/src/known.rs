@@ -4,9 +4,7 @@ use dynamics::error::find_named;
 use dynamics::quantity::NamedUnit;
 use serde_json::{Value, json};
 use toss::catalogue::CATALOGUE;
-use toss::{Dimension, Registry, Scheme, SolverEntry};
-
-use crate::failure::Failure;
+use toss::{Dimension, Error, Registry, Scheme, SolverEntry};
 
 /// Everything that can be chosen by name.
 pub(crate) fn known() -> Value {
@@ -46,7 +44,7 @@ const DIMENSIONS: [(&str, Dimension); 6] = [
 ];
 
 /// The quantity `text` of this kind in SI units, and its unit, if one was given.
-pub(crate) fn quantity(kind: &str, text: &str) -> Result<Value, Failure> {
+pub(crate) fn quantity(kind: &str, text: &str) -> Result<Value, Error> {
     let dimension = find_named("quantity", kind, &DIMENSIONS, |(name, _)| name)?.1;
     let given = dimension.given("quantity", text)?;
     Ok(json!({ "si": given.si(), "value": given.value(), "unit": given.unit().name() }))

@@ -8,9 +8,8 @@
 //! That is at v0 = g T/2, with T the time of the first flip.
 
 use serde::Serialize;
-use toss::{ExactMotion, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Error, ExactMotion, Launch, TimeOfFlight, Toss, Vector3};
 
-use crate::failure::Failure;
 use crate::map::{Grid, Up};
 use crate::thrown::Thrown;
 
@@ -27,7 +26,7 @@ pub(crate) struct Lines {
 }
 
 /// The lines on the map of `thrown`; none for a body with I1 ≠ I2.
-pub(crate) fn lines(thrown: &Thrown, grid: &Grid) -> Result<Lines, Failure> {
+pub(crate) fn lines(thrown: &Thrown, grid: &Grid) -> Result<Lines, Error> {
     let Some(toss) = thrown.coin() else { return Ok(Lines::default()) };
     let edge = Edge { k: toss.coin.inertia_ratio(), tilt: thrown.tilt, y: toss.launch.rate().y };
     match grid.up {
@@ -92,7 +91,7 @@ impl Edge {
 }
 
 /// The speed at which each ωx is caught at its first flip.
-fn first_flips(toss: &Toss, grid: &Grid) -> Result<Vec<Option<[f64; 2]>>, Failure> {
+fn first_flips(toss: &Toss, grid: &Grid) -> Result<Vec<Option<[f64; 2]>>, Error> {
     let (gravity, drop) = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { gravity, .. } => (gravity, 0.0),
         TimeOfFlight::BallisticTo { gravity, drop, .. } => (gravity, drop),

@@ -5,9 +5,8 @@ use dynamics::Tosses;
 use exact::{Batch, certify_rigid};
 use sampling::{Axis, Coordinate, Plan, Rest, Sampler};
 use serde::{Deserialize, Serialize};
-use toss::{Body, InputError, Launch, Outcome, RigidToss, TimeOfFlight, Toss, Vector3};
+use toss::{Body, Error, InputError, Launch, Outcome, RigidToss, TimeOfFlight, Toss, Vector3};
 
-use crate::failure::Failure;
 use crate::hand::part;
 use crate::thrown::Thrown;
 
@@ -88,7 +87,7 @@ impl Grid {
 }
 
 /// Writes the cells of the part of `grid` that is asked for into `cells`.
-pub(crate) fn map(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<Answer, Failure> {
+pub(crate) fn map(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<Answer, Error> {
     grid.check()?;
     match (&grid.spread, thrown.coin()) {
         (Some(spread), _) => probabilities(thrown, grid, part("spread", spread)?, cells)?,
@@ -133,7 +132,7 @@ impl Flights {
 const NO_SPEED: InputError =
     InputError::Missing { field: "speed [m/s]", expected: "a speed in place of the time of flight" };
 
-fn outcomes(thrown: &Thrown, toss: &Toss, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Failure> {
+fn outcomes(thrown: &Thrown, toss: &Toss, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Error> {
     let flights = Flights::of(thrown)?;
     let rate = toss.launch.rate();
     let mut columns: [Vec<f64>; 4] = Default::default();
@@ -154,7 +153,7 @@ fn outcomes(thrown: &Thrown, toss: &Toss, grid: &Grid, cells: &mut Vec<u8>) -> R
     Ok(())
 }
 
-fn rigid_outcomes(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Failure> {
+fn rigid_outcomes(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Error> {
     let launch = &thrown.toss.launch;
     let rate = launch.rate();
     for (x, up) in grid.places() {
@@ -182,7 +181,7 @@ fn cell(outcome: Outcome) -> u8 {
 }
 
 /// P(heads) over a speed that is normal, in closed form.
-fn probabilities(thrown: &Thrown, grid: &Grid, spread: f64, cells: &mut Vec<u8>) -> Result<(), Failure> {
+fn probabilities(thrown: &Thrown, grid: &Grid, spread: f64, cells: &mut Vec<u8>) -> Result<(), Error> {
     let space = thrown.space()?;
     let sampler = Sampler::exact();
     let plan = if space.drop().is_some() {

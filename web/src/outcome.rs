@@ -3,9 +3,11 @@
 
 use exact::certify_rigid;
 use serde::Serialize;
-use toss::{ExactMotion, ExactSolver, Margin, Outcome, RigidMotion, Solver, TimeOfFlight, Toss, margin};
+use toss::{
+    Error, ExactMotion, ExactSolver, Margin, Outcome, RigidMargin, RigidMotion, Solver, TimeOfFlight, Toss,
+    margin_rigid,
+};
 
-use crate::failure::Failure;
 use crate::thrown::Thrown;
 
 #[derive(Debug, Serialize)]
@@ -17,7 +19,7 @@ pub(crate) struct Answer {
     certified: bool,
     /// The stage of the proof that decided.
     stage: &'static str,
-    /// `None` for a body with I1 ≠ I2, for which there is no search.
+    /// `None` for a body with I1 ≠ I2, whose search takes long: see [`margins`].
     margin: Option<Margins>,
     attitude: [f64; 4],
     rate: [f64; 3],
@@ -35,15 +37,16 @@ struct Moments {
     i3: f64,
 }
 
-/// As in the answer of `unfair-toss toss`.
+/// As in the answer of `unfair-toss toss --margin`.
 #[derive(Debug, Serialize)]
-struct Margins {
+pub(crate) struct Margins {
     time: Option<f64>,
     speed: Option<f64>,
     gravity: Option<f64>,
     tilt: Option<f64>,
     rate: [Option<f64>; 3],
     rate_range: [f64; 3],
+    time_range: Option<[f64; 2]>,
 }
 
 /// The inputs in SI units.
@@ -74,7 +77,7 @@ struct Precession {
 }
 
 /// The answer about `thrown`.
-pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Failure> {
+pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Error> {
     let (toss, coin) = (&thrown.toss, thrown.coin());
     let motion = RigidMotion::new(toss);
     let certificate = certify_rigid(toss)?;
@@ -86,9 +89,10 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Failure> {
         cos_tilt: without_sign_of_zero(landing.cos_tilt),
         outcome: certificate.outcome().name(),
         // An undecided outcome of a coin is a proven tie; that of another body is not.
-        certified: (coin.is_some() || certificate.outcome() != Outcome::Undecided) && thrown.is_beyond_rounding()?,
+        certified: (coin.is_some() || certificate.outcome() != Outcome::Undecided)
+            && thrown.rounding.keeps(toss, certificate.outcome())?,
         stage: certificate.stage().name(),
-        margin: coin.map(|toss| margin(&toss).map(Margins::from)).transpose()?,
+        margin: coin.is_some().then(|| margins(thrown)).transpose()?,
         attitude: landing.state.attitude.components().map(without_sign_of_zero),
         rate: landing.state.rate.into(),
         apex: thrown.thrown_up().map(|(speed, gravity, _)| speed * speed / (2.0 * gravity)),
@@ -98,10 +102,12 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Failure> {
     })
 }
 
-impl From<Margin> for Margins {
-    fn from(Margin { time, speed, gravity, tilt, rate, rate_range }: Margin) -> Self {
-        Self { time, speed, gravity, tilt, rate, rate_range }
-    }
+/// The nearest flip in each input. For a body with I1 ≠ I2 the search takes up to some seconds.
+pub(crate) fn margins(thrown: &Thrown) -> Result<Margins, Error> {
+    let RigidMargin { margin, time_range } = margin_rigid(&thrown.toss)?;
+    let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
+    let time_range = if thrown.coin().is_some() { None } else { Some(time_range) };
+    Ok(Margins { time, speed, gravity, tilt, rate, rate_range, time_range })
 }
 
 impl Input {

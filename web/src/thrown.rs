@@ -1,16 +1,15 @@
 //! A scene: the body and its launch as texts, with or without units, which is how a person types them and how the address
 //! of the page holds them. Its keys are the options of the command line.
 
-use dynamics::quantity::{Given, NamedUnit};
+use dynamics::quantity::{Given, common_unit, read_quantities};
 use dynamics::rate_of_precession;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use exact::certified::holds_within;
 use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::{AngleUnit, Body, Coin, Dimension, InputError, Launch, RigidToss, TimeOfFlight, Toss, Vector3};
-
-use crate::failure::Failure;
+use toss::{
+    Body, BodyRounding, Coin, Dimension, Error, InputError, Launch, RigidToss, Rounding, TimeOfFlight, Toss, Vector3,
+};
 
 /// A body and its launch as texts. Numbers without a unit are in SI units and radians.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -35,14 +34,8 @@ pub(crate) struct Thrown {
     pub(crate) toss: RigidToss,
     /// A turn of the launch about the x axis of LF (rad).
     pub(crate) tilt: f64,
-    rounding: Rounding,
-}
-
-/// What the conversion of units has rounded.
-#[derive(Debug, Clone, Copy)]
-struct Rounding {
-    is_time: bool,
-    is_other: bool,
+    /// What the conversion of units has rounded.
+    pub(crate) rounding: Rounding,
 }
 
 const RATES: [&str; 3] = ["rate x [rad/s]", "rate y [rad/s]", "rate z [rad/s]"];
@@ -51,23 +44,24 @@ const CYLINDER: &str = "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: k
 
 impl Scene {
     /// Reads the texts.
-    pub(crate) fn thrown(&self) -> Result<Thrown, Failure> {
-        let (body, is_body_rounded) = self.body()?;
+    pub(crate) fn thrown(&self) -> Result<Thrown, Error> {
+        let (body, body_rounding) = self.body()?;
         let times = Times::read(self)?;
         let time = times.time_of_flight()?;
         let (launch, is_rate_rounded) = self.launch(&body, time)?;
         let tilt = self.tilt.as_deref().map(|text| Dimension::Angle.given("tilt [rad]", text)).transpose()?;
         let launch = tilt.map_or(Ok(launch), |tilt| launch.with_tilt(tilt.angle()))?;
-        let rounding = Rounding { is_time: times.are_rounded(), is_other: is_body_rounded || is_rate_rounded };
+        let rounding = Rounding { flight: times.are_rounded(), rate: is_rate_rounded, body: body_rounding };
         Ok(Thrown { toss: RigidToss { body, launch }, tilt: tilt.map_or(0.0, Given::si), rounding })
     }
 
-    /// The body, and whether it is rounded from what was given.
-    fn body(&self) -> Result<(Body, bool), InputError> {
+    /// The body, and how it is rounded from what was given.
+    fn body(&self) -> Result<(Body, BodyRounding), InputError> {
+        let exact = |coin: Coin| (coin.into(), BodyRounding::Exact);
         match (&self.coin, &self.cylinder, &self.moments) {
-            (None, Some(text), None) => cylinder(text).map(|coin| (coin.into(), false)),
+            (None, Some(text), None) => cylinder(text).map(exact),
             (None, None, Some(text)) => moments(text),
-            (name, None, None) => named_coin(name.as_deref().unwrap_or("paper")).map(|coin| (coin.into(), false)),
+            (name, None, None) => named_coin(name.as_deref().unwrap_or("paper")).map(exact),
             _ => Err(twice("coin", "one of coin, cylinder and moments")),
         }
     }
@@ -85,7 +79,7 @@ impl Scene {
         let [x, y, z] = [0, 1, 2].map(|axis| Dimension::TurnRate.given(RATES[axis], &texts[axis]));
         let given = [x?, y?, z?];
         match common_unit(&given) {
-            Some(unit) => Ok((Launch::in_unit(given.map(Given::value), unit, time)?, false)),
+            Some(unit) => Ok((Launch::in_unit(given.map(Given::value), unit.angle_unit(), time)?, false)),
             None => Ok((Launch::new(given.map(Given::si), time)?, !given.into_iter().all(Given::is_exact_in_si))),
         }
     }
@@ -103,23 +97,6 @@ impl Thrown {
     /// [`InputError::OutsideModel`] that says `why` a body with I1 ≠ I2 has none.
     pub(crate) fn require_coin(&self, why: &'static str) -> Result<Toss, InputError> {
         self.coin().ok_or(InputError::OutsideModel { field: "moments", why })
-    }
-
-    /// Whether the outcome is the same for the numbers as they were typed: `false` if units were converted and cos θ is
-    /// so near to 0 that a rounding could have changed it. The rule is that of the command line.
-    pub(crate) fn is_beyond_rounding(&self) -> Result<bool, Failure> {
-        let Rounding { is_time, is_other } = self.rounding;
-        if !is_time && !is_other {
-            return Ok(true);
-        }
-        let is_caught_higher =
-            matches!(self.toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0);
-        match self.coin() {
-            // With u = 2^-53, conversions change the rates by up to 8 u of themselves, k by 3 u and T by 4 u; but that of
-            // a landing near the top of the flight without a bound.
-            Some(toss) if !(is_time && is_caught_higher) => Ok(holds_within(&toss, 4.0 * f64::EPSILON)?),
-            _ => Ok(false),
-        }
     }
 
     /// The speed (m/s), gravity (m/s²) and drop (m) of a coin that is thrown up; `None` if the time of flight was given.
@@ -194,36 +171,32 @@ fn precessing(body: &Body, turn: &str, wobble: &str) -> Result<Vector3<f64>, Inp
     rate_of_precession(&coin, turn, wobble)
 }
 
-/// The unit of all components; one that is 0 may have any. `None` if they differ.
-fn common_unit(components: &[Given; 3]) -> Option<AngleUnit> {
-    let mut units = components.iter().filter(|given| given.value() != 0.0).map(|given| given.unit());
-    let Some(first) = units.next() else { return Some(AngleUnit::RADIAN) };
-    units.all(|unit: NamedUnit| unit == first).then(|| first.angle_unit())
-}
-
 fn cylinder(text: &str) -> Result<Coin, InputError> {
-    let malformed = || malformed("cylinder", text, CYLINDER);
-    let of = [Dimension::Mass, Dimension::Length, Dimension::Length];
-    let parts: Vec<&str> = text.split(',').collect();
-    let parts: [&str; 3] = parts.try_into().map_err(|_| malformed())?;
-    let [mass, radius, thickness] = [0, 1, 2].map(|index| of[index].given("cylinder", parts[index]));
-    let quantity = |given: Result<Given, InputError>| given.map(Given::quantity).map_err(|_| malformed());
-    Coin::from_cylinder(quantity(mass)?, quantity(radius)?, quantity(thickness)?)
+    let given = quantities("cylinder", text, CYLINDER, &[Dimension::Mass, Dimension::Length, Dimension::Length])?;
+    let [mass, radius, thickness] = [0, 1, 2].map(|index| given[index].quantity());
+    Coin::from_cylinder(mass, radius, thickness)
 }
 
-/// The body with these moments, and whether it is rounded from what was given.
-fn moments(text: &str) -> Result<(Body, bool), InputError> {
-    let malformed = || malformed("moments", text, MOMENTS);
-    let read = |part: &str| Dimension::Inertia.given("moments", part).map_err(|_| malformed());
-    let given: Vec<Given> = text.split(',').map(read).collect::<Result<_, _>>()?;
-    let is_rounded = !given.iter().all(|given| given.is_exact_in_si());
-    let moments: Vec<f64> = given.into_iter().map(Given::si).collect();
-    let body = match moments[..] {
-        [i1, i3] => Coin::from_moments(i1, i3)?.into(),
-        [i1, i2, i3] => Body::from_moments([i1, i2, i3])?,
-        _ => return Err(malformed()),
-    };
-    Ok((body, is_rounded))
+/// The body with these moments, and how it is rounded from what was given.
+fn moments(text: &str) -> Result<(Body, BodyRounding), InputError> {
+    let number = text.split(',').count().clamp(2, 3);
+    let given = quantities("moments", text, MOMENTS, &[Dimension::Inertia; 3][..number])?;
+    let body = |moments: Vec<f64>| Body::from_listed_moments(&moments);
+    Ok((body(given.iter().map(|given| given.si()).collect())?, BodyRounding::of(&given, body)))
+}
+
+/// Quantities of these kinds, separated by commas.
+fn quantities(
+    field: &'static str,
+    text: &str,
+    expected: &'static str,
+    dimensions: &[Dimension],
+) -> Result<Vec<Given>, InputError> {
+    let parts: Vec<_> = dimensions.iter().copied().zip(text.split(',')).collect();
+    if text.split(',').count() != dimensions.len() {
+        return Err(malformed(field, text, expected));
+    }
+    read_quantities(field, text, expected, &parts)
 }
 
 pub(crate) fn malformed(field: &'static str, text: &str, expected: &'static str) -> InputError {

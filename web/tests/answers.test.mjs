@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
 import { PROGRAM, answer, close, launchBrowser, open, text } from "./browser.mjs";
-import { LAUNCHES, asAddress, asOptions } from "./launches.mjs";
+import { LAUNCHES, OF_BODIES, asAddress, asOptions } from "./launches.mjs";
 
 let browser;
 before(async () => (browser = await launchBrowser()));
@@ -22,6 +22,9 @@ const goTo = (page, address) =>
     address,
   );
 
+/** Waits for margins, which take up to some seconds for a body with I1 ≠ I2. */
+const searched = (page) => page.waitForFunction(() => document.querySelector("#margins tr"), null, { timeout: 120_000 });
+
 /** The digits of the program's margins, under the names of the page. */
 function margins({ time, speed, gravity, tilt, rate }, isThrown) {
   const text = (value) => (value === null ? "" : String(value));
@@ -35,9 +38,10 @@ test("the page answers as the program does", async (context) => {
   const page = await open(browser);
   let same = 0;
   let compared = 0;
-  for (const launch of LAUNCHES) {
-    const program = asked("toss", ...asOptions(launch));
+  for (const launch of [...LAUNCHES, ...OF_BODIES]) {
+    const program = asked("toss", ...asOptions(launch), "--margin");
     await goTo(page, asAddress(launch));
+    await searched(page);
     const wanted = {
       outcome: program.outcome,
       isProven: program.certified,
@@ -55,6 +59,26 @@ test("the page answers as the program does", async (context) => {
     context.diagnostic(`${shown.outcome.padEnd(9)} page ${shown.cosTilt.padEnd(22)} program ${String(program.cos_tilt).padEnd(22)} ${asOptions(launch).join(" ")}`);
   }
   context.diagnostic(`${same} of ${compared} margins have the same digits, too`);
+  await close(page);
+});
+
+test("a search of margins ends when the launch changes, and its answer is never shown for another one", async () => {
+  const page = await open(browser, asAddress(OF_BODIES[1]));
+  await searched(page);
+  const first = (await answer(page)).margins;
+  // Back and forth, each time while the search of the last launch may be running.
+  for (const wait of [0, 260, 300, 400]) {
+    await goTo(page, asAddress(OF_BODIES[2]));
+    assert.deepEqual((await answer(page)).margins, {});
+    await page.waitForTimeout(wait);
+    await goTo(page, asAddress(OF_BODIES[1]));
+    assert.deepEqual((await answer(page)).margins, {});
+  }
+  await searched(page);
+  assert.deepEqual((await answer(page)).margins, first);
+  await goTo(page, asAddress({ ...OF_BODIES[1], speed: "-1" }));
+  await page.waitForTimeout(600);
+  assert.equal(await page.locator("#margins-table").isHidden(), true);
   await close(page);
 });
 

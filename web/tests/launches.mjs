@@ -25,6 +25,13 @@ export const LAUNCHES = [
   { coin: "us-dollar", rate: "12,7,0", speed: "0" },
 ];
 
+/** Launches of bodies with I1 ≠ I2, whose margins take longer. */
+export const OF_BODIES = [
+  { moments: "0.016,0.0012,0.0172", rate: "12,0.05,0.05", time: "1" },
+  { moments: "1,2,2.9", rate: "1,20,0.1", speed: "3" },
+  { moments: "1.1g·cm²,2.3g·cm²,2.9g·cm²", rate: "30,2,1", speed: "2.4", drop: "0.5", tilt: "0.2" },
+];
+
 /** The launch as the part of the page's address behind the #. */
 export const asAddress = (launch) => Object.entries(launch).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 

@@ -39,6 +39,24 @@ fn a_question_that_is_not_understood_has_an_error_and_not_a_panic() {
 }
 
 #[test]
+fn margins_of_a_body_are_asked_for_alone_and_flip_it() {
+    let scene = |x: f64| json!({ "moments": "1,2,2.9", "rate": [x.to_string(), "20", "0.1"], "speed": "3" });
+    let outcome = |x: f64| ask(&json!({ "toss": { "scene": scene(x) } }));
+    let tails = outcome(1.0);
+    assert_eq!((&tails["outcome"], &tails["margin"]), (&json!("tails"), &Value::Null));
+    let margins = ask(&json!({ "margins": { "scene": scene(1.0) } }));
+    let change = margins["rate"][0].as_f64().unwrap();
+    assert_eq!(outcome(1.0 + change * (1.0 - 1e-9))["outcome"], "tails");
+    assert_eq!(outcome(1.0 + change * (1.0 + 1e-9))["outcome"], "heads");
+    assert!(margins["time_range"][1].as_f64().is_some_and(|later| later > 0.0));
+    // Those of a coin come with its answer.
+    let coin = json!({ "rate": ["1", "1", "2.5"], "speed": "3" });
+    let answer = ask(&json!({ "toss": { "scene": coin } }));
+    assert_eq!(answer["margin"], ask(&json!({ "margins": { "scene": coin } })));
+    assert_eq!(answer["margin"]["time_range"], Value::Null);
+}
+
+#[test]
 fn bad_input_names_its_field_in_the_words_of_the_library() {
     for (scene, field) in [
         (json!({ "rate": ["1", "2", "3x"], "speed": "3" }), "rate z [rad/s]"),
