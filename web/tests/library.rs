@@ -69,6 +69,7 @@ fn bad_input_names_its_field_in_the_words_of_the_library() {
         (json!({ "coin": "paper", "moments": "1,1", "rate": ["1", "2", "3"], "speed": "3" }), "coin"),
         (json!({ "moments": "1,2,9", "rate": ["1", "2", "3"], "speed": "3" }), "I3 [kg m²]"),
         (json!({ "moments": "1", "rate": ["1", "2", "3"], "speed": "3" }), "moments"),
+        (json!({ "moments": "1g·cm²,2", "rate": ["1", "2", "3"], "speed": "3" }), "moments"),
         (json!({ "moments": "1,2,2.5", "turn": "1", "wobble": "1", "speed": "3" }), "wobble [rad]"),
     ] {
         let answer = ask(&json!({ "toss": { "scene": scene } }));
