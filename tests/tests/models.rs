@@ -3,7 +3,8 @@
 
 use blackbox::{config, tosses};
 use proptest::prelude::*;
-use toss::{Answer, Choice, How, MODELS, Model, Outcome, Scene, Stage, Toss, Want};
+use sampling::Space;
+use toss::{Answer, Body, Choice, Coin, Error, How, MODELS, Model, Outcome, Registry, Scene, Stage, Toss, Want};
 
 /// The answers of all models that serve a scene, each with a bound of its error: the expected error, or ten times the
 /// error estimate of an integrator, because the errors of integrators have a long tail.
@@ -144,4 +145,80 @@ fn a_probability_is_planned_and_sampled_to_its_accuracy() {
         assert!(found.half_width().is_some_and(|reached| reached <= 1e-4), "{candidate}: {found:?}");
         assert!((found.probability - 0.661_452).abs() < 3e-4);
     }
+}
+
+/// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s.
+fn box_of_four() -> Space {
+    let boxed = Space::builder(Coin::PAPER).rate_x(1.0..=60.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0);
+    boxed.speed(3.0..=5.0).build().expect("valid ranges")
+}
+
+fn planned(space: Space, accuracy: f64) -> &'static str {
+    Scene::new(Want::Probability(space), accuracy).plan().expect("a plan").choice.model.name
+}
+
+#[test]
+fn quadrature_is_planned_where_it_is_cheaper_than_sobol_points() {
+    let fig4 = sampling::named_space("paper-fig4").unwrap();
+    for (space, rough, fine) in [(fig4, 1e-2, 1e-5), (box_of_four(), 1e-3, 1e-8)] {
+        assert_eq!([planned(space, rough), planned(space, fine)], ["share-sobol", "share-quadrature"]);
+    }
+    // With the finest accuracy a plan offers no sample at all.
+    assert_eq!(planned(box_of_four(), 1e-11), "share-quadrature");
+}
+
+#[test]
+fn a_planned_quadrature_has_at_most_the_error_that_was_expected() {
+    let fig4 = sampling::named_space("paper-fig4").unwrap();
+    // Numbers of validation/reference, and of quadrature to 1e-13.
+    for (space, accuracy, probability) in
+        [(fig4, 1e-6, 0.661_452_104_190_6), (fig4, 1e-10, 0.661_452_104_190_6), (box_of_four(), 1e-7, 0.580_665_055_2)]
+    {
+        let scene = Scene::new(Want::Probability(space), accuracy);
+        let (choice, answer) = scene.choose_and_run(Registry::standard()).unwrap();
+        let Answer::Probability(found) = answer else { panic!("a probability was asked for") };
+        assert_eq!(choice.model.name, "share-quadrature");
+        assert!(choice.expected_error <= accuracy, "{choice:?}");
+        assert!((found.probability - probability).abs() <= choice.expected_error, "{found:?} {choice:?}");
+        assert!(found.half_width().unwrap() <= accuracy);
+        assert_eq!(scene.solve().unwrap().answer, Answer::Probability(found));
+    }
+}
+
+#[test]
+fn quadrature_is_passed_over_where_no_rule_serves() {
+    let fig4 = sampling::named_space("paper-fig4").unwrap();
+    let fixed = || Space::builder(Coin::PAPER).rate_x(20.0).rate_y(5.0).rate_z(3.0);
+    for (space, why) in [
+        (fig4.with_drop(Some(0.5)).unwrap(), "needs a landing at the height of the launch"),
+        (fixed().rate_x(1.0..=9.0).speed(3.0).build().unwrap(), "needs a range of speeds"),
+        (fixed().speed(3.0..=4.0).build().unwrap(), "the speed alone is free"),
+        (fixed().rate_x(19.999_999_999_9..=20.0).speed(3.0..=4.0).build().unwrap(), "needs wider ranges"),
+        (fixed().rate_x(1.0..=1e12).speed(3.0..=4.0).build().unwrap(), "the share of heads has too many kinks"),
+        (box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap()), "is for coins, with I1 = I2"),
+    ] {
+        let scene = Scene::new(Want::Probability(space), 1e-2);
+        let decision = scene.plan().unwrap();
+        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
+        assert_eq!(reason.unwrap().1.to_string(), why);
+        assert_ne!(decision.choice.model.name, "share-quadrature");
+    }
+    let four = Space::builder(Coin::PAPER).rate_x(1.0..=9.0).rate_y(1.0..=9.0).rate_z(1.0..=9.0).tilt(0.1);
+    let why = "more than two coordinates beside the speed are free";
+    let four = Scene::new(Want::Probability(four.speed(3.0..=5.0).build().unwrap()), 1e-4);
+    assert!(four.plan().unwrap().passed_over.iter().any(|(_, reason)| reason.to_string() == why));
+}
+
+#[test]
+fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
+    // Flights of 10^14 rad: a share of speeds is rounded by more than 1e-3, while an outcome is proven.
+    let far = Space::builder(Coin::PAPER).rate_x(20.0).rate_y(5.0).rate_z(3.0).tilt(0.0..=1.0);
+    let scene = Scene::new(Want::Probability(far.speed(1e14..=1.000_000_000_000_1e14).build().unwrap()), 1e-3);
+    let planned = scene.plan().unwrap().choice;
+    assert_eq!(planned.model.name, "share-quadrature");
+    assert!(matches!(planned.run(&scene), Err(Error::NotReached { .. })));
+    let solution = scene.solve().unwrap();
+    let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };
+    assert_eq!(solution.model.name, "sobol");
+    assert!(found.half_width().is_some_and(|reached| reached <= 1e-3), "{found:?}");
 }

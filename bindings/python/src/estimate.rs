@@ -1,7 +1,7 @@
 //! Estimates of probabilities, as plain values.
 
 use ::toss::sampling::{Counts, Estimate, Found};
-use ::toss::{Answer, Backend, How, InputError, Scene, Stage, Want};
+use ::toss::{Answer, Backend, Choice, How, InputError, Registry, Scene, Stage, Want};
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
@@ -53,10 +53,12 @@ pub(crate) fn estimate_by_accuracy(
     threads: Option<usize>,
 ) -> PyResult<(Values, Plan)> {
     let (scene, pool) = (Scene::new(Want::Probability(space.space), accuracy), threads::pool(threads)?);
-    let choice = scene.plan().map_err(Failure::from)?.choice;
-    let no_sample = || InputError::OutsideModel { field: "accuracy", why: "the plan for this space is no sample" };
-    let How::Sampling(plan) = choice.how else { return Err(Failure::from(no_sample()).into()) };
-    let answer = py.detach(|| pool.install(|| choice.run(&scene))).map_err(Failure::from)?;
-    let Answer::Probability(found) = answer else { return Err(Failure::from(no_sample()).into()) };
-    Ok((values(&found), plan.into()))
+    let run = || pool.install(|| scene.choose_and_run(Registry::standard()));
+    match py.detach(run).map_err(Failure::from)? {
+        (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => Ok((values(&found), plan.into())),
+        _ => {
+            let why = "the plan for this space is no sample";
+            Err(Failure::from(InputError::OutsideModel { field: "accuracy", why }).into())
+        }
+    }
 }

@@ -11,6 +11,7 @@
 use std::sync::LazyLock;
 
 use dynamics::{Error, RoughPhases, SolveError, Toss};
+use sampling::quadrature::Roughness;
 use serde::{Deserialize, Serialize};
 
 /// The table that this library was built with.
@@ -39,6 +40,9 @@ pub struct Fitted {
     /// The models that sample a space; none in a table of integrators from elsewhere.
     #[serde(default)]
     pub sampling: Vec<SamplingFit>,
+    /// Quadrature, an entry for each kind of space; none in a table of integrators from elsewhere.
+    #[serde(default)]
+    pub quadrature: Vec<QuadratureFit>,
 }
 
 /// A model in closed form.
@@ -85,6 +89,31 @@ pub struct SamplingFit {
     pub error: f64,
     /// The exponent with which the error falls as N grows.
     pub power: f64,
+}
+
+/// Quadrature over spaces of one kind. To an accuracy ε it takes `shares` × parts × ε^-`power` shares, where the parts are those of
+/// the space's [`Roughness`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct QuadratureFit {
+    /// The number of coordinates beside the speed.
+    pub coordinates: usize,
+    /// Whether the share behaves like a square root somewhere within the space.
+    pub has_root: bool,
+    /// Cost of a share (ns).
+    pub share_ns: f64,
+    /// Mean number of shares by part, to an accuracy of 1.
+    pub shares: f64,
+    /// The exponent with which the number of shares grows as the accuracy falls.
+    pub power: f64,
+    /// The smallest accuracy that was reached in all spaces.
+    pub finest: f64,
+}
+
+impl QuadratureFit {
+    /// The expected number of shares in a space with so many `parts`.
+    pub fn shares(&self, parts: f64, accuracy: f64) -> f64 {
+        self.shares * parts * accuracy.powf(-self.power)
+    }
 }
 
 /// How far a flight turns, and how: the place of a toss in the tables of the integrators.
@@ -191,6 +220,11 @@ impl Fitted {
         self.sampling.iter().find(|fit| fit.model == model)
     }
 
+    /// The entry of quadrature over spaces as rough as this, if it has been measured.
+    pub fn quadrature(&self, of: &Roughness) -> Option<&QuadratureFit> {
+        self.quadrature.iter().find(|fit| fit.coordinates == of.coordinates && fit.has_root == of.has_root)
+    }
+
     /// The coarsest tolerance at which the error of `fit` over `turn` is within `accuracy`, interpolated in phase and
     /// tolerance. The error is that of cos θ if `of_tilt`, else that of the attitude (rad).
     ///
@@ -284,8 +318,13 @@ mod tests {
                 name if model.is_closed_form() || name == "share" => {
                     assert!(fitted.closed(name).unwrap().cost_ns > 0.0);
                 }
+                "share-quadrature" => {}
                 name => assert!(fitted.sampling(name).unwrap().launch_ns > 0.0),
             }
+        }
+        for (coordinates, has_root) in [(1, false), (1, true), (2, false), (2, true)] {
+            let fit = fitted.quadrature(&Roughness { coordinates, has_root, parts: 1.0 }).unwrap();
+            assert!(fit.shares(9.0, 1e-6) >= fit.shares(3.0, 1e-3), "{fit:?}");
         }
         assert_eq!(fitted.complaint(), None);
         for (solver, scheme) in [("gamma", "dop853"), ("euler", "dopri5"), ("quaternion", "taylor")] {
@@ -314,6 +353,7 @@ mod tests {
             tolerances: vec![1e-3, 1e-5, 1e-7],
             integrators: Vec::new(),
             sampling: Vec::new(),
+            quadrature: Vec::new(),
         };
         let near =
             |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found}, not {expected}");

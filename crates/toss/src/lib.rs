@@ -240,6 +240,8 @@ mod reason;
 mod registry;
 mod rounding;
 #[cfg(feature = "planner")]
+mod rule;
+#[cfg(feature = "planner")]
 mod samples;
 #[cfg(feature = "planner")]
 mod scene;

@@ -69,6 +69,8 @@ pub(crate) enum Kind {
         /// Makes the plan from the number of launches and the seed.
         plan: fn(u64, u64) -> Plan,
     },
+    /// Quadrature over a space, to the accuracy wanted. `rule.rs` has the spaces that it serves.
+    Quadrature,
 }
 
 const fn closed_form(
@@ -102,7 +104,7 @@ const fn sample(
 
 /// All models: first those for a toss, then those for a space, both in the order of their cost, from the cheapest on,
 /// with those for bodies that are no coins behind those for coins.
-pub static MODELS: [Model; 17] = [
+pub static MODELS: [Model; 18] = [
     closed_form("outcome", "outcome, proven", WantKind::Outcome, |toss, _| {
         Ok(Answer::Outcome(Verdict::Proven(certify(&coin(toss)?)?)))
     }),
@@ -151,6 +153,13 @@ pub static MODELS: [Model; 17] = [
         },
         |_, _| Plan::ExactSpeed(Rest::Grid),
     ),
+    Model {
+        name: "share-quadrature",
+        assumes: "that the speed and one or two other coordinates are free",
+        gives: "probability, with an error estimate",
+        of: Of::Coins,
+        kind: Kind::Quadrature,
+    },
     sample(
         "share-sobol",
         "that the speed is free",

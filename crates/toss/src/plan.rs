@@ -15,7 +15,7 @@ use crate::integrators::{Aim, Flights, integrated, integrators};
 use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
 use crate::registry::Registry;
-use crate::samples::{sampled, samples};
+use crate::samples::{is_out_of_reach, sampled, samples};
 use crate::scene::{Scene, Want};
 use crate::trace::require_points;
 
@@ -112,8 +112,28 @@ impl Scene {
 
     #[inline(never)]
     fn solve_as_planned(&self, registry: &Registry) -> Result<Solution, Error> {
-        let choice = self.plan_with(registry)?.choice;
-        Ok(Solution { answer: choice.run(self)?, model: choice.model })
+        let (choice, answer) = self.choose_and_run(registry)?;
+        Ok(Solution { answer, model: choice.model })
+    }
+
+    /// Answers the scene by the model that [`Scene::plan_with`] chooses, and returns that choice with the answer. A model
+    /// that turns out not to reach the accuracy for a space, by its rule or because of rounding, gives way to the next.
+    ///
+    /// # Errors
+    /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if no model reaches the accuracy.
+    pub fn choose_and_run(&self, registry: &Registry) -> Result<(Choice, Answer), Error> {
+        let mut choice = self.plan_with(registry)?.choice;
+        let mut failed = Vec::new();
+        loop {
+            match choice.run(self) {
+                Err(error) if is_out_of_reach(&error) => {
+                    failed.push(choice.model);
+                    let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
+                    choice = cheapest(Vec::new(), others).ok_or(error)?.choice;
+                }
+                found => return found.map(|answer| (choice, answer)),
+            }
+        }
     }
 
     /// Checks the accuracy and the number of points. A toss and a space need no check: their types hold valid values

@@ -4,12 +4,13 @@
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
-use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Estimate, Found, Plan, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::fitted::{FITTED, SamplingFit};
 use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
+use crate::rule;
 use crate::scene::{Scene, Want};
 
 /// The seed of all planned samples. Any other number would serve as well.
@@ -36,6 +37,8 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
             let refused = only_coins.or_else(|| refuses(space)).map(Err);
             Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
         }
+        Kind::Quadrature if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
+        Kind::Quadrature => Some((model.into(), rule::offer(model, space, scene.accuracy))),
         _ => None,
     };
     Ok(MODELS.iter().filter_map(offer).collect())
@@ -84,9 +87,10 @@ fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> R
 /// Runs `plan`, with twice the launches again and again as long as the half-width of the interval exceeds the accuracy.
 pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
     let found = Sampler::exact().estimate(space, plan)?;
-    match (found.half_width(), doubled(plan)) {
+    let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
+    match (found.half_width(), refined(plan, accuracy)) {
         (Some(reached), Some(more)) if reached > accuracy => {
-            if found.points >= MOST_LAUNCHES {
+            if found.points >= MOST_LAUNCHES || rounding_error > accuracy {
                 return Err(Error::NotReached { points: found.points, reached, accuracy });
             }
             sampled(space, more, accuracy)
@@ -95,13 +99,19 @@ pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estima
     }
 }
 
-/// The plan with twice the launches; `None` for a plan that draws no sample.
-fn doubled(plan: Plan) -> Option<Plan> {
+/// The plan with twice the launches, or with this accuracy for quadrature; `None` for a plan that cannot be refined.
+fn refined(plan: Plan, accuracy: f64) -> Option<Plan> {
     let twice = |scrambled: Scrambled| Scrambled { points: 2 * scrambled.points, ..scrambled };
     match plan {
         Plan::Random { points, seed } => Some(Plan::Random { points: 2 * points, seed }),
         Plan::Sobol(scrambled) => Some(Plan::Sobol(twice(scrambled))),
         Plan::ExactSpeed(Rest::Sobol(scrambled)) => Some(Plan::ExactSpeed(Rest::Sobol(twice(scrambled)))),
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => None,
+        Plan::Quadrature { .. } => Some(Plan::Quadrature { accuracy }),
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
     }
+}
+
+/// Whether `error` is that of a model that does not reach its accuracy for a space, however many launches it takes.
+pub(crate) fn is_out_of_reach(error: &Error) -> bool {
+    matches!(error, Error::NotReached { points, .. } if *points < MOST_LAUNCHES)
 }

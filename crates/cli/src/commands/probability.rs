@@ -192,10 +192,11 @@ impl Args {
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        let choice = scene.plan()?.choice;
-        let How::Sampling(plan) = choice.how else { return Err(no_sample()) };
-        let Answered::Probability(found) = self.threads.run(|| choice.run(&scene))?? else { return Err(no_sample()) };
-        Ok((plan, *found))
+        let (choice, answer) = self.threads.run(|| scene.choose_and_run(Registry::standard()))??;
+        match (choice.how, answer) {
+            (How::Sampling(plan), Answered::Probability(found)) => Ok((plan, *found)),
+            _ => Err(no_sample()),
+        }
     }
 
     fn accuracy(&self, space: &Space) -> f64 {

@@ -11,6 +11,7 @@ mod kronrod;
 mod line;
 mod nest;
 mod rest;
+mod roughness;
 
 use dynamics::error::require;
 use dynamics::{Error, InputError};
@@ -21,6 +22,8 @@ use crate::plan::ONLY_COINS;
 use crate::space::Space;
 use nest::Nest;
 use rest::rest_of;
+pub use roughness::Roughness;
+use roughness::ordered;
 
 /// The largest number of coordinates beside the speed, if ωx and ωy of launches from horizontal count as one.
 const MOST_COORDINATES: usize = 2;
@@ -66,12 +69,22 @@ pub fn coordinates(space: &Space) -> usize {
     rest_of(space).len()
 }
 
+/// How rough the share of heads is over `space`, from which follows about how many shares quadrature takes.
+///
+/// # Errors
+/// That of [`require_smooth`], and [`Error::Launch`] for a phase above 2^53 rad.
+pub fn roughness(space: &Space) -> Result<Roughness, Error> {
+    require_smooth(space)?;
+    roughness::roughness(space, space.coin().ok_or(ONLY_COINS)?, rest_of(space))
+}
+
 /// Estimates P(heads) of `space` to `accuracy`.
 pub(crate) fn estimate(space: &Space, accuracy: f64) -> Result<Estimate, Error> {
     require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)?;
     require_smooth(space)?;
     let coin = space.coin().ok_or(ONLY_COINS)?;
-    let found = Nest::new(space, coin, rest_of(space), accuracy)?.mean()?;
+    let rest = ordered(space, coin, rest_of(space))?.into_iter().map(|(_, rest)| rest).collect();
+    let found = Nest::new(space, coin, rest, accuracy).mean()?;
     let reached = found.rule_error + found.rounding_error;
     if found.value.is_finite() && reached <= accuracy {
         return Ok(Estimate::of_quadrature(found.value, [found.rule_error, found.rounding_error], found.shares));

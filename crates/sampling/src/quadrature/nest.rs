@@ -34,34 +34,14 @@ pub(super) struct Nest<'a> {
     accuracy: f64,
 }
 
-fn failed((toss, source): (Box<dynamics::Toss>, dynamics::SolveError)) -> Error {
+pub(super) fn failed((toss, source): (Box<dynamics::Toss>, dynamics::SolveError)) -> Error {
     Error::Launch { index: 0, toss: Box::new((*toss).into()), source }
 }
 
 impl<'a> Nest<'a> {
-    /// The innermost line is the one along which the phase changes most, because kinks are found there.
-    pub(super) fn new(space: &'a Space, coin: Coin, mut rest: Vec<Rest>, accuracy: f64) -> Result<Self, Error> {
-        let mut middle = space.fixed_values();
-        for rest in &rest {
-            let [lo, hi] = rest.bounds();
-            middle[rest.of as usize] = 0.5 * (lo + hi);
-            if rest.is_across() {
-                middle[Coordinate::RateY as usize] = 0.0;
-            }
-        }
-        let change = |rest: &Rest| -> Result<f64, Error> {
-            let phase = |value: f64| -> Result<f64, Error> {
-                let mut values = middle;
-                values[rest.of as usize] = value;
-                Ok(Motion::new(space, coin, &values).map_err(failed)?.phases[1])
-            };
-            let [lo, hi] = rest.bounds().map(phase);
-            let there = phase(middle[rest.of as usize])?;
-            Ok((lo? - there).abs() + (hi? - there).abs())
-        };
-        let mut changes = rest.drain(..).map(|rest| Ok((change(&rest)?, rest))).collect::<Result<Vec<_>, Error>>()?;
-        changes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        Ok(Self { space, coin, rest: changes.into_iter().map(|(_, rest)| rest).collect(), accuracy })
+    /// Integrates over `rest`, which are in the order from the outermost line on.
+    pub(super) fn new(space: &'a Space, coin: Coin, rest: Vec<Rest>, accuracy: f64) -> Self {
+        Self { space, coin, rest, accuracy }
     }
 
     /// The mean share over all coordinates.

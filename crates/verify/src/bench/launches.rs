@@ -11,8 +11,10 @@ use super::contest::Contest;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
+const QUADRATURE: &str = "P(heads) by quadrature, a whole estimate";
+
 /// The box of launches from which the tosses of the other benchmarks are.
-pub(super) fn box_of_launches() -> Result<Space, InputError> {
+pub(crate) fn box_of_launches() -> Result<Space, InputError> {
     Space::parse(Coin::PAPER, &[(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")])
 }
 
@@ -41,5 +43,22 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
             contests.push(Contest { group: LAUNCH, name, error: None, tosses: points, run: Box::new(run) });
         }
     }
+    contests.extend(rules()?);
     Ok(contests)
+}
+
+/// Estimates by quadrature, whose number of shares nobody chooses, so that their times are those of whole estimates.
+fn rules<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
+    let pool = || ThreadPoolBuilder::new().num_threads(1).build().context("cannot start the threads");
+    let cases = [("Fig. 4", named_space("paper-fig4")?, 1e-10), ("box", box_of_launches()?, 1e-3)];
+    let contest = |(name, space, accuracy): (&str, Space, f64)| {
+        let (pool, plan) = (pool()?, Plan::Quadrature { accuracy });
+        let run = move || {
+            let found = pool.install(|| Sampler::exact().estimate(&space, plan));
+            std::hint::black_box(found.expect("an accuracy within reach"));
+        };
+        let name = format!("{name}, to {accuracy:e}, threads: 1");
+        Ok(Contest { group: QUADRATURE, name, error: None, tosses: 1, run: Box::new(run) })
+    };
+    cases.into_iter().map(contest).collect()
 }

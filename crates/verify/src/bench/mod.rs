@@ -11,7 +11,7 @@ mod contest;
 pub mod instructions;
 mod integrators;
 mod kernels;
-mod launches;
+pub(crate) mod launches;
 mod reference;
 mod tosses;
 

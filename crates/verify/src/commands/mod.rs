@@ -56,8 +56,7 @@ enum Command {
     Replay(Box<replay::Replay>),
     Bench(bench::Bench),
     Work(work::Work),
-    /// Measure the errors and costs by which the planner chooses an integrator, and write them
-    Fit,
+    Fit(fit::Fit),
     /// Draw the accuracy of the committed records over time
     History,
     Figure(figure::Figure),
@@ -106,7 +105,7 @@ impl Program {
             Command::Replay(command) => command.run(suite, &out),
             Command::Bench(command) => command.run(&suite),
             Command::Work(command) => command.run(),
-            Command::Fit => fit::fit(&suite),
+            Command::Fit(of) => fit::fit(&suite, &of),
             Command::History => history::history(&suite, &out),
             Command::Figure(command) => command.run(&suite),
         }

@@ -72,7 +72,7 @@ impl Run {
         if self.bless && verified.verdict() != Verdict::Fail {
             suite.accept(&verified)?;
             if *suite.commands() == Commands::Workspace && verified.report().effort == Effort::Standard {
-                fit::fit(&suite)?;
+                fit::fit(&suite, &fit::Fit::default())?;
             }
         }
         Ok(verified.exit_code())

@@ -32,7 +32,7 @@ pub mod reference;
 pub mod replay;
 pub mod run;
 pub mod search;
-mod slope;
+pub(crate) mod slope;
 pub mod subject;
 pub mod survey;
 pub mod tables;

@@ -2,7 +2,7 @@
 //! spaces. The library is built with the result, so planning itself measures nothing.
 
 use anyhow::ensure;
-use toss::fitted::{ClosedFit, Fitted};
+use toss::fitted::{ClosedFit, FITTED, Fitted};
 use toss::{Answer, How, MODELS, Model, Registry, Scene, Scheme, SolverEntry, Want};
 
 use super::clock::{median, nanoseconds};
@@ -10,6 +10,7 @@ use super::delivered::{Truth, true_probability};
 use super::figures::{SAFETY, SEED, SHARE, rounded};
 use super::fit_bodies;
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
+use super::fit_quadrature::quadrature;
 use super::fit_sampling::sampling;
 use super::scenes::{self, served};
 
@@ -35,7 +36,19 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
         tolerances,
         integrators,
         sampling: sampling()?,
+        quadrature: quadrature()?,
     })
+}
+
+/// The table that the library was built with, of which the models for a space are measured anew.
+///
+/// # Errors
+/// Never for the library's own models.
+pub fn fit_spaces(measured: &str) -> anyhow::Result<Fitted> {
+    let before = FITTED.clone();
+    let date = before.measured.split("; ").next().unwrap_or_default();
+    let measured = format!("{date}; models of a space {measured}");
+    Ok(Fitted { measured, sampling: sampling()?, quadrature: quadrature()?, ..before })
 }
 
 /// Measures the integrators of `registry` that are not of this workspace, for the planner of somebody who has them.
@@ -69,6 +82,7 @@ pub fn fit_others(registry: &Registry, measured: String) -> anyhow::Result<Fitte
         tolerances: tolerances.clone(),
         integrators: integrators.collect::<anyhow::Result<_>>()?,
         sampling: Vec::new(),
+        quadrature: Vec::new(),
     })
 }
 

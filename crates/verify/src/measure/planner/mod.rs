@@ -11,6 +11,7 @@ mod figures;
 pub mod fit;
 mod fit_bodies;
 mod fit_integrators;
+mod fit_quadrature;
 mod fit_sampling;
 pub mod scenes;
 pub mod summary;
