@@ -101,6 +101,8 @@ mod tests {
             "verify --claim 1e-9",
             "verify --list --command a",
             "verify --fit --command a",
+            "verify --fit --fit-spaces",
+            "bench --instructions --to 1e-6",
             "contest --quick --bless",
             "contest --check --quick",
             "contest --draw --bless",

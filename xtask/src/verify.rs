@@ -50,7 +50,7 @@ pub(crate) struct Verify {
 #[derive(Debug, Args)]
 struct Foreign {
     /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-integrator.md
-    #[arg(long, value_name = "LINE", conflicts_with_all = ["list", "fit"])]
+    #[arg(long, value_name = "LINE", conflicts_with_all = ["list", "fit", "fit_spaces"])]
     command: Option<String>,
     /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
     #[arg(long, value_name = "ERROR", requires = "command")]
@@ -93,6 +93,9 @@ struct Instead {
     /// Measure the planner's table, which --bless does too
     #[arg(long)]
     fit: bool,
+    /// Measure the part of the planner's table that is about spaces of launches, and keep the rest
+    #[arg(long)]
+    fit_spaces: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -110,11 +113,12 @@ impl Verify {
 
     /// The command of the program and its arguments.
     fn arguments(&self) -> Vec<String> {
-        let Instead { list, replay, fit } = &self.instead;
+        let Instead { list, replay, fit, fit_spaces } = &self.instead;
         match replay {
             Some(input) => ["replay".into(), input.clone()].into_iter().chain(self.foreign.arguments()).collect(),
             None if *list => vec!["list".into()],
             None if *fit => vec!["fit".into()],
+            None if *fit_spaces => vec!["fit".into(), "--spaces".into()],
             None => self.run_arguments(),
         }
     }
@@ -145,13 +149,17 @@ pub(crate) struct Bench {
     /// Take fewer instructions into the baseline
     #[arg(long, requires = "instructions")]
     bless: bool,
+    /// Print instead how long each method takes to this accuracy of P(heads), such as 1e-6
+    #[arg(long, value_name = "EPS", conflicts_with = "instructions")]
+    to: Option<String>,
 }
 
 impl Bench {
     pub(crate) fn run(&self) -> Result<ExitCode, String> {
         let flags = [("--instructions", self.instructions), ("--bless", self.bless)];
         let given = flags.iter().filter(|(_, given)| *given).map(|(flag, _)| (*flag).to_owned());
-        program::run(PROGRAM, &std::iter::once("bench".to_owned()).chain(given).collect::<Vec<_>>())
+        let to = self.to.iter().flat_map(|accuracy| ["--to".to_owned(), accuracy.clone()]);
+        program::run(PROGRAM, &std::iter::once("bench".to_owned()).chain(given).chain(to).collect::<Vec<_>>())
     }
 }
 
@@ -196,6 +204,7 @@ mod tests {
                 "run --command a --answer-seconds 1 --total-seconds 2",
             ),
             ("--fit", "fit"),
+            ("--fit-spaces", "fit --spaces"),
         ] {
             let line = Line::try_parse_from(std::iter::once("verify").chain(given.split_whitespace())).unwrap();
             assert_eq!(line.verify.arguments().join(" "), passed);

@@ -13,6 +13,7 @@ mod integrators;
 mod kernels;
 pub(crate) mod launches;
 mod reference;
+pub mod to_accuracy;
 mod tosses;
 
 use std::fmt;

@@ -5,6 +5,7 @@ use clap::Args;
 
 use crate::bench::Table;
 use crate::bench::instructions::Instructions;
+use crate::bench::to_accuracy::ToAccuracy;
 use crate::files;
 use crate::suite::Suite;
 
@@ -17,11 +18,18 @@ pub(super) struct Bench {
     /// Take smaller counts of instructions over into the baseline
     #[arg(long, requires = "instructions")]
     bless: bool,
+    /// Print instead how long each method takes to this accuracy of P(heads), such as 1e-6
+    #[arg(long, value_name = "EPS", conflicts_with = "instructions")]
+    to: Option<f64>,
 }
 
 impl Bench {
     /// Returns the exit code: 3 if a work takes more instructions than the baseline allows, otherwise 0.
     pub(super) fn run(&self, suite: &Suite) -> anyhow::Result<u8> {
+        if let Some(accuracy) = self.to {
+            files::print(&ToAccuracy::measure(accuracy)?.to_string())?;
+            return Ok(0);
+        }
         if !self.instructions {
             files::print(&Table::measure()?.to_string())?;
             return Ok(0);
