@@ -9,21 +9,10 @@ from . import errors
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
+from .results import Intervals, Inverse, Landing, Margins, Solution, Trace, Work
 from .sampling import Estimate, estimate, merge, probability, tally
-from .single import (
-    Intervals,
-    Inverse,
-    Landing,
-    Margins,
-    Trace,
-    Work,
-    intervals,
-    inverse,
-    margins,
-    toss,
-    trace,
-)
-from .solving import Solution, solve
+from .single import intervals, inverse, margins, toss, trace
+from .solving import solve
 
 __all__ = [
     "Body",

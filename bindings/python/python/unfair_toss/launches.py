@@ -25,8 +25,11 @@ _OPERAND: Any = ["readonly", "contig", "aligned", "nbo"]
 
 _NAMES = ("rate_x", "rate_y", "rate_z", "speed")
 
-_BLOCK = 1 << 16
-"""Launches for which columns are copied at a time, if they are not contiguous."""
+_BLOCK = 1 << 18
+"""Launches of a call of the kernels: so many that the call itself does not count."""
+
+_COPIED_BLOCK = 1 << 16
+"""The same if columns are copied: so few that the copies stay in the cache."""
 
 _LONG_BLOCK = 1 << 21
 """The same for several threads, whose start takes as long as thousands of launches."""
@@ -73,9 +76,11 @@ class Launches:
             threads=threads,
         )
         if not self.batch.is_vectorised:
-            self.block = _SLOW_BLOCK * (threads or 64)
+            self.block = self.copied_block = _SLOW_BLOCK * (threads or 64)
+        elif threads == 1:
+            self.block, self.copied_block = _BLOCK, _COPIED_BLOCK
         else:
-            self.block = _BLOCK if threads == 1 else _LONG_BLOCK
+            self.block = self.copied_block = _LONG_BLOCK
 
     def blocks(self) -> Iterator[tuple[int, Columns]]:
         """Blocks of contiguous columns, each with the index of its first launch; only what is strided is copied."""
@@ -102,7 +107,7 @@ class Launches:
             op_dtypes=[np.dtype(np.float64)] * len(self.columns),
             casting="same_kind",
             order="C",
-            buffersize=self.block,
+            buffersize=self.copied_block,
         )
         first = 0
         for columns in iterator:

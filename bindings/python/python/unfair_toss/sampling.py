@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._native import Plan, Solver, Space, Tally
 from .columns import stages
 from .errors import MalformedError, PartError
-from .parts import Parts
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 _SLICE = 1 << 28
 """Launches between two looks for Ctrl-C and two reports of progress: some tenths of a second."""
@@ -256,6 +257,9 @@ def probability(
         return _estimate(_native.estimate_by_solver(space, plan, "exact", threads), plan)
     if not parted:
         return estimate(tally(space, plan, threads=threads, progress=progress))
+    # Only here, because what it imports takes as long as all the rest.
+    from .parts import Parts
+
     parts = Parts(space, plan, shards, folder, threads, executor, retries, progress)
     return merge(parts.computed())
 

@@ -2,78 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from ._native import Solver, Toss
 from .errors import MalformedError, OutOfRangeError
-from .single import Work
-
-if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation
-
-
-@dataclass(frozen=True)
-class Solution:
-    """A flight as a solver found it.
-
-    Attributes
-    ----------
-    t : ndarray of shape (n,)
-        Times after launch in s.
-    y : ndarray of shape (7, n)
-        The state at each time: the unit quaternion (w, x, y, z) from the body to the laboratory, and the angular
-        velocity in rad/s along the axes of the body.
-    nfev : int
-        Evaluations of the right-hand side; 0 for a closed form.
-    work : Work
-        Evaluations, and steps.
-    error_estimate : float or None
-        The solver's estimate of the error of cos θ at the landing, of a flight without stops.
-    success : bool
-        Always true: a solver that cannot go on raises ``errors.SolveError`` instead.
-    status : int
-        0, as SciPy has it for the end of the interval.
-    message : str
-        In words.
-    """
-
-    t: npt.NDArray[np.float64]
-    y: npt.NDArray[np.float64]
-    nfev: int
-    work: Work
-    error_estimate: float | None
-    success: bool = True
-    status: int = 0
-    message: str = "The solver reached the landing or the last time."
-
-    @property
-    def attitude(self) -> npt.NDArray[np.float64]:
-        """Unit quaternions (w, x, y, z), of shape (n, 4)."""
-        return np.ascontiguousarray(self.y[:4].T)
-
-    @property
-    def rate(self) -> npt.NDArray[np.float64]:
-        """Angular velocities in rad/s along the axes of the body, of shape (n, 3)."""
-        return np.ascontiguousarray(self.y[4:].T)
-
-    @property
-    def cos_tilt(self) -> npt.NDArray[np.float64]:
-        """cos θ of the attitudes, of shape (n,)."""
-        w, x, y, z = self.y[:4]
-        heights: npt.NDArray[np.float64] = (w * w + z * z) - (x * x + y * y)
-        return heights
-
-    @property
-    def rotation(self) -> Rotation:
-        """The attitudes as one ``scipy.spatial.transform.Rotation``."""
-        from scipy.spatial.transform import Rotation
-
-        return Rotation.from_quat(self.attitude, scalar_first=True)
+from .results import Solution, Work
 
 
 def solve(
