@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use ::toss::{Attitude, Backend, Error, Launch, Outcome, RigidToss, Stage, TimeOfFlight, Tosses, certify_rigid};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::body_of;
@@ -13,8 +13,11 @@ use crate::solver::backend_of;
 use crate::threads;
 use crate::toss::{attitude_of, components_of};
 
-/// Launches that are interleaved or converted at a time, so that what is between stays in the cache.
+/// Launches whose attitudes are interleaved at a time, so that what is between stays in the cache.
 const BLOCK: usize = 512;
+
+/// The same for outcomes, which are a byte each: so many that the start of a batch does not count.
+const OUTCOMES_BLOCK: usize = 1 << 13;
 
 /// What the launches of some columns have in common.
 #[pyclass(frozen, module = "unfair_toss._native")]
@@ -65,11 +68,7 @@ impl Batch {
 
     /// Writes cos θ at landing of the launches, whose first one has the index `first`.
     fn cos_tilts(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
-        let columns = borrowed(&columns)?;
-        let launches = self.launches(&columns, first)?;
-        let mut out = out.try_readwrite().map_err(in_use)?;
-        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 1)?;
-        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 1, |range, out| launches.cos_tilts(range, out)))?)
+        self.write(py, &columns, out, 1, first, |range, out, launches| launches.cos_tilts(range, out))
     }
 
     /// Writes 1 for heads, -1 for tails and 0 for undecided launches.
@@ -80,20 +79,12 @@ impl Batch {
         out: &Bound<'_, PyArray1<i8>>,
         first: u64,
     ) -> PyResult<()> {
-        let columns = borrowed(&columns)?;
-        let launches = self.launches(&columns, first)?;
-        let mut out = out.try_readwrite().map_err(in_use)?;
-        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 1)?;
-        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 1, |range, out| launches.outcomes(range, out)))?)
+        self.write(py, &columns, out, 1, first, |range, out, launches| launches.outcomes(range, out))
     }
 
     /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
     fn attitudes(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
-        let columns = borrowed(&columns)?;
-        let launches = self.launches(&columns, first)?;
-        let mut out = out.try_readwrite().map_err(in_use)?;
-        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, 4)?;
-        Ok(py.detach(|| threads::fill(self.pool.as_ref(), out, 4, |range, out| launches.attitudes(range, out)))?)
+        self.write(py, &columns, out, 4, first, |range, out, launches| launches.attitudes(range, out))
     }
 
     /// Counts the outcomes.
@@ -127,6 +118,24 @@ fn no_column(error: impl ToString) -> PyErr {
 }
 
 impl Batch {
+    /// Writes what `solve` finds of the launches, `width` numbers for each, without Python's lock.
+    fn write<T: Element + Send>(
+        &self,
+        py: Python<'_>,
+        columns: &[Column<'_>; 4],
+        out: &Bound<'_, PyArray1<T>>,
+        width: usize,
+        first: u64,
+        solve: impl Fn(Range<usize>, &mut [T], &Launches<'_>) -> Result<(), Failure> + Sync,
+    ) -> PyResult<()> {
+        let columns = borrowed(columns)?;
+        let launches = self.launches(&columns, first)?;
+        let mut out = out.try_readwrite().map_err(in_use)?;
+        let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, width)?;
+        let pool = self.pool.as_ref();
+        Ok(py.detach(|| threads::fill(pool, out, width, |range, out| solve(range, out, &launches)))?)
+    }
+
     fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>; 4], first: u64) -> PyResult<Launches<'a>> {
         let [x, y, z, speeds] = columns.each_ref().map(|column| column.as_slice().map_err(no_column));
         let (rates, speeds) = ([x?, y?, z?], speeds?);
@@ -212,15 +221,15 @@ impl Launches<'_> {
 
     fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
         let start = range.start;
-        let mut block = [Outcome::Undecided; BLOCK];
+        let mut block = [Outcome::Undecided; OUTCOMES_BLOCK];
         let Some(_) = self.batch(0..0)? else {
             return self.each(range, |place, solver, toss| {
                 out[place] = sign(solver.outcome_rigid(toss)?);
                 Ok(())
             });
         };
-        for (number, out) in out.chunks_mut(BLOCK).enumerate() {
-            let from = start + number * BLOCK;
+        for (number, out) in out.chunks_mut(OUTCOMES_BLOCK).enumerate() {
+            let from = start + number * OUTCOMES_BLOCK;
             let outcomes = &mut block[..out.len()];
             if let Some(batch) = self.batch(from..from + out.len())? {
                 batch.outcomes(outcomes).map_err(|error| self.failed(from, error))?;
@@ -279,9 +288,6 @@ impl Launches<'_> {
 
 /// The sign of cos θ.
 fn sign(outcome: Outcome) -> i8 {
-    match outcome {
-        Outcome::Heads => 1,
-        Outcome::Tails => -1,
-        Outcome::Undecided => 0,
-    }
+    // Not a match, which would not be vectorised.
+    i8::from(outcome == Outcome::Heads) - i8::from(outcome == Outcome::Tails)
 }
