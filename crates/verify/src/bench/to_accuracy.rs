@@ -150,10 +150,10 @@ impl Method {
     }
 }
 
-/// A time (ns) in the unit that suits it, up to hours.
+/// A time (ns) in the unit that suits it, up to minutes.
 fn long(nanoseconds: f64) -> String {
     let seconds = 1e-9 * nanoseconds;
-    if seconds < 120.0 { Nanoseconds(nanoseconds).to_string() } else { format!("{:.1} h", seconds / 3600.0) }
+    if seconds < 120.0 { Nanoseconds(nanoseconds).to_string() } else { format!("{:.1} min", seconds / 60.0) }
 }
 
 impl fmt::Display for ToAccuracy {
