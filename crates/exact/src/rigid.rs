@@ -39,7 +39,7 @@
 //! digits after the point, and results are rounded once. A few launches need more digits, and their constants are
 //! rounded from those: tensors next to the separatrix, and launches whose components differ by more than 2^200.
 //!
-//! [`RigidMotion::compensated`] is four to eight times as fast: its phases are in double-double, all else is in f64.
+//! [`RigidMotion::compensated`] is three to seven times as fast: its phases are in double-double, all else is in f64.
 //!
 //! [`certify_rigid`] proves outcomes by the same formulas in [`Ball`](numerics::Ball), numbers that carry a bound of
 //! every rounding.
@@ -102,7 +102,7 @@ impl RigidMotion {
         Self::by(toss, |toss, rate| Sums::DoubleDouble(Box::new(curve_in_double_double(toss, rate))))
     }
 
-    /// The same motion for many launches or times: a launch takes a quarter of the time, a further time an eighth. Only
+    /// The same motion for many launches or times: a launch takes a third of the time, a further time a seventh. Only
     /// the phases are in double-double, all else is in f64. Errors were at most 2.2e-15 rad of the attitude and 1.5e-15 of
     /// cos θ over 122 500 tosses with phases to 1e9 rad.
     ///
