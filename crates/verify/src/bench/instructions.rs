@@ -14,9 +14,9 @@ use sampling::{Plan, Rest, Sampler, Scrambled};
 use serde::{Deserialize, Serialize};
 use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR};
 
-use super::launches::box_of_launches;
 use super::tosses::Columns;
 use crate::files;
+use crate::spaces::box_of_launches;
 
 /// Number of tosses in a work of many tosses.
 const TOSSES: usize = 512;

@@ -3,20 +3,14 @@
 
 use anyhow::Context;
 use rayon::ThreadPoolBuilder;
-use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Plan, Rest, Sampler, Scrambled, Space, named_space};
-use toss::{Coin, InputError};
 
 use super::contest::Contest;
+use crate::spaces::box_of_launches;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
 const QUADRATURE: &str = "P(heads) by quadrature, a whole estimate";
-
-/// The box of launches from which the tosses of the other benchmarks are.
-pub(crate) fn box_of_launches() -> Result<Space, InputError> {
-    Space::parse(Coin::PAPER, &[(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")])
-}
 
 /// Estimates by each method over the space of the paper's Fig. 4 and over the box of launches, on one thread and on all.
 pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {

@@ -11,7 +11,7 @@ mod contest;
 pub mod instructions;
 mod integrators;
 mod kernels;
-pub(crate) mod launches;
+mod launches;
 mod reference;
 pub mod to_accuracy;
 mod tosses;

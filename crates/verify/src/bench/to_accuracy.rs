@@ -14,9 +14,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space, named_space};
 use toss::{Error, Nanoseconds};
 
-use super::launches::box_of_launches;
 use crate::host::Host;
 use crate::measure::slope::slope;
+use crate::spaces::box_of_launches;
 
 /// How long each method takes to an accuracy, on one core.
 pub struct ToAccuracy {

@@ -11,8 +11,8 @@ use toss::fitted::QuadratureFit;
 use super::clock::{median, nanoseconds};
 use super::figures::{SEED, rounded};
 use super::scenes;
-use crate::bench::launches::box_of_launches;
 use crate::measure::slope::slope;
+use crate::spaces::box_of_launches;
 
 /// The accuracies that are asked for.
 fn accuracies() -> impl Iterator<Item = f64> {
