@@ -28,6 +28,7 @@ pub mod judge;
 pub mod measure;
 pub mod process;
 pub mod render;
+mod slope;
 mod spaces;
 pub mod suite;
 pub mod watch;

@@ -15,7 +15,7 @@ use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space, named_space};
 use toss::{Error, Nanoseconds};
 
 use crate::host::Host;
-use crate::measure::slope::slope;
+use crate::slope::slope;
 use crate::spaces::box_of_launches;
 
 /// How long each method takes to an accuracy, on one core.

@@ -32,7 +32,6 @@ pub mod reference;
 pub mod replay;
 pub mod run;
 pub mod search;
-pub(crate) mod slope;
 pub mod subject;
 pub mod survey;
 pub mod tables;

@@ -12,8 +12,8 @@ use crate::measure::convergence::error;
 use crate::measure::measurement::Measurement;
 use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
-use crate::measure::slope::slope;
 use crate::measure::subject::{Subject, usual};
+use crate::slope::slope;
 
 pub(super) const PROPORTION: Check = Check {
     id: "tolerance-proportion",

@@ -11,7 +11,7 @@ use toss::fitted::QuadratureFit;
 use super::clock::{median, nanoseconds};
 use super::figures::{SEED, rounded};
 use super::scenes;
-use crate::measure::slope::slope;
+use crate::slope::slope;
 use crate::spaces::box_of_launches;
 
 /// The accuracies that are asked for.

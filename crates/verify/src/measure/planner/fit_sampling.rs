@@ -12,7 +12,7 @@ use super::delivered::true_probability;
 use super::figures::{SAFETY, SEED, SHARE, rounded};
 use super::fit_bodies;
 use super::scenes::{self, served};
-use crate::measure::slope::slope;
+use crate::slope::slope;
 
 /// Name of the model that integrates over the speed in closed form and takes Sobol points for everything else.
 const SHARE_SOBOL: &str = "share-sobol";
