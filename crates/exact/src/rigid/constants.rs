@@ -39,7 +39,7 @@ pub(super) fn periodic<N: Phases<M>, M: Elementary>(
     let k = k.part();
     let modulus = (product(a12, &of.p3) / below).part().sqrt();
     let root = |number: &N| number.magnitude().part().sqrt();
-    // The smaller one of c and v, whose tangents are 1/k of each other's, has all its digits.
+    // The tangents of the amplitudes of c and v have the product 1/k. The smaller one of c and v has all its digits.
     let (k_prime, c, v) = if product(&of.p3, a23).to_f64().abs() < product(&of.p1, a12).to_f64().abs() {
         let [c, k_prime] = incomplete_and_complete_first(&root(a23), &root(a12), modulus);
         (k_prime.clone(), c.clone(), k_prime - c)
