@@ -2,8 +2,8 @@
 //! where its text loses a quadrant or leaves something open. docs/paper-audit.md cites these tests.
 
 use blackbox::toss;
-use dynamics::body_rate::body_precession_rate;
-use toss::{Coin, ExactMotion};
+use dynamics::body_rate::{angular_momentum, angular_momentum_tf, body_precession_rate, kinetic_energy};
+use toss::{Coin, ExactMotion, ExactSolver, Formulation, Registry, Settings, Solver, Vector3};
 
 /// The paper's (2)-(4): ωx = Ω sin(q t + δ) and ωy = -Ω cos(q t + δ), with tan δ = -ωx/ωy at launch. An arctangent of
 /// this ratio finds δ or δ + π; atan2 finds δ.
@@ -35,5 +35,42 @@ fn the_cheated_toss_is_within_45_degrees_as_a_disc_alone() {
         let cheated = toss(coin.inertia_ratio(), [1.0, 1.0, 2.5], 0.0, 1.0);
         let cone = ExactMotion::new(&cheated).cone_angle().to_degrees();
         assert!((cone - degrees).abs() < 5e-4, "{cone}");
+    }
+}
+
+/// The paper's checks (a) to (c): |S|, the kinetic energy, and that n·S is the same in both frames. They need the rates
+/// alone, or hold for any attitude, so that they pass for a coin that shows the wrong face. S as a vector in TF does not.
+#[test]
+fn the_papers_checks_pass_where_its_equation_lands_the_wrong_face() {
+    let toss = toss(0.5, [2.0, 5.0, 1.0], 2.0, 0.1);
+    let raw = Settings { formulation: Formulation::RAW, ..Settings::default() };
+    let solver = Registry::standard().named("gamma").unwrap().solver(&raw).unwrap();
+    let (found, exact) = (solver.propagate(&toss).unwrap(), ExactSolver.propagate(&toss).unwrap());
+    assert!(found.cos_tilt > 0.5 && exact.cos_tilt < -0.5);
+    let (state, coin, rate) = (found.state, toss.coin, toss.launch.rate());
+    let (momentum, at_launch) = (angular_momentum(&coin, &state.rate), angular_momentum(&coin, &rate));
+    assert!((momentum.norm() / at_launch.norm() - 1.0).abs() < 1e-10, "(a)");
+    assert!((kinetic_energy(&coin, &state.rate) / kinetic_energy(&coin, &rate) - 1.0).abs() < 1e-10, "(b)");
+    let momentum_tf = angular_momentum_tf(&coin, &state);
+    let normal_tf = state.attitude.body_to_lab(&Vector3::z());
+    assert!((normal_tf.dot(&momentum_tf) - at_launch.z).abs() < 1e-10 * at_launch.norm(), "(c)");
+    let launched = angular_momentum_tf(&coin, &dynamics::State { attitude: toss.launch.attitude(), rate });
+    assert!((momentum_tf - launched).norm() > at_launch.norm(), "S turns in TF");
+}
+
+/// From horizontal, the largest angle between n and the vertical is 2ψ, half a precession after the launch.
+#[test]
+fn the_normal_reaches_twice_the_cone_angle() {
+    for (coin, rate, degrees) in [
+        (Coin::PAPER, [1.0, 1.0, 2.5], 97.054),
+        (Coin::DISC, [1.0, 1.0, 2.5], 31.586),
+        (Coin::PAPER, [2.0, 2.0, 0.5], 169.898),
+        (Coin::PAPER, [3.0, 0.0, 0.0], 180.0),
+    ] {
+        let motion = ExactMotion::new(&toss(coin.inertia_ratio(), rate, 0.0, 1.0));
+        let half = std::f64::consts::PI / motion.precession_rate();
+        let angle = |time: f64| motion.cos_tilt(time).unwrap().acos().to_degrees();
+        assert!((angle(half) - degrees).abs() < 5e-4, "{}", angle(half));
+        assert!((0..200).all(|step| angle(0.01 * f64::from(step) * half) <= degrees + 5e-4), "{rate:?}");
     }
 }

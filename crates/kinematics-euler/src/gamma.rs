@@ -4,7 +4,8 @@
 //! ```text
 //! γ'' + A γ' + B γ'² + C = 0                                                                            (10)
 //! A = (3 ωz - q) β'/D,   B = -2 β'/D,   C = -(ωz (ωz - q) + D²) β'/D                                    (11)
-//! D = ωx sin γ + ωy cos γ = α' sin β,   u = ωz - γ' = α' cos β,   β' = ωx cos γ - ωy sin γ             (8)
+//! D = ωx sin γ + ωy cos γ = α' sin β,   u = ωz - γ' = α' cos β                                         by (5)
+//! β' = ωx cos γ - ωy sin γ                                                                              (8)
 //! ```
 //!
 //! Here ω = (ωx, ωy, ωz) is the body rate, α the precession, β the nutation, k = I3/I1 and q = (k - 1) ωz. In (11),
@@ -113,7 +114,7 @@ struct GammaSystem {
     sense: f64,
 }
 
-/// D, u and β' of (8) at one state.
+/// D and u by (5), and β' by (8), at one state.
 struct Terms {
     d: f64,
     u: f64,

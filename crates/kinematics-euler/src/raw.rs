@@ -39,7 +39,8 @@ impl OdeSystem<5> for RawAngles {
 }
 
 /// The system (10) and (11) over the state (γ, γ', α, ωx, ωy), with β from tan β = D/u (9) and α' = u/cos β. It reads
-/// 0/0 at D = 0, and the arc tangent loses the quadrant of β.
+/// 0/0 at D = 0, and the arc tangent loses the quadrant of β. The numerators of (11) are printed as sums of products; here
+/// they have β' as a factor, which is the same number.
 pub(crate) struct RawGamma(Spin);
 
 impl RawGamma {
@@ -75,6 +76,28 @@ impl OdeSystem<5> for RawGamma {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// (11) with the terms of the paper, which has ωx' and ωy', and sin 3γ and cos 2γ in C.
+    #[test]
+    fn the_printed_sums_of_eq_11_have_the_factors_of_the_code() {
+        for (k, rate_z) in [(0.5, 2.5), (1.98, -0.7), (1.0, 3.0), (0.0, 1.1)] {
+            for [gamma, gamma_rate, x, y] in [[0.3, 1.7, 1.0, 1.0], [-2.0, -0.4, 2.0, -1.5], [2.9, 0.2, -0.6, 1.3]] {
+                let system = RawGamma::new(k, rate_z);
+                let found = system.derivative(&SVector::from([gamma, gamma_rate, 0.0, x, y]))[1];
+                let (x_dot, y_dot) = transverse_acceleration(system.0.q, x, y);
+                let ((sin, cos), z): ((f64, f64), f64) = (f64::sin_cos(gamma), rate_z);
+                let a = (3.0 * z * x - y_dot) * cos - (3.0 * z * y + x_dot) * sin;
+                let b = 2.0 * (y * sin - x * cos);
+                let c = -x.powi(3) * cos * sin.powi(2)
+                    + 0.25 * (sin - 3.0 * f64::sin(3.0 * gamma)) * x * x * y
+                    + 0.5 * x * cos * (-2.0 * z * z + (1.0 - 3.0 * f64::cos(2.0 * gamma)) * y * y)
+                    + (z * z * y + y.powi(3) * cos.powi(2) + z * x_dot) * sin
+                    + z * y_dot * cos;
+                let expected = -(a * gamma_rate + b * gamma_rate * gamma_rate + c) / (x * sin + y * cos);
+                assert!((found - expected).abs() < 1e-13 * (1.0 + expected.abs()), "k {k}: {found}, not {expected}");
+            }
+        }
+    }
 
     /// From D = α' sin β and u = α' cos β follows D' u - D u' = α'² β' = (D² + u²) β'. With u' = -γ'' this gives γ''
     /// without (10), to compare with.
