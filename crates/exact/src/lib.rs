@@ -46,7 +46,7 @@ pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use heads::HeadsPhases;
 pub use margin::{Margin, margin, speeds_of_heads};
 pub use motion::ExactMotion;
-pub use rigid::{RigidMargin, RigidMotion, certify_rigid, margin_rigid, rigid_speeds_of_heads};
+pub use rigid::{RigidAngles, RigidMargin, RigidMotion, certify_rigid, margin_rigid, rigid_speeds_of_heads};
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
 pub use thrown::thrown_speeds_of_heads;

@@ -39,11 +39,14 @@
 //! digits after the point, and results are rounded once. A few launches need more digits, and their constants are
 //! rounded from those: tensors next to the separatrix, and launches whose components differ by more than 2^200.
 //!
+//! [`RigidAngles`] are the Euler angles, continuous from launch on.
+//!
 //! [`RigidMotion::compensated`] is three to seven times as fast: its phases are in double-double, all else is in f64.
 //!
 //! [`certify_rigid`] proves outcomes by the same formulas in [`Ball`](numerics::Ball), numbers that carry a bound of
 //! every rounding.
 
+mod angles;
 mod certified;
 mod constants;
 mod curve;
@@ -61,6 +64,7 @@ use numerics::big::exactly;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Big, DoubleDouble, Elementary};
 
+pub use angles::RigidAngles;
 pub use certified::certify_rigid;
 use curve::Curve;
 pub use margin::{RigidMargin, margin_rigid, rigid_speeds_of_heads};

@@ -267,8 +267,8 @@ pub use registry::{Backend, Registry};
 
 // The exact motion, and what follows from it.
 pub use exact::{
-    Batch, Certificate, ExactMotion, ExactSolver, Margin, RigidMargin, RigidMotion, Sensitivity, Stage, certify,
-    certify_rigid, margin, margin_rigid, rigid_speeds_of_heads, speeds_of_heads, thrown_speeds_of_heads,
+    Batch, Certificate, ExactMotion, ExactSolver, Margin, RigidAngles, RigidMargin, RigidMotion, Sensitivity, Stage,
+    certify, certify_rigid, margin, margin_rigid, rigid_speeds_of_heads, speeds_of_heads, thrown_speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 

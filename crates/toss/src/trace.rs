@@ -11,7 +11,9 @@ use dynamics::{
     Attitude, Checked, Error, EulerAngles, InputError, Launch, RigidToss, SolveError, Solver, State, TimeOfFlight,
     Vector3,
 };
+#[cfg(any(feature = "integrators", test))]
 use exact::ExactMotion;
+use exact::RigidAngles;
 #[cfg(feature = "integrators")]
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
 
@@ -25,8 +27,8 @@ pub struct TracePoint {
     pub time: f64,
     /// Attitude (BF to LF).
     pub attitude: Attitude,
-    /// Euler angles (rad): of a coin continuous over the flight; of another body each is the one nearest to that of the
-    /// point before, which is the same where the points are dense enough.
+    /// Euler angles (rad), continuous over the flight. After some million radians of a body with I1 ≠ I2 they are those
+    /// nearest to the point before.
     pub angles: EulerAngles,
     /// The coin's normal n (unit vector in LF).
     pub normal: Vector3<f64>,
@@ -40,8 +42,7 @@ pub struct TracePoint {
 /// included.
 ///
 /// An integrator starts from the previous point, a closed form from the launch. The attitude leaves the
-/// branch of the Euler angles open; the one nearest to the exact motion is taken, or for a body that is no coin the one
-/// nearest to the previous point.
+/// branch of the Euler angles open; the one nearest to the exact motion is taken.
 ///
 /// # Errors
 /// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
@@ -131,54 +132,40 @@ fn trace_at(solver: &dyn Solver, toss: &RigidToss, times: impl Iterator<Item = f
         let leg = RigidToss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
         let state = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?.state;
         // A closed form leaves a turn of 1e-33 at launch, which would say where n goes.
-        let attitude = if time == 0.0 { branch.launched(&launch, &state) } else { state.attitude };
+        let attitude = if time == 0.0 { branch.launched(&state) } else { state.attitude };
         let point = TracePoint::new(time, attitude, &branch.at(time)?);
-        branch.follow(&point);
+        branch.before = point.angles;
         trace.push(point);
         last = (time, state);
     }
     Ok(trace)
 }
 
-/// The Euler angles whose branch a point takes.
-enum Branch {
-    /// Those of the exact motion of a coin.
-    Coin(Box<ExactMotion>),
-    /// Those of the point before.
-    Before(EulerAngles),
+/// The Euler angles whose branch a point takes: those of the exact motion, or where a body has turned too often for
+/// these, those of the point before.
+struct Branch {
+    exact: RigidAngles,
+    before: EulerAngles,
+    launched: Option<Attitude>,
 }
 
 impl Branch {
     fn new(toss: &RigidToss) -> Self {
-        if let Some(toss) = toss.symmetric() {
-            return Self::Coin(Box::new(ExactMotion::new(&toss)));
-        }
-        // From horizontal n goes off at a right angle to ω, and the spin γ is the angle at which it does so.
-        let rate = toss.launch.rate();
-        let gamma = (-rate.y).atan2(rate.x);
-        let departure = EulerAngles { alpha: -gamma, beta: 0.0, gamma };
-        let launch = toss.launch.attitude();
-        let is_horizontal = launch == Attitude::IDENTITY;
-        Self::Before(if is_horizontal { departure } else { EulerAngles::principal(&launch) })
+        let launched = toss.symmetric().is_none().then(|| toss.launch.attitude());
+        Self { exact: RigidAngles::new(toss), before: EulerAngles::principal(&toss.launch.attitude()), launched }
     }
 
     /// The angles of reference at `time` (s).
-    fn at(&self, time: f64) -> Result<EulerAngles, SolveError> {
-        match self {
-            Self::Coin(motion) => motion.euler_angles(time),
-            Self::Before(angles) => Ok(*angles),
+    fn at(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
+        match self.exact.at(time) {
+            Err(SolveError::StepLimit { .. }) => Ok(self.before),
+            angles => angles,
         }
     }
 
     /// The attitude at launch, without the rounding of a solver of bodies.
-    fn launched(&self, launch: &State, solved: &State) -> Attitude {
-        if let Self::Before(_) = self { launch.attitude } else { solved.attitude }
-    }
-
-    fn follow(&mut self, point: &TracePoint) {
-        if let Self::Before(angles) = self {
-            *angles = point.angles;
-        }
+    fn launched(&self, solved: &State) -> Attitude {
+        self.launched.unwrap_or(solved.attitude)
     }
 }
 

@@ -39,14 +39,10 @@ pub(super) fn periodic<N: Phases<M>, M: Elementary>(
     let k = k.part();
     let modulus = (product(a12, &of.p3) / below).part().sqrt();
     let root = |number: &N| number.magnitude().part().sqrt();
-    // The tangents of the amplitudes of c and v have the product 1/k. The smaller one of c and v has all its digits.
-    let (k_prime, c, v) = if product(&of.p3, a23).to_f64().abs() < product(&of.p1, a12).to_f64().abs() {
-        let [c, k_prime] = incomplete_and_complete_first(&root(a23), &root(a12), modulus);
-        (k_prime.clone(), c.clone(), k_prime - c)
-    } else {
-        let [v, k_prime] = incomplete_and_complete_first(&root(&of.p1), &root(&of.p3), modulus);
-        (k_prime.clone(), k_prime - v.clone(), v)
-    };
+    // v has to be right to an ulp of 1, because θ1 begins with e^(-πv/2K). Where c is small, v = K' - c is large, and the
+    // digits that c loses as a difference are digits of a small number.
+    let [v, k_prime] = incomplete_and_complete_first(&root(&of.p1), &root(&of.p3), modulus);
+    let c = k_prime.clone() - v.clone();
     let [sin, cos] = [m[1].part() * root(a23), m[0].part() * root(a13)];
     let launch = launch_phase(&sin, &cos, &complementary.part(), &k) / (k.clone() + k.clone());
     let launch = N::of_part(launch);

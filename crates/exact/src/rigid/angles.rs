@@ -1,0 +1,211 @@
+//! Continuous Euler angles of any rigid body. An attitude leaves open how often α, β and γ have turned since launch.
+//! For a coin the closed form tells it. A body with three moments turns with two frequencies, and the turns of the
+//! angles are no sum of two phases; they are found by steps that are too short for an angle to turn unseen.
+//!
+//! The halves p = w + iz and r = x + iy of the attitude have the arguments (α + γ)/2 and (α - γ)/2. The quaternion's
+//! path is ½|ω| long in a unit of time, and |ω| ≤ √2 |ω(0)| (see [`dynamics::RigidPhase`]). In a step whose path is
+//! shorter than |p| the argument of p changes by less than a quarter turn, so the nearest branch is the continuous one;
+//! likewise for r.
+//!
+//! Where |p| or |r| is below 1e-13, as after every horizontal launch, the attitude tells no argument. The angles are
+//! continued straight through such a point, as those of a coin are, and β goes on past 0 or π.
+
+use std::f64::consts::SQRT_2;
+
+use dynamics::{Attitude, EulerAngles, RigidToss, SolveError};
+
+use numerics::scale::power_of_two_scale;
+
+use super::RigidMotion;
+use crate::motion::ExactMotion;
+
+/// Size of p or r below which it has no argument: some hundred roundings of an attitude.
+const NO_ARGUMENT: f64 = 1e-13;
+
+/// Part of |p| and |r| that the path of a step is long.
+const STEP: f64 = 0.9;
+
+/// Steps of a walk, a second of time. Between close passages of the vertical a step turns the body by half a radian.
+const MOST_STEPS: u32 = 4_000_000;
+
+/// The Euler angles of a rigid body from its launch on.
+#[derive(Debug, Clone)]
+pub struct RigidAngles {
+    kind: Kind,
+}
+
+#[derive(Debug, Clone)]
+enum Kind {
+    Coin(Box<ExactMotion>),
+    Rigid(Box<Walk>),
+}
+
+impl RigidAngles {
+    /// The angles of a toss at its launch. From horizontal α(0) = -γ(0) = atan2(ωy, ωx), the limit for t → 0.
+    pub fn new(toss: &RigidToss) -> Self {
+        let kind = match toss.symmetric() {
+            Some(toss) => Kind::Coin(Box::new(ExactMotion::new(&toss))),
+            None => Kind::Rigid(Box::new(Walk::new(toss))),
+        };
+        Self { kind }
+    }
+
+    /// The angles `time` (s) after launch, continuous from launch on. Times that ascend take one walk between them; a
+    /// time before the last one starts again from the launch.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`]; for bodies with I1 ≠ I2 also [`SolveError::StepLimit`] after some million radians.
+    pub fn at(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
+        match &mut self.kind {
+            Kind::Coin(motion) => motion.euler_angles(time),
+            Kind::Rigid(walk) => walk.to(time),
+        }
+    }
+}
+
+/// A walk along the motion.
+#[derive(Debug, Clone)]
+struct Walk {
+    motion: RigidMotion,
+    launch: Point,
+    /// An upper bound of ½|ω| (rad/s).
+    speed: f64,
+    last: Point,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    time: f64,
+    attitude: Attitude,
+    angles: EulerAngles,
+}
+
+impl Walk {
+    fn new(toss: &RigidToss) -> Self {
+        let launch = Point { time: 0.0, attitude: toss.launch.attitude(), angles: departure(toss) };
+        let rate = toss.launch.rate();
+        let scale = power_of_two_scale(rate.amax());
+        let speed = 0.5 * SQRT_2 * (rate / scale).norm() * scale * (1.0 + 1e-9);
+        Self { motion: RigidMotion::compensated(toss), launch, speed, last: launch }
+    }
+
+    /// Goes on to `time` (s).
+    fn to(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
+        self.motion.phase(time)?;
+        if time < self.last.time {
+            self.last = self.launch;
+        }
+        let mut steps = 0;
+        while self.last.time < time {
+            if steps == MOST_STEPS {
+                return Err(SolveError::StepLimit { time: self.last.time, limit: MOST_STEPS });
+            }
+            steps += 1;
+            let next = (self.last.time + self.step()).min(time);
+            let attitude = self.motion.state(next)?.attitude;
+            self.last = Point { time: next, attitude, angles: EulerAngles::nearest(&attitude, &self.last.angles) };
+        }
+        Ok(self.last.angles)
+    }
+
+    /// The length of the next step (s): infinite at rest.
+    fn step(&self) -> f64 {
+        let [w, x, y, z] = self.last.attitude.components();
+        let path = STEP * w.hypot(z).min(x.hypot(y)).max(NO_ARGUMENT);
+        // A shorter step would not change the time.
+        (path / self.speed).max(self.last.time * f64::EPSILON)
+    }
+}
+
+/// The angles at launch. Where sin β = 0, the argument that the attitude does not tell is that with which p or r departs
+/// from 0: by Q' = ½ Q ω.
+fn departure(toss: &RigidToss) -> EulerAngles {
+    let attitude = toss.launch.attitude();
+    let [w, x, y, z] = attitude.components();
+    let rate = toss.launch.rate();
+    let about = Attitude::half_turn(&(rate / power_of_two_scale(rate.amax())));
+    let [w1, x1, y1, z1] = (attitude * about).components();
+    let argument = |[re, im]: [f64; 2], [re1, im1]: [f64; 2]| {
+        if re == 0.0 && im == 0.0 { im1.atan2(re1) } else { im.atan2(re) }
+    };
+    let [half_sum, half_difference] = [argument([w, z], [w1, z1]), argument([x, y], [x1, y1])];
+    EulerAngles {
+        alpha: half_sum + half_difference,
+        beta: 2.0 * x.hypot(y).atan2(w.hypot(z)),
+        gamma: half_sum - half_difference,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Body, Coin, Launch, TimeOfFlight, Toss};
+
+    use super::*;
+
+    fn toss(moments: [f64; 3], rate: [f64; 3], tilt: f64) -> RigidToss {
+        let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
+        RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+    }
+
+    fn assert_near(found: EulerAngles, expected: EulerAngles, allowed: f64) {
+        let pairs = [(found.alpha, expected.alpha), (found.beta, expected.beta), (found.gamma, expected.gamma)];
+        assert!(pairs.iter().all(|(one, two)| (one - two).abs() < allowed), "{found:?} {expected:?}");
+    }
+
+    /// The closed form of a coin counts the turns otherwise: by phases.
+    #[test]
+    fn a_body_that_is_nearly_a_coin_turns_as_often_as_the_coin() {
+        for (rate, tilt) in
+            [([9.0, 4.0, 3.0], 0.0), ([9.0, 4.0, 3.0], 0.4), ([0.0, 30.0, 0.5], 0.0), ([1.0, -2.0, -40.0], 2.8)]
+        {
+            let coin = Coin::PAPER;
+            let launch = toss([1.0, 2.0, 2.5], rate, tilt).launch;
+            let motion = ExactMotion::new(&Toss { coin, launch });
+            let body = Body::from_moments([coin.i1(), coin.i1() * (1.0 - f64::EPSILON), coin.i3()]).unwrap();
+            let mut angles = RigidAngles::new(&RigidToss { body, launch });
+            for time in [0.0, 0.01, 1.0, 10.0] {
+                assert_near(angles.at(time).unwrap(), motion.euler_angles(time).unwrap(), 1e-10);
+            }
+        }
+    }
+
+    /// Dense points leave no choice of the branch; one step to the end has to count the same turns.
+    #[test]
+    fn one_walk_to_the_end_counts_the_turns_of_ten_thousand_short_ones() {
+        for (moments, rate, tilt) in [
+            ([1.0, 2.0, 2.5], [9.0, 4.0, 3.0], 0.7),
+            ([1.0, 2.0, 2.5], [0.1, 30.0, 0.1], 1.2),
+            ([2.5, 1.0, 2.0], [3.0, 1.0, -20.0], 2.0),
+        ] {
+            let toss = toss(moments, rate, tilt);
+            let (motion, mut dense) = (RigidMotion::new(&toss), EulerAngles::principal(&toss.launch.attitude()));
+            for step in 1..=100_000 {
+                dense = EulerAngles::nearest(&motion.state(f64::from(step) * 1e-4).unwrap().attitude, &dense);
+            }
+            let found = RigidAngles::new(&toss).at(10.0).unwrap();
+            assert_near(found, dense, 1e-9);
+            assert!(found.alpha.abs().max(found.gamma.abs()) > 10.0, "{found:?} has not turned");
+        }
+    }
+
+    #[test]
+    fn a_body_that_passes_the_vertical_goes_on_beyond_it() {
+        let spinning = toss([1.0, 2.0, 2.5], [3.0, 0.0, 0.0], 0.0);
+        assert_near(
+            RigidAngles::new(&spinning).at(10.0).unwrap(),
+            EulerAngles { alpha: 0.0, beta: 30.0, gamma: 0.0 },
+            1e-12,
+        );
+    }
+
+    #[test]
+    fn earlier_times_start_again_and_flights_without_end_are_refused() {
+        let toss = toss([1.0, 2.0, 2.5], [9.0, 4.0, 3.0], 0.3);
+        let mut angles = RigidAngles::new(&toss);
+        let early = angles.at(0.5).unwrap();
+        angles.at(3.0).unwrap();
+        assert_eq!(angles.at(0.5).unwrap(), early);
+        assert_eq!(angles.at(1e16).unwrap_err().kind(), "phase_too_large");
+        assert_eq!(angles.at(1e9).unwrap_err().kind(), "step_limit");
+    }
+}
