@@ -17,7 +17,7 @@ def python_blocks(page: Path) -> list[str]:
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
-@pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md"])
+@pytest.mark.parametrize("page", ["README.md", "bindings/python/README.md", "docs/guide/python.md"])
 def test_the_lines_of_the_readme_run(page):
     blocks = python_blocks(ROOT / page)
     assert blocks
