@@ -6,6 +6,7 @@
 
 mod chart;
 mod commands;
+mod estimate_answer;
 mod failure;
 mod help;
 mod input;

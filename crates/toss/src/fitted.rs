@@ -8,9 +8,11 @@
 //! motion turns) and the ratio of spin to precession |q|/ωL. Here ωL is the rate of the precession about the angular
 //! momentum, q = (k - 1) ωz the rate at which the transverse body rate turns in the body frame, and k = I3/I1.
 
+mod parse;
+
 use std::sync::LazyLock;
 
-use dynamics::{Error, RoughPhases, SolveError, Toss};
+use dynamics::{RoughPhases, SolveError, Toss};
 use sampling::quadrature::Roughness;
 use serde::{Deserialize, Serialize};
 
@@ -150,61 +152,6 @@ pub struct Setting {
 }
 
 impl Fitted {
-    /// Reads a table that was measured elsewhere, for [`Registry::measured`](crate::Registry::measured).
-    ///
-    /// # Errors
-    /// [`Error::Text`] if the text is no such table: a field is missing, the bins do not increase, the tolerances do not
-    /// decrease, a table has not one row for each bin, or a number is not finite and positive.
-    pub fn parse(text: &str) -> Result<Self, Error> {
-        let fitted: Self = toml::from_str(text).map_err(|error: toml::de::Error| {
-            Error::in_text(text, error.span().map(|span| span.start), error.message().to_owned())
-        })?;
-        fitted.complaint().map_or(Ok(fitted), |complaint| Err(Error::in_text(text, None, complaint)))
-    }
-
-    /// What is wrong with the table, if anything is.
-    fn complaint(&self) -> Option<String> {
-        let increase =
-            |ends: &[f64]| ends.windows(2).all(|pair| pair[0] < pair[1]) && ends.iter().all(|end| *end >= 0.0);
-        let finer: Vec<f64> = self.tolerances.iter().rev().copied().collect();
-        for (field, is_valid, valid) in [
-            ("spins", !self.spins.is_empty() && increase(&self.spins), "at least one end of a bin, increasing from 0"),
-            (
-                "phases",
-                !self.phases.is_empty() && increase(&self.phases) && self.phases[0] > 0.0,
-                "at least one end of a bin, increasing and above 0",
-            ),
-            (
-                "tolerances",
-                finer.len() > 1 && increase(&finer) && finer[0] > 0.0,
-                "at least two, decreasing to above 0",
-            ),
-        ] {
-            if !is_valid {
-                return Some(format!("{field}: must be {valid}"));
-            }
-        }
-        self.integrators.iter().find(|fit| !self.has_shape_of(fit)).map(|fit| {
-            let name = format!("{}/{}", fit.solver, fit.scheme);
-            format!(
-                "{name}: costs and tables must be finite and above 0, with a row for each spin, phase and tolerance"
-            )
-        })
-    }
-
-    fn has_shape_of(&self, fit: &IntegratorFit) -> bool {
-        let is_cost = |value: f64| value.is_finite() && value > 0.0;
-        let is_table = |table: &Vec<Vec<Vec<f64>>>| {
-            table.len() == self.spins.len()
-                && table.iter().all(|rows| rows.len() == self.phases.len())
-                && table.iter().flatten().all(|row| row.len() == self.tolerances.len())
-                && table.iter().flatten().flatten().all(|value| is_cost(*value))
-        };
-        // The cost of a flight without its calls may be too small to be seen.
-        let costs = fit.cost_ns.is_finite() && fit.cost_ns >= 0.0 && is_cost(fit.call_ns);
-        costs && [&fit.tilt_errors, &fit.errors, &fit.calls].into_iter().all(is_table)
-    }
-
     /// The entry of the closed form called `model`, if it has been measured.
     pub fn closed(&self, model: &str) -> Option<&ClosedFit> {
         self.closed.iter().find(|fit| fit.model == model)
@@ -304,77 +251,4 @@ fn between(rough: f64, fine: f64, part: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::MODELS;
-
-    #[test]
-    fn the_table_has_an_entry_for_every_model_and_for_our_integrators() {
-        let fitted = &*FITTED;
-        for model in &MODELS {
-            match model.name {
-                // Integrators are tabulated by scheme (below). A grid has no error estimate, so it has no entry.
-                "integrator" | "grid" => {}
-                name if model.is_closed_form() || name == "share" => {
-                    assert!(fitted.closed(name).unwrap().cost_ns > 0.0);
-                }
-                "share-quadrature" => {}
-                name => assert!(fitted.sampling(name).unwrap().launch_ns > 0.0),
-            }
-        }
-        for (coordinates, has_root) in [(1, false), (1, true), (2, false), (2, true)] {
-            let fit = fitted.quadrature(&Roughness { coordinates, has_root, parts: 1.0 }).unwrap();
-            assert!(fit.shares(9.0, 1e-6) >= fit.shares(3.0, 1e-3), "{fit:?}");
-        }
-        assert_eq!(fitted.complaint(), None);
-        for (solver, scheme) in [("gamma", "dop853"), ("euler", "dopri5"), ("quaternion", "taylor")] {
-            assert!(fitted.integrator(solver, scheme).is_some());
-        }
-    }
-
-    #[test]
-    fn errors_and_costs_are_interpolated_in_phase_and_tolerance() {
-        // The calls are no geometric sequence, so that extrapolating from a neighbour's entry gives another cost.
-        let calls = vec![vec![8.0, 16.0, 50.0], vec![9.0, 25.0, 36.0]];
-        let fit = IntegratorFit {
-            solver: "gamma".to_owned(),
-            scheme: "dop853".to_owned(),
-            cost_ns: 100.0,
-            call_ns: 10.0,
-            tilt_errors: vec![vec![vec![1e-3, 1e-5, 1e-7]; 2]; 2],
-            errors: vec![vec![vec![1e-2, 1e-4, 1e-6], vec![4e-2, 4e-4, 4e-6]], vec![vec![1.0; 3], vec![1.0; 3]]],
-            calls: vec![calls, vec![vec![7.0, 11.0, 13.0], vec![17.0, 19.0, 23.0]]],
-        };
-        let fitted = Fitted {
-            measured: String::new(),
-            closed: Vec::new(),
-            spins: vec![0.5, 1.0],
-            phases: vec![1.0, 9.0],
-            tolerances: vec![1e-3, 1e-5, 1e-7],
-            integrators: Vec::new(),
-            sampling: Vec::new(),
-            quadrature: Vec::new(),
-        };
-        let near =
-            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found}, not {expected}");
-        let setting = |phase, spin, accuracy| fitted.setting(&fit, false, &Turn { phase, spin }, accuracy);
-        let rough = setting(1.0, 0.1, 0.5).unwrap();
-        assert_eq!((rough.tolerance, rough.error, rough.cost_ns), (1e-3, 1e-2, 260.0));
-        // Half-way from 1 to 9 rad and from 1e-5 to 1e-7, on logarithmic scales.
-        let middle = setting(3.0, 0.5, 2e-5).unwrap();
-        near(middle.tolerance, 1e-6);
-        near(middle.error, 2e-5);
-        near(middle.cost_ns, 100.0 + (25.0_f64 * 36.0).sqrt() * 4.0 * 10.0);
-        for (phase, spin, tolerance, calls) in
-            [(1.0, 0.5, 1e-5, 16.0), (1.0, 0.5, 1e-7, 50.0), (3.0, 0.6, 1e-3, 17.0), (900.0, 9.0, 1e-5, 19.0)]
-        {
-            let cost = fitted.cost_ns(&fit, &Turn { phase, spin }, tolerance);
-            near(cost, 100.0 + calls * (1.0 + phase) * 10.0);
-        }
-        let beyond = setting(900.0, 0.0, 4e-4).unwrap();
-        near(beyond.tolerance, 1e-7);
-        near(fitted.setting(&fit, true, &Turn { phase: 3.0, spin: 0.5 }, 1e-4).unwrap().tolerance, 1e-4);
-        near(setting(0.5, 0.0, 1e-7).unwrap_err(), 1e-6);
-        near(setting(0.5, f64::INFINITY, 1e-3).unwrap_err(), 1.0);
-    }
-}
+mod tests;

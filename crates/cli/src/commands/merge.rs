@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sampling::Tally;
 
-use crate::commands::probability::{Answer, text};
+use crate::estimate_answer::{Answer, text};
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
 

@@ -9,7 +9,7 @@ use toss::{
     SolverEntry, StepControl, Want,
 };
 
-use crate::commands::probability::name_of;
+use crate::estimate_answer::name_of;
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
 use crate::solver_args;

@@ -1,5 +1,7 @@
 //! Tests of the errors: their kinds, fields and messages.
 
+use std::fmt;
+
 use super::*;
 
 const AT: f64 = 0.5;

@@ -24,6 +24,7 @@ pub mod context;
 pub mod convergence;
 pub mod drift;
 pub mod effort;
+mod hard_cases;
 pub mod long_flights;
 pub mod measurement;
 pub mod planner;

@@ -4,10 +4,11 @@
 use rayon::prelude::*;
 use toss::{Attitude, Batch, Error, Launch, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};
 
-use super::certified::{adversarial, corners, few_turns, largest_errors, random, tries};
+use super::certified::largest_errors;
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
+use crate::measure::hard_cases::{adversarial, corners, few_turns, random, tries};
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
 

@@ -6,10 +6,10 @@ use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
 use toss::{Formulation, IntegratedCertificate, QuaternionSolver, Scheme, SolveError, Stepping, Toss};
 
-use super::certified::{adversarial, corners, few_turns, random, tries};
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
+use crate::measure::hard_cases::{adversarial, corners, few_turns, random, tries};
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
 

@@ -8,11 +8,11 @@ use toss::{
     thrown_speeds_of_heads,
 };
 
-use super::certified::random;
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
+use crate::measure::hard_cases::random;
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
 

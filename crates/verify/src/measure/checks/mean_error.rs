@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use toss::{ExactMotion, Launch, SolveError, TimeOfFlight, Toss};
 
 use super::batch;
-use super::certified::{corners, largest_errors, random, tries};
+use super::certified::largest_errors;
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
+use crate::measure::hard_cases::{corners, random, tries};
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
 

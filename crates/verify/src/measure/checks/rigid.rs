@@ -6,10 +6,10 @@ use exact::{RigidMotion, certify_rigid};
 use rayon::prelude::*;
 use toss::{Certificate, Launch, TimeOfFlight};
 
-use super::certified::tries;
 use crate::measure::bodies::{FAMILIES, Family, LONG, launches};
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
+use crate::measure::hard_cases::tries;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::rigid::RigidReference;
 

@@ -1,0 +1,125 @@
+//! Tests of traces by every solver, of coins and bodies.
+
+#[cfg(not(feature = "integrators"))]
+use dynamics::Toss;
+use dynamics::{Body, Coin, Propagation, Settings, Stepping};
+use exact::{ExactSolver, RigidMotion};
+
+use super::*;
+use crate::registry::Registry;
+
+#[test]
+fn every_solver_traces_the_exact_motion_with_continuous_angles() {
+    let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.5)).unwrap();
+    let toss = Toss { coin: Coin::PAPER, launch };
+    let motion = ExactMotion::new(&toss);
+    for entry in Registry::standard().entries() {
+        let trace = trace(&entry.solver(&Settings::default()).unwrap(), toss, 301).unwrap();
+        assert_eq!((trace[0].time, trace[300].time), (0.0, 1.5));
+        for point in &trace {
+            assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-7, "{}", entry.name());
+            let exact = motion.euler_angles(point.time).unwrap();
+            assert!((point.angles.beta - exact.beta).abs() < 1e-6, "{} at {}", entry.name(), point.time);
+            assert!(point.angles.attitude().angle_to(&point.attitude) < 1e-14);
+            assert!(point.normal.dot(&point.face).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn a_body_of_three_moments_is_traced_with_angles_that_do_not_jump() {
+    for (tilt, time) in [(0.0, 1.5), (1.2, 3.0)] {
+        let thrown = Launch::new([0.3, 9.0, 0.2], TimeOfFlight::Given(time)).unwrap();
+        let body = Body::from_moments([0.00121, 0.01638, 0.01748]).unwrap();
+        let toss = RigidToss { body, launch: thrown.with_tilt(tilt).unwrap() };
+        let motion = RigidMotion::new(&toss);
+        let trace = trace(&ExactSolver, toss, 301).unwrap();
+        for point in &trace {
+            assert!((point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs() < 1e-14);
+            assert!(point.angles.attitude().angle_to(&point.attitude) < 1e-14);
+        }
+        for pair in trace.windows(2) {
+            let [before, after] = [&pair[0].angles, &pair[1].angles];
+            assert!((after.beta - before.beta).abs() < 0.2, "{pair:?}");
+            let [alpha, gamma] = [after.alpha - before.alpha, after.gamma - before.gamma];
+            // Where n is near the vertical, α and γ turn fast against each other, and only their sum (n up) or
+            // difference (n down) is smooth.
+            let smooth = if after.beta.cos() > 0.0 { alpha + gamma } else { alpha - gamma };
+            assert!(smooth.abs() < 1.0, "{pair:?}");
+            let near_the_vertical = before.beta.sin().min(after.beta.sin()) < 0.1;
+            assert!(near_the_vertical || alpha.abs().max(gamma.abs()) < 1.0, "{pair:?}");
+        }
+    }
+}
+
+#[test]
+fn a_trace_by_steps_of_time_ends_at_the_landing() {
+    let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
+    let toss = Toss { coin: Coin::PAPER, launch };
+    let times = |step: f64| -> Vec<f64> {
+        trace_every(&ExactSolver, toss, step).unwrap().iter().map(|point| point.time).collect()
+    };
+    assert_eq!(times(0.3), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
+    assert_eq!((times(0.25), times(1.0)), (vec![0.0, 0.25, 0.5, 0.75, 1.0], vec![0.0, 1.0]));
+    assert_eq!(times(7.0), [0.0, 1.0]);
+    assert_eq!(trace_every(&ExactSolver, toss, 0.25).unwrap(), trace(&ExactSolver, toss, 5).unwrap());
+    for step in [0.0, -0.1, f64::NAN, 1e-6] {
+        assert_eq!(trace_every(&ExactSolver, toss, step).unwrap_err().field(), Some("dt [s]"));
+    }
+    let still = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(0.0)).unwrap(), ..toss };
+    assert_eq!(trace_every(&ExactSolver, still, 0.1).unwrap().len(), 1);
+}
+
+/// An integrator that fails in the middle of every leg but the first.
+struct Weary;
+impl Solver for Weary {
+    fn name(&self) -> &str {
+        "weary"
+    }
+    fn stepping(&self) -> Option<Stepping> {
+        Some(Stepping::DEFAULT)
+    }
+    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+        Ok(None)
+    }
+    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        if toss.launch.attitude() == Attitude::IDENTITY {
+            return ExactSolver.propagate(toss);
+        }
+        Err(SolveError::NotFinite { time: toss.launch.flight_time() / 2.0 })
+    }
+}
+
+#[test]
+fn the_error_of_a_later_leg_has_the_time_since_launch() {
+    let launch = Launch::new(Vector3::new(0.0, 40.0, 3.0), TimeOfFlight::Given(2.0)).unwrap();
+    let error = trace(&Weary, Toss { coin: Coin::PAPER, launch }, 3).unwrap_err();
+    assert_eq!(error, Error::Solve(SolveError::NotFinite { time: 1.5 }));
+}
+
+#[test]
+fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
+    let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.5)).unwrap();
+    let toss = Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.3).unwrap() };
+    let taylor = Stepping::adaptive(dynamics::Scheme::TAYLOR, 1e-6).unwrap();
+    let solver = QuaternionSolver::new(taylor, dynamics::Formulation::default());
+    let motion = ExactMotion::new(&toss);
+    let traced = trace_enclosed(&solver, &toss, 31).unwrap();
+    assert_eq!((traced.len(), traced[30].point.time), (31, 1.5));
+    for EnclosedPoint { point, certificate } in &traced {
+        let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
+        assert!(error <= certificate.error_bound(), "{error:e}");
+    }
+    assert_eq!(trace_enclosed_every(&solver, &toss, 0.05).unwrap().len(), 31);
+    let dop853 = QuaternionSolver::new(Stepping::DEFAULT, dynamics::Formulation::default());
+    assert!(trace_enclosed(&dop853, &toss, 3).is_err());
+}
+
+#[test]
+fn fewer_than_two_or_more_than_a_million_points_are_refused() {
+    let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
+    let toss = Toss { coin: Coin::PAPER, launch };
+    for points in [0, 1, MOST_POINTS + 1] {
+        assert!(matches!(trace(&ExactSolver, toss, points), Err(Error::Input(_))));
+    }
+}
