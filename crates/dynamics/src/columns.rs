@@ -1,30 +1,34 @@
 //! [`Tosses`], many tosses given as columns of rates and speeds. A batch solves columns with SIMD registers, for which
 //! each input has to be contiguous in memory.
+//!
+//! They are of a coin, or of any rigid body: `Tosses<'_, Body>`.
 
 use std::ops::Range;
 
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::body::Body;
 use crate::coin::Coin;
 use crate::error::{InputError, SolveError, require};
 use crate::failure::Error;
 use crate::launch::{Launch, Toss};
+use crate::rigid_toss::RigidToss;
 use crate::time_of_flight::TimeOfFlight;
 
-/// Tosses that differ in their body rates and speeds only: the coin, the attitude at launch and the gravity are the
-/// same.
+/// Tosses that differ in their body rates and speeds only: the coin or [`Body`], the attitude at launch and the gravity
+/// are the same.
 #[derive(Debug, Clone, Copy)]
-pub struct Tosses<'a> {
-    coin: Coin,
+pub struct Tosses<'a, B = Coin> {
+    body: B,
     attitude: Attitude,
     gravity: f64,
     rates: [&'a [f64]; 3],
     speeds: &'a [f64],
 }
 
-impl<'a> Tosses<'a> {
-    /// Tosses with the body rates `rates` (body frame, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s)
+impl<'a, B: Copy> Tosses<'a, B> {
+    /// Tosses of a coin or a body with the body rates `rates` (body frame, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s)
     /// under `gravity` (m/s²) and caught at the same height. With a gravity of 2 m/s² the speed is the time of flight
     /// in seconds.
     ///
@@ -32,7 +36,7 @@ impl<'a> Tosses<'a> {
     /// [`InputError`] if the columns differ in length, or for a gravity that is not positive and finite. Each toss is
     /// checked only when it is solved.
     pub fn new(
-        coin: Coin,
+        body: B,
         attitude: Attitude,
         gravity: f64,
         rates: [&'a [f64]; 3],
@@ -44,7 +48,7 @@ impl<'a> Tosses<'a> {
             let expected = "as many rates of each kind as speeds";
             return Err(InputError::Malformed { field: "columns", value: format!("{lengths:?}"), expected });
         }
-        Ok(Self { coin, attitude, gravity, rates, speeds })
+        Ok(Self { body, attitude, gravity, rates, speeds })
     }
 
     /// Number of tosses.
@@ -55,11 +59,6 @@ impl<'a> Tosses<'a> {
     /// Whether there are no tosses.
     pub fn is_empty(&self) -> bool {
         self.speeds.is_empty()
-    }
-
-    /// The coin of all tosses.
-    pub fn coin(&self) -> &Coin {
-        &self.coin
     }
 
     /// The attitude at launch of all tosses.
@@ -86,15 +85,41 @@ impl<'a> Tosses<'a> {
         Self { rates: [x, y, z], speeds, ..*self }
     }
 
+    /// Launch number `index`, which is below [`Tosses::len`].
+    ///
+    /// # Errors
+    /// As [`Launch::new`].
+    pub fn launch(&self, index: usize) -> Result<Launch, InputError> {
+        let [x, y, z] = self.rates.map(|column| column[index]);
+        let time = TimeOfFlight::Ballistic { speed: self.speeds[index], gravity: self.gravity };
+        Ok(Launch::new(Vector3::new(x, y, z), time)?.with_attitude(self.attitude))
+    }
+
+    /// The result of `solve` for the launch of toss `index`, of which `toss` makes the toss.
+    fn solved<T, K: Into<RigidToss>>(
+        &self,
+        index: usize,
+        toss: impl Fn(Launch) -> K,
+        solve: impl Fn(&K) -> Result<T, SolveError>,
+    ) -> Result<T, Error> {
+        let launch = self.launch(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
+        let toss = toss(launch);
+        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss.into()), source })
+    }
+}
+
+impl Tosses<'_> {
+    /// The coin of all tosses.
+    pub fn coin(&self) -> &Coin {
+        &self.body
+    }
+
     /// Toss number `index`, which is below [`Tosses::len`].
     ///
     /// # Errors
     /// As [`Launch::new`].
     pub fn toss(&self, index: usize) -> Result<Toss, InputError> {
-        let [x, y, z] = self.rates.map(|column| column[index]);
-        let time = TimeOfFlight::Ballistic { speed: self.speeds[index], gravity: self.gravity };
-        let launch = Launch::new(Vector3::new(x, y, z), time)?.with_attitude(self.attitude);
-        Ok(Toss { coin: self.coin, launch })
+        Ok(Toss { coin: self.body, launch: self.launch(index)? })
     }
 
     /// The result of `solve` for toss `index`.
@@ -102,7 +127,25 @@ impl<'a> Tosses<'a> {
     /// # Errors
     /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
     pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
-        let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
-        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss.into()), source })
+        self.solved(index, |launch| Toss { coin: self.body, launch }, solve)
+    }
+}
+
+impl Tosses<'_, Body> {
+    /// The body of all tosses.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The result of `solve` for toss `index`, which is below [`Tosses::len`].
+    ///
+    /// # Errors
+    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
+    pub fn solve_rigid<T>(
+        &self,
+        index: usize,
+        solve: impl Fn(&RigidToss) -> Result<T, SolveError>,
+    ) -> Result<T, Error> {
+        self.solved(index, |launch| RigidToss { body: self.body, launch }, solve)
     }
 }

@@ -71,16 +71,20 @@ impl Block {
 }
 
 impl Space {
-    /// The launches of a block as tosses for a batch; `None` if the body is no coin, if gravity or tilt vary in this space, or if the coins land
-    /// at another height than that of their launch.
+    /// The launches of a block as tosses of the coin for a batch; `None` if the body is no coin, if gravity or tilt vary
+    /// in this space, or if the coins land at another height than that of their launch.
     pub(crate) fn tosses<'a>(&self, block: &'a Block) -> Option<Tosses<'a>> {
+        self.tosses_of(self.coin()?, block)
+    }
+
+    /// As [`Space::tosses`], of a `body`.
+    pub(crate) fn tosses_of<'a, B: Copy>(&self, body: B, block: &'a Block) -> Option<Tosses<'a, B>> {
         if self.drop().is_some() {
             return None;
         }
         let (gravity, tilt) = (self.axis(Coordinate::Gravity).value()?, self.axis(Coordinate::Tilt).value()?);
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(|of| block.column(self.place(of)));
-        let coin = self.coin()?;
-        let tosses = Tosses::new(coin, Attitude::about_x(tilt), gravity, rates, block.column(Coordinate::Speed));
+        let tosses = Tosses::new(body, Attitude::about_x(tilt), gravity, rates, block.column(Coordinate::Speed));
         Some(tosses.expect("every axis was checked when the space was made"))
     }
 }

@@ -126,14 +126,16 @@ impl Decider<'_> {
     }
 }
 
-/// Proves the outcomes of a block: as a batch if it is of a coin and its launches differ in rates and speed alone, else
-/// one by one.
+/// Proves the outcomes of a block: as a batch if its launches differ in rates and speed alone, else one by one.
 fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
-    if let Some(tosses) = space.tosses(block) {
-        return Batch::new(tosses).count();
+    if let Some(coin) = space.coin() {
+        return match space.tosses_of(coin, block) {
+            Some(tosses) => Batch::new(tosses).count(),
+            None => ProvenCounts::of(block.all_values().map(|values| Toss { coin, launch: space.launch(&values) })),
+        };
     }
-    match space.coin() {
-        Some(coin) => ProvenCounts::of(block.all_values().map(|values| Toss { coin, launch: space.launch(&values) })),
+    match space.tosses_of(*space.body(), block) {
+        Some(tosses) => Batch::new(tosses).count(),
         None => ProvenCounts::of_rigid(block.all_values().map(|values| space.toss(&values))),
     }
 }
@@ -201,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn outcomes_of_a_body_are_proven_one_by_one_and_a_solver_for_coins_refuses_them() {
+    fn outcomes_of_a_body_are_proven_and_a_solver_for_coins_refuses_them() {
         struct ForCoins;
         impl Solver for ForCoins {
             fn name(&self) -> &str {

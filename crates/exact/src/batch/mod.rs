@@ -7,35 +7,38 @@
 //! | proven outcomes | [`Batch::outcomes`], [`Batch::count`] | none |
 //! | attitude at landing | [`Batch::attitudes`] | 1e-15 rad |
 //! | phases that show heads | [`Batch::heads`] | as stated with each |
+//! | proven outcomes of any rigid body | `Batch<Body>`, by the same names | none |
 //!
-//! A kernel solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², and
+//! A kernel for coins solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50 m/s², and
 //! a phase ωL T below 2^40 turns (below k 2^40 turns for a coin with an inertia ratio k < 1). L = (ωx, ωy, k ωz) is the
 //! angular momentum divided by I1. All other tosses are solved one by one, as accurately, or are left
 //! to the caller ([`Batch::heads`]). Neither the instruction set
 //! nor the other tosses of the batch change a bit of a result.
 
 mod attitude;
+mod bodies;
 mod cos_tilt;
 mod heads;
 mod kernel;
 mod momentum;
 mod outcome;
+mod proving;
 
 pub use heads::{HeadsColumns, UNSOLVED};
 
-use dynamics::{Attitude, Tosses};
+use dynamics::{Attitude, Coin, Tosses};
 use numerics::lanes::SimdLevel;
 
-/// Tosses to be solved together, and the SIMD level of the kernels.
+/// Tosses of a coin, or of any [`Body`](dynamics::Body), to be solved together, and the SIMD level of the kernels.
 #[derive(Debug, Clone, Copy)]
-pub struct Batch<'a> {
-    tosses: Tosses<'a>,
+pub struct Batch<'a, B = Coin> {
+    tosses: Tosses<'a, B>,
     level: SimdLevel,
 }
 
-impl<'a> Batch<'a> {
+impl<'a, B> Batch<'a, B> {
     /// Makes a batch of `tosses`, to be solved at the widest SIMD level of the machine.
-    pub fn new(tosses: Tosses<'a>) -> Self {
+    pub fn new(tosses: Tosses<'a, B>) -> Self {
         Self { tosses, level: SimdLevel::widest() }
     }
 
@@ -44,7 +47,9 @@ impl<'a> Batch<'a> {
     pub fn on(self, level: SimdLevel) -> Self {
         Self { level, ..self }
     }
+}
 
+impl Batch<'_> {
     /// Whether the tosses start from horizontal, heads up.
     fn is_flat(&self) -> bool {
         self.tosses.attitude() == Attitude::IDENTITY
@@ -53,8 +58,6 @@ impl<'a> Batch<'a> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::Coin;
-
     use super::*;
 
     #[test]

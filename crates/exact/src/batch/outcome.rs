@@ -26,12 +26,13 @@ use std::ops::Range;
 
 use dynamics::{Error, Outcome, SolveError, Toss};
 use numerics::UNIT_ROUNDOFF;
-use numerics::lanes::{ROUGH_ERROR, Real, Simd, WithSimd, rough_cos_of_half, rough_sin_of_half};
+use numerics::lanes::{ROUGH_ERROR, Real, Simd, SimdLevel, rough_cos_of_half, rough_sin_of_half};
 
 use super::Batch;
 use super::kernel::{Kernel, Run};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
-use crate::certificate::{Certificate, ProvenCounts, Stage};
+use super::proving::{self, Proving};
+use crate::certificate::{Certificate, ProvenCounts};
 use crate::certified::certify;
 
 /// |G|/size up to which the filter leaves a toss undecided, for a phase of 0.
@@ -43,16 +44,6 @@ const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
 /// |G| up to which the filter leaves a toss undecided whatever its size ((rad/s)²).
 const SMALLEST: f64 = 1e-200;
 
-/// Number of tosses that are filtered together, before the undecided ones among them are proven one by one.
-const BLOCK: usize = 512;
-
-/// Numbers of outcomes that the filter decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct FilterCounts {
-    heads: u64,
-    tails: u64,
-}
-
 impl Batch<'_> {
     /// Writes the proven outcome of each toss. It is undecided only for an exact tie.
     ///
@@ -62,21 +53,7 @@ impl Batch<'_> {
     /// # Panics
     /// If `out` does not have one entry per toss.
     pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
-        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
-        let filter = Filter::new(self);
-        let mut heights = Column([0.0; BLOCK]);
-        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let start = block * BLOCK;
-            let heights = &mut heights.0[..out.len()];
-            filter.run(self, start..start + out.len(), heights)?;
-            for (index, (height, out)) in heights.iter().zip(out).enumerate() {
-                *out = of_sign(*height);
-                if *out == Outcome::Undecided {
-                    *out = self.tosses.solve(start + index, certify)?.outcome();
-                }
-            }
-        }
-        Ok(())
+        proving::outcomes(&Filtered(self, Filter::new(self)), out)
     }
 
     /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
@@ -91,40 +68,31 @@ impl Batch<'_> {
     ///
     /// # Errors
     /// As [`Batch::count`].
-    pub fn count_and(&self, mut left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
-        let filter = Filter::new(self);
-        let mut heights = Column([0.0; BLOCK]);
-        let mut counts = ProvenCounts::default();
-        for start in (0..self.tosses.len()).step_by(BLOCK) {
-            let heights = &mut heights.0[..(self.tosses.len() - start).min(BLOCK)];
-            filter.run(self, start..start + heights.len(), heights)?;
-            let decided = self.level.run(Signs(heights));
-            counts.add_many(decided.heads, decided.tails, Stage::F64);
-            if decided.heads + decided.tails < heights.len() as u64 {
-                for (index, _) in
-                    heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided)
-                {
-                    let certificate = self.tosses.solve(start + index, certify)?;
-                    left(certificate);
-                    counts.add(certificate);
-                }
-            }
-        }
-        Ok(counts)
+    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+        proving::count(&Filtered(self, Filter::new(self)), left)
     }
 }
 
-/// The outcome by the sign of a height: heads for positive, tails for negative, undecided for 0. It is looked up in a
-/// table, because heads and tails alternate at random and the processor would mispredict half of the branches.
-#[inline]
-fn of_sign(height: f64) -> Outcome {
-    const OF_SIGNS: [Outcome; 3] = [Outcome::Undecided, Outcome::Heads, Outcome::Tails];
-    OF_SIGNS[usize::from(height > 0.0) + 2 * usize::from(height < 0.0)]
-}
+/// A batch with its filter.
+struct Filtered<'a, 'b>(&'a Batch<'b>, Filter);
 
-/// Heights of a block, aligned to whole cache lines for fast loads and stores.
-#[repr(align(64))]
-struct Column([f64; BLOCK]);
+impl Proving for Filtered<'_, '_> {
+    fn len(&self) -> usize {
+        self.0.tosses.len()
+    }
+
+    fn level(&self) -> SimdLevel {
+        self.0.level
+    }
+
+    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        self.1.run(self.0, range, heights)
+    }
+
+    fn certify(&self, index: usize) -> Result<Certificate, Error> {
+        self.0.tosses.solve(index, certify)
+    }
+}
 
 /// The filter's kernel for a batch, by the attitude at launch.
 enum Filter {
@@ -221,39 +189,13 @@ fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
     (height.abs() - threshold).max(height.constant(0.0)).times_sign_of(height)
 }
 
-/// Counts the positive numbers (heads) and the negative ones (tails).
-struct Signs<'a>(&'a [f64]);
-
-impl WithSimd for Signs<'_> {
-    type Output = FilterCounts;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> FilterCounts {
-        let (zero, one) = (Real::splat(simd, 0.0), Real::splat(simd, 1.0));
-        let smallest = Real::splat(simd, f64::from_bits(1));
-        let (mut heads, mut tails) = (zero, zero);
-        let (whole, rest) = self.0.split_at(self.0.len() - self.0.len() % Real::<S>::LANES);
-        for at in (0..whole.len()).step_by(Real::<S>::LANES) {
-            let height = Real::load(simd, &whole[at..]);
-            heads = heads + smallest.at_most(height).choose(one, zero);
-            tails = tails + height.at_most(-smallest).choose(one, zero);
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts below 2^53")]
-        let mut decided = FilterCounts { heads: heads.total() as u64, tails: tails.total() as u64 };
-        for height in rest {
-            decided.heads += u64::from(*height > 0.0);
-            decided.tails += u64::from(*height < 0.0);
-        }
-        decided
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use dynamics::{Attitude, Coin, Tosses};
-    use numerics::lanes::SimdLevel;
 
+    use super::super::proving::BLOCK;
     use super::*;
+    use crate::certificate::Stage;
 
     const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
 

@@ -1,0 +1,184 @@
+//! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
+//! SIMD registers and decides nearly all of them; [`certify_rigid`] proves the few that it leaves.
+//!
+//! The formulas are those of [`rigid`](crate::rigid), in plain f64: the series of theta functions at all nomes, and no
+//! branch. Launches around the axis of the largest moment stand beside those around the smallest in a register. Outcomes
+//! need few digits, so that sums end early:
+//!
+//! - Four steps of arithmetic and geometric means give K, the integral of the third kind, e^(-πc/(2K)) or e^(-πv/(2K)),
+//!   and x at launch, by roots and divisions alone.
+//! - The nome is a series of the second step's means, and five terms make the theta functions.
+//! - Only the two phases need sines, and those of the coins' filter do.
+//!
+//! Nothing cancels but E, whose condition the bound is multiplied by, and the terms of the theta functions. The bound is
+//! derived in `docs/proofs/rigid-outcomes.md`. Next to the separatrix (a nome above 0.44), for extreme rates and for
+//! launches near the edge nothing is decided.
+
+mod constants;
+mod landing;
+mod means;
+mod start;
+
+use std::ops::Range;
+
+use dynamics::{Body, Error, Outcome, Tosses};
+use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
+
+use super::Batch;
+use super::proving::{self, Proving};
+use crate::certificate::{Certificate, ProvenCounts};
+use crate::rigid::certify_rigid;
+use constants::Constants;
+use landing::{Begun, Height};
+
+/// Number of tosses in a tile, a multiple of the number of lanes of every SIMD level.
+const TILE: usize = 64;
+
+/// Number of columns between the two loops over a tile.
+const BETWEEN: usize = 18;
+
+impl Batch<'_, Body> {
+    /// Writes the proven outcome of each toss, that of [`certify_rigid`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
+    ///
+    /// # Panics
+    /// If `out` does not have one entry per toss.
+    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
+        proving::outcomes(&Filtered(self, Constants::new(&self.tosses)), out)
+    }
+
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify_rigid`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome.
+    pub fn count(&self) -> Result<ProvenCounts, Error> {
+        self.count_and(|_| ())
+    }
+
+    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify_rigid`]
+    /// did.
+    ///
+    /// # Errors
+    /// As [`Batch::count`].
+    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+        proving::count(&Filtered(self, Constants::new(&self.tosses)), left)
+    }
+}
+
+/// A batch with the constants of its filter, if it has one.
+struct Filtered<'a, 'b>(&'a Batch<'b, Body>, Option<Constants>);
+
+impl Proving for Filtered<'_, '_> {
+    fn len(&self) -> usize {
+        self.0.tosses.len()
+    }
+
+    fn level(&self) -> SimdLevel {
+        self.0.level
+    }
+
+    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        match &self.1 {
+            Some(constants) => self.0.level.run(Run { constants, tosses: self.0.tosses.part(range), heights }),
+            None => heights.fill(0.0),
+        }
+        Ok(())
+    }
+
+    fn certify(&self, index: usize) -> Result<Certificate, Error> {
+        self.0.tosses.solve_rigid(index, certify_rigid)
+    }
+}
+
+/// Columns of a tile, aligned to whole cache lines for fast loads and stores.
+#[repr(align(64))]
+struct Columns<const N: usize>([[f64; TILE]; N]);
+
+/// The filter, run over tosses.
+struct Run<'a, 'out> {
+    constants: &'a Constants,
+    tosses: Tosses<'a, Body>,
+    heights: &'out mut [f64],
+}
+
+impl WithSimd for Run<'_, '_> {
+    type Output = ();
+
+    /// Two short loops over a tile overlap the operations of more tosses than one long loop.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut between = Columns([[0.0; TILE]; BETWEEN]);
+        let mut padded = Columns([[1.0; TILE]; 4]);
+        for start in (0..self.tosses.len()).step_by(TILE) {
+            let tile = start..(start + TILE).min(self.tosses.len());
+            let columns = whole_registers(&self.tosses, tile.clone(), Real::<S>::LANES, &mut padded);
+            for at in (0..columns[0].len()).step_by(Real::<S>::LANES) {
+                let mut launch = [Real::splat(simd, 0.0); 4];
+                for (part, column) in launch.iter_mut().zip(&columns) {
+                    *part = Real::load(simd, &column[at..]);
+                }
+                let begun = self.constants.begin(launch);
+                for (part, column) in begun.iter().zip(&mut between.0) {
+                    part.store(&mut column[at..]);
+                }
+            }
+            for at in (0..columns[0].len()).step_by(Real::<S>::LANES) {
+                let mut begun = [Real::splat(simd, 0.0); BETWEEN];
+                for (part, column) in begun.iter_mut().zip(&between.0) {
+                    *part = Real::load(simd, &column[at..]);
+                }
+                let Height { height, norm, bound } = self.constants.end(begun);
+                // NaN is not beyond any bound.
+                let decided = (bound * norm).less_than(height.abs()).choose(height, height.constant(0.0));
+                decided.store_up_to(&mut self.heights[start + at..tile.end]);
+            }
+        }
+    }
+}
+
+impl Constants {
+    /// The body of the first loop.
+    #[inline(always)]
+    fn begin<S: Simd>(&self, [x, y, z, speed]: [Real<S>; 4]) -> [Real<S>; BETWEEN] {
+        let start = self.start([x, y, z], speed);
+        let means = start.means();
+        let [[a, b], [c, d], [e, f], [g, h]] = means.points;
+        let ([cos, sin], [across, precession]) = (start.point, means.turns);
+        let (is_c, side, upright, condition) = (start.is_c, start.side, start.upright, start.condition);
+        let (decay, nome) = (means.decay, means.nome);
+        [cos, sin, is_c, side, upright, condition, across, precession, decay, nome, a, b, c, d, e, f, g, h]
+    }
+
+    /// The body of the second loop.
+    #[inline(always)]
+    fn end<S: Simd>(&self, begun: [Real<S>; BETWEEN]) -> Height<S> {
+        let [cos, sin, is_c, side, upright, condition, across, precession, decay, nome, a, b, c, d, e, f, g, h] = begun;
+        let (point, turns, points) = ([cos, sin], [across, precession], [[a, b], [c, d], [e, f], [g, h]]);
+        self.landing(&Begun { point, is_c, side, upright, condition, turns, decay, nome, points })
+    }
+}
+
+/// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
+/// to `room`.
+#[inline(always)]
+fn whole_registers<'a>(
+    tosses: &Tosses<'a, Body>,
+    tile: Range<usize>,
+    lanes: usize,
+    room: &'a mut Columns<4>,
+) -> [&'a [f64]; 4] {
+    let columns = tosses.columns(tile);
+    let tosses = columns[0].len();
+    if tosses.is_multiple_of(lanes) {
+        return columns;
+    }
+    for (padded, column) in room.0.iter_mut().zip(columns) {
+        padded[..tosses].copy_from_slice(column);
+    }
+    room.0.each_ref().map(|column| &column[..tosses.next_multiple_of(lanes)])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+//! These tests hold the filter and the bound of its error against the motion in double-double.
+
+use dynamics::{Attitude, Body, Tosses};
+use numerics::lanes::SimdLevel;
+
+use super::*;
+use crate::rigid::RigidMotion;
+
+/// Numbers between two, of Weyl's sequence.
+fn column(count: usize, square: f64, [from, to]: [f64; 2]) -> Vec<f64> {
+    (0..count).map(|index| from + (to - from) * (index as f64 * square.sqrt()).fract()).collect()
+}
+
+/// Columns of launches: rates (rad/s) and speeds (m/s).
+struct Columns([Vec<f64>; 4]);
+
+impl Columns {
+    fn new(count: usize, fastest: f64, speed: f64) -> Self {
+        let [x, y, z] = [2.0, 3.0, 5.0].map(|square| column(count, square, [-fastest, fastest]));
+        Self([x, y, z, column(count, 7.0, [0.0, speed])])
+    }
+
+    fn tosses(&self, body: Body, attitude: Attitude) -> Tosses<'_, Body> {
+        let [x, y, z, speeds] = &self.0;
+        Tosses::new(body, attitude, 9.81, [x, y, z], speeds).unwrap()
+    }
+}
+
+/// Writes cos θ, the bound of its error, and the norm, of each toss.
+struct Bounded<'a>(&'a Constants, Tosses<'a, Body>, &'a mut Vec<[f64; 3]>);
+
+impl WithSimd for Bounded<'_> {
+    type Output = ();
+
+    fn with_simd<S: Simd>(self, simd: S) {
+        for index in 0..self.1.len() {
+            let launch = self.1.columns(index..index + 1).map(|column| Real::splat(simd, column[0]));
+            let Height { height, norm, bound } = self.0.end(self.0.begin(launch));
+            self.2.push([height / norm, bound, norm].map(|number| {
+                let mut first = [0.0];
+                number.store_up_to(&mut first);
+                first[0]
+            }));
+        }
+    }
+}
+
+/// The largest ratio of an error to its bound, of the tosses whose bounds are in a range.
+fn largest_ratio(tosses: Tosses<'_, Body>, bounds: Range<f64>) -> (f64, usize) {
+    let (constants, mut found) = (Constants::new(&tosses).unwrap(), Vec::new());
+    SimdLevel::for_one_lane().run(Bounded(&constants, tosses, &mut found));
+    let (mut largest, mut tried) = (0.0_f64, 0);
+    for (index, [cos_tilt, bound, norm]) in found.into_iter().enumerate() {
+        if bound.is_infinite() || !bounds.contains(&bound) {
+            continue;
+        }
+        let motion = |toss: &_| RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
+        let error = (cos_tilt - tosses.solve_rigid(index, motion).unwrap()).abs();
+        assert!(error <= bound, "{:?}: {error:e} > {bound:e}", tosses.solve_rigid(index, |toss| Ok(*toss)));
+        assert!(norm > 0.142, "(|θ4|² + |θ1|²)² = {norm}");
+        largest = largest.max(error / bound);
+        tried += 1;
+    }
+    (largest, tried)
+}
+
+/// Bodies of all kinds: far from symmetric, nearly symmetric in both ways, nearly spherical, needles and plates.
+fn bodies() -> Vec<Body> {
+    let moments = [
+        [1.0, 2.0, 2.25],
+        [2.25, 1.0, 2.0],
+        [2.0, 2.25, 1.0],
+        [1.0, 1.001, 2.0],
+        [1.0, 2.0, 2.001],
+        [1.0, 1.0 + 1e-12, 2.0],
+        [1.0, 1.00001, 1.00003],
+        [0.01, 1.0, 1.003],
+        [1e-6, 1.0, 1.0 + 9e-7],
+        [1.0, 2.0, 3.0],
+        [1.0, 2.0, 2.0],
+        [3.0, 2.0, 2.0],
+    ];
+    let tensor = [[2.0, 0.3, -0.2], [0.3, 2.5, 0.1], [-0.2, 0.1, 3.0]];
+    let engraved = dynamics::catalogue::named_body("us-quarter-engraved").unwrap();
+    let turned = [Body::from_tensor(tensor).unwrap(), engraved];
+    moments.map(|moments| Body::from_moments(moments).unwrap()).into_iter().chain(turned).collect()
+}
+
+#[test]
+fn errors_are_within_their_bounds_and_a_tenth_of_a_bound_would_not_do() {
+    for body in bodies() {
+        for (speed, least) in [(0.02, 0.03), (5.0, 0.1), (5e5, 0.01)] {
+            let launches = Columns::new(3000, 60.0, speed);
+            let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::about_x(0.3)), 0.0..f64::MAX);
+            assert!(tried > 2990 && largest > least, "{body:?}, {speed} m/s: {largest:e} of {tried}");
+        }
+    }
+}
+
+/// There the rounding of E counts, and the series end too early.
+#[test]
+fn errors_next_to_the_separatrix_are_within_bounds_of_which_a_hundredth_would_not_do() {
+    let body = Body::from_moments([1.0, 2.0, 2.25]).unwrap();
+    for (speed, least) in [(3.0, 0.03), (3e5, 0.005)] {
+        let mut launches = Columns::new(6000, 40.0, speed);
+        let [x, _, z, _] = &mut launches.0;
+        for (index, (x, z)) in x.iter().zip(z).enumerate() {
+            let apart = [1e-2, -1e-3, 1e-3, 2e-4][index % 4] * (1.0 + (index as f64 * 11f64.sqrt()).fract());
+            *z = (x * x / (2.25 * 0.25)).sqrt() * (1.0 + apart);
+        }
+        for bounds in [1e-9..1e-7, 1e-7..1e-6, 1e-6..1e-5, 1e-5..1e-3] {
+            let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::IDENTITY), bounds.clone());
+            assert!(tried > 100 && largest > least, "{bounds:?}, {speed} m/s: {largest:e} of {tried}");
+        }
+    }
+}
+
+#[test]
+fn heights_have_the_same_bits_at_every_level_and_length() {
+    let launches = Columns::new(300, 60.0, 5.0);
+    for body in bodies() {
+        let tosses = launches.tosses(body, Attitude::about_x(0.4));
+        let constants = Constants::new(&tosses).unwrap();
+        let heights = |level: SimdLevel, range: Range<usize>| {
+            let mut heights = vec![f64::NAN; range.len()];
+            level.run(Run { constants: &constants, tosses: tosses.part(range), heights: &mut heights });
+            heights.into_iter().map(f64::to_bits).collect::<Vec<_>>()
+        };
+        let plain = heights(SimdLevel::all()[0], 0..300);
+        for level in SimdLevel::all() {
+            for range in [0..300, 0..1, 1..8, 17..34, 3..259, 63..130] {
+                assert_eq!(heights(level, range.clone()), plain[range.clone()], "{range:?} at {}", level.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn bodies_without_a_filter_are_those_whose_constants_are_unknown() {
+    let has_one = |body: Body| Constants::new(&Columns::new(1, 1.0, 1.0).tosses(body, Attitude::IDENTITY)).is_some();
+    for moments in [[1.0, 1.0, 1.0], [0.0, 1.0, 1.0]] {
+        assert!(!has_one(Body::from_moments(moments).unwrap()), "{moments:?}");
+    }
+    assert!(!has_one(Body::from_tensor([[3.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 2.0]]).unwrap()));
+    assert!(has_one(Body::from_moments([2.0, 2.0, 1.0]).unwrap()));
+}
