@@ -1,5 +1,6 @@
 //! Many launches of one body, as columns of NumPy. A coin is solved by the kernels of [`::toss::Batch`], in the widest
-//! registers of the machine; other bodies, and any body by a solver, launch by launch.
+//! registers of the machine, and so are the outcomes of other bodies; what else is asked of these, and any body by a
+//! solver, launch by launch.
 
 use std::ops::Range;
 
@@ -163,13 +164,37 @@ impl Launches<'_> {
         Err(malformed("out", out.len(), "as many results as launches"))
     }
 
+    /// The launches in `range` as tosses of `body`.
+    fn tosses<B: Copy>(&self, body: B, range: Range<usize>) -> Result<Tosses<'_, B>, Failure> {
+        let rates = self.rates.map(|column| &column[range.clone()]);
+        Ok(Tosses::new(body, self.of.attitude, self.of.gravity, rates, &self.speeds[range])?)
+    }
+
     /// The launches in `range` for the kernels; `None` if they are solved one by one.
     fn batch(&self, range: Range<usize>) -> Result<Option<::toss::Batch<'_>>, Failure> {
-        let Batch { body, attitude, gravity, solver, .. } = self.of;
-        let Some(coin) = body.symmetric().filter(|_| solver.is_none()) else { return Ok(None) };
-        let rates = self.rates.map(|column| &column[range.clone()]);
-        let tosses = Tosses::new(coin, *attitude, *gravity, rates, &self.speeds[range])?;
-        Ok(Some(::toss::Batch::new(tosses)))
+        let coin = self.of.body.symmetric().filter(|_| self.of.solver.is_none());
+        coin.map(|coin| self.tosses(coin, range).map(::toss::Batch::new)).transpose()
+    }
+
+    /// Writes the proven outcomes of the launches in `range`, of any body.
+    fn prove(&self, range: Range<usize>, outcomes: &mut [Outcome]) -> Result<(), Failure> {
+        let start = range.start;
+        let done = match self.of.body.symmetric() {
+            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).outcomes(outcomes),
+            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).outcomes(outcomes),
+        };
+        done.map_err(|error| self.failed(start, error))
+    }
+
+    /// Counts the proven outcomes of the launches in `range`, of any body.
+    fn count_proven(&self, range: Range<usize>) -> Result<Counts, Failure> {
+        let start = range.start;
+        let counts = match self.of.body.symmetric() {
+            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
+            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
+        };
+        let counts = counts.map_err(|error| self.failed(start, error))?;
+        Ok((counts.heads(), counts.tails(), counts.ties(), Some(Stage::ALL.map(|stage| counts.by(stage)))))
     }
 
     /// The failure of the kernels in the part that starts at `start`, in the words of a single launch.
@@ -220,20 +245,17 @@ impl Launches<'_> {
     }
 
     fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
-        let start = range.start;
-        let mut block = [Outcome::Undecided; OUTCOMES_BLOCK];
-        let Some(_) = self.batch(0..0)? else {
+        if self.of.solver.is_some() {
             return self.each(range, |place, solver, toss| {
                 out[place] = sign(solver.outcome_rigid(toss)?);
                 Ok(())
             });
-        };
+        }
+        let mut block = [Outcome::Undecided; OUTCOMES_BLOCK];
         for (number, out) in out.chunks_mut(OUTCOMES_BLOCK).enumerate() {
-            let from = start + number * OUTCOMES_BLOCK;
+            let from = range.start + number * OUTCOMES_BLOCK;
             let outcomes = &mut block[..out.len()];
-            if let Some(batch) = self.batch(from..from + out.len())? {
-                batch.outcomes(outcomes).map_err(|error| self.failed(from, error))?;
-            }
+            self.prove(from..from + out.len(), outcomes)?;
             out.iter_mut().zip(outcomes).for_each(|(out, outcome)| *out = sign(*outcome));
         }
         Ok(())
@@ -263,10 +285,8 @@ impl Launches<'_> {
     }
 
     fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
-        let start = range.start;
-        if let Some(batch) = self.batch(range.clone())? {
-            let counts = batch.count().map_err(|error| self.failed(start, error))?;
-            return Ok((counts.heads(), counts.tails(), counts.ties(), Some(Stage::ALL.map(|stage| counts.by(stage)))));
+        if self.of.solver.is_none() {
+            return self.count_proven(range);
         }
         let mut faces = [0; 3];
         let mut stages = [0; Stage::ALL.len()];
