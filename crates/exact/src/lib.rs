@@ -12,7 +12,7 @@
 //! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
 //! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
 //! | the motion of any rigid body, and its outcomes with a proof | [`rigid`] |
-//! | many tosses at once, in SIMD registers | [`batch`] |
+//! | many tosses at once, in SIMD registers, of coins and other bodies | [`batch`] |
 //! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
 //!
 //! Symbols and frames are those of the crate [`dynamics`]: BF is the body frame, LF the laboratory frame. The crates of

@@ -1,7 +1,7 @@
 //! This file times the exact motion of a body with three moments: a launch with its landing, further times of the same
-//! launch, and the proof of an outcome.
+//! launch, and the proof of an outcome, alone and in batches.
 
-use toss::{Attitude, Body, RigidMotion, RigidToss, certify_rigid};
+use toss::{Attitude, Batch, Body, RigidMotion, RigidToss, SimdLevel, certify_rigid};
 
 use super::contest::Contest;
 use super::tosses::Columns;
@@ -22,7 +22,7 @@ const MOTIONS: [(&str, Motion); 2] =
     [("compensated", RigidMotion::compensated), ("in double-double", RigidMotion::new)];
 
 /// All ways to solve the launches of the columns.
-pub(super) fn contests<'a>(columns: &Columns) -> Vec<Contest<'a>> {
+pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Contest<'a>> {
     let tosses = columns.each_of(body());
     let mut contests = Vec::new();
     for (name, motion) in MOTIONS {
@@ -42,6 +42,11 @@ pub(super) fn contests<'a>(columns: &Columns) -> Vec<Contest<'a>> {
     let launches = tosses.clone();
     let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify_rigid(toss)));
     contests.push(contest("proven outcome", "one by one", tosses.len(), None, run));
+    contests.extend(SimdLevel::all().into_iter().map(|level| {
+        let batch = Batch::new(many.tosses_of(body())).on(level);
+        let run = move || _ = std::hint::black_box(batch.count().expect("valid tosses"));
+        contest("proven outcome", &format!("batch, {}", level.name()), many.speeds.len(), None, run)
+    }));
     contests
 }
 

@@ -37,13 +37,15 @@ const MORE: f64 = 1.05;
 /// The names of the works: what is computed, a slash, and the SIMD level, or `default` for the one that the library
 /// chooses by itself. For `cos-tilt` and `outcome`, one by one, the solver and its scheme follow; for `launches`, the
 /// method that chooses them.
-const WORKS: [&str; 22] = [
+const WORKS: [&str; 24] = [
     "cos-tilts/plain",
     "cos-tilts/avx2",
     "count/plain",
     "count/avx2",
     "attitudes/plain",
     "attitudes/avx2",
+    "bodies/plain",
+    "bodies/avx2",
     "taylor/plain",
     "taylor/avx2",
     "cos-tilts/default",
@@ -85,12 +87,14 @@ fn many(work: &str, level: &str, times: u32) -> anyhow::Result<()> {
         known => Batch::new(tosses).on(known.context("this machine has no such SIMD level")?),
     };
     let (mut out, mut quaternions) = (vec![0.0; TOSSES], [(); 4].map(|()| vec![0.0; TOSSES]));
+    let bodies = Batch::new(columns.tosses_of(super::bodies::body()));
     let each = columns.each();
     let taylor = QuaternionSolver::new(Stepping::adaptive(TAYLOR, 1e-10)?, Formulation::default());
     for _ in 0..times {
         match (work, known) {
             ("cos-tilts", _) => batch.cos_tilts(&mut out)?,
             ("count", _) => drop(std::hint::black_box(batch.count()?)),
+            ("bodies", Some(level)) => drop(std::hint::black_box(bodies.on(level).count()?)),
             ("attitudes", _) => batch.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
             ("taylor", Some(level)) => drop(taylor.propagate_all(&each, level)),
             ("landings", None) => taylor.cos_tilts(&tosses, &mut out)?,

@@ -48,7 +48,7 @@ impl Table {
         let flown = tosses::Columns::new(integrators::FLOWN);
         let mut contests = kernels::contests(&columns);
         contests.extend(launches::contests()?);
-        contests.extend(bodies::contests(&flown));
+        contests.extend(bodies::contests(&flown, &columns));
         contests.extend(integrators::contests(&flown, bodies::body())?);
         let times = race(&mut contests, reference.as_mut())?;
         let row = |contest: &Contest<'_>, nanoseconds: f64| Row {

@@ -22,8 +22,13 @@ impl Columns {
 
     /// The columns as tosses of the paper's coin that start horizontal.
     pub(super) fn tosses(&self) -> Tosses<'_> {
+        self.tosses_of(Coin::PAPER)
+    }
+
+    /// The same launches of a coin or a body.
+    pub(super) fn tosses_of<B: Copy>(&self, body: B) -> Tosses<'_, B> {
         let [x, y, z] = &self.rates;
-        let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
+        let tosses = Tosses::new(body, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
         tosses.expect("columns of one length")
     }
 
