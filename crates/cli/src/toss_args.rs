@@ -158,10 +158,6 @@ impl TossArgs {
     }
 }
 
-/// Why `--prove` refuses a body with I1 ≠ I2.
-pub(crate) const ONLY_COINS: &str =
-    "it proves the flights of coins alone; without --prove it estimates, and exact proves";
-
 /// Options for one toss and the solver that flies it.
 #[derive(Debug, Args)]
 #[command(mut_arg("scheme", |scheme| scheme.alias("method")))]

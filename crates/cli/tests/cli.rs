@@ -5,7 +5,7 @@ mod common;
 
 use std::process::Command;
 
-use common::{assert_near, assert_refused, json, run, stdout};
+use common::{assert_near, assert_refused, json, run, stderr, stdout};
 use serde_json::{Value, json as value};
 use toss::{Registry, SolverEntry};
 
@@ -74,6 +74,12 @@ fn an_integrated_outcome_is_proven_with_bounds_that_hold() {
     let lines: Vec<&str> = csv.lines().collect();
     assert!(lines[0].ends_with(",cos_tilt,error_bound,attitude_error_bound") && lines.len() == 4, "{csv}");
     assert!(!stdout(&run(&format!("trace {toss} --points 3"))).contains("error_bound"));
+    let body = json("toss --moments 2,3,4 --rate 0.5,-1.25,2 --time 25 --solver quaternion --prove", 0);
+    assert_eq!((&body["certified"], &body["proof"]), (&true.into(), &"integrated".into()));
+    let exact = json("toss --moments 2,3,4 --rate 0.5,-1.25,2 --time 25", 0);
+    assert_near(&body["cos_tilt"], exact["cos_tilt"].as_f64().unwrap(), body["error_bound"].as_f64().unwrap());
+    let middle = run("toss --moments 2,3,4 --rate 1e-12,1,1e-12 --time 1e4 --solver quaternion --prove");
+    assert!(stderr(&middle).contains("have no bound"), "{}", stderr(&middle));
     let near = json("toss --rate 1,0,0 --time 1.5707963267948966 --solver quaternion --prove", 0);
     assert_eq!((&near["outcome"], &near["certified"]), (&"heads".into(), &true.into()));
 }

@@ -24,6 +24,12 @@ use crate::product::turned;
 use crate::taylor::{INVERSES, LARGEST_ORDER};
 use crate::{Landed, half_product};
 
+mod defect;
+mod enclosed;
+mod polhode;
+
+pub(crate) use enclosed::{Bound, Enclosed};
+
 /// The system over the state (w, x, y, z, ω1, ω2, ω3) in principal axes. Rates may be in any unit; its inverse is the
 /// unit of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -153,6 +159,20 @@ impl Motion for Bodies {
 
     #[inline(always)]
     fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) {
+        self.step(simd, plan, series, clock);
+    }
+
+    fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
+        let turn = flight.turn_in_body(self.attitude.each_ref().map(|part| part[lane]));
+        let rates = self.half.each_ref().map(|part| 2.0 * part[lane]);
+        Landed { flight: *flight.timing(), turn, rate: flight.rate_at(rates), work, record: None, enclosed: None }
+    }
+}
+
+impl Bodies {
+    /// Takes one step in each lane, and returns its length.
+    #[inline(always)]
+    fn step<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) -> Real<S> {
         let load = |numbers: &PerLane| Real::load(simd, numbers);
         series.expand(plan.order, self.half.each_ref().map(load), self.twice.each_ref().map(load));
         let h = clock.step(simd, plan, [series.size(plan.order - 1), series.size(plan.order)]);
@@ -160,12 +180,7 @@ impl Motion for Bodies {
         let attitude = turned(self.attitude.each_ref().map(load), [[w, z], [x, y]]);
         store(attitude, &mut self.attitude);
         store([a, b, c], &mut self.half);
-    }
-
-    fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let turn = flight.turn_in_body(self.attitude.each_ref().map(|part| part[lane]));
-        let rates = self.half.each_ref().map(|part| 2.0 * part[lane]);
-        Landed { flight: *flight.timing(), turn, rate: flight.rate_at(rates), work, record: None }
+        h
     }
 }
 

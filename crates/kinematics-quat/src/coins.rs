@@ -95,6 +95,6 @@ impl Motion for Coins {
         let turn = self.attitude.each_ref().map(|part| part[lane]);
         let moduli = self.moduli.each_ref().map(|part| part[lane]);
         let record = Some(Record { steps: work.accepted_steps, moduli, longest: self.longest[lane] });
-        Landed { flight: *flight, turn, rate: flight.rate_at(x, y), work, record }
+        Landed { flight: *flight, turn, rate: flight.rate_at(x, y), work, record, enclosed: None }
     }
 }

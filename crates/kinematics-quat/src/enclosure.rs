@@ -7,10 +7,11 @@
 //! itself. An error of |η| is measured, because the true |η| never changes.
 
 use dynamics::body_rate::body_precession_rate;
-use dynamics::{AngleUnit, Flight, Toss};
+use dynamics::{AngleUnit, Flight, Launch, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
+use crate::bodies::Bound;
 use crate::defect::{StepBound, Steps};
 
 /// What a bound of the error has to know of the steps of a flight.
@@ -32,6 +33,9 @@ const TINY: f64 = 1e-90;
 
 /// The largest error of an attitude for which the bounds of second order hold.
 const LARGEST: f64 = 1e-3;
+
+/// More than the error of 25 u² of the inertia ratio and of the time, and of the operations on them.
+const OF_DOUBLE_DOUBLE: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// What the bound of the steps of a flight with this `record` depends on.
 pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
@@ -68,10 +72,19 @@ pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step
     let along = drift + of_launch.rate * (modulus.hi() + 0.5 * rate.z.abs()) + 2.0 * of_launch.q;
     let of_time = 0.5 * rate.norm() * of_launch.time;
     let sum = of_steps + along * flight.span() + of_launch.rate + of_time + TINY;
-    // The steps multiply quaternions whose norm is 1 to within the error itself, and the last factor covers the rounding of
-    // this sum.
+    whole(sum)
+}
+
+/// The bound of an attitude from the sum of all errors; infinite where the theorem does not apply. The steps multiply
+/// quaternions whose norm is 1 to within the error itself, and the last factor covers the rounding of the sum.
+pub(crate) fn whole(sum: f64) -> f64 {
     let bound = sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9);
     if bound < LARGEST { bound } else { f64::INFINITY }
+}
+
+/// [`attitude_bound`] of any body.
+pub(crate) fn attitude_bound_of_body(launch: &Launch, flight: &Flight, bound: &Bound) -> f64 {
+    whole(bound.turn + 0.5 * bound.fastest * time_error(launch, flight) + TINY)
 }
 
 /// |η| at launch, in the unit of the flight, to 12 u² of itself.
@@ -92,21 +105,24 @@ struct Launched {
 
 impl Launched {
     fn new(toss: &Toss, flight: &Flight) -> Self {
-        /// More than the error of 25 u² of the inertia ratio and of the time, and of the operations on them.
-        const OF_DOUBLE_DOUBLE: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
         let (k, rate_z) = (toss.coin.exact_inertia_ratio(), flight.rate.z);
         let q = (k - 1.0.into()) * rate_z - body_precession_rate(k.hi(), rate_z).into();
-        let exact = toss.launch.time_of_flight().exact();
-        // The mantissa of the scale, a power of two, is ½ or 1 by convention, and its exponent is exact.
-        let (mantissa, exponent) = mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax()));
-        let time = (exact.mantissa() * mantissa).times_power_of_two(exact.exponent() + exponent);
         let rate = rate_error(toss);
         Self {
             rate,
             q: q.hi().abs() * (1.0 + 4.0 * UNIT_ROUNDOFF) + (OF_DOUBLE_DOUBLE + 1.01 * rate) * 2.0 * rate_z.abs(),
-            time: (time - flight.span().into()).hi().abs() + OF_DOUBLE_DOUBLE * flight.span(),
+            time: time_error(&toss.launch, flight),
         }
     }
+}
+
+/// By how much the time of a flight differs from that of its launch, in the unit of the flight.
+fn time_error(launch: &Launch, flight: &Flight) -> f64 {
+    let exact = launch.time_of_flight().exact();
+    // The mantissa of the scale, a power of two, is ½ or 1 by convention, and its exponent is exact.
+    let (mantissa, exponent) = mantissa_and_exponent(power_of_two_scale(launch.rate().amax()));
+    let time = (exact.mantissa() * mantissa).times_power_of_two(exact.exponent() + exponent);
+    (time - flight.span().into()).hi().abs() + OF_DOUBLE_DOUBLE * flight.span()
 }
 
 /// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.

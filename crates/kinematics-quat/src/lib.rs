@@ -24,6 +24,7 @@ mod lockstep;
 mod plan;
 mod product;
 mod proven;
+mod proven_bodies;
 mod proving;
 mod taylor;
 
@@ -38,6 +39,7 @@ use nalgebra::SVector;
 use numerics::lanes::SimdLevel;
 
 use crate::bodies::Bodies;
+use crate::bodies::Bound;
 pub use crate::bodies::RigidSystem;
 use crate::coins::Coins;
 use crate::enclosure::Record;
@@ -174,7 +176,8 @@ impl Solver for QuaternionSolver {
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.stepping)?;
         let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
-        let landed = Landed { flight, turn: [w, x, y, z], rate: flight.rate_at(rate_x, rate_y), work, record: None };
+        let (turn, rate) = ([w, x, y, z], flight.rate_at(rate_x, rate_y));
+        let landed = Landed { flight, turn, rate, work, record: None, enclosed: None };
         self.landing(toss.launch.attitude(), &landed)
     }
 
@@ -196,7 +199,8 @@ impl Solver for QuaternionSolver {
         let (end, work) = flight.timing().integrate(&system, start, &self.stepping)?;
         let &[w, x, y, z, first, second, third] = &end.data.0[0];
         let (turn, rate) = (flight.turn_in_body([w, x, y, z]), flight.rate_at([first, second, third]));
-        self.landing(toss.launch.attitude(), &Landed { flight: *flight.timing(), turn, rate, work, record: None })
+        let landed = Landed { flight: *flight.timing(), turn, rate, work, record: None, enclosed: None };
+        self.landing(toss.launch.attitude(), &landed)
     }
 
     /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
@@ -234,8 +238,10 @@ struct Landed {
     /// ω (BF, rad/s).
     rate: Vector3<f64>,
     work: Work,
-    /// What a bound of the error has to know of the steps; `None` of flights that have no bound.
+    /// What a bound of the error has to know of the steps of a coin; `None` of flights that have no bound.
     record: Option<Record>,
+    /// The bound of a body's flight that was asked for one.
+    enclosed: Option<Bound>,
 }
 
 /// The system over the state (w, x, y, z, ωx, ωy), where (w, x, y, z) is P. Rates may be in any unit; its inverse is

@@ -16,7 +16,7 @@ use crate::enclosure::{attitude_bound, steps};
 use crate::integration::Integration;
 use crate::lockstep::fly;
 use crate::plan::Plans;
-use crate::{Landed, QuaternionSolver};
+use crate::{Landed, QuaternionSolver, Taylor};
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
 ///
@@ -102,7 +102,7 @@ impl QuaternionSolver {
     /// computed at once as a register at the SIMD `level` has lanes.
     pub fn certify_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
         let plans = match self.require_proofs() {
-            Ok(plans) => plans,
+            Ok(taylor) => &taylor.coins,
             Err(error) => return vec![Err(error); tosses.len()],
         };
         let mut found = self.enclosed(tosses, plans, level, Integration::AsConfigured);
@@ -122,22 +122,19 @@ impl QuaternionSolver {
     /// # Errors
     /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        let plans = self.require_proofs()?;
+        let plans = &self.require_proofs()?.coins;
         let toss = std::slice::from_ref(toss);
         let mut found = self.enclosed(toss, plans, SimdLevel::for_one_lane(), Integration::AsConfigured);
         found.pop().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
     }
 
     /// The plans of the steps of a solver that proves something.
-    pub(crate) fn require_proofs(&self) -> Result<&Plans, SolveError> {
+    pub(crate) fn require_proofs(&self) -> Result<&Taylor, SolveError> {
         let refuse = |why| SolveError::NotProven { solver: Self::NAME.to_owned(), why };
         if !self.projects {
             return Err(refuse("without a division by the norm, its cos θ is not that of an attitude"));
         }
-        self.taylor
-            .as_ref()
-            .map(|taylor| &taylor.coins)
-            .ok_or_else(|| refuse("of its schemes only taylor bounds its own error"))
+        self.taylor.as_ref().ok_or_else(|| refuse("of its schemes only taylor bounds its own error"))
     }
 
     /// The landings by these `plans` with their bounds.
@@ -165,13 +162,24 @@ impl QuaternionSolver {
     ) -> Result<IntegratedCertificate, SolveError> {
         let record = landed.record.as_ref().ok_or_else(|| landed.flight.not_finite())?;
         let bound = attitude_bound(toss, &landed.flight, record, bound);
-        let cos_tilt = cos_tilt(toss, landed.turn);
+        self.stated(toss.launch.attitude(), landed, bound, integration)
+    }
+
+    /// The landing of a launch with the attitude `launched`, whose turn is off by at most `bound`.
+    pub(crate) fn stated(
+        &self,
+        launched: Attitude,
+        landed: &Landed,
+        bound: f64,
+        integration: Integration,
+    ) -> Result<IntegratedCertificate, SolveError> {
+        let cos_tilt = cos_tilt(launched, landed.turn);
         let error_bound = (2.0 * bound + OF_COS_TILT).min(2.0);
         Ok(IntegratedCertificate {
             outcome: Outcome::of(cos_tilt, error_bound),
-            landing: self.landing(toss.launch.attitude(), landed)?.with_cos_tilt(cos_tilt),
+            landing: self.landing(launched, landed)?.with_cos_tilt(cos_tilt),
             error_bound,
-            attitude_error_bound: (bound + of_attitude(toss)).min(2.0),
+            attitude_error_bound: (bound + of_attitude(launched)).min(2.0),
             integration,
         })
     }
@@ -205,7 +213,7 @@ impl QuaternionSolver {
 }
 
 impl IntegratedCertificate {
-    fn with_work(mut self, work: Work) -> Self {
+    pub(crate) fn with_work(mut self, work: Work) -> Self {
         self.landing.work = work;
         self
     }
@@ -250,26 +258,26 @@ fn by_digits(
         outcome: landing.outcome,
         landing: Propagation::new(state, work).with_cos_tilt(landing.cos_tilt),
         error_bound: landing.cos_bound,
-        attitude_error_bound: (landing.attitude_bound + of_attitude(toss)).min(2.0),
+        attitude_error_bound: (landing.attitude_bound + of_attitude(toss.launch.attitude())).min(2.0),
         integration,
     })
 }
 
 /// cos θ after the turn P of any norm.
-fn cos_tilt(toss: &Toss, [w, x, y, z]: [f64; 4]) -> f64 {
-    let ([a, b, c], size) = toss.launch.attitude().vertical();
+fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
+    let ([a, b, c], size) = launched.vertical();
     let (upright, inverted) = (w * w + z * z, x * x + y * y);
     let across = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x)];
     (a * across[0] + b * across[1] + c * (upright - inverted)) / ((upright + inverted) * size)
 }
 
 /// Roundings of the attitude at landing. Half of a tilt in degrees is rounded to radians.
-fn of_attitude(toss: &Toss) -> f64 {
-    let tilt = toss.launch.attitude().tilt().map_or(0.0, |angle| angle.radians().abs());
+fn of_attitude(launched: Attitude) -> f64 {
+    let tilt = launched.tilt().map_or(0.0, |angle| angle.radians().abs());
     OF_ATTITUDE + UNIT_ROUNDOFF * tilt
 }
 
-fn sum(a: Work, b: Work) -> Work {
+pub(crate) fn sum(a: Work, b: Work) -> Work {
     Work {
         rhs_calls: a.rhs_calls + b.rhs_calls,
         accepted_steps: a.accepted_steps + b.accepted_steps,

@@ -3,7 +3,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use dynamics::{Error, Outcome, Propagation, SolveError, Solver, Stepping, Toss, Tosses};
+use dynamics::{Error, Outcome, Propagation, RigidToss, SolveError, Solver, Stepping, Toss, Tosses};
 use numerics::lanes::SimdLevel;
 
 use crate::QuaternionSolver;
@@ -106,6 +106,28 @@ impl Solver for Proving {
         let certificate = self.solver.certify(toss)?;
         self.lock().add(&certificate);
         Ok(decided_cos_tilt(&certificate))
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        self.solver.certify_rigid(toss).map(|certificate| *certificate.landing())
+    }
+
+    fn error_estimate_rigid(&self, _: &RigidToss) -> Result<Option<f64>, SolveError> {
+        Ok(None)
+    }
+
+    /// A flight without a bound counts as an undecided one.
+    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
+        let certificate = match self.solver.certify_rigid(toss) {
+            Err(SolveError::NotProven { .. }) => self.solver.enclose_rigid(toss)?,
+            certificate => certificate?,
+        };
+        self.lock().add(&certificate);
+        Ok(decided_cos_tilt(&certificate))
+    }
+
+    fn outcome_at_rigid(&self, _: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
+        Ok(Outcome::of(cos_tilt, 0.0))
     }
 
     fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {

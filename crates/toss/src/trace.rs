@@ -4,15 +4,12 @@
 //! BF is the body frame, whose z axis is the coin's normal n. LF is the laboratory frame, whose z axis ẑ points up; θ
 //! is the angle between n and ẑ.
 
-#[cfg(feature = "integrators")]
-use dynamics::Toss;
 use dynamics::error::require;
 use dynamics::{
     Attitude, Checked, Error, EulerAngles, InputError, Launch, RigidToss, SolveError, Solver, State, TimeOfFlight,
     Vector3,
 };
 #[cfg(any(feature = "integrators", test))]
-use exact::ExactMotion;
 use exact::RigidAngles;
 #[cfg(feature = "integrators")]
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
@@ -91,30 +88,41 @@ pub struct EnclosedPoint {
 /// As [`trace`], with proven bounds of the errors at each point. Each point is a flight from the launch.
 ///
 /// # Errors
-/// As [`trace`] and [`QuaternionSolver::certify`].
+/// As [`trace`] and [`QuaternionSolver::enclose_rigid`].
 #[cfg(feature = "integrators")]
-pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> Result<Vec<EnclosedPoint>, Error> {
+pub fn trace_enclosed(
+    solver: &QuaternionSolver,
+    toss: impl Into<RigidToss>,
+    points: usize,
+) -> Result<Vec<EnclosedPoint>, Error> {
+    let toss = &toss.into();
     enclosed_at(solver, toss, &spaced(&toss.launch, points)?)
 }
 
 /// As [`trace_every`], with proven bounds of the errors at each point.
 ///
 /// # Errors
-/// As [`trace_every`] and [`QuaternionSolver::certify`].
+/// As [`trace_every`] and [`QuaternionSolver::enclose_rigid`].
 #[cfg(feature = "integrators")]
-pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
+pub fn trace_enclosed_every(
+    solver: &QuaternionSolver,
+    toss: impl Into<RigidToss>,
+    step: f64,
+) -> Result<Vec<EnclosedPoint>, Error> {
+    let toss = &toss.into();
     enclosed_at(solver, toss, &stepped(&toss.launch, step)?)
 }
 
 #[cfg(feature = "integrators")]
-fn enclosed_at(solver: &QuaternionSolver, toss: &Toss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
-    let motion = ExactMotion::new(toss);
+fn enclosed_at(solver: &QuaternionSolver, toss: &RigidToss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
+    let mut branch = Branch::new(toss);
     let (rate, unit) = toss.launch.given_rate();
-    let at = |time: f64| -> Result<EnclosedPoint, Error> {
+    let mut at = |time: f64| -> Result<EnclosedPoint, Error> {
         let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time))?;
-        let flown = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
-        let certificate = solver.enclose(&flown)?;
-        let point = TracePoint::new(time, certificate.landing().state.attitude, &motion.euler_angles(time)?);
+        let flown = RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
+        let certificate = solver.enclose_rigid(&flown)?;
+        let point = TracePoint::new(time, certificate.landing().state.attitude, &branch.at(time)?);
+        branch.before = point.angles;
         Ok(EnclosedPoint { point: TracePoint { cos_tilt: certificate.cos_tilt(), ..point }, certificate })
     };
     times.iter().map(|time| at(*time)).collect()

@@ -8,7 +8,7 @@ use toss::{
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, fixed, without_sign_of_zero};
-use crate::toss_args::{FlightArgs, ONLY_COINS};
+use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -137,8 +137,7 @@ impl Answer {
 
     /// The outcome and the answer that are proven by integration, with their bounds.
     fn integrated(toss: &RigidToss, solver: &QuaternionSolver) -> Result<(Outcome, Self), Failure> {
-        let coin_toss = toss.require_symmetric(QuaternionSolver::NAME, ONLY_COINS)?;
-        let certificate: IntegratedCertificate = solver.certify(&coin_toss)?;
+        let certificate: IntegratedCertificate = solver.certify_rigid(toss)?;
         let mut answer = Self::of(toss, certificate.landing(), solver, false)?;
         let outcome = certificate.outcome();
         (answer.outcome, answer.certified) = (outcome.name(), outcome != Outcome::Undecided);

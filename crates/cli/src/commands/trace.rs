@@ -3,15 +3,15 @@
 
 use serde::Serialize;
 use toss::{
-    Dimension, EnclosedPoint, QuaternionSolver, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed,
-    trace_enclosed_every, trace_every,
+    Dimension, EnclosedPoint, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed, trace_enclosed_every,
+    trace_every,
 };
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::quantity;
-use crate::toss_args::{FlightArgs, ONLY_COINS};
+use crate::toss_args::FlightArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -107,7 +107,6 @@ impl Args {
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed");
         if self.prove {
             let solver = self.flight.prover(registry)?;
-            let toss = &toss.require_symmetric(QuaternionSolver::NAME, ONLY_COINS)?;
             let enclosed = match (self.points, self.dt) {
                 (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
                 (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,

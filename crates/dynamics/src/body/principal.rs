@@ -25,8 +25,8 @@ impl<N: Elementary> PrincipalAxes<N> {
     /// The eigenvalues and eigenvectors of a symmetric `tensor`.
     ///
     /// Each rotation makes one element off the diagonal 0. After a few sweeps over the three, what is left of them is
-    /// below the rounding of the largest moment; it bounds the error of the moments, and divided by the difference of
-    /// two moments that of their axes.
+    /// below the rounding of the largest moment; with its own error, it bounds the error of the moments, and divided by the
+    /// difference of two moments that of their axes.
     pub(super) fn of_tensor(mut tensor: [[N; 3]; 3]) -> Self {
         let like = tensor[0][0].clone();
         let mut axes = Self::of_moments([1.0, 2.0, 3.0], &like).axes;
@@ -42,7 +42,8 @@ impl<N: Elementary> PrincipalAxes<N> {
                 }
             }
         }
-        let left = off_diagonal(&tensor);
+        let error = tensor[0][1].error() + tensor[0][2].error() + tensor[1][2].error();
+        let left = off_diagonal(&tensor) + 2.0 * error;
         let found = Self { moments: [0, 1, 2].map(|index: usize| tensor[index][index].clone().widened(left)), axes };
         let Self { moments, axes } = found.sorted();
         let gap = |a: &N, b: &N| (b.clone() - a.clone()).to_f64().abs();

@@ -3,6 +3,7 @@
 use dynamics::{Attitude, Body, Launch, TimeOfFlight, Vector3};
 use exact::RigidMotion;
 use numerics::lanes::{SimdLevel, WithSimd};
+use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
 
@@ -80,5 +81,96 @@ fn the_local_error_of_order_n_falls_with_power_n_plus_1_of_the_step() {
         let ratio = error(order, 0.3) / error(order, 0.15);
         let expected = f64::exp2(order as f64 + 1.0);
         assert!((ratio / expected - 1.0).abs() < 0.3, "order {order}: {ratio}, not {expected}");
+    }
+}
+
+/// The coefficients of a step at any order, in double-double, evaluated at its end.
+fn in_double_double(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) -> [DoubleDouble; 7] {
+    let like = |value: f64| DoubleDouble::from(value);
+    let [p, q, r] = couplings.map(|coupling| like(2.0 * coupling));
+    let mut terms = vec![[1.0, 0.0, 0.0, 0.0, 0.5 * rates[0], 0.5 * rates[1], 0.5 * rates[2]].map(like)];
+    for k in 0..order {
+        let mut sum = [DoubleDouble::ZERO; 7];
+        for (left, right) in terms.iter().zip(terms.iter().rev()) {
+            let [w, x, y, z, a, b, _] = *left;
+            let [_, _, _, _, d, e, f] = *right;
+            let each = [-(x * d + y * e + z * f), w * d + y * f - z * e, w * e + z * d - x * f, w * f + x * e - y * d];
+            let each = [each[0], each[1], each[2], each[3], b * f * p, a * f * q, a * e * r];
+            sum.iter_mut().zip(each).for_each(|(sum, part)| *sum = *sum + part);
+        }
+        terms.push(sum.map(|part| part / like((k + 1) as f64)));
+    }
+    let mut sum = [DoubleDouble::ZERO; 7];
+    for term in terms.iter().rev() {
+        sum.iter_mut().zip(term).for_each(|(sum, part)| *sum = *sum * like(h) + *part);
+    }
+    sum
+}
+
+/// The bounds of the turn without its product, of the rates, and of their rounding.
+struct Bounds([f64; 3], [f64; 3], usize, f64);
+
+impl WithSimd for Bounds {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+        let Self(rates, couplings, order, h) = self;
+        let (mut series, splat) = (Bodies::series(simd), |value: f64| Real::splat(simd, value));
+        let twice = couplings.map(|coupling| splat(2.0 * coupling));
+        series.expand(order, rates.map(|rate| splat(0.5 * rate)), twice);
+        let defect = series.defect(order, splat(h), twice);
+        let [turn, rates, rounding] = [defect.turn, defect.rates, defect.rounding].map(|value| {
+            let mut number = [0.0];
+            value.store_up_to(&mut number);
+            number[0]
+        });
+        [turn - 8.0 * UNIT_ROUNDOFF, rates, rounding]
+    }
+}
+
+/// Errors of a step of this order against one of the largest order in double-double: of the turn and of the rates.
+fn errors_of_step(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) -> [f64; 2] {
+    let found = SimdLevel::widest().run(Step(rates, couplings, order, h));
+    let exact = in_double_double(rates, couplings, 40, h);
+    let off = |part: usize| (DoubleDouble::from(found[part]) - exact[part]).hi();
+    let norm = |parts: &[usize]| parts.iter().map(|part| off(*part) * off(*part)).sum::<f64>().sqrt();
+    [norm(&[0, 1, 2, 3]), 2.0 * norm(&[4, 5, 6])]
+}
+
+/// The largest errors of steps, divided by their bounds, and the means over all steps.
+fn shares_of_steps(order: usize, h: f64) -> [f64; 2] {
+    let mut largest = [0.0_f64; 2];
+    for index in 0..2000 {
+        let part = |square: f64| 2.0 * (f64::from(index) * square.sqrt()).fract() - 1.0;
+        let rates = [part(2.0), part(3.0), part(5.0)];
+        let moments = [0.1 + (1.0 + part(7.0)), 2.2 + part(11.0) * 0.1, 2.3 + part(13.0) * 0.01];
+        let Ok(body) = Body::from_moments(moments) else { continue };
+        let [turn, of_rates, rounding] = SimdLevel::widest().run(Bounds(rates, body.couplings(), order, h));
+        let [off_turn, off_rates] = errors_of_step(rates, body.couplings(), order, h);
+        // No disturbance grows faster than with 2 |ω|.
+        let grown = (of_rates * (3.5 * h).exp() + rounding, turn + 0.5 * h * of_rates * (3.5 * h).exp());
+        largest = [largest[0].max(off_turn / grown.1), largest[1].max(off_rates / grown.0)];
+    }
+    largest
+}
+
+/// Half of a bound of a short step would be broken.
+#[test]
+fn the_defect_bounds_the_error_of_a_step_and_is_close() {
+    for order in [2, 4] {
+        for share in shares_of_steps(order, 0.03) {
+            assert!((0.55..=1.0).contains(&share), "order {order}: {share} of the bound");
+        }
+    }
+}
+
+/// At the largest order all of the error is rounding.
+#[test]
+fn roundings_are_within_their_bounds() {
+    for h in [0.03, 0.3, 1.0] {
+        for share in shares_of_steps(LARGEST_ORDER, h) {
+            assert!((0.15..=1.0).contains(&share), "{h}: {share} of the bound");
+        }
     }
 }

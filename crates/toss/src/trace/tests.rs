@@ -1,9 +1,7 @@
 //! Tests of traces by every solver, of coins and bodies.
 
-#[cfg(not(feature = "integrators"))]
-use dynamics::Toss;
-use dynamics::{Body, Coin, Propagation, Settings, Stepping};
-use exact::{ExactSolver, RigidMotion};
+use dynamics::{Body, Coin, Propagation, Settings, Stepping, Toss};
+use exact::{ExactMotion, ExactSolver, RigidMotion};
 
 use super::*;
 use crate::registry::Registry;
@@ -104,15 +102,21 @@ fn an_enclosed_trace_is_within_its_bounds_at_each_point() {
     let taylor = Stepping::adaptive(dynamics::Scheme::TAYLOR, 1e-6).unwrap();
     let solver = QuaternionSolver::new(taylor, dynamics::Formulation::default());
     let motion = ExactMotion::new(&toss);
-    let traced = trace_enclosed(&solver, &toss, 31).unwrap();
+    let traced = trace_enclosed(&solver, toss, 31).unwrap();
     assert_eq!((traced.len(), traced[30].point.time), (31, 1.5));
     for EnclosedPoint { point, certificate } in &traced {
         let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
         assert!(error <= certificate.error_bound(), "{error:e}");
     }
-    assert_eq!(trace_enclosed_every(&solver, &toss, 0.05).unwrap().len(), 31);
+    assert_eq!(trace_enclosed_every(&solver, toss, 0.05).unwrap().len(), 31);
+    let book = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch: toss.launch };
+    let motion = RigidMotion::new(&book);
+    for EnclosedPoint { point, certificate } in &trace_enclosed(&solver, book, 31).unwrap() {
+        let error = (point.cos_tilt - motion.cos_tilt(point.time).unwrap()).abs();
+        assert!(error <= certificate.error_bound() && certificate.error_bound() < 1e-4, "{error:e}");
+    }
     let dop853 = QuaternionSolver::new(Stepping::DEFAULT, dynamics::Formulation::default());
-    assert!(trace_enclosed(&dop853, &toss, 3).is_err());
+    assert!(trace_enclosed(&dop853, toss, 3).is_err());
 }
 
 #[test]

@@ -24,6 +24,9 @@ pub(super) const LONG: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 9.0] };
 /// Phases of 1 to 30 rad, as of tosses by hand.
 const TOSSED: Within = Within { rate: [1.0, 1.5], phase: [0.0, 1.5] };
 
+/// Phases of 1 to 1000 rad, which integrators fly in moments.
+pub(super) const FLOWN: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 3.0] };
+
 /// Bodies and launches that are hard in the same way.
 pub struct Family {
     /// Its name.

@@ -6,6 +6,7 @@ use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
 use toss::{Formulation, IntegratedCertificate, QuaternionSolver, Scheme, SolveError, Stepping, Toss};
 
+use super::integrated_bodies;
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -27,8 +28,8 @@ pub(super) const BOUNDS: Check = Check {
 pub(super) const OUTCOMES: Check = Check {
     id: "integrated-outcomes",
     claim: "Outcomes proven by integration are those of the 256-bit reference, also within 3 ulp of the speed at which \
-            the outcome changes. Measured: the number of tosses that differ, also by being undecided; one is enough to \
-            fail.",
+            the outcome changes; those of bodies with I1 ≠ I2 may be undecided there. Measured: the number of tosses that \
+            differ, those of coins also by being undecided; one is enough to fail.",
     basis: Basis::ClosedForm,
     judges: Judges::Library,
     ceiling: 0.0,
@@ -80,7 +81,7 @@ fn require_short(toss: &Toss) -> Result<(), SolveError> {
     (phase <= 1e5).then_some(()).ok_or_else(error)
 }
 
-fn solver_of(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
+pub(super) fn solver_of(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
     let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
     let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;
     Ok(QuaternionSolver::new(stepping, Formulation::default()))
@@ -114,7 +115,8 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let shares: Vec<_> = cases.par_iter().map(|case| share(&solver, &case.toss)).collect();
         Ok(Measurement::of_set(name, &shares, |index| cases[index]))
     };
-    SETS.into_iter().zip(cases).map(measure).collect()
+    let coins: anyhow::Result<Vec<Measurement>> = SETS.into_iter().zip(cases).map(measure).collect();
+    Ok([coins?, integrated_bodies::bounds(number / 20)?].concat())
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -128,7 +130,8 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let differs: Vec<_> = cases.par_iter().map(differs).collect();
         Measurement::count_of_set(name, &differs, |index| cases[index])
     };
-    Ok(sets.into_iter().map(measure).collect())
+    let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
+    Ok([coins, integrated_bodies::outcomes(tries(context) / 20)?].concat())
 }
 
 fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -14,6 +14,7 @@ mod detest;
 mod figures;
 mod first_return;
 mod integrated;
+mod integrated_bodies;
 mod invariants;
 mod long_flights;
 mod margins;

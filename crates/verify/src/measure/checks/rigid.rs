@@ -125,7 +125,7 @@ fn errors(
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
 /// none is found.
-fn at_an_edge(toss: &RigidToss) -> Option<RigidToss> {
+pub(super) fn at_an_edge(toss: &RigidToss) -> Option<RigidToss> {
     let motion = RigidMotion::new(toss);
     let rate = toss.launch.rate().norm();
     let heads = |time: f64| motion.cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0).ok();

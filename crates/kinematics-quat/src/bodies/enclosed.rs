@@ -1,0 +1,81 @@
+//! The flights of bodies in the lanes of a vector, each with a bound of its error: the same steps with the same bits, and
+//! what they add to the bound.
+
+use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Work};
+use numerics::lanes::{Real, Simd};
+
+use super::polhode::{Errors, Polhode, Step};
+use super::{Bodies, RigidSeries};
+use crate::Landed;
+use crate::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
+use crate::plan::Plan;
+
+/// The state of the body in each lane.
+#[derive(Default)]
+#[repr(align(64))]
+pub(crate) struct Enclosed {
+    bodies: Bodies,
+    /// `None` for a flight without a bound.
+    errors: [Option<Errors>; MOST_LANES],
+}
+
+/// What a landing by [`Enclosed`] states.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bound {
+    /// Of the turn since launch, for a time of flight that is right; infinite or NaN where there is none.
+    pub(crate) turn: f64,
+    /// An upper bound of the rate, in the unit of the flight.
+    pub(crate) fastest: f64,
+}
+
+impl Motion for Enclosed {
+    type Toss = RigidToss;
+    type Flight = RigidFlight;
+    type Series<S: Simd> = RigidSeries<S>;
+
+    fn flight(toss: &RigidToss) -> Result<RigidFlight, SolveError> {
+        Bodies::flight(toss)
+    }
+
+    #[inline(always)]
+    fn timing(flight: &RigidFlight) -> &Flight {
+        flight.timing()
+    }
+
+    #[inline(always)]
+    fn series<S: Simd>(simd: S) -> RigidSeries<S> {
+        Bodies::series(simd)
+    }
+
+    fn launch(&mut self, lane: usize, toss: &RigidToss, flight: &RigidFlight) {
+        self.bodies.launch(lane, toss, flight);
+        self.errors[lane] = Polhode::new(toss, flight).map(|polhode| Errors::at_launch(polhode, flight.rates));
+    }
+
+    #[inline(always)]
+    fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) {
+        let h = self.bodies.step(simd, plan, series, clock);
+        let twice = self.bodies.twice.each_ref().map(|numbers| Real::load(simd, numbers));
+        let defect = series.defect(plan.order, h, twice);
+        let mut stored: [PerLane; 4] = [[0.0; MOST_LANES]; 4];
+        store([h, defect.turn, defect.rates, defect.rounding], &mut stored);
+        for lane in 0..S::F64_LANES {
+            self.add(lane, stored.each_ref().map(|lanes| lanes[lane]));
+        }
+    }
+
+    fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
+        let bound = self.errors[lane].as_ref().map(|errors| Bound { turn: errors.bound(), fastest: errors.fastest() });
+        Landed { enclosed: bound, ..self.bodies.landing(lane, flight, work) }
+    }
+}
+
+impl Enclosed {
+    /// Adds a step of `lane`. An idle lane has steps of no length.
+    fn add(&mut self, lane: usize, [h, turn, rates, rounding]: [f64; 4]) {
+        if let Some(errors) = self.errors[lane].as_mut().filter(|_| h > 0.0) {
+            let after = self.bodies.half.each_ref().map(|half| 2.0 * half[lane]);
+            errors.add(&Step { h, turn, rates, rounding, after });
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! How far the computed rates of a body are from those of its ideal flight. The theorem and its proof are in
+//! `docs/proofs/enclosure.md`, section 7, whose symbols and numbers of formulas stand here.
+//!
+//! The ideal rates stay on a curve, the polhode, on which A = ω1² + κ1 ω2² and B = ω3² + κ3 ω2² do not change. An error
+//! of the computed rates is split: what leads along the curve is a shift in time, which is added up, and what leads
+//! across it is measured by A and B at the end of each step. Next to the middle axis, where the curve is slow and A and B
+//! tell little, the errors are followed as they grow instead.
+
+use dynamics::body::PrincipalAxes;
+use dynamics::{AngleUnit, RigidFlight, RigidToss};
+use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
+
+/// The ideal flight of a body, in the unit of its flight, about its principal axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Polhode {
+    /// κ1 and κ3.
+    kappas: [Ball<DoubleDouble>; 2],
+    /// A and B.
+    invariants: [Ball<DoubleDouble>; 2],
+    /// b, the largest coupling of Euler's equations.
+    coupling: f64,
+    /// W, which no ideal rate exceeds.
+    fastest: f64,
+    /// The largest rate at which the body turns across its momentum.
+    across: f64,
+    /// μ, at which a disturbance of the rates grows at most.
+    growth: f64,
+    /// The distance of the computed rates at launch from the ideal ones.
+    launched: f64,
+    /// The error of the turn at landing because the axes are rounded.
+    axes: f64,
+    /// Whether the body turns about a principal axis.
+    about_axis: bool,
+}
+
+/// More than underflow can change in a rate.
+const TINY: f64 = 1e-150;
+
+/// A speed of the polhode, in units of b, below which TINY matters.
+const SLOWEST: f64 = 1e-120;
+
+/// The smallest of all moments but 0 relative to the largest, and the slowest rate (rad/s) in another unit than rad/s, for
+/// which nothing underflows.
+const SMALLEST: f64 = 1e-200;
+
+/// More than √2.
+const ROOT_2: f64 = 1.4143;
+
+/// More than 1/√3.
+const INVERSE_ROOT_3: f64 = 0.5774;
+
+impl Polhode {
+    /// That of a `toss` with this `flight`. `None` if the numbers of the toss do not tell it: if its moments can't be told
+    /// from equal ones, or underflow.
+    pub(super) fn new(toss: &RigidToss, flight: &RigidFlight) -> Option<Self> {
+        let like = Ball::new(DoubleDouble::ZERO, 0.0);
+        let PrincipalAxes { moments, axes } = toss.body.scaled_principal(&like);
+        let [a, b, c] = couplings(&moments, flight)?;
+        let rates = ideal_rates(toss, &axes, flight)?;
+        let [x, y, z] = rates.map(|rate| rate * rate);
+        let kappas = [a / b, c / b];
+        let invariants = [x + kappas[0] * y, z + kappas[1] * y];
+        let fastest = above(&(x + y + z + a * c * y).sqrt());
+        let about_axis = rates.iter().filter(|rate| rate.to_f64() == 0.0 && rate.radius() == 0.0).count() > 1;
+        // Turns about a principal axis stay as they are.
+        let still = if about_axis { 0.0 } else { 1.0 };
+        let found = Self {
+            kappas,
+            invariants,
+            coupling: still * above(&b),
+            fastest,
+            across: across(&moments, &rates, above(&(b * (invariants[0] * invariants[1]).sqrt()))).min(fastest),
+            growth: still * above(&(a + c)) * fastest * INVERSE_ROOT_3,
+            launched: distance(&rates, flight.rates),
+            axes: axes_error(&axes),
+            about_axis,
+        };
+        let radii = [kappas[0], kappas[1], invariants[0], invariants[1]].map(|ball| ball.radius());
+        let told = radii.into_iter().all(|radius| radius < 1e-6) && found.axes < 1e-6 && found.launched < 1e-6;
+        (told && fastest.is_finite()).then_some(found)
+    }
+
+    /// A bound (16) of an error of the rates after the time `h` that is at most `start` now.
+    fn grown(&self, start: f64, h: f64) -> f64 {
+        let first = start * exp_above(self.growth * h);
+        let grown = first * exp_above(2.0 * INVERSE_ROOT_3 * self.coupling * first * h);
+        if grown <= 2.0 * first { grown } else { f64::INFINITY }
+    }
+
+    /// κ1 and κ3, rounded.
+    fn rounded_kappas(&self) -> [f64; 2] {
+        self.kappas.map(|kappa| kappa.to_f64())
+    }
+
+    /// |f|/b at these rates.
+    fn speed(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let [k, l] = self.rounded_kappas();
+        let off = self.kappas.iter().map(Ball::radius).sum::<f64>() * self.fastest * self.fastest;
+        let [along_x, along_y, along_z] = [k * y * z, x * z, l * x * y];
+        (along_x * along_x + along_y * along_y + along_z * along_z).sqrt() - 2.0 * off
+    }
+
+    /// A lower bound of the speed at an ideal rate that is at most `error` from these rates.
+    fn speed_near(&self, rates: [f64; 3], error: f64) -> f64 {
+        self.speed(rates) - error * (ROOT_2 * self.fastest + INVERSE_ROOT_3 * error)
+    }
+
+    /// Bounds of what A and B are off at these rates.
+    fn residuals(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+        const OF_DOUBLE_DOUBLE: f64 = 20.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+        let middle = DoubleDouble::product(y, y);
+        [0, 1].map(|index: usize| {
+            let (kappa, invariant) = (self.kappas[index], self.invariants[index]);
+            let outer = [x, z][index];
+            let sum = DoubleDouble::product(outer, outer) + *kappa.midpoint() * middle;
+            let size = sum.hi().abs() + invariant.to_f64().abs();
+            let off = kappa.radius() * middle.hi() + invariant.radius() + OF_DOUBLE_DOUBLE * size + TINY * TINY;
+            (sum - *invariant.midpoint()).hi().abs() + off
+        })
+    }
+
+    /// A bound (19) of the error across the curve, from the residuals at the computed `rates`. It is at most `error`, and
+    /// the ideal speed is at least `speed`.
+    fn across(&self, rates: [f64; 3], error: f64, speed: f64) -> f64 {
+        let [x, y, z] = rates;
+        let ([k, l], [of_a, of_b]) = (self.rounded_kappas(), self.residuals(rates));
+        let off = self.kappas.map(|kappa| kappa.radius() * self.fastest);
+        let gradient_a = (x * x + k * y * k * y).sqrt() + error + off[0];
+        let gradient_b = (z * z + l * y * l * y).sqrt() + error + off[1];
+        let left = speed - 0.5 * error * (gradient_a + gradient_b);
+        if left > 0.0 { (0.5 * (gradient_a * of_b + gradient_b * of_a) / left).min(error) } else { error }
+    }
+}
+
+/// A number that is at least the size of all numbers in the ball.
+fn above(ball: &Ball<DoubleDouble>) -> f64 {
+    (ball.to_f64().abs() + ball.radius()) * (1.0 + 1e-15)
+}
+
+/// a, b and c of the ideal body with these `moments`. `None` if they can't be told from rounding, or underflow, or if those of
+/// the flight are not these, rounded.
+fn couplings(moments: &[Ball<DoubleDouble>; 3], flight: &RigidFlight) -> Option<[Ball<DoubleDouble>; 3]> {
+    let [first, second, third] = *moments;
+    let exact = [(third - second, first), (third - first, second), (second - first, third)];
+    let exact = exact.map(|(difference, moment)| {
+        // Of a rod about its own axis, the difference is 0, too.
+        if moment.to_f64() == 0.0 { difference } else { difference / moment }
+    });
+    let [_, b, _] = exact;
+    let off = exact.iter().zip(flight.couplings).map(|(exact, rounded)| {
+        let rounded = Ball::new(DoubleDouble::exactly(rounded.abs()), 0.0);
+        above(&(*exact - rounded))
+    });
+    let told = off.fold(0.0, f64::max) <= 1.01 * UNIT_ROUNDOFF * above(&b) && b.radius() < 1e-12 * b.to_f64();
+    let thin = first.to_f64() != 0.0 && first.to_f64() < SMALLEST;
+    (told && !thin).then_some(exact)
+}
+
+/// The largest rate across the momentum, if no |f| exceeds `fastest`.
+fn across(moments: &[Ball<DoubleDouble>; 3], rates: &[Ball<DoubleDouble>; 3], fastest: f64) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| moments[axis] * rates[axis]);
+    let momentum = (x * x + y * y + z * z).sqrt();
+    let least = momentum.to_f64() * (1.0 - 1e-15) - momentum.radius();
+    if least > 0.0 { above(&moments[2]) * fastest / least } else { f64::INFINITY }
+}
+
+/// A bound of e^x, from 2 artanh y ≥ 2 y; infinite for x ≥ 16.
+fn exp_above(x: f64) -> f64 {
+    let y = x / 16.0;
+    let root = if y < 1.0 { (1.0 + y) / (1.0 - y) } else { f64::INFINITY };
+    root.powi(8)
+}
+
+/// The ideal rates at launch about the principal axes, in the unit of the flight. `None` if they may have lost digits.
+fn ideal_rates(
+    toss: &RigidToss,
+    axes: &[[Ball<DoubleDouble>; 3]; 3],
+    flight: &RigidFlight,
+) -> Option<[Ball<DoubleDouble>; 3]> {
+    let exactly = |value: f64| Ball::new(DoubleDouble::exactly(value), 0.0);
+    let largest = toss.launch.rate().amax();
+    let scale = numerics::scale::power_of_two_scale(largest);
+    let (given, unit) = toss.launch.given_rate();
+    let parts = [given.x, given.y, given.z];
+    let lost = if parts.iter().any(|part| *part != 0.0 && (part / scale).abs() < TINY) { TINY * TINY } else { 0.0 };
+    let in_radians = unit == AngleUnit::RADIAN;
+    if in_radians && are_exact(axes) {
+        return Some(flight.rates.map(|rate| exactly(rate).widened(lost)));
+    }
+    if !in_radians && (largest < SMALLEST || given.amax() > 1.0 / SMALLEST) {
+        return None;
+    }
+    let unit = if in_radians { exactly(1.0) } else { exactly(0.0).like_big(&unit.in_digits(160)) };
+    let along = |axis: &[Ball<DoubleDouble>; 3]| {
+        let turning = axis.iter().zip(parts).filter(|(direction, part)| direction.to_f64() != 0.0 && *part != 0.0);
+        turning.fold(exactly(0.0), |sum, (direction, part)| sum + *direction * exactly(part / scale) * unit)
+    };
+    // Axes that are not exact have no components that are exactly 0.
+    let lost = if are_exact(axes) { lost } else { lost + TINY };
+    Some(axes.each_ref().map(|axis| along(axis).widened(lost)))
+}
+
+/// Whether these axes are those of the body frame, in any order.
+fn are_exact(axes: &[[Ball<DoubleDouble>; 3]; 3]) -> bool {
+    axes.iter().flatten().all(|part| part.radius() == 0.0 && [0.0, 1.0].contains(&part.to_f64().abs()))
+}
+
+/// A bound of the distance between ideal rates and computed ones.
+fn distance(ideal: &[Ball<DoubleDouble>; 3], computed: [f64; 3]) -> f64 {
+    let off = |(ideal, computed): (&Ball<DoubleDouble>, f64)| {
+        let exact = *ideal.midpoint() - computed.into();
+        exact.hi().abs() * (1.0 + 1e-15) + ideal.radius()
+    };
+    ideal.iter().zip(computed).map(off).sum()
+}
+
+/// A bound of the error of a turn that is taken from principal axes to those of the body with rounded axes.
+fn axes_error(axes: &[[Ball<DoubleDouble>; 3]; 3]) -> f64 {
+    let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, f64::max);
+    if are_exact(axes) { 0.0 } else { 12.0 * UNIT_ROUNDOFF + 6.0 * radius }
+}
+
+/// One step of a flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    /// Its length.
+    pub(super) h: f64,
+    /// The bounds of [`Defect`](super::defect::Defect).
+    pub(super) turn: f64,
+    pub(super) rates: f64,
+    pub(super) rounding: f64,
+    /// The computed rates at its end.
+    pub(super) after: [f64; 3],
+}
+
+/// What the steps so far add to the error of the turn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Errors {
+    polhode: Polhode,
+    /// Σ Dₖ.
+    turn: f64,
+    along: Along,
+    growing: Growing,
+}
+
+/// Errors of the rates from an ideal flight that is shifted in time, and that shift.
+#[derive(Debug, Clone, Copy)]
+struct Along {
+    across: f64,
+    /// ∫ |e| dt.
+    integral: f64,
+    /// A bound of |s - t| and of ∫ |s' - 1| dt.
+    shift: f64,
+    /// A lower bound of |f|/b at the ideal rates.
+    speed: f64,
+}
+
+/// Errors of the rates from the ideal flight.
+#[derive(Debug, Clone, Copy)]
+struct Growing {
+    error: f64,
+    /// ∫ |e| dt.
+    integral: f64,
+}
+
+impl Errors {
+    /// At the launch of a flight with these computed `rates`.
+    pub(super) fn at_launch(polhode: Polhode, rates: [f64; 3]) -> Self {
+        let launched = polhode.launched;
+        let along = Along { across: 0.0, integral: 0.0, shift: 0.0, speed: polhode.speed_near(rates, launched) };
+        let growing = Growing { error: launched, integral: 0.0 };
+        let mut errors = Self { polhode, turn: 0.0, along, growing };
+        errors.along.step(&polhode, &Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: launched, after: rates });
+        errors
+    }
+
+    /// Adds those of one step.
+    pub(super) fn add(&mut self, step: &Step) {
+        self.turn += step.turn;
+        // About an axis, all products of rates are 0, so that none underflows.
+        let tiny = if self.polhode.about_axis { 0.0 } else { TINY };
+        let step = Step { rates: step.rates + tiny, ..*step };
+        self.along.step(&self.polhode, &step);
+        self.growing.step(&self.polhode, &step);
+    }
+
+    /// The bound (20) of the error of the turn, for a time of flight that is right; infinite or NaN where there is none.
+    pub(super) fn bound(&self) -> f64 {
+        let along = 0.5 * self.along.integral + self.polhode.across * self.along.shift;
+        self.turn + along.min(0.5 * self.growing.integral) + self.polhode.axes
+    }
+
+    /// W.
+    pub(super) fn fastest(&self) -> f64 {
+        self.polhode.fastest
+    }
+}
+
+impl Growing {
+    fn step(&mut self, polhode: &Polhode, step: &Step) {
+        let reach = polhode.grown(self.error + step.rates, step.h);
+        self.integral += step.h * reach;
+        self.error = reach + step.rounding;
+    }
+}
+
+impl Along {
+    fn step(&mut self, polhode: &Polhode, step: &Step) {
+        if self.stepped(polhode, step).is_none() {
+            *self = Self { across: f64::INFINITY, integral: f64::INFINITY, shift: f64::INFINITY, speed: 0.0 };
+        }
+    }
+
+    /// `None` if the conditions (18) do not hold.
+    fn stepped(&mut self, polhode: &Polhode, step: &Step) -> Option<()> {
+        let Step { h, after, .. } = *step;
+        let growth = polhode.growth;
+        let reach = polhode.grown(self.across + step.rates, h);
+        let error = reach + step.rounding;
+        let end = polhode.speed_near(after, error);
+        let least = self.speed / exp_above(growth * h);
+        // The times by which the shift grows, at no less than this speed (17).
+        let time = |speed: f64| -> Option<f64> {
+            let tilt = ROOT_2 * polhode.fastest * error / speed;
+            let arc =
+                (2.0 * growth + INVERSE_ROOT_3 * polhode.coupling * reach) * h * reach + step.rates + step.rounding;
+            (tilt <= 0.25 && speed > SLOWEST).then(|| arc / (1.0 - tilt) / (polhode.coupling * (1.0 - 1e-11) * speed))
+        };
+        let slowed = growth * time(0.875 * least)?;
+        if !(slowed <= 0.125 && end > SLOWEST) {
+            return None;
+        }
+        let speed = least.max((self.speed * end).sqrt() / exp_above(0.5 * growth * h)) * (1.0 - slowed);
+        self.shift += time(speed)?;
+        self.integral += h * reach;
+        self.across = polhode.across(after, error, end);
+        self.speed = end;
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

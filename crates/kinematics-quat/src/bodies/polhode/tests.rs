@@ -1,0 +1,159 @@
+//! Tests of the constants of the ideal flight and of each part of the recursion, against the exact motion and against the
+//! formulas of the proof.
+
+use dynamics::nalgebra::Matrix3;
+use dynamics::{Body, Launch, TimeOfFlight, Vector3};
+use exact::RigidMotion;
+
+use super::*;
+
+const MOMENTS: [[f64; 3]; 4] = [[1.0, 2.0, 2.5], [0.2, 1.0, 1.1], [1.0, 1.0 + 1e-6, 1.9], [0.02, 1.0, 1.01]];
+
+/// Rates whose largest is between 1 and 2, so that the unit of the flight is 1 rad/s.
+const RATES: [[f64; 3]; 4] = [[0.7, -0.4, 1.1], [-1.3, 0.2, 0.3], [0.1, 1.5, 0.4], [1.0, -0.01, 0.002]];
+
+fn toss(moments: [f64; 3], rate: [f64; 3]) -> RigidToss {
+    let launch = Launch::new(rate, TimeOfFlight::Given(10.0)).unwrap();
+    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+}
+
+fn polhode(toss: &RigidToss) -> Polhode {
+    Polhode::new(toss, &RigidFlight::new(toss).unwrap()).unwrap()
+}
+
+fn tosses() -> impl Iterator<Item = ([f64; 3], RigidToss)> {
+    MOMENTS.into_iter().flat_map(|moments| RATES.map(|rate| (moments, toss(moments, rate))))
+}
+
+/// The rates at some times.
+fn rates(toss: &RigidToss) -> impl Iterator<Item = Vector3<f64>> {
+    let motion = RigidMotion::new(toss);
+    (0..40).map(move |step| motion.state(0.25 * f64::from(step)).unwrap().rate)
+}
+
+/// f and its Jacobian, from the moments.
+fn field([a, b, c]: [f64; 3], rate: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let [p, q, r] = [(b - c) / a, (c - a) / b, (a - b) / c];
+    let (x, y, z) = (rate.x, rate.y, rate.z);
+    let jacobian = Matrix3::new(0.0, p * z, p * y, q * z, 0.0, q * x, r * y, r * x, 0.0);
+    (Vector3::new(p * y * z, q * z * x, r * x * y), jacobian)
+}
+
+#[test]
+fn the_constants_are_upper_bounds_along_the_whole_flight() {
+    let mut closest = [0.0_f64; 4];
+    for (moments, toss) in tosses() {
+        let polhode = polhode(&toss);
+        for rate in rates(&toss) {
+            let (f, jacobian) = field(moments, &rate);
+            let momentum = Vector3::from(moments).component_mul(&rate);
+            let growth = (0.5 * (jacobian + jacobian.transpose())).symmetric_eigenvalues().amax();
+            let across = rate - momentum * (rate.dot(&momentum) / momentum.norm_squared());
+            let shares = [
+                rate.norm() / polhode.fastest,
+                growth / polhode.growth,
+                across.norm() / polhode.across,
+                jacobian.norm() / (ROOT_2 * polhode.coupling * polhode.fastest),
+            ];
+            for (closest, share) in closest.iter_mut().zip(shares) {
+                assert!(share <= 1.0 + 1e-12, "{shares:?}, {toss:?}");
+                *closest = closest.max(share);
+            }
+            let speed = polhode.speed(rate.into()) * polhode.coupling;
+            approx::assert_relative_eq!(speed, f.norm(), max_relative = 1e-9, epsilon = 1e-15);
+        }
+    }
+    assert!(closest.iter().all(|share| *share > 0.75), "{closest:?}");
+}
+
+/// The error across the curve is at most what the invariants tell, and not much less.
+#[test]
+fn the_invariants_bound_an_error_across_the_curve() {
+    const SIZE: f64 = 1e-6;
+    for (moments, toss) in tosses() {
+        let (polhode, mut ratios) = (polhode(&toss), Vec::new());
+        for (index, rate) in rates(&toss).enumerate() {
+            let (f, _) = field(moments, &rate);
+            let any = Vector3::new((index as f64).sin(), (1.3 * index as f64).cos(), (2.1 * index as f64).sin());
+            let error = f.cross(&any).normalize() * SIZE;
+            let computed: [f64; 3] = (rate + error).into();
+            let least = polhode.speed_near(computed, 1.1 * SIZE);
+            let found = polhode.across(computed, 1.1 * SIZE, least);
+            assert!(found >= SIZE * (1.0 - 1e-6), "{found:e} {toss:?}");
+            ratios.push(polhode.across(computed, 1e-3, least) / SIZE);
+        }
+        ratios.sort_by(f64::total_cmp);
+        assert!(ratios[10] < 3.0, "{}, {toss:?}", ratios[10]);
+    }
+}
+
+/// The parts of one step are those of the formulas (16), (17) and (20), and at most two thirds more.
+#[test]
+fn each_part_of_a_step_counts_by_its_formula() {
+    const H: f64 = 0.1;
+    let (moments, rate) = (MOMENTS[0], RATES[0]);
+    let toss = toss(moments, rate);
+    let polhode = polhode(&toss);
+    let after = RigidMotion::new(&toss).state(H).unwrap().rate;
+    let (speeds, growth) = ([rate.into(), after].map(|rate| field(moments, &rate).0.norm()), polhode.growth);
+    let slowest = speeds[0].min(speeds[1]);
+    let within = |found: f64, least: f64| assert!((least..1.67 * least).contains(&found), "{found:e}, not {least:e}");
+    for (across, rates, rounding) in [(1e-9, 0.0, 0.0), (0.0, 1e-9, 0.0), (0.0, 0.0, 1e-9), (1e-9, 3e-9, 2e-9)] {
+        let mut errors = Errors::at_launch(polhode, rate);
+        (errors.along.across, errors.growing.error) = (across, across);
+        errors.add(&Step { h: H, turn: 3e-7, rates, rounding, after: after.into() });
+        let reach = (across + rates) * (growth * H).exp();
+        for integral in [errors.along.integral, errors.growing.integral].into_iter().filter(|_| reach > 0.0) {
+            within(integral, H * reach * (1.0 - 1e-9));
+        }
+        within(errors.growing.error, reach + rounding);
+        within(errors.along.shift, (2.0 * growth * H * reach + rates + rounding) / slowest * 0.99);
+        let expected = 3e-7 + 0.5 * errors.growing.integral;
+        approx::assert_relative_eq!(errors.bound(), expected, max_relative = 1e-9);
+        errors.growing.integral = f64::INFINITY;
+        let expected = 3e-7 + 0.5 * errors.along.integral + polhode.across * errors.along.shift;
+        approx::assert_relative_eq!(errors.bound(), expected, max_relative = 1e-9);
+    }
+    let moved = Errors::at_launch(Polhode { launched: 1e-9, ..polhode }, rate);
+    within(moved.along.shift, 1e-9 / speeds[0] * 0.99);
+    assert!(moved.growing.error == 1e-9 && moved.along.across <= 1e-9);
+}
+
+#[test]
+fn a_bound_of_the_exponential_is_above_it_and_close() {
+    for x in [0.0, 1e-9, 0.1, 1.0, 3.0, 10.0] {
+        assert!(exp_above(x) >= f64::exp(x) * (1.0 - 1e-15) && exp_above(x) <= f64::exp(x) * (1.0 + 0.01 * x * x * x));
+    }
+    assert_eq!([exp_above(16.0), exp_above(1e300)], [f64::INFINITY; 2]);
+}
+
+/// Next to the middle axis, where the conditions fail, nothing is said of the shift.
+#[test]
+fn without_its_conditions_there_is_no_shift() {
+    let toss = toss(MOMENTS[0], [1e-9, 1.5, 1e-9]);
+    let mut errors = Errors::at_launch(polhode(&toss), [1e-9, 1.5, 1e-9]);
+    errors.add(&Step { h: 0.1, turn: 0.0, rates: 1e-10, rounding: 1e-10, after: [1e-9, 1.5, 1e-9] });
+    assert!(errors.along.shift == f64::INFINITY && errors.bound().is_finite());
+    errors.add(&Step { h: 1e3, turn: 0.0, rates: 0.0, rounding: 0.0, after: [1e-9, 1.5, 1e-9] });
+    assert!(errors.bound() == f64::INFINITY);
+}
+
+/// Rates in degrees and the axes of a tensor are rounded, and no more.
+#[test]
+fn the_rounding_of_the_toss_counts() {
+    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    let launch = Launch::in_unit([40.0, -23.0, 63.0], degree, TimeOfFlight::Given(10.0)).unwrap();
+    let exact = RigidToss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
+    let off = [40.0, -23.0, 63.0].map(|part: f64| {
+        let exact = DoubleDouble::nearest(&degree.in_digits(160)) * part;
+        (exact - (part.to_radians()).into()).hi().abs()
+    });
+    approx::assert_relative_eq!(polhode(&exact).launched, off.iter().sum::<f64>(), max_relative = 1e-6);
+    let body = Body::from_tensor([[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]]).unwrap();
+    let tensor = RigidToss { body, ..toss(MOMENTS[0], RATES[0]) };
+    let (found, rates) = (polhode(&tensor), RigidFlight::new(&tensor).unwrap().rates);
+    assert!(found.launched > 0.0 && found.launched < 4.0 * UNIT_ROUNDOFF);
+    assert!(Errors::at_launch(found, rates).bound() >= 12.0 * UNIT_ROUNDOFF);
+    let plain = toss(MOMENTS[0], RATES[0]);
+    assert_eq!((polhode(&plain).launched, Errors::at_launch(polhode(&plain), RATES[0]).bound()), (0.0, 0.0));
+}

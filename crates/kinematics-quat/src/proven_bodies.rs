@@ -1,0 +1,108 @@
+//! Outcomes of any rigid body, proven by integration as those of coins are. A flight that passes next to a turn about the
+//! middle axis multiplies its errors; if the bound then decides nothing even at the finest tolerance, the outcome stays
+//! undecided, or nothing is stated.
+
+use dynamics::{Outcome, RigidToss, SolveError, StepControl};
+use numerics::lanes::SimdLevel;
+
+use crate::QuaternionSolver;
+use crate::bodies::Enclosed;
+use crate::enclosure::attitude_bound_of_body;
+use crate::integration::Integration;
+use crate::lockstep::fly;
+use crate::plan::Plans;
+use crate::proven::{IntegratedCertificate, sum};
+
+/// Why a flight without a bound proves nothing.
+const NO_BOUND: &str =
+    "next to a turn about the middle axis, or next to equal moments, the errors of this flight have no bound";
+
+impl QuaternionSolver {
+    /// [`QuaternionSolver::certify`] of any rigid body, first with the solver's own tolerance, then with the finest one.
+    ///
+    /// # Errors
+    /// As [`QuaternionSolver::certify`], and [`SolveError::NotProven`] for a flight whose errors have no bound.
+    pub fn certify_rigid(&self, toss: &RigidToss) -> Result<IntegratedCertificate, SolveError> {
+        let mut found = self.certify_all_rigid(std::slice::from_ref(toss), SimdLevel::for_one_lane());
+        found.pop().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
+    }
+
+    /// [`QuaternionSolver::certify_rigid`] of each of `tosses`, in their order and with the same bits. As many flights are
+    /// computed at once as a register at the SIMD `level` has lanes.
+    pub fn certify_all_rigid(
+        &self,
+        tosses: &[RigidToss],
+        level: SimdLevel,
+    ) -> Vec<Result<IntegratedCertificate, SolveError>> {
+        let taylor = match self.require_proofs() {
+            Ok(taylor) => taylor,
+            Err(error) => return vec![Err(error); tosses.len()],
+        };
+        let (coins, bodies): (Vec<usize>, Vec<usize>) =
+            (0..tosses.len()).partition(|index| tosses[*index].symmetric().is_some());
+        let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        let flown: Vec<_> = coins.iter().filter_map(|index| tosses[*index].symmetric()).collect();
+        for (index, certificate) in coins.into_iter().zip(self.certify_all(&flown, level)) {
+            found[index] = certificate;
+        }
+        let flown: Vec<_> = bodies.iter().map(|index| tosses[*index]).collect();
+        let first = self.enclosed_bodies(&flown, &taylor.bodies, level, Integration::AsConfigured);
+        for ((index, toss), first) in bodies.into_iter().zip(&flown).zip(first) {
+            found[index] = first.and_then(|first| self.decided(toss, first));
+        }
+        found
+    }
+
+    /// [`QuaternionSolver::enclose`] of any rigid body. Without a bound it is 2.
+    ///
+    /// # Errors
+    /// As [`QuaternionSolver::certify`].
+    pub fn enclose_rigid(&self, toss: &RigidToss) -> Result<IntegratedCertificate, SolveError> {
+        if let Some(toss) = toss.symmetric() {
+            return self.enclose(&toss);
+        }
+        let plans = &self.require_proofs()?.bodies;
+        let toss = std::slice::from_ref(toss);
+        let mut found = self.enclosed_bodies(toss, plans, SimdLevel::for_one_lane(), Integration::AsConfigured);
+        found.pop().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
+    }
+
+    /// The landings by these `plans` with their bounds.
+    fn enclosed_bodies(
+        &self,
+        tosses: &[RigidToss],
+        plans: &Plans,
+        level: SimdLevel,
+        integration: Integration,
+    ) -> Vec<Result<IntegratedCertificate, SolveError>> {
+        let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        fly::<Enclosed>(plans, tosses, level, |index, landed| {
+            found[index] = landed.and_then(|landed| {
+                let launch = &tosses[index].launch;
+                let bound = landed.enclosed.as_ref();
+                let bound = bound.map_or(f64::INFINITY, |bound| attitude_bound_of_body(launch, &landed.flight, bound));
+                self.stated(launch.attitude(), &landed, bound, integration)
+            });
+        });
+        found
+    }
+
+    /// The certificate of the finest tolerance, if this one does not decide.
+    fn decided(&self, toss: &RigidToss, first: IntegratedCertificate) -> Result<IntegratedCertificate, SolveError> {
+        let mut last = first;
+        if first.outcome() == Outcome::Undecided && self.stepping.control() != StepControl::Tolerance(f64::EPSILON) {
+            let (plans, one) = (Plans::of_bodies(f64::EPSILON), std::slice::from_ref(toss));
+            let found = self.enclosed_bodies(one, &plans, SimdLevel::for_one_lane(), Integration::Finest).pop();
+            if let Some(found) = found.transpose()? {
+                last = found.with_work(sum(first.work(), found.work()));
+            }
+        }
+        if last.error_bound() < 2.0 {
+            return Ok(last);
+        }
+        Err(SolveError::NotProven { solver: Self::NAME.to_owned(), why: NO_BOUND })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! The parts of the checks of integrated proofs that fly bodies with I1 ≠ I2, in families each of which is hard for a
+//! method of its own. Next to a turn about the middle axis some flights have no bound; they are no cases.
+
+use dynamics::RigidToss;
+use rayon::prelude::*;
+use toss::{Outcome, Stepping};
+
+use super::integrated::{BOUNDS, OUTCOMES, solver_of};
+use super::rigid::at_an_edge;
+use crate::measure::bodies::{FAMILIES, FLOWN, Family, launches};
+use crate::measure::measurement::Measurement;
+use crate::measure::reference::rigid::RigidReference;
+
+/// The tolerances of the flights, one after the other.
+const TOLERANCES: [f64; 4] = [Stepping::DEFAULT_TOLERANCE, 1e-4, 1e-7, f64::EPSILON];
+
+fn subject(family: &Family) -> String {
+    format!("bodies: {}", family.name)
+}
+
+/// The largest error of cos θ or of the attitude, divided by its bound, in each family.
+pub(super) fn bounds(number: u64) -> anyhow::Result<Vec<Measurement>> {
+    let solvers: Vec<_> = TOLERANCES.into_iter().map(solver_of).collect::<Result<_, _>>()?;
+    let measure = |family: &Family| {
+        let share = |(index, toss): (usize, &RigidToss)| -> Option<f64> {
+            let reference = RigidReference::new(toss)?;
+            let found = solvers[index % solvers.len()].enclose_rigid(toss).ok()?;
+            let of_attitude = 0.5 * reference.attitude_error(&found.landing().state.attitude);
+            let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
+            let share = of_cos_tilt.max(of_attitude / found.attitude_error_bound());
+            (found.error_bound() < 2.0).then_some(share)
+        };
+        let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
+        let shares: Vec<Option<f64>> = tosses.par_iter().enumerate().map(share).collect();
+        let bounded = shares.iter().flatten().count();
+        let worst = (0..shares.len()).max_by(|a, b| shares[*a].unwrap_or(0.0).total_cmp(&shares[*b].unwrap_or(0.0)));
+        let (measured, input) = worst.map_or((f64::INFINITY, String::new()), |index| {
+            let tolerance = TOLERANCES[index % solvers.len()];
+            (shares[index].unwrap_or(f64::INFINITY), format!("{:?} at {tolerance:e}", tosses[index]))
+        });
+        let input = format!("{bounded} of {} have a bound; {input}", tosses.len());
+        Measurement::figure(BOUNDS.id, &subject(family), measured, bounded as u64, input)
+    };
+    Ok(FAMILIES.iter().map(measure).collect())
+}
+
+/// The numbers of outcomes that are proven and wrong, of launches and of times within 3 ulp of an edge.
+pub(super) fn outcomes(number: u64) -> anyhow::Result<Vec<Measurement>> {
+    let solver = solver_of(Stepping::DEFAULT_TOLERANCE)?;
+    let measure = |family: &Family| {
+        let each = launches(family, number, FLOWN).flat_map(|toss| [Some(toss), at_an_edge(&toss)]);
+        let tosses: Vec<RigidToss> = each.flatten().collect();
+        let is_wrong = |toss: &RigidToss| {
+            let (found, reference) = (solver.certify_rigid(toss), RigidReference::new(toss));
+            let found = found.map_or(Outcome::Undecided, |found| found.outcome());
+            found != Outcome::Undecided && Some(found) != reference.map(|reference| reference.outcome())
+        };
+        let wrong: Vec<bool> = tosses.par_iter().map(is_wrong).collect();
+        let first = wrong.iter().position(|wrong| *wrong).map(|index| format!("{:?}", tosses[index]));
+        let number = wrong.iter().filter(|wrong| **wrong).count() as f64;
+        Measurement::figure(OUTCOMES.id, &subject(family), number, tosses.len() as u64, first.unwrap_or_default())
+    };
+    Ok(FAMILIES.iter().map(measure).collect())
+}
