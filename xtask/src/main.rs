@@ -6,6 +6,7 @@
 
 mod contest;
 mod figures;
+mod fuzz;
 mod mutants;
 mod output;
 mod program;
@@ -31,6 +32,7 @@ enum Task {
     Bench(verify::Bench),
     History(verify::History),
     Figures(figures::Figures),
+    Fuzz(fuzz::Fuzz),
     Contest(contest::Contest),
     Mutants(mutants::Mutants),
     Web(web::Web),
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         Ok(Task::Bench(task)) => task.run(),
         Ok(Task::History(task)) => task.run(),
         Ok(Task::Figures(task)) => task.run(),
+        Ok(Task::Fuzz(task)) => task.run(),
         Ok(Task::Contest(task)) => task.run(),
         Ok(Task::Mutants(task)) => task.run(),
         Ok(Task::Web(task)) => task.run(),
@@ -106,6 +109,8 @@ mod tests {
             "contest --quick --bless",
             "contest --check --quick",
             "contest --draw --bless",
+            "fuzz --input FILE",
+            "fuzz space --input FILE --seconds 9",
         ] {
             let arguments: Vec<&str> = line.split(' ').collect();
             let error = error_of(&arguments);
@@ -117,7 +122,7 @@ mod tests {
     #[test]
     fn refuses_unknown_tasks_and_flags() {
         assert_eq!(error_of(&["nonsense"]), Some(ErrorKind::InvalidSubcommand));
-        for task in ["verify", "bench", "history", "figures", "contest", "web"] {
+        for task in ["verify", "bench", "history", "figures", "fuzz", "contest", "web"] {
             assert_eq!(error_of(&[task, "--nonsense"]), Some(ErrorKind::UnknownArgument), "{task}");
         }
     }

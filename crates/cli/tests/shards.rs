@@ -49,6 +49,20 @@ fn ninety_seven_parts_in_any_order_are_the_whole() {
 }
 
 #[test]
+fn a_part_reads_back_every_digit_of_its_space() {
+    let folder = tempfile::tempdir().unwrap();
+    for number in ["1.0472333333333335", "0.1", "7.317735896177309e-5", "123.45678901234567"] {
+        let options =
+            format!("--rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method random --points 99 --drop {number}");
+        let folder = folder.path().join(number);
+        std::fs::create_dir(&folder).unwrap();
+        let path = part(&folder, &options, 1, 1);
+        let again = run(&format!("probability {options} --shard 1/1 --out {path}"));
+        assert!(stdout(&again).contains("which held it already"), "{number}: {}", stderr(&again));
+    }
+}
+
+#[test]
 fn a_part_that_is_there_is_not_computed_again_and_nothing_else_is_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let options = "--space paper-fig4 --method random --points 1000";

@@ -246,6 +246,24 @@ fn rejects_phases_above_two_to_the_53() {
 }
 
 #[test]
+fn the_first_toss_without_an_outcome_is_named_whatever_is_wrong_with_a_later_one() {
+    let mut columns = mixed(700);
+    columns.set(613, [1e10, 0.0, 1.0, 1e9]);
+    columns.set(640, [1.0, 1.0, 1.0, -1.0]);
+    for attitude in attitudes() {
+        let batch = Batch::new(columns.tosses(Coin::DISC, attitude));
+        let mut room = vec![0.0; 700];
+        for error in [
+            batch.cos_tilts(&mut room).unwrap_err(),
+            batch.outcomes(&mut vec![Outcome::Heads; 700]).unwrap_err(),
+            batch.count().unwrap_err(),
+        ] {
+            assert!(matches!(error, Error::Launch { index: 613, .. }), "{error}");
+        }
+    }
+}
+
+#[test]
 fn rejects_columns_of_different_lengths_and_impossible_gravities() {
     let (two, three) = ([1.0, 2.0], [1.0, 2.0, 3.0]);
     let tosses = |gravity, speeds| Tosses::new(Coin::PAPER, Attitude::IDENTITY, gravity, [&two, &two, &two], speeds);

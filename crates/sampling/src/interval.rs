@@ -57,7 +57,11 @@ pub fn wilson(heads: u64, points: u64, level: f64) -> Interval {
     let z = Normal::standard().inverse_cdf(0.5 * (1.0 + level));
     let centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
     let half_width = z / (1.0 + z * z / n) * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-    Interval { lo: (centre - half_width).max(0.0), hi: (centre + half_width).min(1.0) }
+    // At the ends of [0, 1] the formula is exact, and its rounding would leave out the share of the launches.
+    Interval {
+        lo: if heads == 0 { 0.0 } else { (centre - half_width).max(0.0) },
+        hi: if heads == points { 1.0 } else { (centre + half_width).min(1.0) },
+    }
 }
 
 /// Clopper and Pearson's exact interval for `heads` of `points` ≥ 1 at the confidence `level`.
@@ -115,8 +119,9 @@ mod tests {
     fn intervals_of_all_heads_or_all_tails_end_at_1_or_0() {
         // (tail)^(1/n) is the exact lower end for n of n.
         assert_interval(clopper_pearson(50, 50, 0.95), 0.025_f64.powf(1.0 / 50.0), 1.0, 1e-12);
-        assert_eq!(wilson(50, 50, 0.95).hi, 1.0);
-        assert_eq!(wilson(0, 50, 0.95).lo, 0.0);
+        for points in 1..1000 {
+            assert_eq!((wilson(points, points, 0.95).hi, wilson(0, points, 0.95).lo), (1.0, 0.0), "{points}");
+        }
     }
 
     #[test]

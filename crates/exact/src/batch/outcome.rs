@@ -113,13 +113,17 @@ impl Filter {
     /// Writes by how much |G| exceeds its threshold, with the sign of G, for the tosses of `range`; 0 where it does
     /// not. An error has the index of its toss in the whole batch.
     fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
-        let start = range.start as u64;
-        let (level, tosses) = (batch.level, batch.tosses.part(range));
+        let (level, tosses) = (batch.level, batch.tosses.part(range.clone()));
         let done = match self {
             Self::Flat(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
             Self::Tilted(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
         };
-        done.map_err(|error| error.after(start))
+        // The filter finds invalid launches alone; a launch before them may be valid and without an outcome.
+        let start = range.start as u64;
+        done.map_err(|error| {
+            let mut solved = range.map(|index| batch.tosses.solve(index, certify));
+            solved.find_map(Result::err).unwrap_or_else(|| error.after(start))
+        })
     }
 }
 

@@ -1,0 +1,70 @@
+//! Scenes, the questions to the planner, as JSON and as TOML.
+
+use toss::{Answer, Error, RigidToss, Scene, Want};
+
+/// The most points of a trace that are computed here.
+const FEW_POINTS: usize = 1000;
+
+/// A scene reads back as itself; its plan is a typed error or expects a finite error and time; and its answer is finite.
+/// Outcome and cos θ of a toss agree.
+///
+/// # Panics
+/// If this does not hold for `data`.
+pub fn check(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    let Some(scene) = crate::read::<Scene>(text) else { return };
+    crate::assert_round_trip(&scene);
+    if let Want::Probability(space) = &scene.want {
+        crate::space::check_space(space);
+    }
+    match scene.plan() {
+        Ok(decision) => {
+            let choice = &decision.choice;
+            assert!(choice.expected_error.is_finite() && choice.expected_error >= 0.0, "{choice:?}");
+            assert!(choice.expected_cost_ns.is_finite() && choice.expected_cost_ns >= 0.0, "{choice:?}");
+        }
+        Err(error) => {
+            crate::assert_said(&error);
+            assert!(!matches!(error, Error::Launch { .. }), "a plan solves no launch: {error}");
+        }
+    }
+    // Integrators may take a million steps, and sampled spaces minutes.
+    let is_quick = scene.by.is_none()
+        && match &scene.want {
+            Want::Probability(_) => false,
+            Want::Trace { points, .. } => *points <= FEW_POINTS,
+            _ => true,
+        };
+    if is_quick {
+        check_answer(&scene);
+        if let Some(toss) = scene.want.toss() {
+            check_outcome(toss);
+        }
+    }
+}
+
+fn check_answer(scene: &Scene) {
+    let answer = match scene.solve() {
+        Ok(solution) => solution.answer,
+        Err(error) => return crate::assert_said(&error),
+    };
+    let json = serde_json::to_string(&answer).expect("an answer can be written");
+    assert!(!json.contains("null") || matches!(answer, Answer::Probability(_)), "an answer that is not finite: {json}");
+    if let Answer::Trace(points) = &answer {
+        assert!(points.windows(2).all(|pair| pair[0].time <= pair[1].time), "times descend");
+        assert!(points.iter().all(|point| (-1.0..=1.0).contains(&point.cos_tilt)), "cos θ beyond 1");
+    }
+}
+
+/// The proven outcome is the sign of cos θ, and an error of one is an error of the other.
+fn check_outcome(toss: &RigidToss) {
+    let solve = |want| Scene::new(want, 1e-15).solve().map(|solution| solution.answer);
+    let outcome = solve(Want::Outcome(*toss));
+    let Ok(cos_tilt) = toss::Solver::cos_tilt_rigid(&toss::ExactSolver, toss) else {
+        assert!(outcome.is_err(), "{toss:?} has an outcome and no cos θ");
+        return;
+    };
+    let Ok(Answer::Outcome(verdict)) = outcome else { panic!("{toss:?} has cos θ = {cos_tilt} and no outcome") };
+    assert!(verdict.is_proven(), "{toss:?}");
+    assert_eq!(verdict.outcome().name(), crate::program::name_by_sign(cos_tilt), "{toss:?}: {cos_tilt}");
+}
