@@ -53,7 +53,7 @@ fn a_part_reads_back_every_digit_of_its_space() {
     let folder = tempfile::tempdir().unwrap();
     for number in ["1.0472333333333335", "0.1", "7.317735896177309e-5", "123.45678901234567"] {
         let options =
-            format!("--rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method random --points 99 --drop {number}");
+            format!("--rate-x 0:50 --rate-y 9:9:9 --rate-z 30 --speed 3:5 --method random --points 99 --drop {number}");
         let folder = folder.path().join(number);
         std::fs::create_dir(&folder).unwrap();
         let path = part(&folder, &options, 1, 1);

@@ -201,6 +201,8 @@ fn rejects_invalid_launches_by_index_and_field() {
         ([1.0, f64::INFINITY, 1.0, 3.0], "rate y [rad/s]"),
         ([1.0, 1.0, -f64::INFINITY, 3.0], "rate z [rad/s]"),
         ([1.0, 1.0, 1.0, -1e-300], "speed [m/s]"),
+        ([1.0, 1.0, 1.0, -1e20], "speed [m/s]"),
+        ([1.0, 1.0, 1.0, -1e300], "speed [m/s]"),
         ([1.0, 1.0, 1.0, f64::NAN], "speed [m/s]"),
         ([1.0, 1.0, 1.0, f64::INFINITY], "speed [m/s]"),
     ] {
@@ -242,6 +244,22 @@ fn rejects_phases_above_two_to_the_53() {
         let tosses = Tosses::new(rod, attitude, 2.0, spinning.each_ref().map(|rate| &rate[..]), &[1.0]).unwrap();
         let error = Batch::new(tosses).count().unwrap_err();
         assert!(too_large(&error, 0), "{error}");
+    }
+}
+
+/// A rod with k = 0 and such a gravity have no ordinary toss at all.
+#[test]
+fn a_negative_speed_is_invalid_for_every_body_and_gravity() {
+    let (rates, speeds) = ([[1.0], [2.0], [3.0]], [-1e-9]);
+    for (ratio, gravity) in [(0.0, 9.81), (0.5, 1e-250), (2.0, 1e250)] {
+        let coin = Coin::from_moments(1.0, ratio).unwrap();
+        let rates = rates.each_ref().map(|rate| &rate[..]);
+        for attitude in attitudes() {
+            let batch = Batch::new(Tosses::new(coin, attitude, gravity, rates, &speeds).unwrap());
+            for error in [batch.cos_tilts(&mut [0.0]).unwrap_err(), batch.count().unwrap_err()] {
+                assert!(matches!(error, Error::BadLaunch { index: 0, .. }), "{error}");
+            }
+        }
     }
 }
 

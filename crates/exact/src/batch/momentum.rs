@@ -163,13 +163,14 @@ impl<S: Simd> Extent<S> {
 
     /// Whether all tosses are ordinary. Only sums are compared with the limits. No summand is negative unless a speed
     /// is, which `sign` records, so a single toss beyond a limit always takes the sum beyond it. Many ordinary tosses
-    /// may do so too; they are then checked one by one.
+    /// may do so too; they are then checked one by one. With a negative speed the limit is -1, which no absolute value
+    /// keeps.
     #[inline(always)]
     pub(super) fn is_ordinary(&self, constants: &Constants) -> bool {
         let Self { squared, inverse, turns, sign } = *self;
         let scale = squared.constant(1.0 / LARGEST_SQUARE);
         let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
-        extent.at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
+        extent.abs().at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
     }
 }
 

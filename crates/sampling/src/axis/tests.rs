@@ -51,7 +51,7 @@ fn a_range_of_one_value_has_one_grid_point() {
 
 #[test]
 fn the_displayed_text_parses_to_the_same_axis() {
-    for text in ["0.1", "3:5", "-1.5:1e-300:7", "normal:0:2.5", "normal:-1:0.1:12"] {
+    for text in ["0.1", "3:5", "-1.5:1e-300:7", "normal:0:2.5", "normal:-1:0.1:12", "4:4:500"] {
         let axis = Axis::parse(SPEED, text).unwrap();
         assert_eq!(Axis::parse(SPEED, &axis.to_string()), Ok(axis));
     }
