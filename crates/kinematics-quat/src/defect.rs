@@ -249,3 +249,6 @@ fn number(n: usize) -> f64 {
     let number = n as f64;
     number
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,152 @@
+//! Tests of the roundings of one step of a coin, against the same series in double-double numbers: each bound holds, is
+//! not far above what random steps show, and no coefficient is off in one direction.
+
+use numerics::{DoubleDouble, UNIT_ROUNDOFF};
+
+use super::*;
+use crate::plan::Plans;
+use crate::taylor::INVERSES;
+
+/// |η|, c, q and the length of a step.
+type Inputs = [f64; 4];
+
+/// The coefficients U, W and r of a step, in this order.
+type Coefficients<T> = [Vec<T>; 3];
+
+/// Rates and steps as in flights, spread evenly.
+fn inputs(number: u32, longest: f64) -> impl Iterator<Item = Inputs> {
+    (1..=number).map(move |index| {
+        let part = |square: f64| (f64::from(index) * square.sqrt()).fract();
+        [part(2.0), 2.0 * part(3.0) - 1.0, 2.0 * part(5.0) - 1.0, longest * (0.5 + 0.5 * part(7.0))]
+    })
+}
+
+/// The coefficients in double-double, with these values of 1/(k + 1).
+fn exactly(
+    [modulus, half_z, q, _]: Inputs,
+    order: usize,
+    inverse: fn(usize) -> DoubleDouble,
+) -> Coefficients<DoubleDouble> {
+    let like = |value: f64| DoubleDouble::from(value);
+    let (mut u, mut w, mut r) = (vec![like(1.0)], vec![like(0.0)], vec![like(1.0)]);
+    for k in 0..order {
+        let products = |a: &[DoubleDouble]| {
+            let sum = a.iter().zip(r.iter().rev()).fold(DoubleDouble::ZERO, |sum, (a, r)| sum + *a * *r);
+            sum * if k % 2 == 0 { modulus } else { -modulus }
+        };
+        let next = [products(&w) + u[k] * half_z, w[k] * half_z - products(&u), r[k] * q].map(|sum| sum * inverse(k));
+        u.push(next[0]);
+        w.push(next[1]);
+        r.push(next[2]);
+    }
+    [u, w, r]
+}
+
+/// u, v and η/|η| after the step, as six numbers.
+fn summed([u, w, r]: &Coefficients<DoubleDouble>, h: f64) -> [DoubleDouble; 6] {
+    let power = |order: usize| (0..order).fold(DoubleDouble::from(1.0), |power, _| power * h);
+    let alternating = |terms: &[DoubleDouble], first: usize| {
+        (first..terms.len()).step_by(2).fold(DoubleDouble::ZERO, |sum, n| {
+            let term = terms[n] * power(n);
+            if (n - first) % 4 == 0 { sum + term } else { sum - term }
+        })
+    };
+    let [of_u, of_w, of_r] = [u, w, r].map(|terms| [0, 1].map(|first| alternating(terms, first)));
+    [of_u[0], of_u[1], -of_w[1], -of_w[0], of_r[0], of_r[1]]
+}
+
+/// One step in f64.
+struct Step(Inputs, usize, bool);
+
+impl WithSimd for Step {
+    type Output = (Coefficients<f64>, [f64; 6]);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> (Coefficients<f64>, [f64; 6]) {
+        let Self(inputs, order, compensates) = self;
+        let [modulus, half_z, q, h] = inputs.map(|value| Real::splat(simd, value));
+        let mut series = Series::new(simd);
+        if compensates {
+            series.expand_eta_compensated(order, q)
+        } else {
+            series.expand_eta(order, q)
+        }
+        series.expand(order, modulus, half_z);
+        let first = |value: Real<S>| {
+            let mut number = [0.0];
+            value.store_up_to(&mut number);
+            number[0]
+        };
+        let [[a, b], [c, d]] = series.turn(order, h);
+        let [e, f] = series.turn_of_eta(order, h);
+        let each = |terms: &[Real<S>]| terms[..=order].iter().map(|term| first(*term)).collect();
+        ([each(&series.u), each(&series.w), each(&series.r)], [a, b, c, d, e, f].map(first))
+    }
+}
+
+fn inverse(k: usize) -> DoubleDouble {
+    DoubleDouble::quotient(1.0, number(k + 1))
+}
+
+/// The largest rounding of the turn and of η in steps of at most this length, divided by their bounds without what belongs
+/// to products with other numbers.
+fn shares(longest: f64) -> [f64; 2] {
+    let (level, mut largest) = (SimdLevel::widest(), [0.0_f64; 2]);
+    for inputs in inputs(1000, longest) {
+        let [modulus, half_z, q, h] = inputs;
+        let (_, found) = level.run(Step(inputs, LARGEST_ORDER, false));
+        let exact = summed(&exactly(inputs, 40, inverse), h);
+        let off: Vec<f64> = exact.iter().zip(found).map(|(exact, found)| (*exact - found.into()).hi()).collect();
+        let size = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let plans = Plans::fixed(LARGEST_ORDER, h);
+        let steps = Steps { modulus, spread: 0.0, half_z, q, longest: h };
+        let bound = bounds(plans.of(false), level, &[steps])[0];
+        let turn = bound.turn + bound.rates - 16.0 * UNIT_ROUNDOFF;
+        largest[0] = largest[0].max(size(&off[..4]) / turn);
+        largest[1] = largest[1].max(size(&off[4..]) / (bound.eta - 7.0 * UNIT_ROUNDOFF));
+    }
+    largest
+}
+
+#[test]
+fn roundings_are_within_their_bounds_and_not_far_below() {
+    for longest in [0.05, 0.5, 2.0, 4.0] {
+        let shares = shares(longest);
+
+        assert!(shares.iter().all(|share| (0.25..=1.0).contains(share)), "{longest}: {shares:?}");
+    }
+}
+
+#[test]
+fn each_inverse_is_right_to_its_last_digit_and_so_is_its_rest() {
+    for (k, [high, low]) in INVERSES.into_iter().enumerate() {
+        let exact = inverse(k);
+        assert_eq!(high, exact.hi(), "1/{}", k + 1);
+        assert!((exact.lo() - low).abs() <= 4.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * high, "1/{}", k + 1);
+    }
+}
+
+/// A coefficient that is off by its last digit in every step is off in one direction. Roundings are not; those of the
+/// inverses are left out, because they are the same in every step.
+#[test]
+fn no_coefficient_is_off_in_one_direction() {
+    const NUMBER: u32 = 2000;
+    let rounded = |k: usize| DoubleDouble::from(INVERSES[k][0]);
+    let mut means = [[0.0; LARGEST_ORDER + 1]; 3];
+    for inputs in inputs(NUMBER, 1.0) {
+        let (found, _) = SimdLevel::widest().run(Step(inputs, LARGEST_ORDER, false));
+        let exact = exactly(inputs, LARGEST_ORDER, rounded);
+        for ((means, found), exact) in means.iter_mut().zip(&found).zip(&exact) {
+            for ((mean, found), exact) in means.iter_mut().zip(found).zip(exact) {
+                let off = (*exact - (*found).into()).hi() / exact.hi() / UNIT_ROUNDOFF;
+                *mean += if exact.hi() == 0.0 { 0.0 } else { off.clamp(-4.0, 4.0) / f64::from(NUMBER) };
+            }
+        }
+    }
+
+    for (means, name) in means.iter().zip(["U", "W", "r"]) {
+        for (n, mean) in means.iter().enumerate() {
+            assert!(mean.abs() < 0.3, "{name} {n}: {mean} u");
+        }
+    }
+}
