@@ -117,6 +117,49 @@ fn roundings_are_within_their_bounds_and_not_far_below() {
     }
 }
 
+/// The bound (6) of the integral of the defect of rounding, in units of u.
+struct OfRounding(Inputs);
+
+impl WithSimd for OfRounding {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let [modulus, half_z, q, h] = self.0.map(|value| Real::splat(simd, value));
+        let mut series = Series::new(simd);
+        series.expand_eta(LARGEST_ORDER, q);
+        series.expand(LARGEST_ORDER, modulus, half_z);
+        let terms = Terms::new(&series, LARGEST_ORDER, [modulus, half_z, q, h], modulus.constant(0.0));
+        let mut number = [0.0];
+        terms.rounding.store_up_to(&mut number);
+        number[0]
+    }
+}
+
+/// The computed coefficients, put into the equations, leave no more than the defect of rounding.
+#[test]
+fn the_defect_of_rounding_is_within_its_bound_and_not_far_below() {
+    let (level, mut largest) = (SimdLevel::widest(), 0.0_f64);
+    for inputs in inputs(1000, 2.0) {
+        let ([modulus, half_z, _, h], ([u, w, r], _)) = (inputs, level.run(Step(inputs, LARGEST_ORDER, false)));
+        let mut defect = 0.0;
+        for n in 0..LARGEST_ORDER {
+            let products = |a: &[f64]| {
+                let terms = a[..=n].iter().zip(r[..=n].iter().rev());
+                let sum = terms.fold(DoubleDouble::ZERO, |sum, (a, r)| sum + DoubleDouble::product(*a, *r));
+                sum * if n % 2 == 0 { modulus } else { -modulus }
+            };
+            let left = |next: f64, products: DoubleDouble, c: f64| {
+                let rest = DoubleDouble::product(next, number(n + 1)) - products - DoubleDouble::product(half_z, c);
+                rest.hi().abs() * h.powi(n as i32 + 1) / number(n + 1)
+            };
+            defect += left(u[n + 1], products(&w), u[n]).hypot(left(w[n + 1], -products(&u), w[n]));
+        }
+        largest = largest.max(defect / (UNIT_ROUNDOFF * level.run(OfRounding(inputs))));
+    }
+    assert!((0.15..=1.0).contains(&largest), "{largest}");
+}
+
 #[test]
 fn each_inverse_is_right_to_its_last_digit_and_so_is_its_rest() {
     for (k, [high, low]) in INVERSES.into_iter().enumerate() {
