@@ -48,7 +48,7 @@ fn summed([u, w, r]: &Coefficients<DoubleDouble>, h: f64) -> [DoubleDouble; 6] {
     let alternating = |terms: &[DoubleDouble], first: usize| {
         (first..terms.len()).step_by(2).fold(DoubleDouble::ZERO, |sum, n| {
             let term = terms[n] * power(n);
-            if (n - first) % 4 == 0 { sum + term } else { sum - term }
+            if (n - first).is_multiple_of(4) { sum + term } else { sum - term }
         })
     };
     let [of_u, of_w, of_r] = [u, w, r].map(|terms| [0, 1].map(|first| alternating(terms, first)));
@@ -56,21 +56,17 @@ fn summed([u, w, r]: &Coefficients<DoubleDouble>, h: f64) -> [DoubleDouble; 6] {
 }
 
 /// One step in f64.
-struct Step(Inputs, usize, bool);
+struct Step(Inputs, usize);
 
 impl WithSimd for Step {
     type Output = (Coefficients<f64>, [f64; 6]);
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> (Coefficients<f64>, [f64; 6]) {
-        let Self(inputs, order, compensates) = self;
+        let Self(inputs, order) = self;
         let [modulus, half_z, q, h] = inputs.map(|value| Real::splat(simd, value));
         let mut series = Series::new(simd);
-        if compensates {
-            series.expand_eta_compensated(order, q)
-        } else {
-            series.expand_eta(order, q)
-        }
+        series.expand_eta(order, q);
         series.expand(order, modulus, half_z);
         let first = |value: Real<S>| {
             let mut number = [0.0];
@@ -94,7 +90,7 @@ fn shares(longest: f64) -> [f64; 2] {
     let (level, mut largest) = (SimdLevel::widest(), [0.0_f64; 2]);
     for inputs in inputs(1000, longest) {
         let [modulus, half_z, q, h] = inputs;
-        let (_, found) = level.run(Step(inputs, LARGEST_ORDER, false));
+        let (_, found) = level.run(Step(inputs, LARGEST_ORDER));
         let exact = summed(&exactly(inputs, 40, inverse), h);
         let off: Vec<f64> = exact.iter().zip(found).map(|(exact, found)| (*exact - found.into()).hi()).collect();
         let size = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
@@ -141,7 +137,7 @@ impl WithSimd for OfRounding {
 fn the_defect_of_rounding_is_within_its_bound_and_not_far_below() {
     let (level, mut largest) = (SimdLevel::widest(), 0.0_f64);
     for inputs in inputs(1000, 2.0) {
-        let ([modulus, half_z, _, h], ([u, w, r], _)) = (inputs, level.run(Step(inputs, LARGEST_ORDER, false)));
+        let ([modulus, half_z, _, h], ([u, w, r], _)) = (inputs, level.run(Step(inputs, LARGEST_ORDER)));
         let mut defect = 0.0;
         for n in 0..LARGEST_ORDER {
             let products = |a: &[f64]| {
@@ -177,7 +173,7 @@ fn no_coefficient_is_off_in_one_direction() {
     let rounded = |k: usize| DoubleDouble::from(INVERSES[k][0]);
     let mut means = [[0.0; LARGEST_ORDER + 1]; 3];
     for inputs in inputs(NUMBER, 1.0) {
-        let (found, _) = SimdLevel::widest().run(Step(inputs, LARGEST_ORDER, false));
+        let (found, _) = SimdLevel::widest().run(Step(inputs, LARGEST_ORDER));
         let exact = exactly(inputs, LARGEST_ORDER, rounded);
         for ((means, found), exact) in means.iter_mut().zip(&found).zip(&exact) {
             for ((mean, found), exact) in means.iter_mut().zip(found).zip(exact) {
