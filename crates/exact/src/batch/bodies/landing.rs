@@ -29,6 +29,21 @@ pub(super) struct Height<S: Simd> {
     pub(super) bound: Real<S>,
 }
 
+impl<S: Simd> Height<S> {
+    /// What is written of it, with [`Run`](super::Run)'s accuracy. NaN is not beyond any bound.
+    #[inline(always)]
+    pub(super) fn written(&self, accuracy: Option<f64>) -> Real<S> {
+        let Self { height, norm, bound } = *self;
+        let number = |value: f64| norm.constant(value);
+        match accuracy {
+            None => (bound * norm).less_than(height.abs()).choose(height, number(0.0)),
+            Some(accuracy) => {
+                bound.at_most(number(accuracy)).choose((height / norm).clamp_to_cosine(), number(f64::NAN))
+            }
+        }
+    }
+}
+
 impl Constants {
     /// cos θ at landing.
     #[inline(always)]
