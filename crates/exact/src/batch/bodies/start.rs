@@ -127,7 +127,7 @@ impl Constants {
 
     /// The rate along principal axes, with a relative error of a rounding.
     #[inline(always)]
-    fn along_principal_axes<S: Simd>(&self, rate: [Real<S>; 3]) -> [Real<S>; 3] {
+    pub(super) fn along_principal_axes<S: Simd>(&self, rate: [Real<S>; 3]) -> [Real<S>; 3] {
         let number = |value: f64| rate[0].constant(value);
         match &self.axes {
             Axes::Along([first, second, third]) => {

@@ -1,6 +1,7 @@
 //! These tests hold the filter and the bound of its error against the motion in double-double.
 
 use dynamics::{Attitude, Body, Tosses};
+use numerics::DoubleDouble;
 use numerics::lanes::SimdLevel;
 
 use super::*;
@@ -45,10 +46,16 @@ impl WithSimd for Bounded<'_> {
     }
 }
 
+/// cos θ, the bound of its error, and the norm, of each toss.
+fn bounded(constants: &Constants, tosses: Tosses<'_, Body>) -> Vec<[f64; 3]> {
+    let mut found = Vec::new();
+    SimdLevel::for_one_lane().run(Bounded(constants, tosses, &mut found));
+    found
+}
+
 /// The largest ratio of an error to its bound, of the tosses whose bounds are in a range.
 fn largest_ratio(tosses: Tosses<'_, Body>, bounds: Range<f64>) -> (f64, usize) {
-    let (constants, mut found) = (Constants::new(&tosses).unwrap(), Vec::new());
-    SimdLevel::for_one_lane().run(Bounded(&constants, tosses, &mut found));
+    let found = bounded(&Constants::new(&tosses).unwrap(), tosses);
     let (mut largest, mut tried) = (0.0_f64, 0);
     for (index, [cos_tilt, bound, norm]) in found.into_iter().enumerate() {
         if bound.is_infinite() || !bounds.contains(&bound) {
@@ -154,6 +161,78 @@ fn heights_are_right_to_the_accuracy_that_is_asked() {
             assert!(exact_ones.contains(&same), "{body:?}, to {accuracy:e}: {same}");
         }
     }
+}
+
+#[test]
+fn launches_outside_the_derivation_have_no_bound() {
+    let tensor = Body::from_tensor([[2.0, 0.3, -0.2], [0.3, 2.5, 0.1], [-0.2, 0.1, 3.0]]).unwrap();
+    let along = |rate: [f64; 3]| <[f64; 3]>::from(tensor.principal().from_principal(rate));
+    let [far, symmetric] = [[1.0, 2.0, 2.25], [1.0, 1.0, 2.0]].map(|moments| Body::from_moments(moments).unwrap());
+    let rate = [3.0, -4.0, 5.0];
+    for (body, rate, speed, has_bound) in [
+        (far, rate, 3.0, true),
+        (far, rate, 1e12, true),
+        (far, rate, 1e13, false),
+        (far, rate, -1.0, false),
+        (far, rate.map(|part| part * 1e28), 1e-28, true),
+        (far, rate.map(|part| part * 1e31), 1e-31, false),
+        (far, rate.map(|part| part * 1e-28), 3.0, true),
+        (far, rate.map(|part| part * 1e-32), 3.0, false),
+        (far, [1.0, 2.0, (1.0f64 / 0.5625).sqrt() * (1.0 + 1e-6)], 3.0, false),
+        (symmetric, [1e-8, 0.0, 1.0], 3.0, true),
+        (symmetric, [1e-10, 0.0, 1.0], 3.0, false),
+        (tensor, along([1e-6, 1.0, 2.0]), 3.0, true),
+        (tensor, along([1.0, 2.0, 1e-8]), 3.0, false),
+        (tensor, along([1e-8, 1.0, 2.0]), 3.0, false),
+    ] {
+        let [x, y, z] = rate.map(|part| [part]);
+        let speeds = [speed];
+        let tosses = Tosses::new(body, Attitude::about_x(0.3), 9.81, [&x, &y, &z], &speeds).unwrap();
+        let [_, bound, _] = bounded(&Constants::new(&tosses).unwrap(), tosses)[0];
+        assert_eq!(bound.is_finite(), has_bound, "{rate:?} {speed}: {bound:e}");
+    }
+}
+
+/// Writes the rate along principal axes.
+struct Along<'a>(&'a Constants, [f64; 3]);
+
+impl WithSimd for Along<'_> {
+    type Output = [f64; 3];
+
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+        self.0.along_principal_axes(self.1.map(|part| Real::splat(simd, part))).map(|part| {
+            let mut first = [0.0];
+            part.store_up_to(&mut first);
+            first[0]
+        })
+    }
+}
+
+#[test]
+fn rates_along_turned_axes_have_a_relative_error_of_a_rounding() {
+    let body = dynamics::catalogue::named_body("us-quarter-engraved").unwrap();
+    let launches = Columns::new(300, 60.0, 5.0);
+    let constants = Constants::new(&launches.tosses(body, Attitude::IDENTITY)).unwrap();
+    let mut refused = 0;
+    for index in 0..300 {
+        let near = [[1.0, 1.0, 1.0], [1e-6, 1.0, 1.0], [1.0, 1e-5, 1.0], [1.0, 1.0, 1e-6]][index % 4];
+        let rate: [f64; 3] = std::array::from_fn(|axis| near[axis] * launches.0[axis][index]);
+        let rate = <[f64; 3]>::from(body.principal().from_principal(rate));
+        let found = SimdLevel::for_one_lane().run(Along(&constants, rate));
+        if found[0].is_nan() {
+            refused += 1;
+            continue;
+        }
+        for (axis, found) in body.principal().axes.iter().zip(found) {
+            let [x, y, z] = axis;
+            let [a, b, c] = rate.map(DoubleDouble::exactly);
+            let exact = *x * a + *y * b + *z * c;
+            let error = (DoubleDouble::exactly(found) - exact).hi() / exact.hi();
+            assert!(error.abs() <= 1.2e-16, "{rate:?}: {found} is off by {error:e}");
+        }
+    }
+    // A component below 1e-7 of the rate.
+    assert!((1..30).contains(&refused), "{refused}");
 }
 
 #[test]
