@@ -4,6 +4,7 @@
 //! A claim is more than "no panic": an input gives a typed error or a finite answer, what is written reads back as the
 //! same, and two ways to one answer agree.
 
+pub mod bodies;
 pub mod columns;
 pub mod part;
 pub mod program;
@@ -16,7 +17,8 @@ pub mod space;
 pub type Target = fn(&[u8]);
 
 /// All targets by their names, which are those of their programs and folders of seeds.
-pub const TARGETS: [(&str, Target); 6] = [
+pub const TARGETS: [(&str, Target); 7] = [
+    ("bodies", bodies::check),
     ("columns", columns::check),
     ("part", part::check),
     ("quantity", quantity::check),

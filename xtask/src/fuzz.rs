@@ -29,7 +29,7 @@ pub(crate) struct Fuzz {
 }
 
 /// The targets, which are those of `fuzz/src/lib.rs`.
-const TARGETS: [&str; 6] = ["columns", "part", "quantity", "rows", "scene", "space"];
+const TARGETS: [&str; 7] = ["bodies", "columns", "part", "quantity", "rows", "scene", "space"];
 
 /// What libFuzzer needs to see: the edges of the control flow, how often each is taken, and what numbers are compared.
 const INSTRUMENTATION: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
@@ -83,7 +83,11 @@ fn build(host: &str, targets: &[&str]) -> Result<(), String> {
     command.arg("--target-dir").arg(root().join("target/fuzz")).env("RUSTFLAGS", INSTRUMENTATION);
     command.args(targets.iter().flat_map(|target| ["--bin", target]));
     let status = command.status().map_err(|error| format!("cannot start cargo: {error}"))?;
-    if status.success() { Ok(()) } else { Err("the targets were not built; they need a C++ compiler".to_owned()) }
+    if status.success() {
+        Ok(())
+    } else {
+        Err("the targets were not built (libFuzzer needs a C++ compiler)".to_owned())
+    }
 }
 
 #[cfg(test)]

@@ -22,7 +22,8 @@ impl Sensitivity {
     /// The derivatives at the landing of a toss of any body.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
+    /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, as that of a time
+    /// below 1e-308 s.
     pub fn of_rigid(toss: &RigidToss) -> Result<Self, SolveError> {
         if let Some(toss) = toss.symmetric() {
             return Self::new(&toss);
@@ -42,7 +43,12 @@ impl Sensitivity {
         attitude.set_column(3, &landing.rate);
         let up = landing.attitude.lab_to_body(&Vector3::z());
         slopes[3] = Vector3::z().cross(&up).dot(&landing.rate);
-        Ok(Self { attitude, cos_tilt: slopes })
+        let is_finite = attitude.iter().chain(&slopes).all(|part| part.is_finite());
+        if is_finite {
+            Ok(Self { attitude, cos_tilt: slopes })
+        } else {
+            Err(SolveError::NotFinite { time: at.seconds() })
+        }
     }
 }
 
@@ -116,6 +122,13 @@ mod tests {
                 assert!((found.cos_tilt[input] - slope).abs() < 3e-8, "{moments:?} {rate:?} {input}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_derivative_that_is_not_finite_is_an_error() {
+        let launch = Launch::new(Vector3::new(13.0, -2e-185, 8e-320), TimeOfFlight::Given(8e-320)).unwrap();
+        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+        assert_eq!(Sensitivity::of_rigid(&toss).unwrap_err(), SolveError::NotFinite { time: 8e-320 });
     }
 
     /// One ulp of the rate, 1e-16, moves this flight off the separatrix by radians.
