@@ -21,6 +21,7 @@ mod digits;
 mod enclosure;
 mod integration;
 mod lockstep;
+mod outcomes;
 mod plan;
 mod product;
 mod proven;

@@ -120,6 +120,12 @@ impl Plans {
         Self { short: Plan::of_coins(tolerance), long: Plan { tolerance, ..Plan::of_coins(f64::EPSILON) } }
     }
 
+    /// The plans of coins for local errors of so large a `tolerance` that rounding does not matter in long flights either.
+    pub(crate) fn of_coarse_coins(tolerance: f64) -> Self {
+        let plan = Plan::of_coins(tolerance);
+        Self { short: plan, long: plan }
+    }
+
     /// The plan of long or of short flights.
     pub(crate) fn of(&self, long: bool) -> &Plan {
         if long { &self.long } else { &self.short }

@@ -77,7 +77,7 @@ impl IntegratedCertificate {
 
 /// Roundings, in units of u, between the proven turn and cos θ: the vertical (4.2), the normal (4), their product (3) and
 /// its division by the norm (4).
-const OF_COS_TILT: f64 = 20.0 * UNIT_ROUNDOFF;
+pub(crate) const OF_COS_TILT: f64 = 20.0 * UNIT_ROUNDOFF;
 
 /// Roundings of the attitude at landing: the launch (8), a division by the norm (2), the product (8) and another division
 /// (2).
@@ -264,7 +264,7 @@ fn by_digits(
 }
 
 /// cos θ after the turn P of any norm.
-fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
+pub(crate) fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
     let ([a, b, c], size) = launched.vertical();
     let (upright, inverted) = (w * w + z * z, x * x + y * y);
     let across = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x)];

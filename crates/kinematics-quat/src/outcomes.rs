@@ -1,0 +1,118 @@
+//! Proven outcomes of many coins and nothing else. A coarse flight takes less time than a fine one, and has a bound, too.
+//! An outcome is undecided by it only where cos θ is as small as that bound.
+
+use dynamics::{Outcome, SolveError, Toss};
+use numerics::lanes::SimdLevel;
+
+use crate::coins::Coins;
+use crate::defect::bounds;
+use crate::enclosure::{attitude_bound, steps};
+use crate::lockstep::fly;
+use crate::plan::Plans;
+use crate::proven::{OF_COS_TILT, cos_tilt};
+use crate::{Landed, QuaternionSolver};
+
+/// The tolerance of the coarse flights.
+const COARSE: f64 = 1e-3;
+
+impl QuaternionSolver {
+    /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Flights of a coarse tolerance
+    /// come first, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings
+    /// without a proof.
+    pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+        let is_finer = self.require_proofs().is_ok_and(|taylor| taylor.tolerance < COARSE);
+        let undecided = || vec![Ok(Outcome::Undecided); tosses.len()];
+        let mut found = if is_finer { coarse(tosses, level) } else { undecided() };
+        let open: Vec<usize> = (0..found.len()).filter(|index| found[*index] == Ok(Outcome::Undecided)).collect();
+        let again: Vec<Toss> = open.iter().map(|index| tosses[*index]).collect();
+        for (index, certificate) in open.into_iter().zip(self.certify_all(&again, level)) {
+            found[index] = certificate.map(|certificate| certificate.outcome());
+        }
+        found
+    }
+}
+
+/// The outcomes that coarse flights prove; the others are undecided.
+fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+    let plans = Plans::of_coarse_coins(COARSE);
+    let mut found = vec![Ok(Outcome::Undecided); tosses.len()];
+    let mut flown = Vec::with_capacity(tosses.len());
+    fly::<Coins>(&plans, tosses, level, |index, landed| match landed {
+        Ok(Landed { flight, turn, record: Some(record), .. }) => {
+            flown.push((index, cos_tilt(tosses[index].launch.attitude(), turn), flight, record));
+        }
+        Ok(_) => {}
+        Err(error) => found[index] = Err(error),
+    });
+    let each: Vec<_> = flown.iter().map(|(index, _, flight, record)| steps(&tosses[*index], flight, record)).collect();
+    for ((index, cos_tilt, flight, record), bound) in flown.into_iter().zip(bounds(&plans.short, level, &each)) {
+        let bound = attitude_bound(&tosses[index], &flight, &record, &bound);
+        found[index] = Ok(Outcome::of(cos_tilt, 2.0 * bound + OF_COS_TILT));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight};
+
+    use super::*;
+
+    fn solver(tolerance: f64) -> QuaternionSolver {
+        QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
+    }
+
+    /// Tosses of about this phase; every second one lands about as near to the edge as coarse flights are off.
+    fn tosses(phase: f64) -> Vec<Toss> {
+        let toss = |index: u32| {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract();
+            let coin = Coin::from_moments(1.0, 2.0 * part(2.0)).unwrap();
+            let at = |time| {
+                let launch = Launch::new([part(3.0) + 0.1, part(5.0), part(7.0)], TimeOfFlight::Given(time)).unwrap();
+                Toss { coin, launch: launch.with_tilt(3.0 * part(11.0)).unwrap() }
+            };
+            let cos_tilt = |time| exact::certified::cos_tilt(&at(time)).unwrap();
+            let (mut before, mut after) = (phase * (0.5 + 0.5 * part(13.0)), phase * 1.5);
+            let first = cos_tilt(before) > 0.0;
+            if index % 2 == 0 || (cos_tilt(after) > 0.0) == first {
+                return at(before);
+            }
+            while after - before > 10f64.powf(-9.0 * part(17.0)) {
+                let middle = f64::midpoint(before, after);
+                if (cos_tilt(middle) > 0.0) == first { before = middle } else { after = middle }
+            }
+            at(before)
+        };
+        (0..400).map(toss).collect()
+    }
+
+    #[test]
+    fn outcomes_are_those_of_the_certificates_at_every_simd_level() {
+        let solver = solver(1e-10);
+        for phase in [30.0, 300.0, 3000.0] {
+            let tosses = tosses(phase);
+            let certified = solver.certify_all(&tosses, SimdLevel::widest());
+            let expected: Vec<_> = certified.into_iter().map(|found| found.map(|found| found.outcome())).collect();
+            for level in SimdLevel::all() {
+                assert_eq!(solver.prove_outcomes(&tosses, level), expected, "{}", level.name());
+            }
+            let decided = coarse(&tosses, SimdLevel::widest());
+            let open = decided.iter().filter(|found| **found == Ok(Outcome::Undecided)).count();
+            assert!((5..200).contains(&open), "phase {phase}: coarse flights leave {open} of 400 open");
+        }
+    }
+
+    #[test]
+    fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
+        let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
+        let launch = |time| Launch::new([0.0, 7.0, 0.0], TimeOfFlight::Given(time)).unwrap().with_attitude(edge);
+        let tosses = [1.0, 0.0, 1e17].map(|time| Toss { coin: Coin::DISC, launch: launch(time) });
+        let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
+        assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
+        assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));
+        let plain = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
+        let refused = plain.prove_outcomes(&tosses[..1], SimdLevel::widest());
+        assert!(matches!(refused[0], Err(SolveError::NotProven { .. })));
+        assert_eq!(solver(1e-2).prove_outcomes(&tosses[..1], SimdLevel::widest()), [Ok(Outcome::Undecided)]);
+    }
+}
