@@ -74,7 +74,7 @@ mod tests {
             let cos_tilt = |time| exact::certified::cos_tilt(&at(time)).unwrap();
             let (mut before, mut after) = (phase * (0.5 + 0.5 * part(13.0)), phase * 1.5);
             let first = cos_tilt(before) > 0.0;
-            if index % 2 == 0 || (cos_tilt(after) > 0.0) == first {
+            if index.is_multiple_of(2) || (cos_tilt(after) > 0.0) == first {
                 return at(before);
             }
             while after - before > 10f64.powf(-9.0 * part(17.0)) {
