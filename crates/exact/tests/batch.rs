@@ -278,6 +278,12 @@ fn the_first_toss_without_an_outcome_is_named_whatever_is_wrong_with_a_later_one
         ] {
             assert!(matches!(error, Error::Launch { index: 613, .. }), "{error}");
         }
+        let body = dynamics::Body::from(Coin::DISC);
+        let rates = columns.rates.each_ref().map(Vec::as_slice);
+        let bodies = Batch::new(Tosses::new(body, attitude, 9.81, rates, &columns.speeds).unwrap());
+        for error in [bodies.outcomes(&mut vec![Outcome::Heads; 700]).unwrap_err(), bodies.count().unwrap_err()] {
+            assert!(matches!(error, Error::Launch { index: 613, .. }), "{error}");
+        }
     }
 }
 

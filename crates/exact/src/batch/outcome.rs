@@ -118,12 +118,7 @@ impl Filter {
             Self::Flat(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
             Self::Tilted(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
         };
-        // The filter finds invalid launches alone; a launch before them may be valid and without an outcome.
-        let start = range.start as u64;
-        done.map_err(|error| {
-            let mut solved = range.map(|index| batch.tosses.solve(index, certify));
-            solved.find_map(Result::err).unwrap_or_else(|| error.after(start))
-        })
+        done.map_err(|error| error.after(range.start as u64))
     }
 }
 

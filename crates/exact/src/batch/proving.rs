@@ -34,7 +34,7 @@ pub(super) fn outcomes(proving: &impl Proving, out: &mut [Outcome]) -> Result<()
     for (block, out) in out.chunks_mut(BLOCK).enumerate() {
         let start = block * BLOCK;
         let heights = &mut heights.0[..out.len()];
-        proving.heights(start..start + out.len(), heights)?;
+        heights_of(proving, start..start + out.len(), heights)?;
         for (index, (height, out)) in heights.iter().zip(out).enumerate() {
             *out = of_sign(*height);
             if *out == Outcome::Undecided {
@@ -51,7 +51,7 @@ pub(super) fn count(proving: &impl Proving, mut left: impl FnMut(Certificate)) -
     let mut counts = ProvenCounts::default();
     for start in (0..proving.len()).step_by(BLOCK) {
         let heights = &mut heights.0[..(proving.len() - start).min(BLOCK)];
-        proving.heights(start..start + heights.len(), heights)?;
+        heights_of(proving, start..start + heights.len(), heights)?;
         let decided = proving.level().run(Signs(heights));
         counts.add_many(decided.heads, decided.tails, Stage::F64);
         if decided.heads + decided.tails < heights.len() as u64 {
@@ -63,6 +63,15 @@ pub(super) fn count(proving: &impl Proving, mut left: impl FnMut(Certificate)) -
         }
     }
     Ok(counts)
+}
+
+/// The heights of a block. A filter finds invalid launches alone; a launch before them may be valid and without an outcome,
+/// and its error comes first.
+fn heights_of(proving: &impl Proving, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+    proving.heights(range.clone(), heights).map_err(|error| {
+        let mut proven = range.map(|index| proving.certify(index));
+        proven.find_map(Result::err).unwrap_or(error)
+    })
 }
 
 /// Numbers of outcomes that the filter decided.
