@@ -177,7 +177,7 @@ pub fn survey(subjects: &[Subject], effort: Effort) -> Vec<BodyFindings> {
     let number = match effort {
         Effort::Quick => 20,
         Effort::Standard => 100,
-        Effort::Deep => 1000,
+        Effort::Deep => 15_000,
     };
     let each = |family: &'static Family| launches(family, number, TOSSED).map(move |toss| (family.name, toss));
     let tosses: Vec<(&'static str, RigidToss)> = FAMILIES.iter().flat_map(each).collect();
