@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
 
-use crate::output::{self, SCHEMA};
+use crate::json::{SCHEMA, plain_json};
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
@@ -126,7 +126,7 @@ impl Failure {
         if let Value::Object(details) = self.details() {
             error.extend(details);
         }
-        output::plain_json(&json!({ "schema": SCHEMA, "error": error }))
+        plain_json(&json!({ "schema": SCHEMA, "error": error }))
     }
 
     fn details(&self) -> Value {

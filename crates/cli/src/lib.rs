@@ -10,6 +10,7 @@ mod estimate_answer;
 mod failure;
 mod help;
 mod input;
+mod json;
 mod launch_rows;
 mod output;
 mod quantity;

@@ -5,6 +5,8 @@
 //! rad the phases of neighbouring f64 inputs are a radian or more apart. Every solver refuses such a toss by
 //! [`require_phase`].
 
+use std::f64::consts::SQRT_2;
+
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 
@@ -22,6 +24,16 @@ pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
 #[inline]
 pub fn require_phase(phase: f64) -> Result<f64, SolveError> {
     if phase <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase }) }
+}
+
+/// An upper bound of the angle (rad) through which a body turns in a `time`, from the size of its `rate` at launch, which
+/// never grows by more than the factor √2 (see [`RigidPhase`](crate::RigidPhase)).
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`] if it exceeds 2^53.
+pub(crate) fn turned_at_most(rate: f64, time: f64) -> Result<f64, SolveError> {
+    // Without a rate the angle is 0, also where the product would be 0 · ∞ = NaN.
+    require_phase(if rate == 0.0 { 0.0 } else { SQRT_2 * rate * time })
 }
 
 /// The phases at landing, computed in f64 with an error of a few roundings. Integrators and error estimates need no

@@ -12,7 +12,7 @@ use numerics::DoubleDouble;
 use crate::body::PrincipalAxes;
 use crate::error::SolveError;
 use crate::flight::Flight;
-use crate::rigid_phase::turned_at_most;
+use crate::phase::turned_at_most;
 use crate::rigid_toss::RigidToss;
 
 /// The flight of a rigid body about its principal axes, with its rates divided by σ, a power of two.
@@ -36,7 +36,7 @@ impl RigidFlight {
     pub fn new(toss: &RigidToss) -> Result<Self, SolveError> {
         let flight = Flight::turning_by(&toss.launch, |rate, time| turned_at_most(rate.norm(), time))?;
         let axes = *toss.body.principal();
-        let rates = principal_rates(&axes, &flight.rate);
+        let rates = axes.rates(&flight.rate);
         Ok(Self { flight, axes, launched: toss.launch.rate(), rates, couplings: toss.body.couplings() })
     }
 
@@ -64,11 +64,6 @@ impl RigidFlight {
         }
         self.flight.in_rad_per_s(&self.in_body(rates))
     }
-}
-
-/// The components of a rate (BF) about the principal axes, rounded once.
-pub(crate) fn principal_rates(principal: &PrincipalAxes<DoubleDouble>, rate: &Vector3<f64>) -> [f64; 3] {
-    principal.axes.map(|[x, y, z]| (x * rate.x + y * rate.y + z * rate.z).hi())
 }
 
 #[cfg(test)]

@@ -21,13 +21,10 @@
 //! and the period, -ln m' and a constant, by a few δ/m'. From then on the error grows with the phase like that of a
 //! steady turn, 1/m' times as fast.
 
-use std::f64::consts::SQRT_2;
-
 use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
-use crate::phase::require_phase;
-use crate::rigid_flight::principal_rates;
+use crate::phase::turned_at_most;
 use crate::rigid_toss::RigidToss;
 
 /// How far a rigid body turns, and how a disturbance grows, in f64 with an error of some roundings.
@@ -51,19 +48,10 @@ impl RigidPhase {
         let angle = turned_at_most(rate.norm(), toss.launch.flight_time() * scale)?;
         let [a, _, c] = toss.body.couplings();
         let fastest = ((a * c).abs().sqrt() * angle).exp();
-        let rates = principal_rates(toss.body.principal(), &rate);
+        let rates = toss.body.principal().rates(&rate);
         // Of a body at rest or with equal moments the distance is not a number, and the first limit is 1.
         Ok(Self { angle, growth: fastest.min(1.0 + 1.0 / from_separatrix(toss.body.couplings(), rates)) })
     }
-}
-
-/// An upper bound of the angle (rad) through which a body turns in a `time`, from the size of its `rate` at launch.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`] if it exceeds 2^53.
-pub(crate) fn turned_at_most(rate: f64, time: f64) -> Result<f64, SolveError> {
-    // Without a rate the angle is 0, also where the product would be 0 · ∞ = NaN.
-    require_phase(if rate == 0.0 { 0.0 } else { SQRT_2 * rate * time })
 }
 
 /// The complementary parameter m' of the elliptic functions, which is 0 on the separatrix and 1 for a steady turn about
@@ -78,6 +66,8 @@ fn from_separatrix(couplings: [f64; 3], rates: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::SQRT_2;
+
     use super::*;
     use crate::body::Body;
     use crate::launch::Launch;

@@ -9,18 +9,11 @@ use plotters::prelude::*;
 use toss::{Attitude, RigidToss, TimeOfFlight, TracePoint, Vector3};
 
 use crate::chart::layout::{COINS, FACE, NORMAL, RIGHT, times};
-use crate::chart::projection::project;
-use crate::chart::solid::{Solid, draw_cuboid};
+use crate::chart::projection::{end_of, project};
+use crate::chart::solid::{EDGE, Solid, TAILS, draw_cuboid};
 
-/// Radius of the coin (pixels).
-const RADIUS: f64 = 36.0;
-/// Thickness of the coin, in radii.
-pub(super) const THICKNESS: f64 = 0.14;
 /// Number of layers by which its edge is drawn.
 const LAYERS: u32 = 6;
-
-pub(super) const TAILS: RGBColor = RGBColor(70, 70, 70);
-pub(super) const EDGE: RGBColor = RGBColor(170, 170, 170);
 
 /// Draws the coins of `flight`, the trace of `toss`.
 pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &RigidToss) -> Drawn {
@@ -107,11 +100,4 @@ fn draw_disc(panel: &Panel<'_>, at: impl Fn(f64, f64, f64) -> (i32, i32), side: 
     panel.draw(&Polygon::new(rim(side), if shows_heads { WHITE } else { TAILS }.filled()))?;
     panel.draw(&PathElement::new(rim(side), BLACK.stroke_width(2)))?;
     Ok(())
-}
-
-/// Where the end of `vector` (LF, in radii) from `centre` is seen (pixels).
-#[expect(clippy::cast_possible_truncation, reason = "within the canvas")]
-pub(super) fn end_of(centre: (i32, i32), vector: &Vector3<f64>) -> (i32, i32) {
-    let seen = project(vector);
-    (centre.0 + (RADIUS * seen.right).round() as i32, centre.1 - (RADIUS * seen.up).round() as i32)
 }

@@ -23,3 +23,13 @@ pub(super) fn project(v: &Vector3<f64>) -> Seen {
     let (right, away) = (v.x * cos_a + v.y * sin_a, -v.x * sin_a + v.y * cos_a);
     Seen { right, up: v.z * cos_e + away * sin_e, near: v.z * sin_e - away * cos_e }
 }
+
+/// Radius of a coin (pixels).
+const RADIUS: f64 = 36.0;
+
+/// Where the end of `vector` (LF, in radii) from `centre` is seen (pixels).
+#[expect(clippy::cast_possible_truncation, reason = "within the canvas")]
+pub(super) fn end_of(centre: (i32, i32), vector: &Vector3<f64>) -> (i32, i32) {
+    let seen = project(vector);
+    (centre.0 + (RADIUS * seen.right).round() as i32, centre.1 - (RADIUS * seen.up).round() as i32)
+}

@@ -5,8 +5,14 @@ use chart::{Drawn, Panel};
 use plotters::prelude::*;
 use toss::{Attitude, Body, Vector3};
 
-use crate::chart::coin::{EDGE, TAILS, THICKNESS, end_of};
-use crate::chart::projection::project;
+use crate::chart::projection::{end_of, project};
+
+/// The tails side and the edge of what is drawn; the heads side is white.
+pub(super) const TAILS: RGBColor = RGBColor(70, 70, 70);
+pub(super) const EDGE: RGBColor = RGBColor(170, 170, 170);
+
+/// Thickness of a coin, in radii.
+const THICKNESS: f64 = 0.14;
 
 /// What is drawn of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -70,6 +70,11 @@ impl<N: Elementary> PrincipalAxes<N> {
 }
 
 impl PrincipalAxes<DoubleDouble> {
+    /// The components of a rate (BF) about the principal axes, rounded once.
+    pub(crate) fn rates(&self, rate: &Vector3<f64>) -> [f64; 3] {
+        self.axes.map(|[x, y, z]| (x * rate.x + y * rate.y + z * rate.z).hi())
+    }
+
     /// The components of a vector along the principal axes.
     pub fn to_principal(&self, vector: &Vector3<f64>) -> [f64; 3] {
         self.axes.map(|[x, y, z]| x.hi() * vector.x + y.hi() * vector.y + z.hi() * vector.z)

@@ -6,8 +6,7 @@ use dynamics::Toss;
 use numerics::UNIT_ROUNDOFF;
 use numerics::big::{Big, exactly};
 
-use super::height::{Height, Landing, functions_of_phase};
-use super::line::Input;
+use super::height::{Height, Input, Landing, functions_of_phase};
 use crate::multiprecision::{flight_time, momentum};
 
 /// Digits to begin with, and after which a height counts as 0. The smallest height that is not 0 and that inputs in f64 can

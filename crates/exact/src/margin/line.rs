@@ -35,19 +35,10 @@ use numerics::scale::mantissa_and_exponent;
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::digits::height_in_digits;
-use super::height::{Height, Landing, functions_of_phase};
+use super::height::{Height, Input, Landing, functions_of_phase};
 use super::sine::sine_and_cosine;
 use crate::motion::momentum_direction;
 use crate::tilt_terms::terms;
-
-/// An input that moves the turn along a straight line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Input {
-    /// ωx, ωy or ωz, by its index.
-    Rate(usize),
-    /// The time of flight.
-    Time,
-}
 
 /// The turns Φ + u e of one input.
 pub(super) struct Line<'a> {

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use crate::measure::context::Context;
+pub use crate::measure::measurement::Judges;
 use crate::measure::measurement::Measurement;
 
 /// The kind of evidence that a claim rests on.
@@ -28,27 +29,6 @@ impl Basis {
             Self::Invariant => "invariant",
             Self::PublishedFigure => "published figure",
             Self::CrossMethod => "cross-method",
-        }
-    }
-}
-
-/// What a row judges. A row about a solver stands or falls with the entry of the registry; a row about the library does
-/// not, even if an entry has the same name as the library's own part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Judges {
-    /// A solver of the registry.
-    Solver,
-    /// The library itself: its exact motion, proofs, batches, sampling methods, planner or numbers.
-    Library,
-}
-
-impl Judges {
-    /// Its name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Solver => "solver",
-            Self::Library => "library",
         }
     }
 }

@@ -6,13 +6,34 @@
 
 use std::cmp::Ordering;
 
+use serde::Serialize;
 use toss::SolveError;
 
 use super::case::Case;
-use super::check::Judges;
 use super::replay::Replay;
 use super::run::Allowance;
 use super::subject::Subject;
+
+/// What a row judges. A row about a solver stands or falls with the entry of the registry; a row about the library does
+/// not, even if an entry has the same name as the library's own part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Judges {
+    /// A solver of the registry.
+    Solver,
+    /// The library itself: its exact motion, proofs, batches, sampling methods, planner or numbers.
+    Library,
+}
+
+impl Judges {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solver => "solver",
+            Self::Library => "library",
+        }
+    }
+}
 
 /// The result of one subject under one check.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,17 +2,13 @@
 //! spaces. The library is built with the result, so planning itself measures nothing.
 
 use anyhow::ensure;
-use toss::fitted::{ClosedFit, FITTED, Fitted};
-use toss::{Answer, How, MODELS, Model, Registry, Scene, Scheme, SolverEntry, Want};
+use toss::fitted::{FITTED, Fitted};
+use toss::{Registry, Scheme, SolverEntry};
 
-use super::clock::{median, nanoseconds};
-use super::delivered::{Truth, true_probability};
-use super::figures::{SAFETY, SEED, SHARE, rounded};
-use super::fit_bodies;
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
 use super::fit_quadrature::quadrature;
 use super::fit_sampling::sampling;
-use super::scenes::{self, served};
+use super::{fit_bodies, fit_closed};
 
 /// The file with which the library is built, relative to the root of the workspace.
 pub const FILE: &str = "crates/toss/data/fitted.toml";
@@ -30,7 +26,7 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
     }
     Ok(Fitted {
         measured,
-        closed: closed_forms()?.into_iter().chain(fit_bodies::closed_forms()?).collect(),
+        closed: fit_closed::closed_forms()?.into_iter().chain(fit_bodies::closed_forms()?).collect(),
         spins: SPINS.to_vec(),
         phases: PHASES.to_vec(),
         tolerances,
@@ -114,65 +110,4 @@ fn briefly(piece: &str) -> String {
         Ok(value) if end > 7 => format!("{value:e}{}", &piece[end..]),
         _ => piece.to_owned(),
     }
-}
-
-/// One answer of a model in closed form, with its error and cost.
-pub(super) struct Flown {
-    pub(super) model: &'static Model,
-    pub(super) error: f64,
-    pub(super) cost_ns: f64,
-}
-
-fn closed_forms() -> anyhow::Result<Vec<ClosedFit>> {
-    const TOSSES: u64 = 4000;
-    let mut flown = Vec::new();
-    for index in 0..TOSSES {
-        let toss = scenes::toss(SEED, index)?.toss;
-        let truth = Truth::new(&toss);
-        for want in [
-            Want::Outcome(toss.into()),
-            Want::Tilt(toss.into()),
-            Want::Attitude(toss.into()),
-            Want::Trace { toss: toss.into(), points: 5 },
-        ] {
-            // With such a rough accuracy every model that can answer the scene also serves it.
-            let scene = Scene::new(want, f64::MAX);
-            for choice in served(&scene)?.into_iter().filter(|choice| matches!(choice.how, How::ClosedForm)) {
-                let error = truth.error(&scene, &choice.run(&scene)?)?;
-                let points = if choice.model.name == "trace" { 5.0 } else { 1.0 };
-                let cost_ns = if index % 8 == 0 { nanoseconds(|| choice.run(&scene)) / points } else { f64::NAN };
-                flown.push(Flown { model: choice.model, error, cost_ns });
-            }
-        }
-    }
-    let of = |model: &'static Model| closed_form(model, flown.iter().filter(move |flown| flown.model == model));
-    Ok(MODELS
-        .iter()
-        .filter(|model| model.is_closed_form() && !model.is_for_other_bodies())
-        .map(of)
-        .chain([share()?])
-        .collect())
-}
-
-pub(super) fn closed_form<'a>(model: &Model, flown: impl Iterator<Item = &'a Flown> + Clone) -> ClosedFit {
-    let costs = flown.clone().map(|flown| flown.cost_ns).filter(|cost| !cost.is_nan()).collect();
-    let error = flown.map(|flown| flown.error).fold(0.0, f64::max);
-    ClosedFit { model: model.name.to_owned(), cost_ns: rounded(median(costs)), error: rounded(SAFETY * error) }
-}
-
-fn share() -> anyhow::Result<ClosedFit> {
-    let mut errors = Vec::new();
-    let mut costs = Vec::new();
-    for index in 0..400 {
-        let space = scenes::space(SEED, index)?;
-        let scene = Scene::new(Want::Probability(space), f64::MAX);
-        for choice in served(&scene)?.into_iter().filter(|choice| choice.model.name == SHARE) {
-            if let Answer::Probability(found) = choice.run(&scene)? {
-                errors.push((found.probability - true_probability(&space, 1 << 12)?).abs());
-                costs.push(nanoseconds(|| choice.run(&scene)));
-            }
-        }
-    }
-    let error = errors.into_iter().fold(0.0, f64::max);
-    Ok(ClosedFit { model: SHARE.to_owned(), cost_ns: rounded(median(costs)), error: rounded(SAFETY * error) })
 }

@@ -1,4 +1,4 @@
-//! This file measures the models for bodies that are no coins, as [`fit`](super::fit) and
+//! This file measures the models for bodies that are no coins, as [`fit_closed`](super::fit_closed) and
 //! [`fit_sampling`](super::fit_sampling) measure those for coins: on random bodies, tosses and spaces.
 
 use dynamics::{Body, RigidToss};
@@ -9,7 +9,7 @@ use toss::{Answer, How, InputError, Launch, MODELS, Scene, TimeOfFlight, Want};
 
 use super::clock::nanoseconds;
 use super::figures::SEED;
-use super::fit::{Flown, closed_form};
+use super::fit_closed::{Flown, closed_form};
 use super::scenes::{self, served, stream};
 use crate::measure::reference::rigid::RigidReference;
 

@@ -10,6 +10,7 @@ pub mod delivered;
 mod figures;
 pub mod fit;
 mod fit_bodies;
+mod fit_closed;
 mod fit_integrators;
 mod fit_quadrature;
 mod fit_sampling;
