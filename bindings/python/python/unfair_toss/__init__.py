@@ -10,9 +10,10 @@ from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
 from .results import Intervals, Inverse, Landing, Margins, Solution, Trace, Work
-from .sampling import Estimate, estimate, merge, probability, tally
+from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, toss, trace
 from .solving import solve
+from .tallies import tally
 
 __all__ = [
     "Body",

@@ -11,6 +11,7 @@ from typing import Any
 
 from ._native import Plan, Space, Tally
 from .errors import InputError, MalformedError, PartError
+from .tallies import tally
 
 _LAUNCHES = 10**9
 """Launches of a part by default: a second or more, beside which the work of an executor does not count."""
@@ -24,8 +25,6 @@ _AHEAD = 64
 
 def compute(space: Space, plan: Plan, start: int, end: int, threads: int | None) -> Tally:
     """The tally of a part, in a worker."""
-    from .sampling import tally
-
     return tally(space, plan, (start, end), threads=threads)
 
 
