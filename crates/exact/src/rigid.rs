@@ -50,6 +50,7 @@ mod angles;
 mod certified;
 mod constants;
 mod curve;
+mod form;
 mod margin;
 mod phases;
 mod quaternion;

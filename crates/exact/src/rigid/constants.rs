@@ -6,7 +6,7 @@ use numerics::elliptic::{
     GaussianPair, ThetaPair, complete_first_and_third, incomplete_and_complete_first, incomplete_first, nome,
 };
 
-use super::curve::Form;
+use super::form::Form;
 use super::phases::Phases;
 use super::regime::Start;
 

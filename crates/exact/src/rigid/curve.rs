@@ -3,10 +3,10 @@
 //! time: the two may be numbers of different kinds.
 
 use dynamics::Body;
-use numerics::elliptic::{GaussianPair, ThetaPair};
 use numerics::{DoubleDouble, Elementary};
 
 use super::constants::{Combinations, norm, periodic, separatrix};
+use super::form::Form;
 use super::phases::Phases;
 use super::quaternion::{Quaternion, conjugate, norm_squared, of_axes, product, turned};
 use super::regime::{Regime, Start};
@@ -29,20 +29,6 @@ pub(super) struct Curve<N, M = N> {
     /// Ω/2, the rate of the phase about the angular momentum.
     half_rate: N,
     pub(super) form: Form<N, M>,
-}
-
-/// The part of the motion that is periodic in the body.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Form<N, M = N> {
-    /// The turn about the fixed `direction` (BF at launch), then the spin at the rate -2 `half_spin` about the axis
-    /// `about`.
-    Uniform { direction: [M; 3], half_spin: N, about: usize, rate: [M; 3] },
-    /// By Fourier series: half-periods of the angular momentum in the unit of time, and at launch.
-    Series { pair: ThetaPair<M>, frequency: N, launch: N },
-    /// By Gaussians; `turn` is the angle c' of the phase that a half-period takes.
-    Gaussian { pair: GaussianPair<M>, turn: M, frequency: N, launch: N },
-    /// λ, e^u at launch, and (cos c, sin c).
-    Separatrix { rate: N, launch: M, angle: [M; 2] },
 }
 
 impl<N: Phases<M>, M: Elementary> Curve<N, M> {
