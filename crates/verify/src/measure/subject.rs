@@ -4,8 +4,8 @@
 use dynamics::phase::RoughPhases;
 use dynamics::{RigidPhase, RigidToss};
 use toss::{
-    ExactSolver, Formulation, InputError, Launch, Propagation, Scheme, Settings, SolveError, Solver, SolverEntry,
-    StepControl, Stepping, Toss,
+    ExactSolver, Formulation, InputError, Launch, Propagation, QuaternionSolver, Scheme, Settings, SolveError, Solver,
+    SolverEntry, StepControl, Stepping, Toss,
 };
 
 /// Tolerance of the adaptive schemes under verification.
@@ -155,4 +155,14 @@ pub fn by_every_scheme(
     }
     let subject = |scheme: &Scheme| Ok(Subject::new(entry, Some(stepping(*scheme)?), formulation));
     entry.schemes().iter().map(subject).collect()
+}
+
+/// The solver that proves what it integrates, at a tolerance.
+///
+/// # Errors
+/// For a tolerance outside its range.
+pub(crate) fn taylor(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
+    let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
+    let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;
+    Ok(QuaternionSolver::new(stepping, Formulation::default()))
 }

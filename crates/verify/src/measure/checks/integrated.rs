@@ -4,7 +4,7 @@
 
 use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
-use toss::{Formulation, IntegratedCertificate, QuaternionSolver, Scheme, SolveError, Stepping, Toss};
+use toss::{IntegratedCertificate, QuaternionSolver, SolveError, Stepping, Toss};
 
 use super::integrated_bodies;
 use crate::measure::case::Case;
@@ -13,6 +13,7 @@ use crate::measure::context::Context;
 use crate::measure::hard_cases::{adversarial, corners, few_turns, random, tries};
 use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::reference::Reference;
+use crate::measure::subject::taylor;
 
 pub(super) const BOUNDS: Check = Check {
     id: "integrated-bounds",
@@ -64,13 +65,13 @@ pub(super) const SETS: [(&str, f64); 6] = [
 /// [`share`] at the tolerance of the set with this number.
 pub(super) fn share_of_set<const SET: usize>(toss: &Toss, _: &Reference) -> Deviation {
     require_short(toss)?;
-    share(&solver_of(SETS[SET].1)?, toss)
+    share(&taylor(SETS[SET].1)?, toss)
 }
 
 /// 1 if the outcome that is proven at the default tolerance is not that of `reference`, else 0.
 pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
     require_short(toss)?;
-    Ok(f64::from(solver_of(Stepping::DEFAULT_TOLERANCE)?.certify(toss)?.outcome() != reference.outcome()))
+    Ok(f64::from(taylor(Stepping::DEFAULT_TOLERANCE)?.certify(toss)?.outcome() != reference.outcome()))
 }
 
 /// Refuses flights of more than the phase 1e5 rad, which would take minutes and are in none of the sets.
@@ -79,12 +80,6 @@ fn require_short(toss: &Toss) -> Result<(), SolveError> {
     let error =
         || SolveError::failed(QuaternionSolver::NAME, std::io::Error::other("flights above 1e5 rad are not flown"));
     (phase <= 1e5).then_some(()).ok_or_else(error)
-}
-
-pub(super) fn solver_of(tolerance: f64) -> Result<QuaternionSolver, SolveError> {
-    let stepping = Stepping::adaptive(Scheme::TAYLOR, tolerance);
-    let stepping = stepping.map_err(|error| SolveError::failed(QuaternionSolver::NAME, error))?;
-    Ok(QuaternionSolver::new(stepping, Formulation::default()))
 }
 
 /// The larger one of the errors of cos θ and of the attitude, divided by their bounds.
@@ -111,16 +106,16 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         adversarial(number / 4, few_turns)?,
     ];
     let measure = |((name, tolerance), cases): ((&'static str, f64), Vec<Case>)| {
-        let solver = solver_of(tolerance)?;
+        let solver = taylor(tolerance)?;
         let shares: Vec<_> = cases.par_iter().map(|case| share(&solver, &case.toss)).collect();
         Ok(Measurement::of_set(name, &shares, |index| cases[index]))
     };
     let coins: anyhow::Result<Vec<Measurement>> = SETS.into_iter().zip(cases).map(measure).collect();
-    Ok([coins?, integrated_bodies::bounds(number / 20)?].concat())
+    Ok([coins?, integrated_bodies::bounds(BOUNDS.id, number / 20)?].concat())
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let solver = solver_of(Stepping::DEFAULT_TOLERANCE)?;
+    let solver = taylor(Stepping::DEFAULT_TOLERANCE)?;
     let sets =
         [("random", random(tries(context), 1e2, 35)?), ("adversarial", adversarial(tries(context) / 4, few_turns)?)];
     let measure = |(name, cases): (&str, Vec<Case>)| {
@@ -131,11 +126,11 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Measurement::count_of_set(name, &differs, |index| cases[index])
     };
     let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
-    Ok([coins, integrated_bodies::outcomes(tries(context) / 20)?].concat())
+    Ok([coins, integrated_bodies::outcomes(OUTCOMES.id, tries(context) / 20)?].concat())
 }
 
 fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let (solver, number) = (solver_of(Stepping::DEFAULT_TOLERANCE)?, tries(context) / 10);
+    let (solver, number) = (taylor(Stepping::DEFAULT_TOLERANCE)?, tries(context) / 10);
     let sets = [("phases to 1e2", 1e2, number), ("phases to 1e3", 1e3, number), ("phases to 1e5", 1e5, number / 10)];
     let measure = |(name, phase, number): (&str, f64, u64)| {
         let cases = random(number, phase, 36)?;

@@ -5,11 +5,11 @@ use dynamics::RigidToss;
 use rayon::prelude::*;
 use toss::{Outcome, Stepping};
 
-use super::integrated::{BOUNDS, OUTCOMES, solver_of};
 use super::rigid::at_an_edge;
 use crate::measure::bodies::{FAMILIES, FLOWN, Family, launches};
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::rigid::RigidReference;
+use crate::measure::subject::taylor;
 
 /// The tolerances of the flights, one after the other.
 const TOLERANCES: [f64; 4] = [Stepping::DEFAULT_TOLERANCE, 1e-4, 1e-7, f64::EPSILON];
@@ -19,8 +19,8 @@ fn subject(family: &Family) -> String {
 }
 
 /// The largest error of cos θ or of the attitude, divided by its bound, in each family.
-pub(super) fn bounds(number: u64) -> anyhow::Result<Vec<Measurement>> {
-    let solvers: Vec<_> = TOLERANCES.into_iter().map(solver_of).collect::<Result<_, _>>()?;
+pub(super) fn bounds(check: &str, number: u64) -> anyhow::Result<Vec<Measurement>> {
+    let solvers: Vec<_> = TOLERANCES.into_iter().map(taylor).collect::<Result<_, _>>()?;
     let measure = |family: &Family| {
         let share = |(index, toss): (usize, &RigidToss)| -> Option<f64> {
             let reference = RigidReference::new(toss)?;
@@ -39,14 +39,14 @@ pub(super) fn bounds(number: u64) -> anyhow::Result<Vec<Measurement>> {
             (shares[index].unwrap_or(f64::INFINITY), format!("{:?} at {tolerance:e}", tosses[index]))
         });
         let input = format!("{bounded} of {} have a bound; {input}", tosses.len());
-        Measurement::figure(BOUNDS.id, &subject(family), measured, bounded as u64, input)
+        Measurement::figure(check, &subject(family), measured, bounded as u64, input)
     };
     Ok(FAMILIES.iter().map(measure).collect())
 }
 
 /// The numbers of outcomes that are proven and wrong, of launches and of times within 3 ulp of an edge.
-pub(super) fn outcomes(number: u64) -> anyhow::Result<Vec<Measurement>> {
-    let solver = solver_of(Stepping::DEFAULT_TOLERANCE)?;
+pub(super) fn outcomes(check: &str, number: u64) -> anyhow::Result<Vec<Measurement>> {
+    let solver = taylor(Stepping::DEFAULT_TOLERANCE)?;
     let measure = |family: &Family| {
         let each = launches(family, number, FLOWN).flat_map(|toss| [Some(toss), at_an_edge(&toss)]);
         let tosses: Vec<RigidToss> = each.flatten().collect();
@@ -58,7 +58,7 @@ pub(super) fn outcomes(number: u64) -> anyhow::Result<Vec<Measurement>> {
         let wrong: Vec<bool> = tosses.par_iter().map(is_wrong).collect();
         let first = wrong.iter().position(|wrong| *wrong).map(|index| format!("{:?}", tosses[index]));
         let number = wrong.iter().filter(|wrong| **wrong).count() as f64;
-        Measurement::figure(OUTCOMES.id, &subject(family), number, tosses.len() as u64, first.unwrap_or_default())
+        Measurement::figure(check, &subject(family), number, tosses.len() as u64, first.unwrap_or_default())
     };
     Ok(FAMILIES.iter().map(measure).collect())
 }
