@@ -1,0 +1,78 @@
+//! Tests of the quaternion solver by Runge-Kutta schemes and Taylor series.
+
+use dynamics::{Coin, Launch, Scheme, TimeOfFlight, Vector3};
+use exact::ExactMotion;
+
+use super::*;
+
+fn toss(tilt: f64) -> Toss {
+    let launch = Launch::new(Vector3::new(9.0, -4.0, 3.0), TimeOfFlight::Given(0.8)).unwrap();
+    Toss { coin: Coin::PAPER, launch: launch.with_tilt(tilt).unwrap() }
+}
+
+/// Compares Q' = ½ Q ⊗ (0, ω) with central differences of the exact attitude.
+#[test]
+fn the_derivative_is_that_of_the_exact_motion() {
+    let motion = ExactMotion::new(&toss(0.4));
+    let h = 1e-5;
+    for step in 1..8 {
+        let time = 0.1 * f64::from(step);
+        let [before, now, after] = [time - h, time, time + h].map(|time| motion.state(time).unwrap());
+        let [w, x, y, z] = now.attitude.components();
+        let state = SVector::from([w, x, y, z, now.rate.x, now.rate.y]);
+        let found = QuaternionSystem::new(0.5, now.rate.z).derivative(&state);
+        let ends = after.attitude.components().into_iter().zip(before.attitude.components());
+        for (part, (a, b)) in ends.enumerate() {
+            assert!((found[part] - (a - b) / (2.0 * h)).abs() < 1e-7, "component {part} at {time}");
+        }
+        assert!((found[4] - (after.rate.x - before.rate.x) / (2.0 * h)).abs() < 1e-7);
+        assert!((found[5] - (after.rate.y - before.rate.y) / (2.0 * h)).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn neither_work_nor_error_depends_on_the_tilt() {
+    let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
+    let horizontal = solver.propagate(&toss(0.0)).unwrap();
+    for tilt in [1e-300, 1e-16, 1e-4, 1.0, 3.0] {
+        let tilted = solver.propagate(&toss(tilt)).unwrap();
+        assert_eq!(tilted.work, horizontal.work);
+        assert_eq!(tilted.norm_error, horizontal.norm_error);
+    }
+}
+
+#[test]
+fn the_norm_error_is_the_sum_of_the_norms_lost_in_the_steps() {
+    // In a steady turn, RK4 loses the fraction (ωh/2)⁶/144 of the norm in each step of length h.
+    let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
+    let solver = QuaternionSolver::new(Stepping::fixed(Scheme::RK4, 0.05).unwrap(), Formulation::default());
+    let landing = solver.propagate(&Toss { coin: Coin::DISC, launch }).unwrap();
+    let lost = 20.0 * (4.0 * 0.05 / 2.0_f64).powi(6) / 144.0;
+    assert!((landing.norm_error / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.norm_error);
+}
+
+#[test]
+fn raw_computes_cos_theta_without_dividing_by_the_norm() {
+    let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
+    let toss = Toss { coin: Coin::DISC, launch };
+    let method = Stepping::fixed(Scheme::RK4, 0.05).unwrap();
+    let landing = |formulation| QuaternionSolver::new(method, formulation).propagate(&toss).unwrap();
+    let (projected, raw) = (landing(Formulation::MOMENTUM), landing(Formulation::RAW));
+    assert_eq!(projected.cos_tilt, projected.state.attitude.cos_tilt());
+    let norm = 1.0 - raw.norm_error;
+    assert!(raw.norm_error > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
+}
+
+#[test]
+fn many_tosses_land_as_they_do_one_by_one_in_their_order() {
+    let [x, y, z, speed] = [[9.0, 3.0, 0.0], [-4.0, 2.0, 1.0], [3.0, 0.5, 2.0], [3.0, 4.0, 5.0]];
+    let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
+    for scheme in [TAYLOR, Scheme::DOP853] {
+        let solver = QuaternionSolver::new(Stepping::adaptive(scheme, 1e-9).unwrap(), Formulation::default());
+        let mut found = [f64::NAN; 3];
+        solver.cos_tilts(&tosses, &mut found).unwrap();
+        let alone = [0, 1, 2].map(|index| solver.cos_tilt(&tosses.toss(index).unwrap()).unwrap());
+        assert_eq!(found, alone);
+        assert_eq!((solver.name(), solver.stepping().map(|by| by.scheme())), ("quaternion", Some(scheme)));
+    }
+}
