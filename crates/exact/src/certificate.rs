@@ -50,20 +50,32 @@ impl FromStr for Stage {
     }
 }
 
-/// A proven outcome and the stage that proved it. The outcome is [`Outcome::Undecided`] only for an exact tie,
-/// which is cos θ = 0 at landing. With rates in
-/// turns per second, |cos θ| < 2^-12000 counts as a tie.
+/// A proven outcome and the stage that proved it. That of a coin is [`Outcome::Undecided`] only for an exact tie, which is
+/// cos θ = 0 at landing; with rates in turns per second, |cos θ| < 2^-12000 counts as a tie. That of a body with I1 ≠ I2 is
+/// undecided where the digits have run out, which proves nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Certificate {
     outcome: Outcome,
     stage: Stage,
+    is_proven: bool,
 }
 
 impl Certificate {
     /// For the code that proves outcomes, and for no other.
     #[inline]
     pub(crate) fn new(outcome: Outcome, stage: Stage) -> Self {
-        Self { outcome, stage }
+        Self { outcome, stage, is_proven: true }
+    }
+
+    /// For a toss that no number of digits has decided.
+    pub(crate) fn without_proof() -> Self {
+        Self { outcome: Outcome::Undecided, stage: Stage::Multiprecision, is_proven: false }
+    }
+
+    /// Whether the outcome is proven. It is, but for a body with I1 ≠ I2 that is undecided.
+    #[inline]
+    pub fn is_proven(self) -> bool {
+        self.is_proven
     }
 
     /// The face that the toss lands on.
@@ -85,6 +97,8 @@ pub struct ProvenCounts {
     heads: u64,
     tails: u64,
     ties: u64,
+    /// Those ties that are not proven to be any.
+    without_proof: u64,
     by: [u64; Stage::ALL.len()],
 }
 
@@ -97,6 +111,7 @@ impl ProvenCounts {
             Outcome::Tails => self.tails += 1,
             Outcome::Undecided => self.ties += 1,
         }
+        self.without_proof += u64::from(!certificate.is_proven);
         self.by[certificate.stage as usize] += 1;
     }
 
@@ -118,9 +133,14 @@ impl ProvenCounts {
         self.tails
     }
 
-    /// Number of exact ties.
+    /// Number of exact ties, and of tosses without a proof.
     pub fn ties(&self) -> u64 {
         self.ties
+    }
+
+    /// Number of tosses that were tried and have no proof: bodies with I1 ≠ I2 that are undecided.
+    pub fn without_proof(&self) -> u64 {
+        self.without_proof
     }
 
     /// Number of outcomes that `stage` decided.
@@ -142,6 +162,7 @@ impl std::ops::Add for ProvenCounts {
             heads: self.heads + other.heads,
             tails: self.tails + other.tails,
             ties: self.ties + other.ties,
+            without_proof: self.without_proof + other.without_proof,
             by: std::array::from_fn(|stage| self.by[stage] + other.by[stage]),
         }
     }
@@ -164,8 +185,11 @@ mod tests {
         }
         assert_eq!((counts.heads(), counts.tails(), counts.ties(), counts.total()), (4, 5, 1, 10));
         assert_eq!(Stage::ALL.map(|stage| counts.by(stage)), [1, 0, 7, 1, 1]);
+        counts.add(Certificate::without_proof());
+        assert_eq!((counts.ties(), counts.without_proof()), (2, 1));
         let twice = counts + counts;
-        assert_eq!((twice.heads(), twice.tails(), twice.ties()), (8, 10, 2));
-        assert_eq!(Stage::ALL.map(|stage| twice.by(stage)), [2, 0, 14, 2, 2]);
+        assert_eq!((twice.ties(), twice.without_proof()), (4, 2));
+        assert_eq!((twice.heads(), twice.tails()), (8, 10));
+        assert_eq!(Stage::ALL.map(|stage| twice.by(stage)), [2, 0, 14, 2, 4]);
     }
 }

@@ -61,7 +61,7 @@ impl Counts {
 
     /// Whether every outcome is proven, and there is at least one.
     pub fn are_certified(&self) -> bool {
-        self.proven.total() > 0 && self.estimated == Estimated::default()
+        self.proven.total() > 0 && self.proven.without_proof() == 0 && self.estimated == Estimated::default()
     }
 
     /// Adds an estimated outcome.

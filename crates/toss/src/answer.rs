@@ -32,7 +32,7 @@ pub enum Answer {
 /// An outcome, proven or estimated. Only the crate `exact` can make a [`Certificate`], so only it can prove one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The outcome is proven, for exactly the f64 inputs given.
+    /// The outcome is proven, for exactly the f64 inputs given; see [`Certificate::is_proven`] for bodies with I1 ≠ I2.
     Proven(Certificate),
     /// A solver decided it by its own error estimate, which may be wrong.
     Estimated(Outcome),
@@ -57,6 +57,6 @@ impl Verdict {
 
     /// Whether the outcome is proven.
     pub fn is_proven(self) -> bool {
-        matches!(self, Self::Proven(_))
+        matches!(self, Self::Proven(certificate) if certificate.is_proven())
     }
 }

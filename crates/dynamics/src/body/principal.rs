@@ -37,7 +37,8 @@ impl<N: Elementary> PrincipalAxes<N> {
                 break;
             }
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-                if tensor[p][q].to_f64() != 0.0 {
+                // An element within its own error is left: a turn to make it 0 has no angle.
+                if tensor[p][q].to_f64().abs() > 16.0 * tensor[p][q].error() {
                     rotate(&mut tensor, &mut axes, p, q);
                 }
             }
@@ -96,14 +97,26 @@ fn off_diagonal<N: Elementary>(tensor: &[[N; 3]; 3]) -> f64 {
     2.0 * (xy.to_f64().abs() + xz.to_f64().abs() + yz.to_f64().abs())
 }
 
+/// The tangent of the smaller angle that makes the element `apq` 0, with this `difference` of the two on the diagonal.
+fn tangent<N: Elementary>(apq: &N, difference: N) -> N {
+    /// θ² of more may exceed the range of f64, in which balls have their radii.
+    const LARGE: f64 = 1e100;
+    let (one, twice) = (apq.like(1.0), apq.clone() + apq.clone());
+    let theta = difference.clone() / twice.clone();
+    let size = theta.to_f64();
+    if size.abs() > LARGE {
+        let root = (difference.clone() * difference.clone() + twice.clone() * twice.clone()).sqrt();
+        return twice / if difference.to_f64() >= 0.0 { difference + root } else { difference - root };
+    }
+    let root = (theta.clone() * theta.clone() + one.clone()).sqrt();
+    if size >= 0.0 { one / (theta + root) } else { -(one / (root - theta)) }
+}
+
 /// Turns the axes p and q so that the element between them becomes 0.
 fn rotate<N: Elementary>(tensor: &mut [[N; 3]; 3], axes: &mut [[N; 3]; 3], p: usize, q: usize) {
     let one = tensor[p][q].like(1.0);
     let apq = tensor[p][q].clone();
-    let theta = (tensor[q][q].clone() - tensor[p][p].clone()) / (apq.clone() + apq.clone());
-    // The tangent of the smaller angle; of a huge θ it is next to 0.
-    let root = (theta.clone() * theta.clone() + one.clone()).sqrt();
-    let tan = if theta.to_f64() >= 0.0 { one.clone() / (theta + root) } else { -(one.clone() / (root - theta)) };
+    let tan = tangent(&apq, tensor[q][q].clone() - tensor[p][p].clone());
     let cos = one.clone() / (tan.clone() * tan.clone() + one.clone()).sqrt();
     let sin = tan.clone() * cos.clone();
     let shift = tan * apq;

@@ -23,7 +23,7 @@ const LARGEST_PHASE_IN_F64: f64 = 1e12;
 
 /// Proves the outcome of a toss of any body. That of a coin is proven by [`certify`].
 ///
-/// An outcome is undecided if cos θ is 0, as far as 832 digits can tell; if the rates are so unequal, by a factor of
+/// An outcome is undecided, without a proof, if cos θ is 0, as far as 832 digits can tell; if the rates are so unequal, by a factor of
 /// 1e135 or more, that the radii underflow; or if two principal moments of a tensor are equal, for its axes are then
 /// not known.
 ///
@@ -40,8 +40,9 @@ pub fn certify_rigid(toss: &RigidToss) -> Result<Certificate, SolveError> {
     if let Some(outcome) = by_double_double(toss) {
         return Ok(Certificate::new(outcome, Stage::DoubleDouble));
     }
-    let outcome = DIGITS.iter().find_map(|digits| by_multiprecision(toss, *digits)).unwrap_or(Outcome::Undecided);
-    Ok(Certificate::new(outcome, Stage::Multiprecision))
+    let outcome = DIGITS.iter().find_map(|digits| by_multiprecision(toss, *digits));
+    let proven = |outcome| Certificate::new(outcome, Stage::Multiprecision);
+    Ok(outcome.map_or_else(Certificate::without_proof, proven))
 }
 
 impl ProvenCounts {
@@ -166,5 +167,33 @@ mod tests {
             decided += u32::from(by_f64(&toss).is_some());
         }
         assert!(decided > 1990 && largest > 1e-3, "{decided} {largest:e}");
+    }
+
+    /// Rates in degrees are proven in many digits, in which the axes of a tensor have to be found to nearly as many.
+    #[test]
+    fn tensors_at_rates_in_degrees_are_decided_wherever_cos_tilt_is_clear() {
+        for index in 0..200 {
+            let part = |square: f64| (f64::from(index + 1) * square.sqrt()).fract() - 0.5;
+            let [xy, xz, yz] = [part(2.0), part(3.0), part(5.0)].map(|part| 0.6 * part);
+            let body = Body::from_inertia([2.0, 2.2, 2.4, xy, xz, yz]).unwrap();
+            let rate = [part(7.0), part(11.0), part(13.0)].map(|part| 3e3 * part);
+            let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
+            let launch = Launch::in_unit(rate, degree, TimeOfFlight::Given(0.7)).unwrap();
+            let toss = RigidToss { body, launch };
+            let cos_tilt = RigidMotion::new(&toss).cos_tilt(0.7).unwrap();
+            assert_eq!(certify_rigid(&toss).unwrap().outcome(), Outcome::of(cos_tilt, 1e-12), "{toss:?}: {cos_tilt}");
+        }
+    }
+
+    /// A plate that rests on its edge: no ball proves that cos θ is 0.
+    #[test]
+    fn an_undecided_outcome_of_a_body_is_not_called_proven() {
+        let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+        let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.7)).unwrap().with_tilt(quarter).unwrap();
+        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+        let certificate = certify_rigid(&toss).unwrap();
+        assert_eq!((certificate.outcome(), certificate.is_proven()), (Outcome::Undecided, false));
+        let toss = RigidToss { launch: launch.with_tilt(1.0).unwrap(), ..toss };
+        assert!(certify_rigid(&toss).unwrap().is_proven());
     }
 }
