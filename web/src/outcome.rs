@@ -4,8 +4,7 @@
 use exact::certify_rigid;
 use serde::Serialize;
 use toss::{
-    Error, ExactMotion, ExactSolver, Margin, Outcome, RigidMargin, RigidMotion, Solver, TimeOfFlight, Toss,
-    margin_rigid,
+    Error, ExactMotion, ExactSolver, Margin, RigidMargin, RigidMotion, Solver, TimeOfFlight, Toss, margin_rigid,
 };
 
 use crate::thrown::Thrown;
@@ -88,9 +87,7 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Error> {
         flight_time: toss.launch.flight_time(),
         cos_tilt: without_sign_of_zero(landing.cos_tilt),
         outcome: certificate.outcome().name(),
-        // An undecided outcome of a coin is a proven tie; that of another body is not.
-        certified: (coin.is_some() || certificate.outcome() != Outcome::Undecided)
-            && thrown.rounding.keeps(toss, certificate.outcome())?,
+        certified: certificate.is_proven() && thrown.rounding.keeps(toss, certificate.outcome())?,
         stage: certificate.stage().name(),
         margin: coin.is_some().then(|| margins(thrown)).transpose()?,
         attitude: landing.state.attitude.components().map(without_sign_of_zero),

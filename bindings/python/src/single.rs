@@ -41,7 +41,7 @@ fn landing(backend: &Backend, toss: &RigidToss) -> Result<Landing, Failure> {
     let (outcome, stage): (Outcome, _) = match backend {
         Backend::Exact(_) => {
             let certificate = certify_rigid(toss)?;
-            (certificate.outcome(), Some(certificate.stage().name()))
+            (certificate.outcome(), certificate.is_proven().then(|| certificate.stage().name()))
         }
         Backend::Solver(solver) => (solver.outcome_at_rigid(toss, landing.cos_tilt)?, None),
     };
