@@ -106,21 +106,21 @@ pub const HAZARDS: &[Hazard] = &[
     },
     Hazard {
         id: "F9",
-        name: "the separatrix, from both sides by turns",
+        name: "separatrix: from both sides, by turns",
         distance: "relative distance of ω1 from it",
         case: |distance| body([1.0, 2.0, 2.25], [0.75 * (1.0 + side(distance) * distance), 1.0, 1.0], 10.0),
         distances: DECADES,
     },
     Hazard {
         id: "F10",
-        name: "a turn next to the intermediate axis",
+        name: "middle axis: a turn next to it",
         distance: "ω1/ω2 and ω3/ω2 at launch",
         case: |distance| body([1.0, 2.0, 2.25], [2.0 * distance, 2.0, -2.0 * distance], 6.0),
         distances: DECADES,
     },
     Hazard {
         id: "F11",
-        name: "nearly symmetric and nearly spherical, by turns",
+        name: "nearly round: symmetric or spherical but for a little, by turns",
         distance: "difference of the moments, relative to them",
         case: |distance| {
             let third = if side(distance) > 0.0 { 1.9 } else { 1.0 - 0.5 * distance };
@@ -130,7 +130,7 @@ pub const HAZARDS: &[Hazard] = &[
     },
     Hazard {
         id: "F12",
-        name: "a plate that becomes a rod: I3 = I1 + I2, I1 = 0",
+        name: "plate to rod: I3 = I1 + I2, and I1 = 0 at last",
         distance: "I1/I2",
         case: |distance| body([0.75 * distance, 1.0, 1.0 + 0.75 * distance], [3.0, -2.0, 1.0], 2.0),
         distances: DECADES,
