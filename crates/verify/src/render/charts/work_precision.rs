@@ -126,9 +126,11 @@ impl<'a> Drawing<'a> {
         end_labels(panel, i32::try_from(width - RIGHT).unwrap_or(0) + 16, labels)
     }
 
-    /// The lines of all subjects.
+    /// The lines of the subjects that were flown: a solver that refuses the problem, or has no such scheme, is none.
     fn lines(&self, work: Work) -> Vec<Series> {
-        self.sweep.subjects().iter().map(|subject| self.line(subject, work)).collect()
+        let subjects = self.sweep.subjects();
+        let flown = subjects.iter().filter(|subject| self.sweep.series(self.problem, subject).next().is_some());
+        flown.map(|subject| self.line(subject, work)).collect()
     }
 
     fn line(&self, subject: &str, work: Work) -> Series {
