@@ -194,7 +194,8 @@ impl Launches<'_> {
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
         };
         let counts = counts.map_err(|error| self.failed(start, error))?;
-        Ok((counts.heads(), counts.tails(), counts.ties(), Some(Stage::ALL.map(|stage| counts.by(stage)))))
+        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
+        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
     }
 
     /// The failure of the kernels in the part that starts at `start`, in the words of a single launch.
@@ -290,10 +291,12 @@ impl Launches<'_> {
         }
         let mut faces = [0; 3];
         let mut stages = [0; Stage::ALL.len()];
-        let proven = !matches!(self.of.solver, Some(Backend::Solver(_)));
+        let by_exact = !matches!(self.of.solver, Some(Backend::Solver(_)));
+        let mut proven = by_exact;
         self.each(range, |_, solver, toss| {
-            let outcome = if proven {
+            let outcome = if by_exact {
                 let certificate = certify_rigid(toss)?;
+                proven &= certificate.is_proven();
                 stages[certificate.stage() as usize] += 1;
                 certificate.outcome()
             } else {

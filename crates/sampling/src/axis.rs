@@ -227,7 +227,6 @@ impl FromStr for Axis {
     }
 }
 
-/// The text from which [`str::parse`] reads the same axis.
 /// Axes with the same launches are the same: for a single value it makes no difference how many points were asked for.
 impl PartialEq for Axis {
     fn eq(&self, other: &Self) -> bool {
@@ -235,6 +234,7 @@ impl PartialEq for Axis {
     }
 }
 
+/// The text from which [`str::parse`] reads the same axis.
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.distribution, self.value()) {
