@@ -2,11 +2,11 @@
 //! judge its own solver, with bounds, baseline and records in its own repository.
 //!
 //! ```no_run
-//! use toss::{Registry, SolverEntry};
+//! use toss::{ExactSolver, Registry, SolverEntry};
 //! use verify::{Effort, Suite, Verdict};
 //!
 //! // Your own solver takes the place of this one.
-//! let mine = SolverEntry::new("mine", "the exact motion again", |_| unimplemented!());
+//! let mine = SolverEntry::new("mine", "the exact motion again", |_| Box::new(ExactSolver));
 //! let suite = Suite::new(Registry::standard().with(mine)?).effort(Effort::Quick);
 //! let verified = suite.run()?;
 //! verified.write("target/verify".as_ref())?;
