@@ -9,7 +9,6 @@ use dynamics::{
     Attitude, Checked, Error, EulerAngles, InputError, Launch, RigidToss, SolveError, Solver, State, TimeOfFlight,
     Vector3,
 };
-#[cfg(any(feature = "integrators", test))]
 use exact::RigidAngles;
 #[cfg(feature = "integrators")]
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
