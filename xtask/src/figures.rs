@@ -47,6 +47,7 @@ const FIGURES: &[Figure] = &[
     },
     Figure { file: "long-flights.svg", program: TOSS, arguments: "limit" },
     Figure { file: "work-precision.svg", program: VERIFY, arguments: "figure work-precision" },
+    Figure { file: "proven-error.svg", program: VERIFY, arguments: "figure proven-error" },
     Figure { file: "atlas-matrix.svg", program: VERIFY, arguments: "figure atlas-matrix" },
 ];
 

@@ -137,6 +137,9 @@ fn figures_are_drawn_from_committed_data() {
     assert_eq!(draw("work-precision", folder.path()), Some(4), "there are no records");
     assert_eq!(draw("work-precision", &validation()), Some(0));
     assert!(std::fs::read_to_string(&path).unwrap().contains("quaternion/taylor"));
+    assert_eq!(draw("proven-error", folder.path()), Some(0));
+    let proven = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(proven.matches("proven bound").count(), 2, "one for each panel");
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! The command `figure` draws figures from what is committed, without any measurement.
+//! The command `figure` draws figures that repeat exactly: from what is committed, or of flights whose errors and calls are
+//! the same in every run.
 
 use std::path::PathBuf;
 
@@ -9,11 +10,12 @@ use crate::files;
 use crate::judge::record;
 use crate::measure::atlas;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::work_precision::{Sweep, problems};
+use crate::measure::work_precision::problems::{self, Problem};
+use crate::measure::work_precision::{Sweep, proofs};
 use crate::render::charts;
 use crate::suite::Suite;
 
-/// Draw a figure from what is committed
+/// Draw a figure that repeats exactly
 #[derive(Debug, Args)]
 pub(super) struct Figure {
     /// Which figure
@@ -30,6 +32,8 @@ enum Name {
     AtlasMatrix,
     /// Speed against accuracy, of the newest record
     WorkPrecision,
+    /// The errors of Taylor series beside the bounds that they prove, of flights that repeat exactly
+    ProvenError,
 }
 
 impl Figure {
@@ -37,6 +41,7 @@ impl Figure {
         let svg = match self.name {
             Name::AtlasMatrix => atlas_matrix(suite)?,
             Name::WorkPrecision => work_precision(suite)?,
+            Name::ProvenError => proven_error()?,
         };
         files::write(&self.svg, &svg)?;
         Ok(0)
@@ -58,4 +63,19 @@ fn work_precision(suite: &Suite) -> anyhow::Result<String> {
     problems.retain(|problem| samples.iter().any(|sample| sample.problem == problem.name));
     let sweep = Sweep::of(&problems, samples);
     Ok(charts::recorded(&sweep, "ensemble", date, suite.registry().entries())?)
+}
+
+/// The problems of the figure of proofs, with their titles.
+const PROVEN: [(&str, &str); 2] =
+    [("ensemble", "A coin: the worst of 256 random launches"), ("racket", "A racket that turns over twice")];
+
+fn proven_error() -> anyhow::Result<String> {
+    let problems = problems::all()?;
+    let panel = |(name, title): (&str, &'static str)| {
+        let problem = |problem: &&Problem| problem.name == name;
+        let problem = problems.iter().find(problem).with_context(|| format!("no problem '{name}'"))?;
+        Ok((title, proofs::proofs(problem)?))
+    };
+    let panels: Vec<_> = PROVEN.into_iter().map(panel).collect::<anyhow::Result<_>>()?;
+    Ok(charts::proven(&panels)?)
 }

@@ -5,6 +5,7 @@
 //! every run; times are recorded beside them but never judged, because they depend on the machine.
 
 pub mod problems;
+pub mod proofs;
 
 use std::time::{Duration, Instant};
 

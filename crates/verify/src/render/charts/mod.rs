@@ -7,6 +7,7 @@ mod long_flights;
 mod models;
 mod order;
 mod palette;
+mod proofs;
 mod work_precision;
 
 use chart::{ChartError, Drawn, Panel, Series};
@@ -17,6 +18,7 @@ use crate::judge::record::Record;
 use crate::measure::atlas::expected::Expected;
 use crate::measure::context::Records;
 use crate::measure::work_precision::Sweep;
+use crate::measure::work_precision::proofs::Proof;
 use atlas_matrix::Cell;
 use palette::Palette;
 
@@ -60,6 +62,15 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     let launches = launches.ok_or_else(|| ChartError(format!("no problem '{problem}' in the record of {date}")))?;
     let title = format!("{problem}, record of {date}");
     work_precision::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
+}
+
+/// Draws work against the errors of Taylor series and against the bounds that they prove, as SVG: a panel for each problem,
+/// with its title.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn proven(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
+    proofs::proofs(panels)
 }
 
 /// Draws the charts of all records that the run has. Solvers have the colours of `registry`.

@@ -1,0 +1,68 @@
+//! Beside the errors of Taylor series the bounds that they prove for them, over a range of tolerances: how much more a
+//! proof states than was wrong.
+
+use dynamics::RigidToss;
+use toss::SolveError;
+
+use super::problems::Problem;
+use crate::measure::any_case::{AnyCase, AnyReference};
+use crate::measure::subject::taylor;
+
+/// The flights of a problem at one tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proof {
+    /// The tolerance.
+    pub tolerance: f64,
+    /// Calls of the right-hand side by launch.
+    pub calls: f64,
+    /// The largest error of the attitude, against the reference (rad).
+    pub error: f64,
+    /// The largest bound that is proven for it (rad); π where nothing is proven, which no error exceeds.
+    pub bound: f64,
+}
+
+/// The proofs of `problem` at two tolerances a decade, from 1e-3 to 1e-15.
+///
+/// # Errors
+/// [`SolveError`] for a phase above 2^53 rad, which no problem has.
+pub fn proofs(problem: &Problem) -> Result<Vec<Proof>, SolveError> {
+    let toss = |case: &AnyCase| match case {
+        AnyCase::Coin(case) => RigidToss::from(case.toss),
+        AnyCase::Rigid(case) => case.toss,
+    };
+    let tosses: Vec<RigidToss> = problem.cases.iter().map(toss).collect();
+    let references: Vec<AnyReference> = problem.cases.iter().map(AnyReference::new).collect::<Result<_, _>>()?;
+    (0..=24).map(|step| proof(&tosses, &references, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
+}
+
+fn proof(tosses: &[RigidToss], references: &[AnyReference], tolerance: f64) -> Result<Proof, SolveError> {
+    let solver = taylor(tolerance)?;
+    let mut largest = Proof { tolerance, calls: 0.0, error: 0.0, bound: 0.0 };
+    for (toss, reference) in tosses.iter().zip(references) {
+        let found = solver.enclose_rigid(toss)?;
+        largest.calls += found.work().rhs_calls as f64 / tosses.len() as f64;
+        largest.error = largest.error.max(reference.attitude_error(&found.landing().state.attitude));
+        // The angle of two quaternions at this distance.
+        let angle = 4.0 * (0.5 * found.attitude_error_bound()).min(1.0).asin();
+        largest.bound = largest.bound.max(angle.min(std::f64::consts::PI));
+    }
+    Ok(largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::work_precision::problems;
+
+    #[test]
+    fn finer_tolerances_prove_more_of_each_kind_of_body_and_no_error_exceeds_its_bound() {
+        for (name, finest) in [("ensemble", 2e-12), ("racket", 1e-9)] {
+            let problem = problems::all().unwrap().into_iter().find(|problem| problem.name == name).unwrap();
+            let proofs = proofs(&problem).unwrap();
+            assert!(proofs.iter().all(|proof| proof.error <= proof.bound), "{name}: {proofs:?}");
+            let [first, .., last] = proofs[..] else { panic!("{name}: {proofs:?}") };
+            assert!(last.bound < finest && last.bound < 1e-6 * first.bound, "{name}: {proofs:?}");
+            assert!(last.calls > first.calls, "{name}: {proofs:?}");
+        }
+    }
+}
