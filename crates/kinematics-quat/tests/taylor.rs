@@ -66,6 +66,25 @@ fn a_landing_has_the_same_bits_alone_or_with_others_and_at_every_simd_level() {
     }
 }
 
+/// Rates and times of every size beside ordinary ones, with which products have digits below the range of f64.
+#[test]
+fn flights_with_tiny_rates_or_times_have_the_same_bits_at_every_simd_level() {
+    let sized = |n: u32, step: f64| match (f64::from(n) * step * 7.3).fract() {
+        kind if kind < 0.3 => 3.0 + (f64::from(n) * step).fract(),
+        kind if kind < 0.4 => 0.0,
+        _ => 5e-324 * (170.0 * (f64::from(n) * step).fract()).exp2(),
+    };
+    let of_number = |n: u32| toss(0.7, [sized(n, 0.618), sized(n, 0.414), sized(n, 0.732)], sized(n, 0.236));
+    let tosses: Vec<Toss> = (1..4000).map(of_number).collect();
+    let solver = taylor(1e-13);
+    let plain = solver.propagate_all(&tosses, SimdLevel::all()[0]);
+    for level in SimdLevel::all() {
+        let flown = solver.propagate_all(&tosses, level);
+        let differs = (0..tosses.len()).find(|index| flown[*index] != plain[*index]);
+        assert_eq!(differs, None, "{:?} by {}", differs.map(|index| tosses[index]), level.name());
+    }
+}
+
 #[test]
 fn every_flight_is_within_the_error_estimate() {
     for tolerance in [1e-2, 1e-4, 1e-7, 1e-10, 1e-12, 1e-14] {

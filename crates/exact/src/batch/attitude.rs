@@ -6,7 +6,7 @@ use numerics::lanes::{Real, Simd, sin_cos_to_sign};
 
 use super::Batch;
 use super::kernel::{Kernel, Run};
-use super::momentum::{Constants, Extent};
+use super::momentum::{Constants, Extent, without_negligible};
 use crate::compensated::compensated_landing;
 
 impl Batch<'_> {
@@ -20,13 +20,15 @@ impl Batch<'_> {
     /// If a column does not have one entry per toss.
     pub fn attitudes(&self, out: [&mut [f64]; 4]) -> Result<(), Error> {
         assert!(out.iter().all(|column| column.len() == self.tosses.len()), "each column must have one entry per toss");
-        let constants = Constants::new(&self.tosses);
+        // Half of an angle, measured in quarters of a turn, is twice the angle measured in turns.
+        let constants = Constants::new(&self.tosses).with_phases_times(2.0);
         let start = if self.is_flat() { None } else { Some(self.tosses.attitude().components()) };
         self.level.run(Run { kernel: &Attitudes { constants, start }, tosses: self.tosses, out })
     }
 }
 
 struct Attitudes {
+    /// Their phases are halved, and in quarters of a turn.
     constants: Constants,
     /// Q0; `None` if it is the identity.
     start: Option<[f64; 4]>,
@@ -41,11 +43,10 @@ impl Kernel<7, 4> for Attitudes {
     fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 7] {
         let motion = self.constants.motion(rates, speed, extent);
         let [x, y, z] = rates;
-        let ([turns, rest], [spin, spin_rest]) = (motion.turns, self.constants.spin_turns(z, speed));
+        let ([turn, rest], [spin, spin_rest]) = (motion.turns, self.constants.spin_turns(z, speed));
         let inverse = motion.size * (motion.half_inverse + motion.half_inverse);
-        // Half of an angle, measured in quarters of a turn, is twice the angle measured in turns.
-        let twice = [turns + turns, rest + rest, spin + spin, spin_rest + spin_rest];
-        [twice[0], twice[1], twice[2], twice[3], x * inverse, y * inverse, motion.along * inverse]
+        let (rest, spin_rest) = (without_negligible(rest), without_negligible(spin_rest));
+        [turn, rest, spin, spin_rest, x * inverse, y * inverse, motion.along * inverse]
     }
 
     #[inline(always)]

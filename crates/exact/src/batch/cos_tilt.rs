@@ -12,7 +12,7 @@ use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
 
 use super::Batch;
 use super::kernel::{Kernel, Run};
-use super::momentum::{Constants, Extent, TiltTerms};
+use super::momentum::{Constants, Extent, TiltTerms, without_negligible};
 use crate::compensated::compensated_cos_tilt;
 
 impl Batch<'_> {
@@ -29,7 +29,7 @@ impl Batch<'_> {
         if self.is_flat() {
             self.level.run(Run { kernel: &Flat(constants), tosses: self.tosses, out: [out] })
         } else {
-            let kernel = &Tilted(constants, TiltTerms::new(&self.tosses));
+            let kernel = &Tilted::new(constants, TiltTerms::new(&self.tosses));
             self.level.run(Run { kernel, tosses: self.tosses, out: [out] })
         }
     }
@@ -64,6 +64,13 @@ impl Kernel<4, 1> for Flat {
 /// The kernel for launches from any attitude: (A + B cos φ + C sin φ)/(|Q|² |L|²).
 struct Tilted(Constants, TiltTerms);
 
+impl Tilted {
+    /// Its phases are in quarters of a turn.
+    fn new(constants: Constants, terms: TiltTerms) -> Self {
+        Self(constants.with_phases_times(4.0), terms)
+    }
+}
+
 impl Kernel<6, 1> for Tilted {
     fn constants(&self) -> &Constants {
         &self.0
@@ -73,14 +80,13 @@ impl Kernel<6, 1> for Tilted {
     fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> [Real<S>; 6] {
         let motion = self.0.motion(rates, speed, extent);
         let [mean, cosine, sine] = self.1.terms(rates, motion.along, motion.across_squared, motion.size);
-        let [turns, rest] = motion.turns;
-        [turns, rest, mean, cosine, sine, motion.half_inverse * turns.constant(2.0 / self.1.norm)]
+        let [quarters, rest] = [motion.turns[0], without_negligible(motion.turns[1])];
+        [quarters, rest, mean, cosine, sine, motion.half_inverse * rest.constant(2.0 / self.1.norm)]
     }
 
     #[inline(always)]
-    fn end<S: Simd>(&self, [turns, rest, mean, cosine, sine, inverse]: [Real<S>; 6]) -> [Real<S>; 1] {
-        let four = turns.constant(4.0);
-        let [sin, cos] = sin_cos(turns * four, rest * four);
+    fn end<S: Simd>(&self, [quarters, rest, mean, cosine, sine, inverse]: [Real<S>; 6]) -> [Real<S>; 1] {
+        let [sin, cos] = sin_cos(quarters, rest);
         [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
     }
 
@@ -105,7 +111,7 @@ mod tests {
         Batch::new(tosses).cos_tilts(&mut expected).unwrap();
         let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
         let doubled = TiltTerms { vertical: vertical.map(|part| 4.0 * part), norm: 4.0 * norm };
-        let kernel = &Tilted(Constants::new(&tosses), doubled);
+        let kernel = &Tilted::new(Constants::new(&tosses), doubled);
         Batch::new(tosses).level.run(Run { kernel, tosses, out: [&mut found] }).unwrap();
         assert_eq!(found, expected);
     }

@@ -12,7 +12,7 @@
 //!
 //! A kernel for coins solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50
 //! m/s², and a phase ωL T below 2^40 turns (below k 2^40 turns for a coin with an inertia ratio k < 1). L = (ωx, ωy, k ωz) is the
-//! angular momentum divided by I1. All other tosses are solved one by one, as accurately, or are left
+//! angular momentum divided by I1; k is at least 1e-200. All other tosses are solved one by one, as accurately, or are left
 //! to the caller ([`Batch::heads`]). Neither the instruction set
 //! nor the other tosses of the batch change a bit of a result.
 

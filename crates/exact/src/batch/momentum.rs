@@ -14,6 +14,12 @@ use crate::tilt_terms::terms;
 /// Largest |L|² ((rad/s)²) of an ordinary toss. The smallest is half of its inverse.
 const LARGEST_SQUARE: f64 = 1e100;
 
+/// Smallest inertia ratio k of ordinary tosses, whose ωz then stays far below the largest f64.
+const SMALLEST_RATIO: f64 = 1e-200;
+
+/// Far below a rest that matters, and far above one in which digits below the range of f64 are missing.
+const NEGLIGIBLE: f64 = 1e-150;
+
 /// 1/π and its rest.
 const INVERSE_PI: [f64; 2] = [std::f64::consts::FRAC_1_PI, -1.967_867_667_518_248_6e-17];
 
@@ -70,8 +76,8 @@ impl Constants {
         let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
         let turns = inverse_pi / tosses.gravity().into();
         let spin_turns = turns * (k - 1.0.into());
-        // In this range no product with 1/(π g) loses digits to over- or underflow.
-        let is_ordinary = (1e-50..1e50).contains(&tosses.gravity());
+        // In this range no product with 1/(π g) overflows, and none underflows that counts.
+        let is_ordinary = (1e-50..1e50).contains(&tosses.gravity()) && k.hi() >= SMALLEST_RATIO;
         Self {
             ratio: [k.hi(), k.lo()],
             turns: [turns.hi(), turns.lo() / turns.hi()],
@@ -81,12 +87,23 @@ impl Constants {
         }
     }
 
+    /// With all phases multiplied by `factor`, a power of two, so that the kernel does not have to do it for each toss.
+    pub(super) fn with_phases_times(self, factor: f64) -> Self {
+        Self {
+            turns: [factor * self.turns[0], self.turns[1]],
+            spin_turns: self.spin_turns.map(|part| factor * part),
+            most_turns: factor * self.most_turns,
+            ..self
+        }
+    }
+
     /// The motions after launches with these rates (BF, rad/s) and speeds (m/s), which it adds to `extent`.
     #[inline(always)]
     pub(super) fn motion<S: Simd>(&self, [x, y, z]: [Real<S>; 3], speed: Real<S>, extent: &mut Extent<S>) -> Motion<S> {
-        let [along, along_rest] = x.constant(self.ratio[0]).product(z);
+        let [along, along_rest] = x.constant(self.ratio[0]).product_in_range(z);
         let along_rest = x.constant(self.ratio[1]).mul_add(z, along_rest);
-        let (x_squared, y_squared, along_squared) = (x.product(x), y.product(y), along.product(along));
+        let (x_squared, y_squared, along_squared) =
+            (x.product_in_range(x), y.product_in_range(y), along.product_in_range(along));
         let along_squared_rest = (along + along).mul_add(along_rest, along_squared[1]);
         let [across, across_rest] = x_squared[0].sum(y_squared[0]);
         let [squared, squared_rest] = across.sum(along_squared[0]);
@@ -95,8 +112,8 @@ impl Constants {
         let half_inverse = x.constant(0.5) / squared;
         // The rest of |L| divided by |L|, which is also the relative rest of all that is proportional to |L|.
         let size_rest = ((-size).mul_add(size, squared) + squared_rest) * half_inverse;
-        let [turned, turned_rest] = size.product(speed);
-        let [turns, turns_rest] = turned.product(x.constant(self.turns[0]));
+        let [turned, turned_rest] = size.product_in_range(speed);
+        let [turns, turns_rest] = turned.product_in_range(x.constant(self.turns[0]));
         let turns_rest = turned_rest.mul_add(x.constant(self.turns[0]), turns_rest);
         let turns_rest = turns.mul_add(size_rest + x.constant(self.turns[1]), turns_rest);
         extent.add(squared, half_inverse, turns, speed);
@@ -113,8 +130,8 @@ impl Constants {
     /// q T (turns) and its rest, for the rates ωz (rad/s) and speeds v0 (m/s).
     #[inline(always)]
     pub(super) fn spin_turns<S: Simd>(&self, z: Real<S>, speed: Real<S>) -> [Real<S>; 2] {
-        let [turned, turned_rest] = z.product(speed);
-        let [turns, turns_rest] = turned.product(z.constant(self.spin_turns[0]));
+        let [turned, turned_rest] = z.product_in_range(speed);
+        let [turns, turns_rest] = turned.product_in_range(z.constant(self.spin_turns[0]));
         let turns_rest = turned_rest.mul_add(z.constant(self.spin_turns[0]), turns_rest);
         [turns, turned.mul_add(z.constant(self.spin_turns[1]), turns_rest)]
     }
@@ -172,6 +189,15 @@ impl<S: Simd> Extent<S> {
         let extent = squared.mul_add(scale, inverse * scale) + turns / squared.constant(constants.most_turns);
         extent.abs().at_most(squared.constant(1.0).times_sign_of(sign)).everywhere()
     }
+}
+
+/// The rest of a phase without what is negligible. The error of a product below 2^-968 depends on the SIMD level, by less
+/// than 2^-1021. The rests of ordinary tosses multiply it by 1e100 at most, and so it matters in no rest that is not
+/// negligible; but it would be seen in a sine of such a phase.
+#[inline(always)]
+pub(super) fn without_negligible<S: Simd>(rest: Real<S>) -> Real<S> {
+    let negligible = rest.constant(NEGLIGIBLE);
+    (rest + negligible) - negligible
 }
 
 /// The factors of A, B and C of [`TiltTerms`](crate::TiltTerms) that all tosses of a batch share, by their attitude Q

@@ -6,6 +6,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::{Scalar, Simd};
 
+/// Smallest product whose error has no digit below the range of f64 if Dekker's splitting finds it.
+const SMALLEST_SPLIT: f64 = f64::MIN_POSITIVE * 18_014_398_509_481_984.0; // 2^-968
+
 /// A vector of as many f64 as a register of the instruction set `S` holds. Operations act on each lane separately.
 #[derive(Debug, Clone, Copy)]
 pub struct Real<S: Simd> {
@@ -84,14 +87,26 @@ impl<S: Simd> Real<S> {
         Self { value: self.simd.mul_add_f64s(self.value, factor.value, term.value), ..self }
     }
 
-    /// `self` × `factor` exactly, as the rounded product and its error. Where a fused multiply-add would be a library
-    /// call, Dekker's splitting is used instead.
+    /// `self` × `factor` exactly, as the rounded product and its error. Of a product below 2^-968, whose error may have
+    /// digits below the range of f64, the error is rounded.
     #[inline(always)]
     pub fn product(self, factor: Self) -> [Self; 2] {
+        let [product, error] = self.product_in_range(factor);
+        // The comparison fails, too, where a part of the splitting has overflowed and the error is NaN.
+        if Self::is_fused() || (error.abs() + error.constant(SMALLEST_SPLIT)).at_most(product.abs()).everywhere() {
+            return [product, error];
+        }
+        [product, self.mul_add(factor, -product)]
+    }
+
+    /// As [`Real::product`], for products of at least 2^-968 of numbers up to 2^995. The error of a smaller product is
+    /// below 2^-1021, and depends on the SIMD level. Where a fused multiply-add would be a library call, Dekker's
+    /// splitting is used instead.
+    #[inline(always)]
+    pub fn product_in_range(self, factor: Self) -> [Self; 2] {
         let product = self * factor;
         if Self::is_fused() {
-            let error = self.simd.mul_add_f64s(self.value, factor.value, (-product).value);
-            return [product, Self { value: error, ..self }];
+            return [product, self.mul_add(factor, -product)];
         }
         let ([a1, a2], [b1, b2]) = (self.split(), factor.split());
         [product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2]

@@ -107,6 +107,50 @@ fn each_lane_has_the_bits_of_the_same_operation_on_f64() {
     }
 }
 
+/// Numbers of every size, from the smallest to the largest: 0, powers of two and numbers with all digits.
+fn sizes() -> Vec<f64> {
+    let digits = [1.0, -1.1, 1.0 + f64::EPSILON, 1.9, 1.3];
+    let powers = (-1074_i32..=1023)
+        .step_by(41)
+        .map(|exponent: i32| 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2));
+    let ends = [0.0, f64::from_bits(1), f64::MIN_POSITIVE, f64::MAX];
+    powers.flat_map(|power| digits.map(|digits| digits * power)).chain(ends).collect()
+}
+
+/// The products of a number and many others at a level, and their errors.
+struct Products<'a>(f64, &'a [f64]);
+
+impl WithSimd for Products<'_> {
+    type Output = Vec<[f64; 2]>;
+
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<[f64; 2]> {
+        let first = |value: Real<S>| {
+            let mut number = [0.0];
+            value.store_up_to(&mut number);
+            number[0]
+        };
+        let splat = |value| Real::splat(simd, value);
+        self.1.iter().map(|other| splat(self.0).product(splat(*other)).map(first)).collect()
+    }
+}
+
+/// Where a product has digits below the range of f64, or a part of it leaves that range, its error is what one rounding leaves.
+#[test]
+fn products_of_numbers_of_every_size_have_the_same_error_at_every_level() {
+    let numbers = sizes();
+    for (level, a) in SimdLevel::all().into_iter().flat_map(|level| numbers.iter().map(move |a| (level, *a))) {
+        for ([product, error], b) in level.run(Products(a, &numbers)).into_iter().zip(&numbers) {
+            let expected = [a * b, a.mul_add(*b, -(a * b))];
+            let are_equal = [product, error].map(f64::to_bits) == expected.map(f64::to_bits);
+            assert!(
+                are_equal || (product.is_infinite() && error.is_nan()),
+                "{a:e} × {b:e} on {}: {error:e}",
+                level.name()
+            );
+        }
+    }
+}
+
 /// Numbers, a bound for them, and a slice to store the first of them in. The output is the number of lanes, the total
 /// of the lanes, and whether all are below the bound.
 struct Reduced<'a>(&'a [f64; 8], f64, &'a mut [f64]);
