@@ -15,6 +15,9 @@ use crate::error::{InputError, require};
 /// Gravity used where none is given (m/s²). The paper gives no value.
 pub const DEFAULT_GRAVITY: f64 = 9.81;
 
+/// Smallest product of a time and a gravity (m/s) whose rounding error has all its digits in the range of f64.
+const SMALLEST_PRODUCT: f64 = 1e-250;
+
 /// How long the coin flies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TimeOfFlight {
@@ -102,14 +105,11 @@ impl TimeOfFlight {
                 let time = 2.0 * speed / gravity;
                 let product = DoubleDouble::product(time, gravity);
                 let rest = ((2.0 * speed - product.hi()) - product.lo()) / gravity;
-                // If the product or its rounding error leaves the range of f64, the rest is wrong and is left out.
-                [time, if rest.abs() <= f64::EPSILON * time { rest } else { 0.0 }]
+                // Where the product or its rounding error leaves the range of f64, the rest is wrong.
+                let is_in_range = product.hi() >= SMALLEST_PRODUCT && rest.abs() <= f64::EPSILON * time;
+                if is_in_range { [time, rest] } else { self.exact().compensated() }
             }
-            Self::BallisticTo { .. } => {
-                let ExactTime { mantissa, exponent } = self.exact();
-                let time = mantissa.times_power_of_two(exponent);
-                [time.hi(), time.lo()]
-            }
+            Self::BallisticTo { .. } => self.exact().compensated(),
             Self::Given(time) => [time, 0.0],
         }
     }
@@ -193,9 +193,15 @@ impl ExactTime {
         self.exponent
     }
 
+    /// The nearest f64 (s), and the rest.
+    fn compensated(self) -> [f64; 2] {
+        let time = self.mantissa.times_power_of_two(self.exponent);
+        [time.hi(), time.lo()]
+    }
+
     /// The nearest f64 (s).
     fn rounded(self) -> f64 {
-        self.mantissa.times_power_of_two(self.exponent).hi()
+        self.compensated()[0]
     }
 }
 
