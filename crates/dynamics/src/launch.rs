@@ -2,7 +2,7 @@
 //! leaves the hand; a [`Toss`] is a launch with its coin, and is all that a solver takes.
 
 use nalgebra::Vector3;
-use numerics::{Angle, AngleUnit};
+use numerics::{Angle, AngleUnit, UNIT_ROUNDOFF};
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
@@ -88,6 +88,18 @@ impl Launch {
     /// ω at launch (BF, rad/s), to rounding where it was given in another unit. `<[f64; 3]>::from` makes an array of it.
     pub fn rate(&self) -> Vector3<f64> {
         self.rate
+    }
+
+    /// Bound of the relative error of [`Launch::rate`]: 0 if it was given in rad/s, and infinite where it may have lost
+    /// digits below the range of f64.
+    #[inline]
+    pub fn rate_error(&self) -> f64 {
+        const SLOWEST: f64 = 1e-200;
+        match self.given_rate {
+            None => 0.0,
+            Some(_) if self.rate.amax() >= SLOWEST => 1.01 * UNIT_ROUNDOFF,
+            Some(_) => f64::INFINITY,
+        }
     }
 
     /// |ω| (rad/s), computed without the overflow of a sum of squares.

@@ -41,7 +41,7 @@
 //!
 //! **3. As many digits as it takes.** The number of digits doubles until the sign is certain: see `multiprecision.rs`.
 
-use dynamics::{AngleUnit, Error, Outcome, SolveError, TimeOfFlight, Toss};
+use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
@@ -72,7 +72,7 @@ pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
     // Above the error of double-double at any phase.
     const NEAR_0: f64 = 1e-9;
     let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
-    let is_right = cos_tilt.abs() > NEAR_0 && rate_error(toss) == 0.0;
+    let is_right = cos_tilt.abs() > NEAR_0 && toss.launch.rate_error() == 0.0;
     Ok(if is_right { cos_tilt } else { rounded_cos_tilt(toss) })
 }
 
@@ -108,7 +108,7 @@ pub fn holds_within(toss: &Toss, relative: f64) -> Result<bool, SolveError> {
 /// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
 #[inline]
 fn cheaply(toss: &Toss) -> Option<Certificate> {
-    if rate_error(toss) != 0.0 {
+    if toss.launch.rate_error() != 0.0 {
         return None;
     }
     let by = |stage| move |outcome| Certificate::new(outcome, stage);
@@ -139,23 +139,10 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
     let motion = ExactMotion::new(toss);
     let time = toss.launch.time_of_flight();
     motion.phase(time)?;
-    Ok(match by_double_double(&motion, time, rate_error(toss))? {
+    Ok(match by_double_double(&motion, time, toss.launch.rate_error())? {
         Some(outcome) => Certificate::new(outcome, Stage::DoubleDouble),
         None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
     })
-}
-
-/// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.
-#[inline]
-fn rate_error(toss: &Toss) -> f64 {
-    const SLOWEST: f64 = 1e-200;
-    if toss.launch.given_rate().1 == AngleUnit::RADIAN {
-        0.0
-    } else if toss.launch.rate().amax() >= SLOWEST {
-        1.01 * UNIT_ROUNDOFF
-    } else {
-        f64::INFINITY
-    }
 }
 
 /// The stage in double-double, for rates with this relative error. `None` if |cos θ| is within its error bound.

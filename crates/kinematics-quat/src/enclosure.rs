@@ -7,7 +7,7 @@
 //! itself. An error of |η| is measured, because the true |η| never changes.
 
 use dynamics::body_rate::body_precession_rate;
-use dynamics::{AngleUnit, Flight, Launch, Toss};
+use dynamics::{Flight, Launch, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
@@ -107,7 +107,7 @@ impl Launched {
     fn new(toss: &Toss, flight: &Flight) -> Self {
         let (k, rate_z) = (toss.coin.exact_inertia_ratio(), flight.rate.z);
         let q = (k - 1.0.into()) * rate_z - body_precession_rate(k.hi(), rate_z).into();
-        let rate = rate_error(toss);
+        let rate = toss.launch.rate_error();
         Self {
             rate,
             q: q.hi().abs() * (1.0 + 4.0 * UNIT_ROUNDOFF) + (OF_DOUBLE_DOUBLE + 1.01 * rate) * 2.0 * rate_z.abs(),
@@ -123,16 +123,4 @@ fn time_error(launch: &Launch, flight: &Flight) -> f64 {
     let (mantissa, exponent) = mantissa_and_exponent(power_of_two_scale(launch.rate().amax()));
     let time = (exact.mantissa() * mantissa).times_power_of_two(exact.exponent() + exponent);
     (time - flight.span().into()).hi().abs() + OF_DOUBLE_DOUBLE * flight.span()
-}
-
-/// Relative error of the rates in rad/s: 0 if they were given so, and infinite where they may have lost digits.
-fn rate_error(toss: &Toss) -> f64 {
-    const SLOWEST: f64 = 1e-200;
-    if toss.launch.given_rate().1 == AngleUnit::RADIAN {
-        0.0
-    } else if toss.launch.rate().amax() >= SLOWEST {
-        1.01 * UNIT_ROUNDOFF
-    } else {
-        f64::INFINITY
-    }
 }
