@@ -12,7 +12,7 @@ use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
 #[cfg(feature = "integrators")]
-use crate::integrate::{OdeSystem, integrate};
+use crate::integrate::{Accepted, OdeSystem, integrate, integrate_steps};
 use crate::launch::{Launch, Toss};
 use crate::phase::RoughPhases;
 #[cfg(feature = "integrators")]
@@ -80,6 +80,21 @@ impl Flight {
     ) -> Result<(SVector<f64, N>, Work), SolveError> {
         let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
         integrate(system, start, self.duration, self.scale, &stepping)
+    }
+
+    /// [`integrate`](Self::integrate) with all accepted steps.
+    ///
+    /// # Errors
+    /// As [`integrate`].
+    #[cfg(feature = "integrators")]
+    pub fn integrate_steps<const N: usize>(
+        &self,
+        system: &impl OdeSystem<N>,
+        start: SVector<f64, N>,
+        stepping: &Stepping,
+    ) -> Result<Accepted<N>, SolveError> {
+        let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
+        integrate_steps(system, start, self.duration, self.scale, &stepping)
     }
 
     /// Dimensionless time σ T from launch to landing.

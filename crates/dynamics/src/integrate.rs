@@ -48,6 +48,18 @@ impl RungeKutta {
     }
 }
 
+/// The accepted steps of an integration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Accepted<const N: usize> {
+    /// The dimensionless times at which steps begin or end, from 0 on. They are sums that were rounded; the state at the
+    /// end belongs to the end of the integration.
+    pub times: Vec<f64>,
+    /// The state at each of them.
+    pub states: Vec<SVector<f64, N>>,
+    /// The work of all steps.
+    pub work: Work,
+}
+
 /// Integrates `system` from `start` over `duration` ≥ 0 (s), and returns the end state and the work.
 ///
 /// The derivatives of `system` are taken with respect to the dimensionless time `scale` × t, where `scale` is a power
@@ -63,10 +75,40 @@ pub fn integrate<const N: usize>(
     scale: f64,
     stepping: &Stepping,
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
+    let (run, work) = run(system, start, duration, scale, stepping)?;
+    Ok((run.get().1.last().copied().unwrap_or(start), work))
+}
+
+/// [`integrate`] with all accepted steps.
+///
+/// # Errors
+/// As [`integrate`].
+pub fn integrate_steps<const N: usize>(
+    system: &impl OdeSystem<N>,
+    start: SVector<f64, N>,
+    duration: f64,
+    scale: f64,
+    stepping: &Stepping,
+) -> Result<Accepted<N>, SolveError> {
+    let (run, work) = run(system, start, duration, scale, stepping)?;
+    let (times, states) = run.get();
+    Ok(Accepted { times: times.clone(), states: states.clone(), work })
+}
+
+/// The accepted steps of `ode_solvers`.
+type Run<const N: usize> = SolverResult<f64, SVector<f64, N>>;
+
+fn run<const N: usize>(
+    system: &impl OdeSystem<N>,
+    start: SVector<f64, N>,
+    duration: f64,
+    scale: f64,
+    stepping: &Stepping,
+) -> Result<(Run<N>, Work), SolveError> {
     let scheme = RungeKutta::of(stepping.scheme())?;
     let end = duration * scale;
     if end == 0.0 {
-        return Ok((start, Work::default()));
+        return Ok((SolverResult::new(vec![0.0], vec![start]), Work::default()));
     }
     let steps = Steps::new(stepping.control(), duration, end)?;
     let calls = Cell::new(0);
@@ -77,12 +119,11 @@ pub fn integrate<const N: usize>(
         return Err(SolveError::Singular { point, time: time / scale });
     }
     let (times, states) = run.get();
-    match states.last() {
-        Some(last) if last.iter().all(|part| part.is_finite()) => {
-            Ok((*last, work(calls.get(), times.len() as u64 - 1, scheme)))
-        }
-        _ => Err(SolveError::NotFinite { time: duration }),
+    if !states.last().is_some_and(|last| last.iter().all(|part| part.is_finite())) {
+        return Err(SolveError::NotFinite { time: duration });
     }
+    let work = work(calls.get(), times.len() as u64 - 1, scheme);
+    Ok((run, work))
 }
 
 /// The tolerance and the step sizes in dimensionless time, as the steppers of `ode_solvers` take them.
@@ -144,7 +185,7 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     end: f64,
     scheme: RungeKutta,
     steps: &Steps,
-) -> Result<SolverResult<f64, SVector<f64, N>>, IntegrationError> {
+) -> Result<Run<N>, IntegrationError> {
     match scheme {
         RungeKutta::Dop853 => run_adaptive!(Dop853, system, start, end, steps, beta: 0.0, factors: 0.333, 6.0),
         RungeKutta::Dopri5 => run_adaptive!(Dopri5, system, start, end, steps, beta: 0.04, factors: 0.2, 10.0),
