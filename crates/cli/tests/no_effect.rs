@@ -49,7 +49,6 @@ fn what_proves_nothing_refuses_to_prove_and_says_why() {
             ("", ["--prove has no effect with --solver exact", "it is for quaternion"]),
             ("--solver gamma", ["gamma proves nothing", "no bound of its own error; quaternion has one"]),
             ("--solver euler", ["euler proves nothing", "no bound of its own error; quaternion has one"]),
-            ("--solver quaternion --scheme dop853", ["proves nothing", "only taylor bounds its own error"]),
             ("--solver quaternion --formulation raw", ["proves nothing", "division by the norm"]),
         ] {
             assert_refused(&[(&format!("{command} {options} --prove"), words)]);

@@ -8,7 +8,7 @@
 //!
 //! A solver is chosen at compile time by its type, or at run time by its [`SolverEntry`](crate::SolverEntry). A solver
 //! cannot prove an outcome. It states an error estimate, and the outcome is undecided where cos θ is not larger. Only
-//! the crate `exact`, by the closed form, and `kinematics-quat`, by a bound of its Taylor series, make proofs, as types
+//! the crate `exact`, by the closed form, and `kinematics-quat`, by a bound of its integrations, make proofs, as types
 //! that nothing else can make.
 
 use std::sync::Arc;
@@ -26,7 +26,7 @@ use crate::stepping::Stepping;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Evaluations of the right-hand side. For Taylor series, the number of coefficients of the state: one for each
-    /// order of each step.
+    /// order of each step. A proof of a Runge-Kutta scheme adds those of the series that it compares steps with.
     pub rhs_calls: u64,
     /// Steps that were accepted.
     pub accepted_steps: u64,

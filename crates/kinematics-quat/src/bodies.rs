@@ -13,8 +13,8 @@
 //! before it. A step computes the turn that leads from the attitude at its start to that at its end, as for coins.
 
 use dynamics::body_rate::principal_acceleration;
-use dynamics::integrate::OdeSystem;
-use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Work};
+use dynamics::integrate::{Accepted, OdeSystem};
+use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Stepping, Work};
 use nalgebra::SVector;
 use numerics::lanes::{Real, Simd};
 
@@ -24,10 +24,12 @@ use crate::product::turned;
 use crate::taylor::{INVERSES, LARGEST_ORDER};
 use crate::{Landed, half_product};
 
+mod accepted;
 mod defect;
 mod enclosed;
 mod polhode;
 
+pub(crate) use accepted::compared;
 pub(crate) use enclosed::{Bound, Enclosed};
 
 /// The system over the state (w, x, y, z, ω1, ω2, ω3) in principal axes. Rates may be in any unit; its inverse is the
@@ -42,6 +44,15 @@ impl RigidSystem {
     /// The system for a body with these [couplings](dynamics::Body::couplings).
     pub fn new(couplings: [f64; 3]) -> Self {
         Self { couplings }
+    }
+}
+
+impl RigidSystem {
+    /// The accepted steps of a flight by a Runge-Kutta scheme.
+    pub(crate) fn integrated(flight: &RigidFlight, stepping: &Stepping) -> Result<Accepted<7>, SolveError> {
+        let [first, second, third] = flight.rates;
+        let start = SVector::from([1.0, 0.0, 0.0, 0.0, first, second, third]);
+        flight.timing().integrate_steps(&Self::new(flight.couplings), start, stepping)
     }
 }
 
@@ -148,13 +159,8 @@ impl Motion for Bodies {
     }
 
     fn launch(&mut self, lane: usize, _: &RigidToss, flight: &RigidFlight) {
-        for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
-            part[lane] = value;
-        }
-        for axis in 0..3 {
-            self.half[axis][lane] = 0.5 * flight.rates[axis];
-            self.twice[axis][lane] = 2.0 * flight.couplings[axis];
-        }
+        let [first, second, third] = flight.rates;
+        self.start(lane, &[1.0, 0.0, 0.0, 0.0, first, second, third], flight.couplings);
     }
 
     #[inline(always)]
@@ -163,13 +169,33 @@ impl Motion for Bodies {
     }
 
     fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let turn = flight.turn_in_body(self.attitude.each_ref().map(|part| part[lane]));
-        let rates = self.half.each_ref().map(|part| 2.0 * part[lane]);
-        Landed { flight: *flight.timing(), turn, rate: flight.rate_at(rates), work, record: None, enclosed: None }
+        let (turn, rate) = (flight.turn_in_body(self.turn(lane)), flight.rate_at(self.rates(lane)));
+        Landed { flight: *flight.timing(), turn, rate, work, record: None, enclosed: None }
     }
 }
 
 impl Bodies {
+    /// Sets `lane` to the start of a step in this state of a [`RigidSystem`] with these couplings.
+    fn start(&mut self, lane: usize, state: &[f64; 7], couplings: [f64; 3]) {
+        for (part, value) in self.attitude.iter_mut().zip(state) {
+            part[lane] = *value;
+        }
+        for axis in 0..3 {
+            self.half[axis][lane] = 0.5 * state[4 + axis];
+            self.twice[axis][lane] = 2.0 * couplings[axis];
+        }
+    }
+
+    /// The turn since launch of the body in `lane`.
+    fn turn(&self, lane: usize) -> [f64; 4] {
+        self.attitude.each_ref().map(|part| part[lane])
+    }
+
+    /// The rates of the body in `lane`.
+    fn rates(&self, lane: usize) -> [f64; 3] {
+        self.half.each_ref().map(|part| 2.0 * part[lane])
+    }
+
     /// Takes one step in each lane, and returns its length.
     #[inline(always)]
     fn step<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) -> Real<S> {

@@ -4,6 +4,7 @@
 use dynamics::{Flight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, compensated_product, complex_product, polar};
 
+use crate::accepted::End;
 use crate::enclosure::Record;
 use crate::lockstep::{Clock, Motion, PerLane, store};
 use crate::plan::Plan;
@@ -94,7 +95,30 @@ impl Motion for Coins {
         let [x, y] = self.eta.each_ref().map(|part| 2.0 * part[lane]);
         let turn = self.attitude.each_ref().map(|part| part[lane]);
         let moduli = self.moduli.each_ref().map(|part| part[lane]);
-        let record = Some(Record { steps: work.accepted_steps, moduli, longest: self.longest[lane] });
+        let steps = work.accepted_steps;
+        let record = Some(Record { steps, moduli, longest: self.longest[lane], ..Record::default() });
         Landed { flight: *flight, turn, rate: flight.rate_at(x, y), work, record, enclosed: None }
+    }
+}
+
+impl Coins {
+    /// Sets `lane` to the start of a step in this state of a [`QuaternionSystem`], with these c and q.
+    pub(crate) fn start(&mut self, lane: usize, &[w, x, y, z, rate_x, rate_y]: &[f64; 6], [half_z, q]: [f64; 2]) {
+        for (part, value) in self.attitude.iter_mut().zip([w, x, y, z]) {
+            part[lane] = value;
+        }
+        (self.eta[0][lane], self.eta[1][lane]) = (0.5 * rate_x, 0.5 * rate_y);
+        (self.half_z[lane], self.q[lane], self.moduli[0][lane]) = (half_z, q, f64::INFINITY);
+    }
+
+    /// Where the pieces of a step so far lead, without their number.
+    pub(crate) fn end(&self, lane: usize) -> End {
+        End {
+            pieces: 0,
+            attitude: self.attitude.each_ref().map(|part| part[lane]),
+            eta: [&self.eta, &self.eta_low].map(|eta| eta.each_ref().map(|part| part[lane])),
+            moduli: self.moduli.each_ref().map(|part| part[lane]),
+            longest: self.longest[lane],
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! A bound of the error of a whole flight by Taylor series: the sum of the bounds of its steps, and what the rounding of
+//! A bound of the error of a whole flight: the sum of the bounds of its steps, and what the rounding of
 //! the toss itself adds. The theorem and its proof are in `docs/proofs/enclosure.md`, whose numbers of formulas stand here
 //! in brackets.
 //!
@@ -15,18 +15,22 @@ use crate::bodies::Bound;
 use crate::defect::{StepBound, Steps};
 
 /// What a bound of the error has to know of the steps of a flight.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Record {
-    /// The number of steps.
+    /// The number of steps by series.
     pub(crate) steps: u64,
     /// The least and the largest |η|, in the unit of the flight.
     pub(crate) moduli: [f64; 2],
     /// The longest step, in the unit of the flight.
     pub(crate) longest: f64,
+    /// The sum of the measured jumps of the turn and of the direction of η; 0 of a flight by series.
+    pub(crate) jumps: f64,
+    /// A bound of how far the sum of the steps is from the time of flight, in the unit of the flight.
+    pub(crate) strayed: f64,
 }
 
 /// A |η| below which it turns the coin by less than can be told from no turn.
-const NO_RATE: f64 = 1e-140;
+pub(crate) const NO_RATE: f64 = 1e-140;
 
 /// More than underflow, and an |η| below [`NO_RATE`], can add to the error of an attitude.
 const TINY: f64 = 1e-90;
@@ -53,7 +57,8 @@ pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
 }
 
 /// An upper bound of the distance between the computed quaternion P, divided by its norm, and that of the ideal flight;
-/// infinite where the theorem does not apply. It is the formula (4).
+/// infinite where the theorem does not apply. It is the formula (4), or (21)
+/// of a flight by a Runge-Kutta scheme.
 pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step: &StepBound) -> f64 {
     let rate = flight.rate;
     let modulus = modulus(flight);
@@ -61,17 +66,17 @@ pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step
     let eta = if has_rate { step.eta } else { 0.0 };
     #[expect(clippy::cast_precision_loss, reason = "at most a million")]
     let steps = record.steps as f64;
-    let of_steps = steps * (step.turn + step.rates + eta);
+    let of_steps = steps * (step.turn + step.rates + eta) + record.jumps;
     let of_launch = Launched::new(toss, flight);
-    let drift = if has_rate && record.steps > 0 {
+    let drift = if record.steps > 0 {
         let off = |measured: f64| (measured - modulus.hi()).abs();
         record.moduli.into_iter().map(off).fold(0.0, f64::max) + modulus.lo().abs()
     } else {
         0.0
     };
     let along = drift + of_launch.rate * (modulus.hi() + 0.5 * rate.z.abs()) + 2.0 * of_launch.q;
-    let of_time = 0.5 * rate.norm() * of_launch.time;
-    let sum = of_steps + along * flight.span() + of_launch.rate + of_time + TINY;
+    let of_time = 0.5 * rate.norm() * (of_launch.time + record.strayed);
+    let sum = of_steps + along * (flight.span() + record.strayed) + of_launch.rate + of_time + TINY;
     whole(sum)
 }
 
@@ -84,7 +89,7 @@ pub(crate) fn whole(sum: f64) -> f64 {
 
 /// [`attitude_bound`] of any body.
 pub(crate) fn attitude_bound_of_body(launch: &Launch, flight: &Flight, bound: &Bound) -> f64 {
-    whole(bound.turn + 0.5 * bound.fastest * time_error(launch, flight) + TINY)
+    whole(bound.turn + 0.5 * bound.fastest * (time_error(launch, flight) + bound.strayed) + TINY)
 }
 
 /// |η| at launch, in the unit of the flight, to 12 u² of itself.

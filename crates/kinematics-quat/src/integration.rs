@@ -5,9 +5,9 @@ use std::fmt;
 /// The arithmetic of the flight that proved an outcome, from the cheapest to the most accurate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Integration {
-    /// f64, with the solver's own tolerance.
+    /// f64, with the solver's own steps.
     AsConfigured,
-    /// f64, with the finest tolerance.
+    /// f64, by Taylor series with the finest tolerance.
     Finest,
     /// Double-double arithmetic.
     DoubleDouble,

@@ -14,12 +14,14 @@
 //! Any other rigid body has three rates that change, about its principal axes (`bodies.rs`). The formulations mean the
 //! same for it: in [`Formulation::RAW`] the quaternion is not projected.
 
+mod accepted;
 mod bodies;
 mod coins;
 mod defect;
 mod digits;
 mod enclosure;
 mod integration;
+mod jump;
 mod lockstep;
 mod outcomes;
 mod plan;
@@ -27,10 +29,10 @@ mod product;
 mod proven;
 mod proven_bodies;
 mod proving;
+mod system;
 mod taylor;
 
-use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
-use dynamics::integrate::OdeSystem;
+use dynamics::integrate::Accepted;
 use dynamics::phase::RoughPhases;
 use dynamics::{
     Attitude, Error, Flight, Formulation, Propagation, RigidFlight, RigidPhase, RigidToss, Scheme, Settings,
@@ -49,6 +51,8 @@ use crate::lockstep::fly;
 use crate::plan::Plans;
 pub use crate::proven::IntegratedCertificate;
 pub use crate::proving::{IntegratedCounts, Proving};
+pub use crate::system::QuaternionSystem;
+use crate::system::half_product;
 
 /// The scheme by Taylor series, [`Scheme::TAYLOR`].
 pub const TAYLOR: Scheme = Scheme::TAYLOR;
@@ -173,13 +177,9 @@ impl Solver for QuaternionSolver {
             return landing;
         }
         let flight = Flight::new(toss)?;
-        let system = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
-        let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
+        let (system, start) = QuaternionSystem::launching(toss, &flight);
         let (end, work) = flight.integrate(&system, start, &self.stepping)?;
-        let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
-        let (turn, rate) = ([w, x, y, z], flight.rate_at(rate_x, rate_y));
-        let landed = Landed { flight, turn, rate, work, record: None, enclosed: None };
-        self.landing(toss.launch.attitude(), &landed)
+        self.landing(toss.launch.attitude(), &Landed::at(&flight, &end, work))
     }
 
     fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
@@ -194,14 +194,8 @@ impl Solver for QuaternionSolver {
             return landing;
         }
         let flight = RigidFlight::new(toss)?;
-        let [first, second, third] = flight.rates;
-        let start = SVector::from([1.0, 0.0, 0.0, 0.0, first, second, third]);
-        let system = RigidSystem::new(flight.couplings);
-        let (end, work) = flight.timing().integrate(&system, start, &self.stepping)?;
-        let &[w, x, y, z, first, second, third] = &end.data.0[0];
-        let (turn, rate) = (flight.turn_in_body([w, x, y, z]), flight.rate_at([first, second, third]));
-        let landed = Landed { flight: *flight.timing(), turn, rate, work, record: None, enclosed: None };
-        self.landing(toss.launch.attitude(), &landed)
+        let accepted = RigidSystem::integrated(&flight, &self.stepping)?;
+        self.landing(toss.launch.attitude(), &Landed::at_rigid(&flight, &accepted)?)
     }
 
     /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
@@ -245,42 +239,21 @@ struct Landed {
     enclosed: Option<Bound>,
 }
 
-/// The system over the state (w, x, y, z, ωx, ωy), where (w, x, y, z) is P. Rates may be in any unit; its inverse is
-/// the unit of time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct QuaternionSystem {
-    /// ωz.
-    rate_z: f64,
-    /// q = (k - 1) ωz, the rate at which (ωx, ωy) turns in the body frame.
-    q: f64,
-}
-
-impl QuaternionSystem {
-    /// The system for a coin with `inertia_ratio` k = I3/I1 and spin `rate_z` = ωz.
-    pub fn new(inertia_ratio: f64, rate_z: f64) -> Self {
-        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z) }
+impl Landed {
+    /// The end of a coin's flight in this state of a [`QuaternionSystem`].
+    fn at(flight: &Flight, end: &SVector<f64, 6>, work: Work) -> Self {
+        let &[w, x, y, z, rate_x, rate_y] = &end.data.0[0];
+        let rate = flight.rate_at(rate_x, rate_y);
+        Self { flight: *flight, turn: [w, x, y, z], rate, work, record: None, enclosed: None }
     }
-}
 
-impl OdeSystem<6> for QuaternionSystem {
-    fn derivative(&self, y: &SVector<f64, 6>) -> SVector<f64, 6> {
-        let &[w, x, y, z, rate_x, rate_y] = &y.data.0[0];
-        let (rate_x_dot, rate_y_dot) = transverse_acceleration(self.q, rate_x, rate_y);
-        let [w, x, y, z] = half_product([w, x, y, z], [rate_x, rate_y, self.rate_z]);
-        SVector::from([w, x, y, z, rate_x_dot, rate_y_dot])
+    /// The end of a body's flight in these steps of a [`RigidSystem`].
+    fn at_rigid(flight: &RigidFlight, accepted: &Accepted<7>) -> Result<Self, SolveError> {
+        let timing = *flight.timing();
+        let &[w, x, y, z, first, second, third] = &accepted.states.last().ok_or_else(|| timing.not_finite())?.data.0[0];
+        let (turn, rate) = (flight.turn_in_body([w, x, y, z]), flight.rate_at([first, second, third]));
+        Ok(Self { flight: timing, turn, rate, work: accepted.work, record: None, enclosed: None })
     }
-}
-
-/// ½ P ⊗ (0, ω).
-#[inline(always)]
-pub(crate) fn half_product([w, x, y, z]: [f64; 4], [rate_x, rate_y, rate_z]: [f64; 3]) -> [f64; 4] {
-    let (half_x, half_y, half_z) = (0.5 * rate_x, 0.5 * rate_y, 0.5 * rate_z);
-    [
-        -(x * half_x + y * half_y + z * half_z),
-        w * half_x + y * half_z - z * half_y,
-        w * half_y + z * half_x - x * half_z,
-        w * half_z + x * half_y - y * half_x,
-    ]
 }
 
 #[cfg(test)]

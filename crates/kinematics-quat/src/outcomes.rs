@@ -20,7 +20,7 @@ impl QuaternionSolver {
     /// come first, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings
     /// without a proof.
     pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
-        let is_finer = self.require_proofs().is_ok_and(|taylor| taylor.tolerance < COARSE);
+        let is_finer = self.require_proofs().is_ok() && self.taylor.is_some_and(|taylor| taylor.tolerance < COARSE);
         let undecided = || vec![Ok(Outcome::Undecided); tosses.len()];
         let mut found = if is_finer { coarse(tosses, level) } else { undecided() };
         let open: Vec<usize> = (0..found.len()).filter(|index| found[*index] == Ok(Outcome::Undecided)).collect();
@@ -110,8 +110,8 @@ mod tests {
         let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
         assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
         assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));
-        let plain = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
-        let refused = plain.prove_outcomes(&tosses[..1], SimdLevel::widest());
+        let raw = QuaternionSolver::new(Stepping::DEFAULT, Formulation::RAW);
+        let refused = raw.prove_outcomes(&tosses[..1], SimdLevel::widest());
         assert!(matches!(refused[0], Err(SolveError::NotProven { .. })));
         assert_eq!(solver(1e-2).prove_outcomes(&tosses[..1], SimdLevel::widest()), [Ok(Outcome::Undecided)]);
     }

@@ -20,6 +20,9 @@ const FASTEST: f64 = 4.0;
 /// with a factor of almost two to spare. The poles are at distances of at least K'/λ, where K' ≥ π/2 and λ ≤ |ω| < 2√3.
 const NEAREST_POLE: f64 = 0.25;
 
+/// The turn (rad) of most bodies from the time of a step to the nearest pole, or less.
+const NEAREST_TURN: f64 = 1.5;
+
 /// Tolerances below this one need compensated rates, that is, η with twice as many digits. Without them the rounding
 /// error of ε |ω| in each step adds up to 1e-13 in a flight of 100 rad.
 const ROUNDING: f64 = 5e-13;
@@ -47,18 +50,36 @@ impl Plan {
         // The last term of the series of exp(i λ t) is (λ t)^order/order!, which is the tolerance at this time:
         let factorial: f64 = (1..=order).map(|k| k as f64).product();
         let shortest = (tolerance * factorial).powf(1.0 / order as f64) / FASTEST;
-        Self::new(tolerance, shortest, OCTAVES_OF_COINS)
+        Self::new(tolerance, order, shortest, OCTAVES_OF_COINS)
     }
 
     /// The constants of other bodies, for local errors of `tolerance`.
     fn of_bodies(tolerance: f64) -> Self {
-        // Terms of a series with a pole at the distance ρ fall like (t/ρ)^order.
-        let shortest = NEAREST_POLE * tolerance.powf(1.0 / order(tolerance) as f64);
-        Self::new(tolerance, shortest, OCTAVES_OF_BODIES)
+        Self::of_bodies_in_order(tolerance, order(tolerance))
     }
 
-    fn new(tolerance: f64, shortest: f64, octaves: [f64; 6]) -> Self {
-        let order = order(tolerance);
+    fn of_bodies_in_order(tolerance: f64, order: usize) -> Self {
+        // Terms of a series with a pole at the distance ρ fall like (t/ρ)^order.
+        let shortest = NEAREST_POLE * tolerance.powf(1.0 / order as f64);
+        Self::new(tolerance, order, shortest, OCTAVES_OF_BODIES)
+    }
+
+    /// The constants of the pieces of steps in which a body turns by `turning` (rad) at most, or not much more, for local
+    /// errors of `tolerance`. The order is one that leaves most steps whole.
+    pub(crate) fn of_pieces_of_bodies(tolerance: f64, turning: f64) -> Self {
+        let mut order = 8;
+        while order < LARGEST_ORDER && (turning / NEAREST_TURN).powf(order as f64) > tolerance {
+            order += 2;
+        }
+        Self::of_bodies_in_order(tolerance, order)
+    }
+
+    /// Equal steps of this `length`, in the unit of the flight, and this even `order`, with compensated rates.
+    pub(crate) fn of_equal_steps(order: usize, length: f64) -> Self {
+        Self { order, compensates: true, shortest: length, growth: [[1.0; 2]; 6], ..Self::of_coins(f64::EPSILON) }
+    }
+
+    fn new(tolerance: f64, order: usize, shortest: f64, octaves: [f64; 6]) -> Self {
         let power = std::iter::repeat_n(shortest, order - 1).product::<f64>();
         Self {
             tolerance,
@@ -134,7 +155,7 @@ impl Plans {
     /// Equal steps of coins, of this order and length in the unit of the flight.
     #[cfg(test)]
     pub(crate) fn fixed(order: usize, step: f64) -> Self {
-        let plan = Plan { order, compensates: false, shortest: step, growth: [[1.0; 2]; 6], ..Plan::of_coins(0.1) };
+        let plan = Plan { compensates: false, ..Plan::of_equal_steps(order, step) };
         Self { short: plan, long: plan }
     }
 

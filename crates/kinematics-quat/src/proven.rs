@@ -1,11 +1,10 @@
-//! Outcomes proven by integration. A flight by Taylor series bounds its own error, by the theorem of
-//! `docs/proofs/enclosure.md`; an outcome is proven where |cos θ| exceeds the bound. The closed form of the motion is not
+//! Outcomes proven by integration. A flight bounds its own error, by the theorem of `docs/proofs/enclosure.md`; an outcome is proven where |cos θ| exceeds the bound. The closed form of the motion is not
 //! used, so that these proofs and those of the crate `exact` check each other.
 //!
 //! An [`IntegratedCertificate`] has private fields and no public constructor, so that no other code can pass off an
 //! estimate as a proof.
 
-use dynamics::{Attitude, Outcome, Propagation, SolveError, State, StepControl, Toss, Work};
+use dynamics::{Attitude, Outcome, Propagation, SolveError, State, Toss, Work};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::SimdLevel;
 
@@ -16,7 +15,7 @@ use crate::enclosure::{attitude_bound, steps};
 use crate::integration::Integration;
 use crate::lockstep::fly;
 use crate::plan::Plans;
-use crate::{Landed, QuaternionSolver, Taylor};
+use crate::{Landed, QuaternionSolver};
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
 ///
@@ -87,11 +86,11 @@ const OF_ATTITUDE: f64 = 24.0 * UNIT_ROUNDOFF;
 const DIGITS: [usize; 3] = [192, 384, 768];
 
 impl QuaternionSolver {
-    /// Proves the outcome of `toss` by integration, first with the solver's own tolerance, then with the finest one, then
-    /// with more digits.
+    /// Proves the outcome of `toss` by integration, first with the solver's own steps, then by Taylor series with the finest
+    /// tolerance, then with more digits.
     ///
     /// # Errors
-    /// [`SolveError::NotProven`] for a scheme or a formulation that proves nothing; else as
+    /// [`SolveError::NotProven`] for a formulation that proves nothing; else as
     /// [`Solver::propagate`](dynamics::Solver::propagate).
     pub fn certify(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
         let mut found = self.certify_all(std::slice::from_ref(toss), SimdLevel::for_one_lane());
@@ -101,11 +100,10 @@ impl QuaternionSolver {
     /// [`QuaternionSolver::certify`] of each of `tosses`, in their order and with the same bits. As many flights are
     /// computed at once as a register at the SIMD `level` has lanes.
     pub fn certify_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        let plans = match self.require_proofs() {
-            Ok(taylor) => &taylor.coins,
-            Err(error) => return vec![Err(error); tosses.len()],
-        };
-        let mut found = self.enclosed(tosses, plans, level, Integration::AsConfigured);
+        if let Err(error) = self.require_proofs() {
+            return vec![Err(error); tosses.len()];
+        }
+        let mut found = self.enclosed_all(tosses, level);
         for (toss, found) in tosses.iter().zip(&mut found) {
             if let Ok(certificate) = found
                 && certificate.outcome == Outcome::Undecided
@@ -116,25 +114,35 @@ impl QuaternionSolver {
         found
     }
 
-    /// The landing of `toss` with the bounds of its error at the solver's own tolerance, whether or not they decide the
+    /// The landing of `toss` with the bounds of its error by the solver's own steps, whether or not they decide the
     /// outcome.
     ///
     /// # Errors
     /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        let plans = &self.require_proofs()?.coins;
-        let toss = std::slice::from_ref(toss);
-        let mut found = self.enclosed(toss, plans, SimdLevel::for_one_lane(), Integration::AsConfigured);
+        self.require_proofs()?;
+        let mut found = self.enclosed_all(std::slice::from_ref(toss), SimdLevel::for_one_lane());
         found.pop().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
     }
 
-    /// The plans of the steps of a solver that proves something.
-    pub(crate) fn require_proofs(&self) -> Result<&Taylor, SolveError> {
-        let refuse = |why| SolveError::NotProven { solver: Self::NAME.to_owned(), why };
-        if !self.projects {
-            return Err(refuse("without a division by the norm, its cos θ is not that of an attitude"));
+    /// Refuses what proves nothing.
+    pub(crate) fn require_proofs(&self) -> Result<(), SolveError> {
+        let why = "without a division by the norm, its cos θ is not that of an attitude";
+        let refused = || SolveError::NotProven { solver: Self::NAME.to_owned(), why };
+        self.projects.then_some(()).ok_or_else(refused)
+    }
+
+    /// Whether the solver's own tolerance is the finest one of Taylor series, so that another flight by them is no finer.
+    pub(crate) fn is_finest(&self) -> bool {
+        self.taylor.is_some_and(|taylor| taylor.tolerance == f64::EPSILON)
+    }
+
+    /// The landings by the solver's own steps with their bounds.
+    fn enclosed_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
+        match &self.taylor {
+            Some(taylor) => self.enclosed(tosses, &taylor.coins, level, Integration::AsConfigured),
+            None => tosses.iter().map(|toss| self.enclosed_by_steps(toss, level)).collect(),
         }
-        self.taylor.as_ref().ok_or_else(|| refuse("of its schemes only taylor bounds its own error"))
     }
 
     /// The landings by these `plans` with their bounds.
@@ -187,8 +195,7 @@ impl QuaternionSolver {
     /// Decides by the finest tolerance, then by more digits; `work` has been done before.
     fn escalated(&self, toss: &Toss, work: Work) -> Result<IntegratedCertificate, SolveError> {
         let mut total = work;
-        let is_finest = self.stepping.control() == StepControl::Tolerance(f64::EPSILON);
-        if !is_finest {
+        if !self.is_finest() {
             let plans = Plans::of_coins(f64::EPSILON);
             let one = std::slice::from_ref(toss);
             let found = self.enclosed(one, &plans, SimdLevel::for_one_lane(), Integration::Finest).pop();
@@ -286,4 +293,4 @@ pub(crate) fn sum(a: Work, b: Work) -> Work {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

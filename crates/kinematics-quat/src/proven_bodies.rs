@@ -2,23 +2,24 @@
 //! middle axis multiplies its errors; if the bound then decides nothing even at the finest tolerance, the outcome stays
 //! undecided, or nothing is stated.
 
-use dynamics::{Outcome, RigidToss, SolveError, StepControl};
+use dynamics::{Outcome, RigidFlight, RigidToss, SolveError};
 use numerics::lanes::SimdLevel;
 
-use crate::QuaternionSolver;
-use crate::bodies::Enclosed;
+use crate::bodies::{Enclosed, compared};
 use crate::enclosure::attitude_bound_of_body;
 use crate::integration::Integration;
 use crate::lockstep::fly;
 use crate::plan::Plans;
 use crate::proven::{IntegratedCertificate, sum};
+use crate::{Landed, QuaternionSolver, RigidSystem};
 
 /// Why a flight without a bound proves nothing.
 const NO_BOUND: &str =
     "next to a turn about the middle axis, or next to equal moments, the errors of this flight have no bound";
 
 impl QuaternionSolver {
-    /// [`QuaternionSolver::certify`] of any rigid body, first with the solver's own tolerance, then with the finest one.
+    /// [`QuaternionSolver::certify`] of any rigid body, first with the solver's own steps, then by Taylor series with
+    /// the finest tolerance.
     ///
     /// # Errors
     /// As [`QuaternionSolver::certify`], and [`SolveError::NotProven`] for a flight whose errors have no bound.
@@ -34,10 +35,9 @@ impl QuaternionSolver {
         tosses: &[RigidToss],
         level: SimdLevel,
     ) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        let taylor = match self.require_proofs() {
-            Ok(taylor) => taylor,
-            Err(error) => return vec![Err(error); tosses.len()],
-        };
+        if let Err(error) = self.require_proofs() {
+            return vec![Err(error); tosses.len()];
+        }
         let (coins, bodies): (Vec<usize>, Vec<usize>) =
             (0..tosses.len()).partition(|index| tosses[*index].symmetric().is_some());
         let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
@@ -46,7 +46,7 @@ impl QuaternionSolver {
             found[index] = certificate;
         }
         let flown: Vec<_> = bodies.iter().map(|index| tosses[*index]).collect();
-        let first = self.enclosed_bodies(&flown, &taylor.bodies, level, Integration::AsConfigured);
+        let first = self.enclosed_all_bodies(&flown, level);
         for ((index, toss), first) in bodies.into_iter().zip(&flown).zip(first) {
             found[index] = first.and_then(|first| self.decided(toss, first));
         }
@@ -61,10 +61,43 @@ impl QuaternionSolver {
         if let Some(toss) = toss.symmetric() {
             return self.enclose(&toss);
         }
-        let plans = &self.require_proofs()?.bodies;
-        let toss = std::slice::from_ref(toss);
-        let mut found = self.enclosed_bodies(toss, plans, SimdLevel::for_one_lane(), Integration::AsConfigured);
+        self.require_proofs()?;
+        let mut found = self.enclosed_all_bodies(std::slice::from_ref(toss), SimdLevel::for_one_lane());
         found.pop().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
+    }
+
+    /// The landings by the solver's own steps with their bounds.
+    fn enclosed_all_bodies(
+        &self,
+        tosses: &[RigidToss],
+        level: SimdLevel,
+    ) -> Vec<Result<IntegratedCertificate, SolveError>> {
+        match &self.taylor {
+            Some(taylor) => self.enclosed_bodies(tosses, &taylor.bodies, level, Integration::AsConfigured),
+            None => tosses.iter().map(|toss| self.enclosed_by_rigid_steps(toss, level)).collect(),
+        }
+    }
+
+    /// The landing of `toss` by the solver's Runge-Kutta scheme with its bound.
+    fn enclosed_by_rigid_steps(&self, toss: &RigidToss, level: SimdLevel) -> Result<IntegratedCertificate, SolveError> {
+        let flight = RigidFlight::new(toss)?;
+        let accepted = RigidSystem::integrated(&flight, &self.stepping)?;
+        let (bound, coefficients) = compared(toss, &flight, &self.stepping, &accepted, level);
+        let mut landed = Landed { enclosed: bound, ..Landed::at_rigid(&flight, &accepted)? };
+        landed.work.rhs_calls += coefficients;
+        self.stated_rigid(toss, &landed, Integration::AsConfigured)
+    }
+
+    /// The landing of `toss` in this end state.
+    fn stated_rigid(
+        &self,
+        toss: &RigidToss,
+        landed: &Landed,
+        integration: Integration,
+    ) -> Result<IntegratedCertificate, SolveError> {
+        let bound = landed.enclosed.as_ref();
+        let bound = bound.map_or(f64::INFINITY, |bound| attitude_bound_of_body(&toss.launch, &landed.flight, bound));
+        self.stated(toss.launch.attitude(), landed, bound, integration)
     }
 
     /// The landings by these `plans` with their bounds.
@@ -77,12 +110,7 @@ impl QuaternionSolver {
     ) -> Vec<Result<IntegratedCertificate, SolveError>> {
         let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
         fly::<Enclosed>(plans, tosses, level, |index, landed| {
-            found[index] = landed.and_then(|landed| {
-                let launch = &tosses[index].launch;
-                let bound = landed.enclosed.as_ref();
-                let bound = bound.map_or(f64::INFINITY, |bound| attitude_bound_of_body(launch, &landed.flight, bound));
-                self.stated(launch.attitude(), &landed, bound, integration)
-            });
+            found[index] = landed.and_then(|landed| self.stated_rigid(&tosses[index], &landed, integration));
         });
         found
     }
@@ -90,7 +118,7 @@ impl QuaternionSolver {
     /// The certificate of the finest tolerance, if this one does not decide.
     fn decided(&self, toss: &RigidToss, first: IntegratedCertificate) -> Result<IntegratedCertificate, SolveError> {
         let mut last = first;
-        if first.outcome() == Outcome::Undecided && self.stepping.control() != StepControl::Tolerance(f64::EPSILON) {
+        if first.outcome() == Outcome::Undecided && !self.is_finest() {
             let (plans, one) = (Plans::of_bodies(f64::EPSILON), std::slice::from_ref(toss));
             let found = self.enclosed_bodies(one, &plans, SimdLevel::for_one_lane(), Integration::Finest).pop();
             if let Some(found) = found.transpose()? {
@@ -105,4 +133,4 @@ impl QuaternionSolver {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -3,6 +3,8 @@
 use dynamics::{Coin, Launch, Scheme, TimeOfFlight, Vector3};
 use exact::ExactMotion;
 
+use dynamics::integrate::OdeSystem;
+
 use super::*;
 
 fn toss(tilt: f64) -> Toss {

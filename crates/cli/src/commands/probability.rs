@@ -35,7 +35,7 @@ pub(crate) struct Args {
     threads: ThreadArgs,
     #[command(flatten)]
     solver: SolverArgs,
-    /// Prove each outcome by integration: for the solver quaternion with the scheme taylor, which is then its default
+    /// Prove each outcome by integration: for the solver quaternion, whose scheme is then taylor by default
     #[arg(long)]
     prove: bool,
     #[command(flatten)]

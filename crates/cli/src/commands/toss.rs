@@ -17,8 +17,8 @@ pub(crate) struct Args {
     /// Search the margin of a body with I1 ≠ I2 too, which takes some seconds; that of a coin is always there
     #[arg(long)]
     margin: bool,
-    /// Prove the outcome by integration, and bound the errors of cos θ and of the attitude: for the solver quaternion with
-    /// the scheme taylor, which is then its default
+    /// Prove the outcome by integration, and bound the errors of cos θ and of the attitude: for the solver
+    /// quaternion, whose scheme is then taylor by default
     #[arg(long)]
     prove: bool,
     /// Output format

@@ -23,8 +23,8 @@ pub(crate) struct Args {
     /// Step of time from launch on; the last time is the landing
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time))]
     dt: Option<f64>,
-    /// Bound the errors of cos θ and of the attitude at each time by integration: for the solver quaternion with the scheme
-    /// taylor, which is then its default
+    /// Bound the errors of cos θ and of the attitude at each time by integration: for the solver quaternion, whose scheme is
+    /// then taylor by default
     #[arg(long)]
     prove: bool,
     #[command(flatten)]

@@ -26,6 +26,8 @@ pub(crate) struct Bound {
     pub(crate) turn: f64,
     /// An upper bound of the rate, in the unit of the flight.
     pub(crate) fastest: f64,
+    /// A bound of how far the sum of the steps is from the time of flight, in the unit of the flight.
+    pub(crate) strayed: f64,
 }
 
 impl Motion for Enclosed {
@@ -65,8 +67,8 @@ impl Motion for Enclosed {
     }
 
     fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let bound = self.errors[lane].as_ref().map(|errors| Bound { turn: errors.bound(), fastest: errors.fastest() });
-        Landed { enclosed: bound, ..self.bodies.landing(lane, flight, work) }
+        let stated = |errors: &Errors| Bound { turn: errors.bound(), fastest: errors.fastest(), strayed: 0.0 };
+        Landed { enclosed: self.errors[lane].as_ref().map(stated), ..self.bodies.landing(lane, flight, work) }
     }
 }
 

@@ -10,15 +10,15 @@ fn solver(tolerance: f64) -> QuaternionSolver {
 }
 
 /// Numbers in [0, 1) from a linear congruential generator.
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / 2f64.powi(53)
     }
 
-    fn between(&mut self, from: f64, to: f64) -> f64 {
+    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 
@@ -40,10 +40,10 @@ impl Numbers {
 }
 
 /// Moments and rates.
-type Make = fn(&mut Numbers) -> ([f64; 3], [f64; 3]);
+pub(crate) type Make = fn(&mut Numbers) -> ([f64; 3], [f64; 3]);
 
 /// Kinds of bodies and launches: principal moments, the smallest first, and the rates about their axes.
-const KINDS: [(&str, Make); 8] = [
+pub(crate) const KINDS: [(&str, Make); 8] = [
     ("random", |numbers| (numbers.moments(), numbers.vector())),
     ("nearly symmetric", |numbers| {
         let (a, c) = (numbers.between(0.5, 1.0), numbers.between(0.01, 1.0));
@@ -74,7 +74,7 @@ const KINDS: [(&str, Make); 8] = [
 ];
 
 /// A toss of a kind with about this phase: each third one in degrees and from a speed, each fourth one with a tensor.
-fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64) -> RigidToss {
+pub(crate) fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64) -> RigidToss {
     loop {
         let (mut moments, mut rate) = (KINDS[kind].1)(numbers);
         moments.rotate_left(index % 3);
@@ -114,7 +114,7 @@ fn errors(found: &IntegratedCertificate, toss: &RigidToss) -> [f64; 2] {
 }
 
 /// Errors divided by their bounds.
-fn shares(found: &IntegratedCertificate, toss: &RigidToss) -> [f64; 2] {
+pub(crate) fn shares(found: &IntegratedCertificate, toss: &RigidToss) -> [f64; 2] {
     let [of_cos_tilt, of_attitude] = errors(found, toss);
     [of_cos_tilt / found.error_bound(), of_attitude / found.attitude_error_bound()]
 }
