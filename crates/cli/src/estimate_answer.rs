@@ -50,6 +50,7 @@ struct ProvenBy {
 /// The number of outcomes by kind of integration.
 #[derive(Serialize)]
 pub(crate) struct IntegratedBy {
+    coarse: u64,
     f64: u64,
     finest_tolerance: u64,
     double_double: u64,
@@ -59,6 +60,7 @@ pub(crate) struct IntegratedBy {
 impl From<IntegratedCounts> for IntegratedBy {
     fn from(counts: IntegratedCounts) -> Self {
         Self {
+            coarse: counts.by(Integration::Coarse),
             f64: counts.by(Integration::AsConfigured),
             finest_tolerance: counts.by(Integration::Finest),
             double_double: counts.by(Integration::DoubleDouble),

@@ -130,6 +130,14 @@ impl<S: Solver> Solver for Checked<S> {
         self.require_cosine(self.guarded(|solver| solver.cos_tilt_rigid(toss))?)
     }
 
+    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
+        out.fill(f64::NAN);
+        self.guarded(|solver| solver.cos_tilts_rigid(tosses, out))?;
+        tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, cos_tilt))| {
+            self.require_cosine(*cos_tilt).map(drop).map_err(|source| Error::of_launch(index, toss, source))
+        })
+    }
+
     fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
         self.require_cosine(cos_tilt)?;
         self.error_estimate_rigid(toss)?;
@@ -180,12 +188,12 @@ mod tests {
         Toss { coin: Coin::DISC, launch }
     }
 
-    /// The results of `propagate`, `cos_tilt`, `cos_tilts` and `outcome`, as text.
-    fn answers(cos_tilt: f64, claim: Option<f64>) -> [Result<String, String>; 4] {
+    /// The results of `propagate`, `cos_tilt`, `cos_tilts`, `cos_tilts_rigid` and `outcome`, as text.
+    fn answers(cos_tilt: f64, claim: Option<f64>) -> [Result<String, String>; 5] {
         let solver = Checked::new(Foreign { cos_tilt, claim });
         let rates = [[0.1], [0.0], [0.0]];
         let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 2.0, rates.each_ref().map(|rate| &rate[..]), &[0.1]);
-        let mut out = [0.0];
+        let (mut out, mut of_bodies) = ([0.0], [0.0]);
         [
             solver.propagate(&toss()).map(|landing| landing.cos_tilt.to_string()).map_err(|error| error.to_string()),
             solver.cos_tilt(&toss()).map(|cos_tilt| cos_tilt.to_string()).map_err(|error| error.to_string()),
@@ -193,22 +201,26 @@ mod tests {
                 .cos_tilts(&tosses.unwrap(), &mut out)
                 .map(|()| out[0].to_string())
                 .map_err(|error| error.to_string()),
+            solver
+                .cos_tilts_rigid(&[toss().into()], &mut of_bodies)
+                .map(|()| of_bodies[0].to_string())
+                .map_err(|error| error.to_string()),
             solver.outcome(&toss()).map(|outcome| outcome.name().to_owned()).map_err(|error| error.to_string()),
         ]
     }
 
     #[test]
     fn valid_answers_are_returned_unchanged() {
-        for answer in &answers(-0.5, Some(1e-9))[..3] {
+        for answer in &answers(-0.5, Some(1e-9))[..4] {
             assert_eq!(answer.as_deref(), Ok("-0.5"));
         }
-        assert_eq!(answers(-0.5, Some(1e-9))[3].as_deref(), Ok("tails"));
+        assert_eq!(answers(-0.5, Some(1e-9))[4].as_deref(), Ok("tails"));
     }
 
     #[test]
     fn impossible_numbers_and_panics_are_errors_that_name_the_solver() {
         for (cos_tilt, says) in [(f64::NAN, "cos θ = NaN"), (f64::INFINITY, "cos θ = inf"), (7.0, "cos θ = 7")] {
-            for answer in &answers(cos_tilt, Some(1e-9))[..3] {
+            for answer in &answers(cos_tilt, Some(1e-9))[..4] {
                 let error = answer.as_ref().unwrap_err();
                 assert!(error.contains(&format!("solver 'foreign' answered {says}")), "{error}");
             }
@@ -217,7 +229,7 @@ mod tests {
             assert!(answer.unwrap_err().contains("solver 'foreign' panicked: nine is not for me"));
         }
         for claim in [-1e-9, f64::NAN, f64::INFINITY] {
-            let error = answers(-0.5, Some(claim))[3].clone().unwrap_err();
+            let error = answers(-0.5, Some(claim))[4].clone().unwrap_err();
             assert_eq!(error, format!("solver 'foreign' claims an error of {claim}"));
         }
     }

@@ -122,6 +122,14 @@ impl Tosses<'_> {
         Ok(Toss { coin: self.body, launch: self.launch(index)? })
     }
 
+    /// All tosses, one after the other.
+    ///
+    /// # Errors
+    /// [`Error::BadLaunch`] for the first that is invalid.
+    pub fn each(&self) -> Result<Vec<Toss>, Error> {
+        (0..self.len()).map(|index| self.solve(index, |toss| Ok(*toss))).collect()
+    }
+
     /// The result of `solve` for toss `index`.
     ///
     /// # Errors

@@ -56,6 +56,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// The error of the solver on launch number `index` of many.
+    pub fn of_launch(index: usize, toss: &RigidToss, source: SolveError) -> Self {
+        Self::Launch { index: index as u64, toss: Box::new(*toss), source }
+    }
+
     /// An error at the byte `offset` of `text`, or at its end: there is missed what is missing.
     pub fn in_text(text: &str, offset: Option<usize>, message: String) -> Self {
         let before = offset.and_then(|offset| text.get(..offset)).unwrap_or(text);

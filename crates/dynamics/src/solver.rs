@@ -158,6 +158,22 @@ pub trait Solver: Send + Sync {
         }
     }
 
+    /// cos θ at landing of each of many tosses of rigid bodies. Override it if many tosses can be solved more cheaply than
+    /// one by one.
+    ///
+    /// # Errors
+    /// [`Error::Launch`] for the first toss without an answer; the numbers in `out` then mean nothing.
+    ///
+    /// # Panics
+    /// If `out` has another length than `tosses`.
+    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
+        assert_eq!(out.len(), tosses.len(), "one result a toss");
+        tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, out))| {
+            *out = self.cos_tilt_rigid(toss).map_err(|source| Error::of_launch(index, toss, source))?;
+            Ok(())
+        })
+    }
+
     /// The outcome of any rigid body by `cos_tilt`, as [`Solver::outcome_at`] is that of a coin.
     ///
     /// # Errors
@@ -219,6 +235,9 @@ macro_rules! by_pointer {
             }
             fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
                 (**self).cos_tilt_rigid(toss)
+            }
+            fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
+                (**self).cos_tilts_rigid(tosses, out)
             }
             fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
                 (**self).outcome_at_rigid(toss, cos_tilt)

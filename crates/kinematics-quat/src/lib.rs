@@ -47,7 +47,7 @@ pub use crate::bodies::RigidSystem;
 use crate::coins::Coins;
 use crate::enclosure::Record;
 pub use crate::integration::Integration;
-use crate::lockstep::fly;
+use crate::lockstep::{by_kind, fly};
 use crate::plan::Plans;
 pub use crate::proven::IntegratedCertificate;
 pub use crate::proving::{IntegratedCounts, Proving};
@@ -121,18 +121,14 @@ impl QuaternionSolver {
         let Some(taylor) = &self.taylor else {
             return tosses.iter().map(|toss| self.propagate_rigid(toss)).collect();
         };
-        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        let is_coin = |index: &usize| tosses[*index].symmetric().is_some();
-        let (coins, bodies): (Vec<usize>, Vec<usize>) = (0..tosses.len()).partition(is_coin);
-        let flown: Vec<Toss> = coins.iter().filter_map(|index| tosses[*index].symmetric()).collect();
-        for (index, landing) in coins.into_iter().zip(self.propagate_all(&flown, level)) {
-            landings[index] = landing;
-        }
-        let flown: Vec<RigidToss> = bodies.iter().map(|index| tosses[*index]).collect();
-        fly::<Bodies>(&taylor.bodies, &flown, level, |index, landed| {
-            landings[bodies[index]] = landed.and_then(|landed| self.landing(flown[index].launch.attitude(), &landed));
-        });
-        landings
+        let bodies = |flown: &[RigidToss]| {
+            let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); flown.len()];
+            fly::<Bodies>(&taylor.bodies, flown, level, |index, landed| {
+                landings[index] = landed.and_then(|landed| self.landing(flown[index].launch.attitude(), &landed));
+            });
+            landings
+        };
+        by_kind(tosses, |coins| self.propagate_all(coins, level), bodies)
     }
 
     /// The landing of a launch with the attitude `launched` from the integrated end state.
@@ -215,10 +211,17 @@ impl Solver for QuaternionSolver {
     /// With Taylor series, computes as many flights at once as a register has lanes.
     fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
-        let each = (0..tosses.len()).map(|index| tosses.solve(index, |toss| Ok(*toss)));
-        let each = each.collect::<Result<Vec<Toss>, _>>()?;
-        for (index, landing) in self.propagate_all(&each, SimdLevel::widest()).into_iter().enumerate() {
+        for (index, landing) in self.propagate_all(&tosses.each()?, SimdLevel::widest()).into_iter().enumerate() {
             out[index] = tosses.solve(index, |_| landing.clone())?.cos_tilt;
+        }
+        Ok(())
+    }
+
+    /// As [`Solver::cos_tilts`].
+    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
+        assert_eq!(out.len(), tosses.len(), "one result a toss");
+        for (index, landing) in self.propagate_all_rigid(tosses, SimdLevel::widest()).into_iter().enumerate() {
+            out[index] = landing.map_err(|source| Error::of_launch(index, &tosses[index], source))?.cos_tilt;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@
 //! Coins and other bodies fly in the same way: what their steps compute is a [`Motion`].
 
 use dynamics::integrate::STEP_LIMIT;
-use dynamics::{Flight, SolveError, Work};
+use dynamics::{Flight, RigidToss, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use crate::Landed;
@@ -211,6 +211,20 @@ impl<M: Motion> Lanes<M> {
         let work = Work { rhs_calls: steps * plan.order as u64, accepted_steps: steps, rejected_steps: 0 };
         self.motion.landing(lane, flight, work)
     }
+}
+
+/// The results of `coins` for the tosses of coins and of `bodies` for the others, in the order of `tosses`.
+pub(crate) fn by_kind<T>(
+    tosses: &[RigidToss],
+    coins: impl FnOnce(&[Toss]) -> Vec<T>,
+    bodies: impl FnOnce(&[RigidToss]) -> Vec<T>,
+) -> Vec<T> {
+    let kinds: Vec<Option<Toss>> = tosses.iter().map(RigidToss::symmetric).collect();
+    let flown: Vec<Toss> = kinds.iter().flatten().copied().collect();
+    let others: Vec<RigidToss> =
+        tosses.iter().zip(&kinds).filter(|(_, coin)| coin.is_none()).map(|(toss, _)| *toss).collect();
+    let (mut coins, mut bodies) = (coins(&flown).into_iter(), bodies(&others).into_iter());
+    kinds.iter().filter_map(|coin| if coin.is_some() { coins.next() } else { bodies.next() }).collect()
 }
 
 #[inline(always)]

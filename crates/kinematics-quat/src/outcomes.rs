@@ -1,41 +1,84 @@
-//! Proven outcomes of many coins and nothing else. A coarse flight takes less time than a fine one, and has a bound, too.
-//! An outcome is undecided by it only where cos θ is as small as that bound.
+//! Proven outcomes of many tosses and nothing else. A coarse flight of a coin takes less time than a fine one, and has a
+//! bound, too. An outcome is undecided by it only where cos θ is as small as that bound.
 
-use dynamics::{Outcome, SolveError, Toss};
+use dynamics::{Outcome, RigidToss, SolveError, Toss};
 use numerics::lanes::SimdLevel;
 
 use crate::coins::Coins;
 use crate::defect::bounds;
 use crate::enclosure::{attitude_bound, steps};
-use crate::lockstep::fly;
+use crate::integration::Integration;
+use crate::lockstep::{by_kind, fly};
 use crate::plan::Plans;
-use crate::proven::{OF_COS_TILT, cos_tilt};
+use crate::proven::{IntegratedCertificate, OF_COS_TILT, cos_tilt};
 use crate::{Landed, QuaternionSolver};
 
 /// The tolerance of the coarse flights.
 const COARSE: f64 = 1e-3;
+
+/// A proven outcome, with cos θ of the flight that decided it. That of an undecided one is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Decided {
+    pub(crate) outcome: Outcome,
+    pub(crate) cos_tilt: f64,
+    pub(crate) integration: Integration,
+}
+
+impl Decided {
+    fn undecided(integration: Integration) -> Self {
+        Self { outcome: Outcome::Undecided, cos_tilt: 0.0, integration }
+    }
+
+    fn by(certificate: &IntegratedCertificate) -> Self {
+        let (outcome, integration) = (certificate.outcome(), certificate.integration());
+        match outcome {
+            Outcome::Undecided => Self::undecided(integration),
+            _ => Self { outcome, cos_tilt: certificate.cos_tilt(), integration },
+        }
+    }
+}
 
 impl QuaternionSolver {
     /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Flights of a coarse tolerance
     /// come first, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings
     /// without a proof.
     pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+        self.decide(tosses, level).into_iter().map(|found| found.map(|found| found.outcome)).collect()
+    }
+
+    /// [`QuaternionSolver::prove_outcomes`], with what decided each.
+    pub(crate) fn decide(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
         let is_finer = self.require_proofs().is_ok() && self.taylor.is_some_and(|taylor| taylor.tolerance < COARSE);
-        let undecided = || vec![Ok(Outcome::Undecided); tosses.len()];
+        let undecided = || vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
         let mut found = if is_finer { coarse(tosses, level) } else { undecided() };
-        let open: Vec<usize> = (0..found.len()).filter(|index| found[*index] == Ok(Outcome::Undecided)).collect();
+        let is_open = |index: &usize| matches!(&found[*index], Ok(found) if found.outcome == Outcome::Undecided);
+        let open: Vec<usize> = (0..found.len()).filter(is_open).collect();
         let again: Vec<Toss> = open.iter().map(|index| tosses[*index]).collect();
         for (index, certificate) in open.into_iter().zip(self.certify_all(&again, level)) {
-            found[index] = certificate.map(|certificate| certificate.outcome());
+            found[index] = certificate.map(|certificate| Decided::by(&certificate));
         }
         found
+    }
+
+    /// The outcomes of any bodies. A flight without a bound is an undecided one. Others than coins have no coarse
+    /// flight: next to a turn about the middle axis, where flights take longest, those have no bound.
+    pub(crate) fn decide_rigid(&self, tosses: &[RigidToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
+        let last = if self.is_finest() { Integration::AsConfigured } else { Integration::Finest };
+        let bodies = |tosses: &[RigidToss]| {
+            let decided = |found: Result<IntegratedCertificate, SolveError>| match found {
+                Err(SolveError::NotProven { .. }) => Ok(Decided::undecided(last)),
+                found => found.map(|certificate| Decided::by(&certificate)),
+            };
+            self.certify_all_rigid(tosses, level).into_iter().map(decided).collect()
+        };
+        by_kind(tosses, |coins| self.decide(coins, level), bodies)
     }
 }
 
 /// The outcomes that coarse flights prove; the others are undecided.
-fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
     let plans = Plans::of_coarse_coins(COARSE);
-    let mut found = vec![Ok(Outcome::Undecided); tosses.len()];
+    let mut found = vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
     let mut flown = Vec::with_capacity(tosses.len());
     fly::<Coins>(&plans, tosses, level, |index, landed| match landed {
         Ok(Landed { flight, turn, record: Some(record), .. }) => {
@@ -47,7 +90,10 @@ fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>>
     let each: Vec<_> = flown.iter().map(|(index, _, flight, record)| steps(&tosses[*index], flight, record)).collect();
     for ((index, cos_tilt, flight, record), bound) in flown.into_iter().zip(bounds(&plans.short, level, &each)) {
         let bound = attitude_bound(&tosses[index], &flight, &record, &bound);
-        found[index] = Ok(Outcome::of(cos_tilt, 2.0 * bound + OF_COS_TILT));
+        let outcome = Outcome::of(cos_tilt, 2.0 * bound + OF_COS_TILT);
+        if outcome != Outcome::Undecided {
+            found[index] = Ok(Decided { outcome, cos_tilt, integration: Integration::Coarse });
+        }
     }
     found
 }
@@ -97,7 +143,8 @@ mod tests {
                 assert_eq!(solver.prove_outcomes(&tosses, level), expected, "{}", level.name());
             }
             let decided = coarse(&tosses, SimdLevel::widest());
-            let open = decided.iter().filter(|found| **found == Ok(Outcome::Undecided)).count();
+            let is_open = |found: &&Result<Decided, SolveError>| found.as_ref().unwrap().outcome == Outcome::Undecided;
+            let open = decided.iter().filter(is_open).count();
             assert!((5..200).contains(&open), "phase {phase}: coarse flights leave {open} of 400 open");
         }
     }

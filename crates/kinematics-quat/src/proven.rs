@@ -63,6 +63,14 @@ impl IntegratedCertificate {
         self.attitude_error_bound
     }
 
+    /// An upper bound of the angle between the attitude of the landing and that of the ideal flight (rad), which is
+    /// proven; π where nothing is proven.
+    pub fn angle_bound(&self) -> f64 {
+        // The division, the arcsine and the product round by less than 8 u.
+        let angle = 4.0 * (0.5 * self.attitude_error_bound).min(1.0).asin() * (1.0 + 8.0 * UNIT_ROUNDOFF);
+        angle.min(std::f64::consts::PI)
+    }
+
     /// The arithmetic of the flight that decided the outcome.
     pub fn integration(&self) -> Integration {
         self.integration

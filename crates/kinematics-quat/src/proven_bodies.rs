@@ -8,7 +8,7 @@ use numerics::lanes::SimdLevel;
 use crate::bodies::{Enclosed, compared};
 use crate::enclosure::attitude_bound_of_body;
 use crate::integration::Integration;
-use crate::lockstep::fly;
+use crate::lockstep::{by_kind, fly};
 use crate::plan::Plans;
 use crate::proven::{IntegratedCertificate, sum};
 use crate::{Landed, QuaternionSolver, RigidSystem};
@@ -38,19 +38,11 @@ impl QuaternionSolver {
         if let Err(error) = self.require_proofs() {
             return vec![Err(error); tosses.len()];
         }
-        let (coins, bodies): (Vec<usize>, Vec<usize>) =
-            (0..tosses.len()).partition(|index| tosses[*index].symmetric().is_some());
-        let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        let flown: Vec<_> = coins.iter().filter_map(|index| tosses[*index].symmetric()).collect();
-        for (index, certificate) in coins.into_iter().zip(self.certify_all(&flown, level)) {
-            found[index] = certificate;
-        }
-        let flown: Vec<_> = bodies.iter().map(|index| tosses[*index]).collect();
-        let first = self.enclosed_all_bodies(&flown, level);
-        for ((index, toss), first) in bodies.into_iter().zip(&flown).zip(first) {
-            found[index] = first.and_then(|first| self.decided(toss, first));
-        }
-        found
+        let bodies = |flown: &[RigidToss]| {
+            let first = self.enclosed_all_bodies(flown, level);
+            flown.iter().zip(first).map(|(toss, first)| first.and_then(|first| self.decided(toss, first))).collect()
+        };
+        by_kind(tosses, |coins| self.certify_all(coins, level), bodies)
     }
 
     /// [`QuaternionSolver::enclose`] of any rigid body. Without a bound it is 2.

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Checked, Error, Outcome, Solver, Toss};
+use dynamics::{Checked, Error, Outcome, RigidToss, Solver, Toss};
 use exact::{Batch, ProvenCounts};
 
 use crate::block::Block;
@@ -151,10 +151,12 @@ fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts
         }
         return Ok(counts);
     }
-    for (index, values) in (0..).zip(block.all_values()) {
-        let toss = space.toss(&values);
-        let outcome = solver.outcome_rigid(&toss);
-        counts.add(outcome.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+    let tosses: Vec<RigidToss> = block.all_values().map(|values| space.toss(&values)).collect();
+    let mut cos_tilts = vec![0.0; tosses.len()];
+    solver.cos_tilts_rigid(&tosses, &mut cos_tilts)?;
+    for (index, (toss, cos_tilt)) in tosses.iter().zip(cos_tilts).enumerate() {
+        let outcome = solver.outcome_at_rigid(toss, cos_tilt);
+        counts.add(outcome.map_err(|source| Error::of_launch(index, toss, source))?);
     }
     Ok(counts)
 }
