@@ -42,6 +42,7 @@ fn text(answer: &Answer) -> String {
         Answer::Outcome(verdict) => verdict.outcome().name().to_owned(),
         Answer::Tilt(cos_tilt) => format!("cos θ = {cos_tilt:.5}"),
         Answer::Attitude(state) => format!("n = {:.5?}", state.attitude.normal().as_slice()),
+        Answer::Enclosed(found) => format!("cos θ = {:.5} ± {:.1e}", found.cos_tilt(), found.error_bound()),
         Answer::Trace(points) => {
             let landing = points.iter().map(|point| point.cos_tilt).next_back().unwrap_or(1.0);
             format!("{} points, the last one with cos θ = {landing:.5}", points.len())

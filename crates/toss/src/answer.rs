@@ -5,6 +5,8 @@ use dynamics::Outcome;
 #[cfg(feature = "planner")]
 use dynamics::State;
 use exact::{Certificate, Stage};
+#[cfg(all(feature = "planner", feature = "integrators"))]
+use kinematics_quat::IntegratedCertificate;
 #[cfg(feature = "planner")]
 use sampling::Estimate;
 
@@ -25,6 +27,10 @@ pub enum Answer {
     Attitude(State),
     /// The flight at equally spaced times.
     Trace(Vec<TracePoint>),
+    /// cos θ and the attitude at landing by an integration, with proven bounds of their errors.
+    #[cfg(feature = "integrators")]
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::data::enclosed"))]
+    Enclosed(Box<IntegratedCertificate>),
     /// The probability of heads.
     Probability(Box<Estimate>),
 }

@@ -4,9 +4,13 @@
 #[cfg(feature = "planner")]
 mod choice;
 
+#[cfg(all(feature = "planner", feature = "integrators"))]
+use dynamics::State;
 use dynamics::error::require;
 use dynamics::{Attitude, EulerAngles, Outcome};
 use exact::Stage;
+#[cfg(all(feature = "planner", feature = "integrators"))]
+use kinematics_quat::IntegratedCertificate;
 use serde::de::{Error, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -25,6 +29,22 @@ impl Serialize for Verdict {
         }
         Data { outcome: self.outcome(), proven: self.is_proven(), stage: self.stage() }.serialize(to)
     }
+}
+
+/// `{ cos_tilt, error_bound, attitude, attitude_error_bound, rate }`, the rate in rad/s about the body's axes.
+#[cfg(all(feature = "planner", feature = "integrators"))]
+pub(crate) fn enclosed<S: Serializer>(found: &IntegratedCertificate, to: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Data {
+        cos_tilt: f64,
+        error_bound: f64,
+        attitude: Attitude,
+        attitude_error_bound: f64,
+        rate: [f64; 3],
+    }
+    let State { attitude, rate } = found.landing().state;
+    let (error_bound, attitude_error_bound) = (found.error_bound(), found.attitude_error_bound());
+    Data { cos_tilt: found.cos_tilt(), error_bound, attitude, attitude_error_bound, rate: rate.into() }.serialize(to)
 }
 
 /// `{ time, cos_tilt, normal, face, attitude, angles }` in s and rad.

@@ -88,7 +88,7 @@ fn integrator<'a>(registry: &'a Registry, name: &str) -> Result<&'a SolverEntry,
 }
 
 /// The row of the integrators in [`MODELS`].
-fn model() -> &'static Model {
+pub(crate) fn model() -> &'static Model {
     MODELS.iter().find(|model| matches!(model.kind, Kind::Integrator)).expect("a row of the table")
 }
 

@@ -235,6 +235,8 @@ mod integrators;
 mod model;
 #[cfg(feature = "planner")]
 mod plan;
+#[cfg(all(feature = "planner", feature = "integrators"))]
+mod proofs;
 #[cfg(feature = "planner")]
 mod reason;
 mod registry;

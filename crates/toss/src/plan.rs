@@ -13,10 +13,12 @@ use crate::choice::{Candidate, Choice, Decision, How, Offer};
 use crate::fitted::{FITTED, Turn};
 use crate::integrators::{Aim, Flights, integrated, integrators};
 use crate::model::{Kind, MODELS, Model, Of};
+#[cfg(feature = "integrators")]
+use crate::proofs::{plan as proof, run as proven};
 use crate::reason::Reason;
 use crate::registry::Registry;
 use crate::samples::{is_out_of_reach, sampled, samples};
-use crate::scene::{Scene, Want};
+use crate::scene::{Integrator, Scene, Want};
 use crate::trace::require_points;
 
 /// The answer to a scene, and the model that gave it.
@@ -45,6 +47,9 @@ impl Scene {
     /// rad, at which neighbouring inputs differ by whole turns.
     pub fn plan_with(&self, registry: &Registry) -> Result<Decision, Error> {
         self.validate()?;
+        if let Some(by) = self.by_proof() {
+            return proof(registry, by, &self.want, self.accuracy);
+        }
         match (self.want.toss(), &self.by) {
             (Some(toss), None) => self.first_closed_form(toss),
             (Some(toss), Some(by)) => {
@@ -59,6 +64,11 @@ impl Scene {
                 cheapest(Vec::new(), samples(self)?).ok_or_else(|| self.too_accurate(valid))
             }
         }
+    }
+
+    /// The integrator that has to prove its answer, if the scene asks for one.
+    fn by_proof(&self) -> Option<&Integrator> {
+        self.by.as_ref().filter(|by| by.prove)
     }
 
     /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
@@ -206,6 +216,7 @@ impl Choice {
             (How::ClosedForm, Kind::ClosedForm { serves, answer }, want) if *serves == want.kind() => {
                 answer(want.toss().ok_or_else(other)?, want.points())
             }
+            (How::Integrator(_, stepping), _, want) if scene.by_proof().is_some() => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
                 Ok(Answer::Probability(Box::new(sampled(space, *plan, scene.accuracy)?)))
@@ -226,6 +237,21 @@ const ONLY_COINS_BY: InputError = InputError::OutsideModel {
     why: "this body has I1 ≠ I2, and the errors and costs of integrators were measured on coins, so that no plan can \
           choose a tolerance; choose the solver and its tolerance yourself",
 };
+
+/// Without the integrators nothing is proven by integration.
+#[cfg(not(feature = "integrators"))]
+fn proof(_: &Registry, _: &Integrator, _: &Want, _: f64) -> Result<Decision, Error> {
+    Err(NO_INTEGRATORS.into())
+}
+
+#[cfg(not(feature = "integrators"))]
+fn proven(_: dynamics::Stepping, _: &Want) -> Result<Answer, Error> {
+    Err(NO_INTEGRATORS.into())
+}
+
+#[cfg(not(feature = "integrators"))]
+const NO_INTEGRATORS: InputError =
+    InputError::OutsideModel { field: "prove", why: "this library was built without the integrators, which prove" };
 
 /// Chooses the cheapest candidate that serves, and appends the others with their reasons to `passed_over`. `None` if no
 /// candidate serves.

@@ -51,7 +51,8 @@ pub enum Want {
     Probability(Space),
 }
 
-/// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy.
+/// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy: by measured
+/// errors, or, of one that proves, by the bound of the flight itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct Integrator {
@@ -60,6 +61,10 @@ pub struct Integrator {
     /// Name of the scheme, one that takes a tolerance; if it is `None`, the cheapest one is taken.
     #[cfg_attr(feature = "serde", serde(alias = "method", skip_serializing_if = "Option::is_none"))]
     pub scheme: Option<String>,
+    /// Whether the error, of cos θ or of an attitude, has to be proven to be within the accuracy; the answer is an
+    /// [`Answer::Enclosed`](crate::Answer).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub prove: bool,
 }
 
 /// The kind of a [`Want`].
@@ -137,7 +142,14 @@ impl Scene {
     /// The same scene, answered by the integrator called `solver`; without a `scheme`, by its cheapest one.
     #[must_use]
     pub fn by(self, solver: &str, scheme: Option<&str>) -> Self {
-        let by = Integrator { solver: solver.to_owned(), scheme: scheme.map(str::to_owned) };
+        let by = Integrator { solver: solver.to_owned(), scheme: scheme.map(str::to_owned), prove: false };
+        Self { by: Some(by), ..self }
+    }
+
+    /// The same scene, answered by an integration that proves its error to be within the accuracy, without the closed form.
+    #[must_use]
+    pub fn proven(self) -> Self {
+        let by = Integrator { solver: "quaternion".to_owned(), scheme: None, prove: true };
         Self { by: Some(by), ..self }
     }
 }
@@ -156,6 +168,10 @@ mod tests {
         let asked = Scene::new(scene.want, 1e-3).by("gamma", Some("dopri5"));
         let back: Scene = toml::from_str(&toml::to_string(&asked).unwrap()).unwrap();
         assert_eq!(back, asked);
+        let proven = Scene::new(back.want, 1e-3).proven();
+        let text = toml::to_string(&proven).unwrap();
+        assert!(text.contains("prove = true"), "{text}");
+        assert_eq!(toml::from_str::<Scene>(&text).unwrap(), proven);
         let text = "accuracy = 1e-3\n[want.probability]\nrate_x = '0:9'\nrate_y = 'x'\nrate_z = 5\nspeed = '3:5'\n";
         let space: Scene = toml::from_str(text).unwrap();
         assert_eq!(toml::from_str::<Scene>(&toml::to_string(&space).unwrap()).unwrap(), space);

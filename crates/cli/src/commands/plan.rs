@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use toss::{
-    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, Reason, Registry, Scene, Scheme,
-    SolverEntry, StepControl, Want,
+    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, QuaternionSolver, Reason, Registry,
+    Scene, Scheme, SolverEntry, StepControl, Want,
 };
 
 use crate::estimate_answer::name_of;
@@ -43,9 +43,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", alias = "method", requires = "solver",
           help = scheme_help(Registry::standard()))]
     scheme: Option<String>,
+    /// Prove the error of --want tilt or attitude by integration: for the solver quaternion with the scheme taylor, which
+    /// is then its default
+    #[arg(long)]
+    prove: bool,
     /// Read the whole question from this file: JSON if its name ends in .json, else TOML
     #[arg(long, value_name = "FILE",
-          conflicts_with_all = ["want", "accuracy", "space", "solver", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
+          conflicts_with_all = ["want", "accuracy", "space", "solver", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
                                 "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
     /// Output format
@@ -97,6 +101,8 @@ struct Answer {
     /// The number of launches of a sample.
     points: Option<u64>,
     expected_error: f64,
+    /// Whether no error is larger than that.
+    certified: bool,
     expected_cost_ns: f64,
     passed_over: Vec<PassedOver>,
 }
@@ -143,7 +149,8 @@ impl Args {
                 Want::Trace { toss: self.toss.toss()?, points: self.points.unwrap_or(DEFAULT_POINTS) }
             }
         };
-        let by = self.solver.clone().map(|solver| Integrator { solver, scheme: self.scheme.clone() });
+        let solver = self.solver.clone().or_else(|| self.prove.then(|| QuaternionSolver::NAME.to_owned()));
+        let by = solver.map(|solver| Integrator { solver, scheme: self.scheme.clone(), prove: self.prove });
         Ok(Scene { want, accuracy: self.accuracy.unwrap_or(f64::NAN), by })
     }
 }
@@ -178,6 +185,7 @@ impl Answer {
             tolerance: None,
             points: None,
             expected_error: *expected_error,
+            certified: scene.by.as_ref().is_some_and(|by| by.prove),
             expected_cost_ns: *expected_cost_ns,
             passed_over: decision.passed_over.iter().map(PassedOver::new).collect(),
         };
@@ -208,7 +216,11 @@ impl Answer {
         settings.extend(self.method.map(|method| format!(", {method}")));
         settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
         settings.extend(self.points.map(|points| format!(", {points} launches")));
-        let error = if self.expected_error == 0.0 { "none".to_owned() } else { format!("{:.1e}", self.expected_error) };
+        let error = match self.expected_error {
+            0.0 => "none".to_owned(),
+            error if self.certified => format!("at most {}, proven", rounded_up(error)),
+            error => format!("{error:.1e}"),
+        };
         let mut rows = vec![
             vec!["model".to_owned(), self.model.to_owned(), choice.model.gives.to_owned()],
             vec!["solver".to_owned(), settings, String::new()],
@@ -219,6 +231,13 @@ impl Answer {
         rows.extend(others.map(|(other, heading)| vec![heading.to_owned(), other.model.clone(), other.why.clone()]));
         table(&rows)
     }
+}
+
+/// A bound > 0 with two digits, of which the last is rounded up.
+fn rounded_up(bound: f64) -> String {
+    let shown = format!("{bound:.1e}");
+    let is_below = shown.parse().is_ok_and(|shown: f64| shown < bound);
+    if is_below { format!("{:.1e}", bound + 0.05 * 10f64.powf(bound.log10().floor())) } else { shown }
 }
 
 impl PassedOver {

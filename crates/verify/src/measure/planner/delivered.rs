@@ -36,6 +36,10 @@ impl Truth {
             Answer::Outcome(verdict) => wrong(verdict.outcome() != self.landing.outcome()),
             Answer::Tilt(cos_tilt) => self.landing.cos_tilt_error(*cos_tilt),
             Answer::Attitude(state) => self.landing.attitude_error(&state.attitude),
+            Answer::Enclosed(found) => {
+                let of_attitude = self.landing.attitude_error(&found.landing().state.attitude);
+                of_attitude.max(self.landing.cos_tilt_error(found.cos_tilt()))
+            }
             Answer::Trace(points) => self.trace_error(points)?,
             Answer::Probability(_) => f64::INFINITY,
         })

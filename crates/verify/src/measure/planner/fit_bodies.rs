@@ -78,6 +78,6 @@ fn error(toss: &RigidToss, answer: &Answer) -> Result<f64, InputError> {
             }
             largest
         }
-        Answer::Outcome(_) | Answer::Probability(_) => f64::INFINITY,
+        Answer::Outcome(_) | Answer::Probability(_) | Answer::Enclosed(_) => f64::INFINITY,
     })
 }

@@ -1,0 +1,91 @@
+//! Plans an integration that proves how far cos θ or an attitude can be off. No table of measurements can promise a bound,
+//! because it follows from the steps of the flight itself. So the plan flies: it takes the coarsest of some tolerances
+//! whose bound is within the accuracy.
+
+use dynamics::{Error, Formulation, InputError, RigidToss, Stepping};
+use kinematics_quat::{IntegratedCertificate, QuaternionSolver, TAYLOR};
+
+use crate::answer::Answer;
+use crate::choice::{Choice, Decision, How};
+use crate::integrators::model;
+use crate::registry::Registry;
+use crate::scene::{Integrator, Want};
+
+/// The tolerances, from coarse to fine, of which a plan with a proof takes one.
+const TOLERANCES: [f64; 14] =
+    [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, f64::EPSILON];
+
+/// What a flight with its bound costs, in flights of a coin with as many calls and without one: that of a coin, and that of
+/// another body, of whose series each call costs more and whose bound is computed step by step. Measured on the paper's
+/// coin, a racket and a book.
+const COSTS: [f64; 2] = [2.0, 20.0];
+
+/// Why something has no plan with a proof.
+fn refused(why: &'static str) -> InputError {
+    InputError::OutsideModel { field: "prove", why }
+}
+
+/// The toss of `want` and what its bound is of, if a plan can prove it.
+fn question(want: &Want) -> Result<(&RigidToss, Of), InputError> {
+    match want {
+        Want::Tilt(toss) => Ok((toss, IntegratedCertificate::error_bound)),
+        Want::Attitude(toss) => Ok((toss, IntegratedCertificate::angle_bound)),
+        Want::Outcome(_) => Err(refused(
+            "a plan proves cos θ or an attitude by integration; an outcome is proven by `QuaternionSolver::certify`, or \
+             the command toss with --prove, at whatever tolerance it takes",
+        )),
+        Want::Trace { .. } => Err(refused(
+            "a plan proves cos θ or an attitude by integration; the points of a flight are proven by `trace_enclosed`, or \
+             the command trace with --prove, at a tolerance of your choice",
+        )),
+        Want::Probability(_) => Err(refused(
+            "a plan proves cos θ or an attitude by integration; the outcomes of a space are proven by `Proving`, or the \
+             command probability with --prove",
+        )),
+    }
+}
+
+/// The proven bound that the accuracy is compared with.
+type Of = fn(&IntegratedCertificate) -> f64;
+
+/// The choice of `by`, which is asked for a proof.
+///
+/// # Errors
+/// [`InputError`] for another integrator or scheme than the one that proves, for what is not cos θ or an attitude, and
+/// for an accuracy below the bound at the finest tolerance; [`Error::Solve`] as the solver's.
+pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: f64) -> Result<Decision, Error> {
+    let entry = registry.named(&by.solver)?;
+    let scheme = by.scheme.as_deref().map_or(Ok(TAYLOR), |name| entry.scheme(name))?;
+    if entry.name() != QuaternionSolver::NAME || scheme != TAYLOR {
+        return Err(refused("a plan with a proof takes the solver quaternion with the scheme taylor").into());
+    }
+    let (toss, bound) = question(want)?;
+    let (_, fit) = registry.fit(entry.name(), scheme.name()).ok_or(refused("its costs have not been measured"))?;
+    for tolerance in TOLERANCES {
+        let stepping = Stepping::adaptive(scheme, tolerance)?;
+        let found = QuaternionSolver::new(stepping, Formulation::default()).enclose_rigid(toss)?;
+        if bound(&found) <= accuracy {
+            #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
+            let flight_ns = fit.cost_ns + fit.call_ns * found.work().rhs_calls as f64;
+            let expected_cost_ns = COSTS[usize::from(toss.symmetric().is_none())] * flight_ns;
+            let how = How::Integrator(entry.clone(), stepping);
+            let choice = Choice { model: model(), how, expected_error: bound(&found), expected_cost_ns };
+            return Ok(Decision { choice, passed_over: Vec::new() });
+        }
+    }
+    let valid = "at least the bound that an integration at the finest tolerance proves for this flight";
+    Err(InputError::OutOfRange { field: "accuracy", value: accuracy, valid }.into())
+}
+
+/// The landing with its proven bounds at the tolerance of `stepping`.
+///
+/// # Errors
+/// As [`plan`].
+pub(crate) fn run(stepping: Stepping, want: &Want) -> Result<Answer, Error> {
+    let (toss, _) = question(want)?;
+    let solver = QuaternionSolver::new(stepping, Formulation::default());
+    Ok(Answer::Enclosed(Box::new(solver.enclose_rigid(toss)?)))
+}
+
+#[cfg(test)]
+mod tests;
