@@ -199,6 +199,17 @@ mod tests {
     }
 
     #[test]
+    fn the_departure_from_the_vertical_does_not_depend_on_the_size_of_the_rate() {
+        let at_launch = |size: f64| {
+            let toss = toss([1.0, 2.0, 2.5], [3.0 * size, 4.0 * size, 0.0], 0.0);
+            RigidAngles::new(&toss).at(0.0).unwrap()
+        };
+        for size in [1e-200, 1e200] {
+            assert_near(at_launch(size), at_launch(1.0), 1e-15);
+        }
+    }
+
+    #[test]
     fn earlier_times_start_again_and_flights_without_end_are_refused() {
         let toss = toss([1.0, 2.0, 2.5], [9.0, 4.0, 3.0], 0.3);
         let mut angles = RigidAngles::new(&toss);
