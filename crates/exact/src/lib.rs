@@ -39,7 +39,7 @@ pub mod thrown;
 pub mod tilt_terms;
 mod trig_free;
 
-pub use batch::Batch;
+pub use batch::{Batch, BodyFilter};
 pub use certificate::{Certificate, ProvenCounts, Stage};
 pub use certified::certify;
 pub use compensated::{compensated_cos_tilt, compensated_landing};

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use dynamics::{Checked, Error, Outcome, RigidToss, Solver, Toss};
-use exact::{Batch, ProvenCounts};
+use exact::{Batch, BodyFilter, ProvenCounts};
 
 use crate::block::Block;
 use crate::fold::{Progress, Sum, fold};
@@ -119,23 +119,31 @@ impl Decider<'_> {
         range: Range<u64>,
         progress: Progress<'_>,
     ) -> Result<Counts, Error> {
+        let filter = filter_of(space);
         fold(space, launches, range, progress, |block| match self {
-            Self::Exact => proven(space, block).map(|proven| Counts { proven, ..Counts::default() }),
+            Self::Exact => proven(space, block, filter.as_ref()).map(|proven| Counts { proven, ..Counts::default() }),
             Self::Solver(solver) => estimated(space, block, solver),
         })
     }
 }
 
+/// What the batches of all blocks share if they are of a body that is no coin.
+fn filter_of(space: &Space) -> Option<BodyFilter> {
+    let none = Block::new(space);
+    let tosses = space.tosses_of(*space.body(), &none).filter(|_| space.coin().is_none());
+    tosses.map(|tosses| BodyFilter::new(&tosses))
+}
+
 /// Proves the outcomes of a block: as a batch if its launches differ in rates and speed alone, else one by one.
-fn proven(space: &Space, block: &Block) -> Result<ProvenCounts, Error> {
+fn proven(space: &Space, block: &Block, filter: Option<&BodyFilter>) -> Result<ProvenCounts, Error> {
     if let Some(coin) = space.coin() {
         return match space.tosses_of(coin, block) {
             Some(tosses) => Batch::new(tosses).count(),
             None => ProvenCounts::of(block.all_values().map(|values| Toss { coin, launch: space.launch(&values) })),
         };
     }
-    match space.tosses_of(*space.body(), block) {
-        Some(tosses) => Batch::new(tosses).count(),
+    match space.tosses_of(*space.body(), block).zip(filter) {
+        Some((tosses, filter)) => Batch::new(tosses).count_by(filter),
         None => ProvenCounts::of_rigid(block.all_values().map(|values| space.toss(&values))),
     }
 }

@@ -25,6 +25,7 @@ mod momentum;
 mod outcome;
 mod proving;
 
+pub use bodies::BodyFilter;
 pub use heads::{HeadsColumns, UNSOLVED};
 
 use dynamics::{Attitude, Coin, Tosses};

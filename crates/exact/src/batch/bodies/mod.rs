@@ -15,6 +15,7 @@
 //! launches near the edge nothing is decided.
 
 mod constants;
+mod filter;
 mod landing;
 mod means;
 mod start;
@@ -29,6 +30,7 @@ use super::proving::{self, Proving};
 use crate::certificate::{Certificate, ProvenCounts};
 use crate::rigid::{RigidMotion, certify_rigid};
 use constants::Constants;
+pub use filter::BodyFilter;
 use landing::{Begun, Height};
 
 /// Number of tosses in a tile, a multiple of the number of lanes of every SIMD level.
@@ -64,6 +66,15 @@ impl Batch<'_, Body> {
     /// As [`Batch::count`].
     pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
         proving::count(&Filtered(self, Constants::new(&self.tosses)), left)
+    }
+
+    /// As [`Batch::count`], by a filter that other batches may share. The counts are the same for every filter; one that was
+    /// made for another body, attitude or gravity saves no time.
+    ///
+    /// # Errors
+    /// As [`Batch::count`].
+    pub fn count_by(&self, filter: &BodyFilter) -> Result<ProvenCounts, Error> {
+        proving::count(&Filtered(self, filter.constants_of(&self.tosses)), |_| ())
     }
 
     /// Writes cos θ at landing of each toss, right to `accuracy`. The filter's value is taken where the bound of its error

@@ -142,6 +142,27 @@ fn results_have_the_same_bits_at_every_level_and_length() {
     }
 }
 
+/// A filter for other tosses must not decide these by its own constants.
+#[test]
+fn counts_are_the_same_by_every_filter() {
+    let (columns, bodies) = (Columns::new(600, 60.0, 5.0), bodies());
+    let [x, y, z, speeds] = &columns.0;
+    let attitudes = [Attitude::IDENTITY, Attitude::about_x(2.0)];
+    let all: Vec<Tosses<'_, Body>> = bodies[..2]
+        .iter()
+        .flat_map(|body| attitudes.map(|attitude| (*body, attitude)))
+        .flat_map(|(body, attitude)| [9.81, 5.0].map(|gravity| (body, attitude, gravity)))
+        .map(|(body, attitude, gravity)| Tosses::new(body, attitude, gravity, [x, y, z], speeds).unwrap())
+        .collect();
+    for tosses in &all {
+        let batch = Batch::new(*tosses);
+        let expected = batch.count().unwrap();
+        for other in &all {
+            assert_eq!(batch.count_by(&BodyFilter::new(other)).unwrap(), expected);
+        }
+    }
+}
+
 #[test]
 fn heights_are_right_to_the_accuracy_that_is_asked() {
     let launches = Columns::new(1000, 60.0, 5.0);
