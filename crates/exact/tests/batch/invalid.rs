@@ -123,3 +123,22 @@ fn rejects_columns_of_different_lengths_and_impossible_gravities() {
     let none: [&[f64]; 3] = [&[], &[], &[]];
     assert!(Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, none, &[]).unwrap().is_empty());
 }
+
+/// The phase of the first toss is beyond every limit, and the speed of the last one is negative.
+#[test]
+fn a_phase_without_bounds_is_named_before_a_negative_speed_for_bodies_too() {
+    let (rates, speeds) = ([[8e-5, 3.0, 1.0], [1.0, 1.0, 1.002], [2.5, 1.002, 1.0]], [3.0, 1.0, -3.0]);
+    let rates = rates.each_ref().map(|rate| &rate[..]);
+    for moments in [[1.0, 1.0, 0.5], [1.0, 2.0, 2.5], [0.5, 1.0, 1.0]] {
+        for gravity in [5.456_993_637_988_912e-308, 1e-40] {
+            let body = dynamics::Body::from_moments(moments).unwrap();
+            let tosses = Tosses::new(body, Attitude::about_x(3e-318), gravity, rates, &speeds).unwrap();
+            for level in SimdLevel::all() {
+                let batch = Batch::new(tosses).on(level);
+                for error in [batch.outcomes(&mut [Outcome::Heads; 3]).unwrap_err(), batch.count().unwrap_err()] {
+                    assert!(matches!(error, Error::Launch { index: 0, .. }), "{moments:?} {gravity:e}: {error}");
+                }
+            }
+        }
+    }
+}

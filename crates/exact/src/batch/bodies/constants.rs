@@ -1,5 +1,7 @@
 //! The numbers that all tosses of a batch of bodies share.
 
+use std::ops::Range;
+
 use dynamics::{Body, Tosses};
 use numerics::{Ball, DoubleDouble, Elementary};
 
@@ -11,6 +13,9 @@ const UNDERFLOW: f64 = 1e-240;
 
 /// Largest error of a component of an axis.
 const AXIS_ERROR: f64 = 1e-24;
+
+/// Gravities (m/s²) of which 1/(π g) is known. Balls that leave the range of f64 may be of any size about 0.
+const GRAVITIES: Range<f64> = 1e-50..1e50;
 
 /// A number with its error bound.
 type Known = Ball<DoubleDouble>;
@@ -49,8 +54,8 @@ pub(super) enum Axes {
 }
 
 impl Constants {
-    /// The constants of `tosses`; `None` for a body that the filter leaves to the proof of single tosses: a sphere, one
-    /// without extent across an axis, and one of whose axes too little is known.
+    /// The constants of `tosses`; `None` for those that the filter leaves to the proof of single tosses: of a sphere, of a
+    /// body without extent across an axis, of one of whose axes too little is known, and for extreme gravities.
     pub(super) fn new(tosses: &Tosses<'_, Body>) -> Option<Self> {
         let number = |value: f64| Known::new(DoubleDouble::exactly(value), 0.0);
         let principal = tosses.body().scaled_principal(&number(0.0));
@@ -64,7 +69,7 @@ impl Constants {
         let are_known = moments.iter().chain(&alpha).chain(&decays).all(is_known);
         let axes_are_known = principal.axes.iter().flatten().all(|part| part.radius() <= AXIS_ERROR);
         let turns = number(1.0) / (number(1.0).pi() * number(tosses.gravity()));
-        if !(are_known && axes_are_known && alpha[2].has_sign() && rounded(turns).is_finite()) {
+        if !(are_known && axes_are_known && alpha[2].has_sign() && GRAVITIES.contains(&tosses.gravity())) {
             return None;
         }
         let up = tosses.attitude().exact_vertical().map(|part| Known::new(part, 0.0));
