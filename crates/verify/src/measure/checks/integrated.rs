@@ -4,9 +4,11 @@
 
 use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
-use toss::{IntegratedCertificate, QuaternionSolver, SolveError, Stepping, Toss};
+use toss::{
+    ExactSolver, IntegratedCertificate, Outcome, Propagation, QuaternionSolver, SolveError, Solver, Stepping, Toss,
+};
 
-use super::integrated_bodies;
+use super::{integrated_bodies, judged};
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -84,15 +86,38 @@ fn require_short(toss: &Toss) -> Result<(), SolveError> {
 
 /// The larger one of the errors of cos θ and of the attitude, divided by their bounds.
 fn share(solver: &QuaternionSolver, toss: &Toss) -> Deviation {
-    let (found, reference) = (solver.enclose(toss)?, Reference::new(toss));
+    share_by_reference(&solver.enclose(toss)?, toss)
+}
+
+fn share_by_reference(found: &IntegratedCertificate, toss: &Toss) -> Deviation {
+    let reference = Reference::new(toss);
     let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
-    Ok(of_cos_tilt.max(distance(&found, &reference) / found.attitude_error_bound()))
+    Ok(of_cos_tilt.max(distance(found, &reference) / found.attitude_error_bound()))
+}
+
+/// The same by the exact motion, if it can judge the flight.
+fn share_by_exact_motion(found: &IntegratedCertificate, toss: &Toss) -> Option<f64> {
+    let exact = ExactSolver.propagate(toss).ok()?;
+    judged::by_exact_motion(errors(found, &exact), bounds_of(found))
+}
+
+/// The errors against the exact motion, of cos θ and of the attitude.
+pub(super) fn errors(found: &IntegratedCertificate, exact: &Propagation) -> [f64; 2] {
+    let distance = 0.5 * found.landing().state.attitude.angle_to(&exact.state.attitude);
+    [(found.cos_tilt() - exact.cos_tilt).abs(), distance]
+}
+
+/// The bounds of cos θ and of the attitude.
+pub(super) fn bounds_of(found: &IntegratedCertificate) -> [f64; 2] {
+    [found.error_bound(), found.attitude_error_bound()]
 }
 
 /// The distance of the quaternions, which is half the angle between the attitudes, or less.
 fn distance(found: &IntegratedCertificate, reference: &Reference) -> f64 {
     0.5 * reference.attitude_error(&found.landing().state.attitude)
 }
+
+type Found = Result<IntegratedCertificate, SolveError>;
 
 fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let number = tries(context);
@@ -107,7 +132,11 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     ];
     let measure = |((name, tolerance), cases): ((&'static str, f64), Vec<Case>)| {
         let solver = taylor(tolerance)?;
-        let shares: Vec<_> = cases.par_iter().map(|case| share(&solver, &case.toss)).collect();
+        let found: Vec<_> = cases.par_iter().map(|case| (case.toss, solver.enclose(&case.toss))).collect();
+        let quick = |_, (toss, found): &(Toss, Found)| share_by_exact_motion(found.as_ref().ok()?, toss);
+        let thorough =
+            |_, (toss, found): &(Toss, Found)| share_by_reference(found.as_ref().map_err(Clone::clone)?, toss);
+        let shares = judged::shares(&found, quick, thorough);
         Ok(Measurement::of_set(name, &shares, |index| cases[index]))
     };
     let coins: anyhow::Result<Vec<Measurement>> = SETS.into_iter().zip(cases).map(measure).collect();
@@ -120,13 +149,21 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         [("random", random(tries(context), 1e2, 35)?), ("adversarial", adversarial(tries(context) / 4, few_turns)?)];
     let measure = |(name, cases): (&str, Vec<Case>)| {
         let differs = |case: &Case| -> Result<bool, SolveError> {
-            Ok(solver.certify(&case.toss)?.outcome() != Reference::new(&case.toss).outcome())
+            Ok(solver.certify(&case.toss)?.outcome() != outcome(&case.toss))
         };
         let differs: Vec<_> = cases.par_iter().map(differs).collect();
         Measurement::count_of_set(name, &differs, |index| cases[index])
     };
     let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
     Ok([coins, integrated_bodies::outcomes(OUTCOMES.id, tries(context) / 20)?].concat())
+}
+
+/// The outcome by the exact motion where cos θ is far from 0, else by the reference.
+fn outcome(toss: &Toss) -> Outcome {
+    match ExactSolver.cos_tilt(toss) {
+        Ok(cos_tilt) if cos_tilt.abs() > 1e3 * judged::EXACT => Outcome::of(cos_tilt, 0.0),
+        _ => Reference::new(toss).outcome(),
+    }
 }
 
 fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {

@@ -3,8 +3,10 @@
 
 use dynamics::RigidToss;
 use rayon::prelude::*;
-use toss::{Outcome, Stepping};
+use toss::{ExactSolver, IntegratedCertificate, Outcome, Solver, Stepping};
 
+use super::integrated::{bounds_of, errors};
+use super::judged;
 use super::rigid::at_an_edge;
 use crate::measure::bodies::{FAMILIES, FLOWN, Family, launches};
 use crate::measure::measurement::Measurement;
@@ -22,16 +24,27 @@ fn subject(family: &Family) -> String {
 pub(super) fn bounds(check: &str, number: u64) -> anyhow::Result<Vec<Measurement>> {
     let solvers: Vec<_> = TOLERANCES.into_iter().map(taylor).collect::<Result<_, _>>()?;
     let measure = |family: &Family| {
-        let share = |(index, toss): (usize, &RigidToss)| -> Option<f64> {
-            let reference = RigidReference::new(toss)?;
-            let found = solvers[index % solvers.len()].enclose_rigid(toss).ok()?;
+        let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
+        let fly = |(index, toss): (usize, &RigidToss)| solvers[index % solvers.len()].enclose_rigid(toss).ok();
+        let found: Vec<_> = tosses.par_iter().enumerate().map(fly).collect();
+        let is_bounded = |found: &&IntegratedCertificate| found.error_bound() < 2.0;
+        let found: Vec<_> = found.iter().map(|found| found.as_ref().filter(is_bounded)).collect();
+        let quick = |index: usize, toss: &RigidToss| {
+            let Some(found) = found[index] else { return Some(0.0) };
+            let exact = ExactSolver.propagate_rigid(toss).ok()?;
+            judged::by_exact_motion(errors(found, &exact), bounds_of(found))
+        };
+        let thorough = |index: usize, toss: &RigidToss| {
+            let (Some(found), Some(reference)) = (found[index], RigidReference::new(toss)) else { return Ok(0.0) };
             let of_attitude = 0.5 * reference.attitude_error(&found.landing().state.attitude);
             let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
-            let share = of_cos_tilt.max(of_attitude / found.attitude_error_bound());
-            (found.error_bound() < 2.0).then_some(share)
+            Ok(of_cos_tilt.max(of_attitude / found.attitude_error_bound()))
         };
-        let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
-        let shares: Vec<Option<f64>> = tosses.par_iter().enumerate().map(share).collect();
+        let shares: Vec<Option<f64>> = judged::shares(&tosses, quick, thorough)
+            .into_iter()
+            .zip(&found)
+            .map(|(share, found)| share.ok().filter(|_| found.is_some()))
+            .collect();
         let bounded = shares.iter().flatten().count();
         let worst = (0..shares.len()).max_by(|a, b| shares[*a].unwrap_or(0.0).total_cmp(&shares[*b].unwrap_or(0.0)));
         let (measured, input) = worst.map_or((f64::INFINITY, String::new()), |index| {
@@ -51,9 +64,8 @@ pub(super) fn outcomes(check: &str, number: u64) -> anyhow::Result<Vec<Measureme
         let each = launches(family, number, FLOWN).flat_map(|toss| [Some(toss), at_an_edge(&toss)]);
         let tosses: Vec<RigidToss> = each.flatten().collect();
         let is_wrong = |toss: &RigidToss| {
-            let (found, reference) = (solver.certify_rigid(toss), RigidReference::new(toss));
-            let found = found.map_or(Outcome::Undecided, |found| found.outcome());
-            found != Outcome::Undecided && Some(found) != reference.map(|reference| reference.outcome())
+            let found = solver.certify_rigid(toss).map_or(Outcome::Undecided, |found| found.outcome());
+            found != Outcome::Undecided && Some(found) != outcome(toss)
         };
         let wrong: Vec<bool> = tosses.par_iter().map(is_wrong).collect();
         let first = wrong.iter().position(|wrong| *wrong).map(|index| format!("{:?}", tosses[index]));
@@ -61,4 +73,12 @@ pub(super) fn outcomes(check: &str, number: u64) -> anyhow::Result<Vec<Measureme
         Measurement::figure(check, &subject(family), number, tosses.len() as u64, first.unwrap_or_default())
     };
     Ok(FAMILIES.iter().map(measure).collect())
+}
+
+/// The outcome by the exact motion where cos θ is far from 0, else by the reference.
+fn outcome(toss: &RigidToss) -> Option<Outcome> {
+    match ExactSolver.cos_tilt_rigid(toss) {
+        Ok(cos_tilt) if cos_tilt.abs() > 1e3 * judged::EXACT => Some(Outcome::of(cos_tilt, 0.0)),
+        _ => RigidReference::new(toss).map(|reference| reference.outcome()),
+    }
 }

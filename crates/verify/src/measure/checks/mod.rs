@@ -16,6 +16,7 @@ mod first_return;
 mod integrated;
 mod integrated_bodies;
 mod invariants;
+mod judged;
 mod long_flights;
 mod margins;
 mod mean_error;
