@@ -195,6 +195,29 @@ fn the_bound_grows_by_each_fault_of_a_step() {
     assert!(scaled < 1.1 * right, "{scaled:e}");
 }
 
+/// A step that ends where the series does has the bound of the series, which measured jumps are far above elsewhere.
+#[test]
+fn a_step_without_a_jump_has_the_bound_of_its_series() {
+    let rate = Vector3::new(0.7, -0.6, 1.1);
+    let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
+    let toss = Toss { coin: Coin::from_moments(1.0, 1.5).unwrap(), launch };
+    let flight = Flight::new(&toss).unwrap();
+    let finest = solver(Stepping::adaptive(Scheme::TAYLOR, f64::EPSILON).unwrap());
+    let landed = finest.propagate(&toss).unwrap().state;
+    let [w, x, y, z] = landed.attitude.components();
+    let end = [w, x, y, z, landed.rate.x, landed.rate.y].into();
+    let start = [1.0, 0.0, 0.0, 0.0, rate.x, rate.y].into();
+    let accepted = Accepted { times: vec![0.0, 1.0], states: vec![start, end], work: Work::default() };
+    let found = Compared::new(&toss, &flight, &accepted, SimdLevel::for_one_lane()).bound;
+    let q = 0.5 * rate.z;
+    let plan = Plan::of_equal_steps(order(fastest(&flight, 0.5 * rate.z, q)), 1.0);
+    let eta = 0.5 * (rate.x * rate.x + rate.y * rate.y).sqrt();
+    let of_series = crate::defect::Steps { modulus: eta, spread: 0.0, half_z: 0.5 * rate.z, q, longest: 1.0 };
+    let step = bounds(&plan, SimdLevel::for_one_lane(), &[of_series])[0];
+    let sum = step.turn + step.rates + step.eta;
+    assert!(found >= sum && found < 1.5 * sum, "{found:e}, {sum:e}");
+}
+
 #[test]
 fn a_jump_is_the_angle_that_no_shift_of_the_time_explains() {
     let (series, rates) = ([0.5, -0.5, 0.5, 0.5], [0.3, 0.4, 1.2]);

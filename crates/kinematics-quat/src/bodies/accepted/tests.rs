@@ -1,9 +1,12 @@
 //! Tests of proofs by Runge-Kutta schemes of any rigid body.
 
-use dynamics::{Body, Formulation, Launch, Outcome, Scheme, SolveError, Solver, TimeOfFlight};
+use dynamics::{Body, Formulation, Launch, Outcome, Scheme, SolveError, Solver, TimeOfFlight, Work};
 use exact::RigidMotion;
 
 use super::*;
+use crate::bodies::Enclosed;
+use crate::lockstep::fly;
+use crate::plan::Plans;
 use crate::proven_bodies::tests::{KINDS, Numbers, shares, toss};
 use crate::{QuaternionSolver, RigidSystem, half_product};
 
@@ -159,4 +162,28 @@ fn extreme_numbers_have_bounds_or_errors() {
         let found = solvers[0].enclose_rigid(&RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch });
         assert!(found.unwrap().attitude_error_bound() < 1e-6, "a steady turn about axis {about} has a bound");
     }
+}
+
+/// A step that ends where the series does, in several pieces, has the bound of a flight by these series.
+#[test]
+fn a_step_without_a_jump_has_the_bound_of_its_series() {
+    let rates = [1.0, 0.3, 0.5];
+    let launch = Launch::new(rates, TimeOfFlight::Given(20.0)).unwrap();
+    let toss = RigidToss { body: Body::from_moments([1.0, 1.4, 2.0]).unwrap(), launch };
+    let flight = RigidFlight::new(&toss).unwrap();
+    let stepping = Stepping::fixed(Scheme::RK4, 20.0).unwrap();
+    let plan = Plan::of_pieces_of_bodies(f64::EPSILON, 20.0);
+    let mut landed = None;
+    let plans = Plans { short: plan, long: plan };
+    fly::<Enclosed>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
+    let landed = landed.unwrap();
+    let ([w, x, y, z], by_series) = (landed.turn, landed.enclosed.unwrap().turn);
+    let start = [1.0, 0.0, 0.0, 0.0, rates[0], rates[1], rates[2]].into();
+    let end = [w, x, y, z, landed.rate.x, landed.rate.y, landed.rate.z].into();
+    let accepted = Accepted { times: vec![0.0, 20.0], states: vec![start, end], work: Work::default() };
+    let (found, coefficients) = compared(&toss, &flight, &stepping, &accepted, SimdLevel::for_one_lane());
+    assert_eq!(coefficients, landed.work.rhs_calls);
+    assert!(landed.work.accepted_steps > 8, "so that the last piece, which counts twice, is a small part");
+    let found = found.unwrap().turn;
+    assert!((1.0..1.4).contains(&(found / by_series)), "{found:e}, {by_series:e}");
 }
