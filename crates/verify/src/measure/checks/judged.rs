@@ -1,5 +1,5 @@
-//! Judges bounds by the exact motion where that is as good as the 256-bit reference and takes a hundredth of its time: where
-//! the error of the exact motion is a small part of the bound. What comes near the largest share is judged again by the
+//! Judges bounds by the exact motion, which costs far less than the 256-bit reference, where its error is a small part of the
+//! bound. What comes near the largest share is judged again by the
 //! reference, so that no row rests on the exact motion alone.
 
 use rayon::prelude::*;
@@ -27,10 +27,10 @@ pub(super) fn shares<T: Sync>(
     let judged: Vec<Option<f64>> = cases.par_iter().enumerate().map(|(index, case)| quick(index, case)).collect();
     let largest = judged.iter().flatten().copied().fold(0.0, f64::max);
     // Whatever exceeds its bound, or may be the largest, is within the two errors of the largest found.
-    let is_near = |share: f64| share >= (largest - 2.0 * PART).min(1.0 - PART);
+    let is_far = |share: f64| share < (largest - 2.0 * PART).min(1.0 - PART);
     let all = cases.par_iter().zip(judged).enumerate();
     all.map(|(index, (case, share))| match share {
-        Some(share) if !is_near(share) => Ok(share),
+        Some(share) if is_far(share) => Ok(share),
         _ => thorough(index, case),
     })
     .collect()
@@ -50,5 +50,7 @@ mod tests {
         assert_eq!(found, [Ok(100.3), Ok(100.31), Ok(0.2), Ok(99.0), Ok(100.29), Ok(0.26)]);
         let found = shares(&[2.0, 0.99, 0.97], |_, case| Some(*case), thorough);
         assert_eq!(found, [Ok(102.0), Ok(100.99), Ok(0.97)], "all that may be above 1");
+        let found = shares(&[f64::NAN, 0.5], |_, case| Some(*case), |_, _| Ok(7.0));
+        assert_eq!(found, [Ok(7.0), Ok(7.0)], "what is no number");
     }
 }
