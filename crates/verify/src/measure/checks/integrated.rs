@@ -8,7 +8,7 @@ use toss::{
     ExactSolver, IntegratedCertificate, Outcome, Propagation, QuaternionSolver, SolveError, Solver, Stepping, Toss,
 };
 
-use super::{integrated_bodies, judged};
+use super::{integrated_bodies, integrated_steps, judged};
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -19,7 +19,7 @@ use crate::measure::subject::taylor;
 
 pub(super) const BOUNDS: Check = Check {
     id: "integrated-bounds",
-    claim: "No error of cos θ or of the attitude exceeds the bound that Taylor series prove for it, at any tolerance. \
+    claim: "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, at any tolerance. \
             Measured: the largest error divided by its bound; it fails above 1.",
     basis: Basis::ClosedForm,
     judges: Judges::Library,
@@ -42,8 +42,8 @@ pub(super) const OUTCOMES: Check = Check {
 
 pub(super) const TIGHTNESS: Check = Check {
     id: "integrated-tightness",
-    claim: "The bound that Taylor series prove for the attitude at the default tolerance is not far above its error. \
-            Measured: the median of the bound divided by the error.",
+    claim: "The bound that an integration proves for the attitude, by Taylor series at the default tolerance if no scheme \
+            is named, is not far above its error. Measured: the median of the bound divided by the error.",
     basis: Basis::ClosedForm,
     judges: Judges::Library,
     ceiling: 300.0,
@@ -77,7 +77,7 @@ pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
 }
 
 /// Refuses flights of more than the phase 1e5 rad, which would take minutes and are in none of the sets.
-fn require_short(toss: &Toss) -> Result<(), SolveError> {
+pub(super) fn require_short(toss: &Toss) -> Result<(), SolveError> {
     let phase = RoughPhases::new(toss).largest()?;
     let error =
         || SolveError::failed(QuaternionSolver::NAME, std::io::Error::other("flights above 1e5 rad are not flown"));
@@ -85,7 +85,7 @@ fn require_short(toss: &Toss) -> Result<(), SolveError> {
 }
 
 /// The larger one of the errors of cos θ and of the attitude, divided by their bounds.
-fn share(solver: &QuaternionSolver, toss: &Toss) -> Deviation {
+pub(super) fn share(solver: &QuaternionSolver, toss: &Toss) -> Deviation {
     share_by_reference(&solver.enclose(toss)?, toss)
 }
 
@@ -113,7 +113,7 @@ pub(super) fn bounds_of(found: &IntegratedCertificate) -> [f64; 2] {
 }
 
 /// The distance of the quaternions, which is half the angle between the attitudes, or less.
-fn distance(found: &IntegratedCertificate, reference: &Reference) -> f64 {
+pub(super) fn distance(found: &IntegratedCertificate, reference: &Reference) -> f64 {
     0.5 * reference.attitude_error(&found.landing().state.attitude)
 }
 
@@ -140,7 +140,8 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Ok(Measurement::of_set(name, &shares, |index| cases[index]))
     };
     let coins: anyhow::Result<Vec<Measurement>> = SETS.into_iter().zip(cases).map(measure).collect();
-    Ok([coins?, integrated_bodies::bounds(BOUNDS.id, number / 20)?].concat())
+    let bodies = integrated_bodies::bounds(BOUNDS.id, number / 20)?;
+    Ok([coins?, bodies, integrated_steps::bounds(BOUNDS.id, number)?].concat())
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -155,7 +156,8 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Measurement::count_of_set(name, &differs, |index| cases[index])
     };
     let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
-    Ok([coins, integrated_bodies::outcomes(OUTCOMES.id, tries(context) / 20)?].concat())
+    let bodies = integrated_bodies::outcomes(OUTCOMES.id, tries(context) / 20)?;
+    Ok([coins, bodies, integrated_steps::outcomes(tries(context))?].concat())
 }
 
 /// The outcome by the exact motion where cos θ is far from 0, else by the reference.
@@ -182,5 +184,6 @@ fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let median = ratios[ratios.len() / 2];
         Ok(Measurement::figure(TIGHTNESS.id, name, median, number, format!("95 % are below {largest:.0}")))
     };
-    sets.into_iter().map(measure).collect()
+    let series: anyhow::Result<Vec<Measurement>> = sets.into_iter().map(measure).collect();
+    Ok([series?, integrated_steps::tightness(TIGHTNESS.id, number / 4)?].concat())
 }

@@ -3,7 +3,7 @@
 
 use dynamics::RigidToss;
 use rayon::prelude::*;
-use toss::{ExactSolver, IntegratedCertificate, Outcome, Solver, Stepping};
+use toss::{ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
 
 use super::integrated::{bounds_of, errors};
 use super::judged;
@@ -22,39 +22,49 @@ fn subject(family: &Family) -> String {
 
 /// The largest error of cos θ or of the attitude, divided by its bound, in each family.
 pub(super) fn bounds(check: &str, number: u64) -> anyhow::Result<Vec<Measurement>> {
-    let solvers: Vec<_> = TOLERANCES.into_iter().map(taylor).collect::<Result<_, _>>()?;
-    let measure = |family: &Family| {
-        let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
-        let fly = |(index, toss): (usize, &RigidToss)| solvers[index % solvers.len()].enclose_rigid(toss).ok();
-        let found: Vec<_> = tosses.par_iter().enumerate().map(fly).collect();
-        let is_bounded = |found: &&IntegratedCertificate| found.error_bound() < 2.0;
-        let found: Vec<_> = found.iter().map(|found| found.as_ref().filter(is_bounded)).collect();
-        let quick = |index: usize, toss: &RigidToss| {
-            let Some(found) = found[index] else { return Some(0.0) };
-            let exact = ExactSolver.propagate_rigid(toss).ok()?;
-            judged::by_exact_motion(errors(found, &exact), bounds_of(found))
-        };
-        let thorough = |index: usize, toss: &RigidToss| {
-            let (Some(found), Some(reference)) = (found[index], RigidReference::new(toss)) else { return Ok(0.0) };
-            let of_attitude = 0.5 * reference.attitude_error(&found.landing().state.attitude);
-            let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
-            Ok(of_cos_tilt.max(of_attitude / found.attitude_error_bound()))
-        };
-        let shares: Vec<Option<f64>> = judged::shares(&tosses, quick, thorough)
-            .into_iter()
-            .zip(&found)
-            .map(|(share, found)| share.ok().filter(|_| found.is_some()))
-            .collect();
-        let bounded = shares.iter().flatten().count();
-        let worst = (0..shares.len()).max_by(|a, b| shares[*a].unwrap_or(0.0).total_cmp(&shares[*b].unwrap_or(0.0)));
-        let (measured, input) = worst.map_or((f64::INFINITY, String::new()), |index| {
-            let tolerance = TOLERANCES[index % solvers.len()];
-            (shares[index].unwrap_or(f64::INFINITY), format!("{:?} at {tolerance:e}", tosses[index]))
-        });
-        let input = format!("{bounded} of {} have a bound; {input}", tosses.len());
-        Measurement::figure(check, &subject(family), measured, bounded as u64, input)
+    let of = |tolerance| Ok((taylor(tolerance)?, tolerance));
+    let solvers: Vec<_> = TOLERANCES.into_iter().map(of).collect::<Result<_, SolveError>>()?;
+    Ok(FAMILIES.iter().map(|family| bounds_of_family(check, "bodies", family, &solvers, number)).collect())
+}
+
+/// The largest error of cos θ or of the attitude in a family, divided by its bound, by solvers in turn, each with its
+/// tolerance. `what` names the rows.
+pub(super) fn bounds_of_family(
+    check: &str,
+    what: &str,
+    family: &Family,
+    solvers: &[(QuaternionSolver, f64)],
+    number: u64,
+) -> Measurement {
+    let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
+    let fly = |(index, toss): (usize, &RigidToss)| solvers[index % solvers.len()].0.enclose_rigid(toss).ok();
+    let found: Vec<_> = tosses.par_iter().enumerate().map(fly).collect();
+    let is_bounded = |found: &&IntegratedCertificate| found.error_bound() < 2.0;
+    let found: Vec<_> = found.iter().map(|found| found.as_ref().filter(is_bounded)).collect();
+    let quick = |index: usize, toss: &RigidToss| {
+        let Some(found) = found[index] else { return Some(0.0) };
+        let exact = ExactSolver.propagate_rigid(toss).ok()?;
+        judged::by_exact_motion(errors(found, &exact), bounds_of(found))
     };
-    Ok(FAMILIES.iter().map(measure).collect())
+    let thorough = |index: usize, toss: &RigidToss| {
+        let (Some(found), Some(reference)) = (found[index], RigidReference::new(toss)) else { return Ok(0.0) };
+        let of_attitude = 0.5 * reference.attitude_error(&found.landing().state.attitude);
+        let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
+        Ok(of_cos_tilt.max(of_attitude / found.attitude_error_bound()))
+    };
+    let shares: Vec<Option<f64>> = judged::shares(&tosses, quick, thorough)
+        .into_iter()
+        .zip(&found)
+        .map(|(share, found)| share.ok().filter(|_| found.is_some()))
+        .collect();
+    let bounded = shares.iter().flatten().count();
+    let worst = (0..shares.len()).max_by(|a, b| shares[*a].unwrap_or(0.0).total_cmp(&shares[*b].unwrap_or(0.0)));
+    let (measured, input) = worst.map_or((f64::INFINITY, String::new()), |index| {
+        let tolerance = solvers[index % solvers.len()].1;
+        (shares[index].unwrap_or(f64::INFINITY), format!("{:?} at {tolerance:e}", tosses[index]))
+    });
+    let input = format!("{bounded} of {} have a bound; {input}", tosses.len());
+    Measurement::figure(check, &format!("{what}: {}", family.name), measured, bounded as u64, input)
 }
 
 /// The numbers of outcomes that are proven and wrong, of launches and of times within 3 ulp of an edge.

@@ -15,6 +15,7 @@ mod figures;
 mod first_return;
 mod integrated;
 mod integrated_bodies;
+mod integrated_steps;
 mod invariants;
 mod judged;
 mod long_flights;
