@@ -1,14 +1,14 @@
-//! How far the computed rates of a body are from those of its ideal flight. The theorem and its proof are in
-//! `docs/proofs/enclosure.md`, section 7, whose symbols and numbers of formulas stand here.
-//!
-//! The ideal rates stay on a curve, the polhode, on which A = ω1² + κ1 ω2² and B = ω3² + κ3 ω2² do not change. An error
-//! of the computed rates is split: what leads along the curve is a shift in time, which is added up, and what leads
-//! across it is measured by A and B at the end of each step. Next to the middle axis, where the curve is slow and A and B
-//! tell little, the errors are followed as they grow instead.
+//! The curve of the ideal rates of a body's flight, the polhode, on which A = ω1² + κ1 ω2² and B = ω3² + κ3 ω2² do not
+//! change, with bounds of what follows from how far computed rates are from it. The theorem and its proof are in
+//! `docs/proofs/enclosure.md`, section 7, whose symbols and numbers of formulas stand here. `errors.rs` adds up the steps.
+
+mod errors;
 
 use dynamics::body::PrincipalAxes;
 use dynamics::{AngleUnit, RigidFlight, RigidToss};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
+
+pub(super) use self::errors::{Errors, Step};
 
 /// The ideal flight of a body, in the unit of its flight, about its principal axes.
 #[derive(Debug, Clone, Copy)]
@@ -218,125 +218,6 @@ fn distance(ideal: &[Ball<DoubleDouble>; 3], computed: [f64; 3]) -> f64 {
 fn axes_error(axes: &[[Ball<DoubleDouble>; 3]; 3]) -> f64 {
     let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, f64::max);
     if are_exact(axes) { 0.0 } else { 12.0 * UNIT_ROUNDOFF + 6.0 * radius }
-}
-
-/// One step of a flight.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
-    /// Its length.
-    pub(super) h: f64,
-    /// The bounds of [`Defect`](super::defect::Defect).
-    pub(super) turn: f64,
-    pub(super) rates: f64,
-    pub(super) rounding: f64,
-    /// The computed rates at its end.
-    pub(super) after: [f64; 3],
-}
-
-/// What the steps so far add to the error of the turn.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Errors {
-    polhode: Polhode,
-    /// Σ Dₖ.
-    turn: f64,
-    along: Along,
-    growing: Growing,
-}
-
-/// Errors of the rates from an ideal flight that is shifted in time, and that shift.
-#[derive(Debug, Clone, Copy)]
-struct Along {
-    across: f64,
-    /// ∫ |e| dt.
-    integral: f64,
-    /// A bound of |s - t| and of ∫ |s' - 1| dt.
-    shift: f64,
-    /// A lower bound of |f|/b at the ideal rates.
-    speed: f64,
-}
-
-/// Errors of the rates from the ideal flight.
-#[derive(Debug, Clone, Copy)]
-struct Growing {
-    error: f64,
-    /// ∫ |e| dt.
-    integral: f64,
-}
-
-impl Errors {
-    /// At the launch of a flight with these computed `rates`.
-    pub(super) fn at_launch(polhode: Polhode, rates: [f64; 3]) -> Self {
-        let launched = polhode.launched;
-        let along = Along { across: 0.0, integral: 0.0, shift: 0.0, speed: polhode.speed_near(rates, launched) };
-        let growing = Growing { error: launched, integral: 0.0 };
-        let mut errors = Self { polhode, turn: 0.0, along, growing };
-        errors.along.step(&polhode, &Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: launched, after: rates });
-        errors
-    }
-
-    /// Adds those of one step.
-    pub(super) fn add(&mut self, step: &Step) {
-        self.turn += step.turn;
-        // About an axis, all products of rates are 0, so that none underflows.
-        let tiny = if self.polhode.about_axis { 0.0 } else { TINY };
-        let step = Step { rates: step.rates + tiny, ..*step };
-        self.along.step(&self.polhode, &step);
-        self.growing.step(&self.polhode, &step);
-    }
-
-    /// The bound (20) of the error of the turn, for a time of flight that is right; infinite or NaN where there is none.
-    pub(super) fn bound(&self) -> f64 {
-        let along = 0.5 * self.along.integral + self.polhode.across * self.along.shift;
-        self.turn + along.min(0.5 * self.growing.integral) + self.polhode.axes
-    }
-
-    /// W.
-    pub(super) fn fastest(&self) -> f64 {
-        self.polhode.fastest
-    }
-}
-
-impl Growing {
-    fn step(&mut self, polhode: &Polhode, step: &Step) {
-        let reach = polhode.grown(self.error + step.rates, step.h);
-        self.integral += step.h * reach;
-        self.error = reach + step.rounding;
-    }
-}
-
-impl Along {
-    fn step(&mut self, polhode: &Polhode, step: &Step) {
-        if self.stepped(polhode, step).is_none() {
-            *self = Self { across: f64::INFINITY, integral: f64::INFINITY, shift: f64::INFINITY, speed: 0.0 };
-        }
-    }
-
-    /// `None` if the conditions (18) do not hold.
-    fn stepped(&mut self, polhode: &Polhode, step: &Step) -> Option<()> {
-        let Step { h, after, .. } = *step;
-        let growth = polhode.growth;
-        let reach = polhode.grown(self.across + step.rates, h);
-        let error = reach + step.rounding;
-        let end = polhode.speed_near(after, error);
-        let least = self.speed / exp_above(growth * h);
-        // The times by which the shift grows, at no less than this speed (17).
-        let time = |speed: f64| -> Option<f64> {
-            let tilt = ROOT_2 * polhode.fastest * error / speed;
-            let arc =
-                (2.0 * growth + INVERSE_ROOT_3 * polhode.coupling * reach) * h * reach + step.rates + step.rounding;
-            (tilt <= 0.25 && speed > SLOWEST).then(|| arc / (1.0 - tilt) / (polhode.coupling * (1.0 - 1e-11) * speed))
-        };
-        let slowed = growth * time(0.875 * least)?;
-        if !(slowed <= 0.125 && end > SLOWEST) {
-            return None;
-        }
-        let speed = least.max((self.speed * end).sqrt() / exp_above(0.5 * growth * h)) * (1.0 - slowed);
-        self.shift += time(speed)?;
-        self.integral += h * reach;
-        self.across = polhode.across(after, error, end);
-        self.speed = end;
-        Some(())
-    }
 }
 
 #[cfg(test)]
