@@ -11,6 +11,7 @@ mod batch;
 mod body;
 mod errors;
 mod estimate;
+mod launches;
 mod planner;
 mod plans;
 mod single;

@@ -31,7 +31,7 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("docs/guide/python.md", "sh", 1, ".ci/python", "builds and installs the package"),
     ("docs/guide/your-own.md", "rust", 1, "tests/lib.rs", "compiles and runs it"),
     ("docs/your-integrator.md", "text", 1, "crates/verify/tests/process.rs", "compares the columns"),
-    ("docs/your-integrator.md", "python", 1, "crates/verify/tests/process.rs", "judges the program"),
+    ("docs/your-integrator.md", "python", 1, "crates/verify/tests/programs/mod.rs", "its users judge the program"),
     ("docs/your-integrator.md", "rust", 1, "tests/lib.rs", "compiles it"),
     ("docs/your-integrator.md", "rust,ignore", 1, "", "it needs the crate ivp; crates/contestants has it in full"),
     ("docs/your-solver.md", "toml", 1, "", "its address is the reader's own"),

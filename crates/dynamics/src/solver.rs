@@ -11,6 +11,7 @@
 //! the crate `exact`, by the closed form, and `kinematics-quat`, by a bound of its integrations, make proofs, as types
 //! that nothing else can make.
 
+use std::ops::Add;
 use std::sync::Arc;
 
 use crate::columns::Tosses;
@@ -32,6 +33,19 @@ pub struct Work {
     pub accepted_steps: u64,
     /// Steps that were tried and rejected.
     pub rejected_steps: u64,
+}
+
+/// The cost of both, one after the other.
+impl Add for Work {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            rhs_calls: self.rhs_calls + other.rhs_calls,
+            accepted_steps: self.accepted_steps + other.accepted_steps,
+            rejected_steps: self.rejected_steps + other.rejected_steps,
+        }
+    }
 }
 
 /// The result of a flight: the state at landing, cos θ, and the cost.

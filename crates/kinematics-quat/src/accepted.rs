@@ -17,7 +17,7 @@ use crate::integration::Integration;
 use crate::jump::{Elapsed, Jump, OF_JUMP, lengths};
 use crate::lockstep::{Clock, MOST_LANES, Motion, PerLane};
 use crate::plan::Plan;
-use crate::proven::{IntegratedCertificate, sum};
+use crate::proven::IntegratedCertificate;
 use crate::taylor::LARGEST_ORDER;
 use crate::{Landed, QuaternionSolver, QuaternionSystem};
 
@@ -34,7 +34,7 @@ impl QuaternionSolver {
         let (flight, accepted) = self.accepted(toss)?;
         let compared = Compared::new(toss, &flight, &accepted, level);
         let end = accepted.states.last().ok_or_else(|| flight.not_finite())?;
-        let landed = Landed::at(&flight, end, sum(accepted.work, compared.work));
+        let landed = Landed::at(&flight, end, accepted.work + compared.work);
         self.stated(toss.launch.attitude(), &landed, compared.bound, Integration::AsConfigured)
     }
 

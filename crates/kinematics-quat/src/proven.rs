@@ -1,5 +1,6 @@
-//! Outcomes proven by integration. A flight bounds its own error, by the theorem of `docs/proofs/enclosure.md`; an outcome is proven where |cos θ| exceeds the bound. The closed form of the motion is not
-//! used, so that these proofs and those of the crate `exact` check each other.
+//! Outcomes proven by integration. A flight bounds its own error, by the theorem of `docs/proofs/enclosure.md`; an
+//! outcome is proven where |cos θ| exceeds the bound. The closed form of the motion is not used, so that these proofs and
+//! those of the crate `exact` check each other.
 //!
 //! An [`IntegratedCertificate`] has private fields and no public constructor, so that no other code can pass off an
 //! estimate as a proof.
@@ -208,20 +209,20 @@ impl QuaternionSolver {
             let one = std::slice::from_ref(toss);
             let found = self.enclosed(one, &plans, SimdLevel::for_one_lane(), Integration::Finest).pop();
             if let Some(found) = found.transpose()? {
-                total = sum(total, found.work());
+                total = total + found.work();
                 if found.outcome != Outcome::Undecided {
                     return Ok(found.with_work(total));
                 }
             }
         }
         let mut found = by_digits(toss, in_double_double(toss)?, Integration::DoubleDouble)?;
-        total = sum(total, found.work());
+        total = total + found.work();
         for digits in DIGITS {
             if found.outcome != Outcome::Undecided {
                 break;
             }
             found = by_digits(toss, in_digits(toss, digits)?, Integration::MoreDigits)?;
-            total = sum(total, found.work());
+            total = total + found.work();
         }
         Ok(found.with_work(total))
     }
@@ -290,14 +291,6 @@ pub(crate) fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
 fn of_attitude(launched: Attitude) -> f64 {
     let tilt = launched.tilt().map_or(0.0, |angle| angle.radians().abs());
     OF_ATTITUDE + UNIT_ROUNDOFF * tilt
-}
-
-pub(crate) fn sum(a: Work, b: Work) -> Work {
-    Work {
-        rhs_calls: a.rhs_calls + b.rhs_calls,
-        accepted_steps: a.accepted_steps + b.accepted_steps,
-        rejected_steps: a.rejected_steps + b.rejected_steps,
-    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::enclosure::attitude_bound_of_body;
 use crate::integration::Integration;
 use crate::lockstep::{by_kind, fly};
 use crate::plan::Plans;
-use crate::proven::{IntegratedCertificate, sum};
+use crate::proven::IntegratedCertificate;
 use crate::{Landed, QuaternionSolver, RigidSystem};
 
 /// Why a flight without a bound proves nothing.
@@ -114,7 +114,7 @@ impl QuaternionSolver {
             let (plans, one) = (Plans::of_bodies(f64::EPSILON), std::slice::from_ref(toss));
             let found = self.enclosed_bodies(one, &plans, SimdLevel::for_one_lane(), Integration::Finest).pop();
             if let Some(found) = found.transpose()? {
-                last = found.with_work(sum(first.work(), found.work()));
+                last = found.with_work(first.work() + found.work());
             }
         }
         if last.error_bound() < 2.0 {

@@ -1,10 +1,10 @@
 //! This crate computes the free flight of a tossed coin: how it lands, how it moves, and how probable heads is. It is
 //! the one crate of the workspace that you need to depend on, because it re-exports what the others offer.
 //!
-//! A coin has the moments of inertia I1 = I2 about its diameters and I3 = k I1 about its normal. If it
-//! leaves the hand flat with the body rate ω, it precesses about its angular momentum at the rate
-//! ωL = √(ωx² + ωy² + (k ωz)²). The angle ψ between the normal and the angular momentum is constant, with
-//! cos ψ = k ωz/ωL. At the time t the angle θ between the normal and the vertical is given by
+//! A coin has the moments of inertia I1 = I2 about its diameters and I3 = k I1 about its normal. If it leaves the hand
+//! flat with the body rate ω, it precesses about its angular momentum at the rate ωL = √(ωx² + ωy² + (k ωz)²). The angle
+//! ψ between the normal and the angular momentum is constant, with cos ψ = k ωz/ωL. At the time t the angle θ between
+//! the normal and the vertical is given by
 //!
 //! ```text
 //! cos θ(t) = cos²ψ + sin²ψ cos(ωL t)
@@ -17,8 +17,8 @@
 //!
 //! # A toss
 //! This is the paper's cheated toss, with ω = (1, 1, 2.5) rad/s and a speed of 3 m/s. Its outcome is proven, and the
-//! speed would have to grow by 3.4 m/s to flip it, or ωx by 1.5 rad/s. Read on at [`Toss`], [`Coin`] (real coins are in the [`catalogue`]),
-//! [`certify`] and [`margin()`].
+//! speed would have to grow by 3.4 m/s to flip it, or ωx by 1.5 rad/s. Read on at [`Toss`], [`Coin`] (real coins are in
+//! the [`catalogue`]), [`certify`] and [`margin()`].
 //!
 //! ```
 //! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, certify, margin};
@@ -208,8 +208,8 @@
 //! ```
 //!
 //! # Features
-//! All are on by default, and each can be left out. Without any, there are the exact motion with its proofs, batches, traces, and
-//! the registry for solvers of your own.
+//! All are on by default, and each can be left out. Without any, there are the exact motion with its proofs, batches,
+//! traces, and the registry for solvers of your own.
 //!
 //! | feature | what it adds |
 //! |---|---|
@@ -219,8 +219,7 @@
 //! | `serde` | settings, tosses, plans and answers as plain data; spaces of launches by name or from a file |
 //! | `rayon` | samples on all threads |
 //!
-//! The crate's folder `examples` answers further questions: which launches are fair, how to launch for a wanted
-//! probability, how much people's coins wobble.
+//! The folder `examples` answers further questions, such as which launches are fair and how much people's coins wobble.
 
 mod answer;
 #[cfg(feature = "planner")]

@@ -2,6 +2,8 @@
 //! becomes an error that says so, in bounded time and without a process left behind.
 #![cfg(target_os = "linux")]
 
+mod programs;
+
 use std::time::{Duration, Instant};
 
 use toss::{
@@ -10,11 +12,7 @@ use toss::{
 };
 use verify::process::{Limits, OWN, Program};
 
-/// A loop of the shell that reads the header and then answers each question by `body`, which has the number in `$id`
-/// and the time of flight in `$time`.
-fn answering(body: &str) -> String {
-    format!("read -r header; while IFS=, read -r id i1 i3 a b c w x y z time tolerance; do {body}; done")
-}
+use programs::{answering, example, has_python};
 
 /// Limits that keep the tests short.
 const SHORT: Limits = Limits { answer: Duration::from_millis(500), total: Duration::from_secs(60), memory: 200 << 20 };
@@ -217,20 +215,9 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
     assert!((landing.cos_tilt - ExactSolver.cos_tilt(&toss).unwrap()).abs() > 1e-3);
 }
 
-/// The program in Python that the page for authors shows, as a file.
-fn example(folder: &std::path::Path) -> String {
-    let page = include_str!("../../../docs/your-integrator.md");
-    let script = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a program");
-    let file = folder.join("mine.py");
-    std::fs::write(&file, script).expect("a file");
-    format!("python3 '{}'", file.display())
-}
-
 #[test]
 fn the_program_of_the_documentation_lands_as_the_exact_motion() {
-    let python = std::process::Command::new("python3").arg("--version").output();
-    if !python.is_ok_and(|output| output.status.success()) {
-        eprintln!("skipped: there is no python3");
+    if !has_python() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -259,57 +246,4 @@ fn the_page_for_authors_states_the_columns_and_the_limits() {
     for words in says {
         assert!(page.contains(&words), "{words}");
     }
-}
-
-/// What `verify run` with a program prints and its exit code.
-fn verified(arguments: &[&str]) -> (String, Option<i32>) {
-    let out = tempfile::tempdir().expect("a folder");
-    let mut verify = std::process::Command::new(env!("CARGO_BIN_EXE_verify"));
-    let found =
-        verify.args(["run", "--quick", "--only", "random-cos-tilt"]).args(arguments).arg("--out").arg(out.path());
-    let found = found.output().expect("it starts");
-    let text = [found.stdout, found.stderr].concat();
-    (String::from_utf8_lossy(&text).into_owned(), found.status.code())
-}
-
-#[test]
-fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
-    let nonsense = "where an answer is expected";
-    for (command, why) in [
-        ("true", "ended (exit status: 0)"),
-        ("false", "ended (exit status: 1)"),
-        ("cat", "wrote \"id,i1,i3"),
-        ("yes", "wrote \"y\""),
-        ("sleep 1000", "gave no answer within 3 s"),
-        (&*answering("echo $id"), nonsense),
-        (&*answering("echo $id,nan,0,0,0"), "the norm of the quaternion = NaN"),
-    ] {
-        let began = Instant::now();
-        let limits = ["--answer-seconds", "0.5", "--memory-mb", "200"];
-        let (text, code) = verified(&[&["--command", command], &limits[..]].concat());
-        assert!(code == Some(1) && text.contains(why), "{command}: {code:?}, {text}");
-        let repeated = "cargo xtask verify --replay \"";
-        assert!(text.contains(repeated) || text.contains("cargo xtask verify --only random-cos-tilt"), "{text}");
-        assert!(text.contains(&format!(" --command '{command}' --answer-seconds 0.5 --memory-mb 200")), "{text}");
-        assert!(began.elapsed() < Duration::from_secs(60), "{command}: {:?}", began.elapsed());
-    }
-    for arguments in [["--claim", "1e-9"], ["--command", "true --claim"]] {
-        let refused = verified(&[&arguments[..], &["--claim", "2"]].concat());
-        assert!(matches!(refused.1, Some(2 | 4)), "{refused:?}");
-    }
-}
-
-#[test]
-fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_claim() {
-    let folder = tempfile::tempdir().unwrap();
-    let command = example(folder.path());
-    if !std::process::Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success()) {
-        eprintln!("skipped: there is no python3");
-        return;
-    }
-    let (text, code) = verified(&["--command", &command, "--claim", "1e-12"]);
-    assert!(code == Some(0) && text.contains("PASS: 1 of 1 rows pass"), "{code:?}, {text}");
-    // It is off by its rounding errors, which are above this claim.
-    let (text, code) = verified(&["--command", &command, "--claim", "1e-18"]);
-    assert!(code == Some(1) && text.contains("above its own claim"), "{code:?}, {text}");
 }

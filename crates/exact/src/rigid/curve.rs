@@ -154,12 +154,7 @@ impl<N: Phases<M>, M: Elementary> Curve<N, M> {
                 ([[along.clone() + even.clone(), across.clone()], [along - even, across]], phase)
             }
         };
-        let [sin, cos] = phase.circle();
-        let turned = |[re, im]: [M; 2]| {
-            [re.clone() * cos.clone() - im.clone() * sin.clone(), re * sin.clone() + im * cos.clone()]
-        };
-        let ([a_re, a_im], [b_re, b_im]) = (turned(a), turned(b));
-        [a_re, b_re, b_im, a_im]
+        along_momentum(a, b, &phase)
     }
 
     /// The body rate (BF) at R(t) = `relative`.
@@ -274,4 +269,13 @@ fn rounded_off<N: Elementary>(number: &N) -> (N, f64) {
 /// Both parts reversed for an odd number of half-periods.
 fn signed<N: Elementary>(value: [N; 2], half_periods: f64) -> [N; 2] {
     if half_periods.rem_euclid(2.0) == 0.0 { value } else { value.map(|part| -part) }
+}
+
+/// The quaternion whose pairs of components are `a` and `b`, each turned by `phase` about the angular momentum.
+fn along_momentum<N: Phases<M>, M: Elementary>(a: [M; 2], b: [M; 2], phase: &N) -> Quaternion<M> {
+    let [sin, cos] = phase.circle();
+    let turned =
+        |[re, im]: [M; 2]| [re.clone() * cos.clone() - im.clone() * sin.clone(), re * sin.clone() + im * cos.clone()];
+    let ([a_re, a_im], [b_re, b_im]) = (turned(a), turned(b));
+    [a_re, b_re, b_im, a_im]
 }

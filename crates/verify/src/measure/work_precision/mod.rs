@@ -181,12 +181,8 @@ fn states_an_error(subject: &Subject, case: &AnyCase) -> bool {
 impl Job {
     fn sample(&self, problem: &Problem, references: &[AnyReference]) -> Sample {
         let subject = &self.subject;
-        let runs: Vec<Run> = problem
-            .cases
-            .iter()
-            .zip(references)
-            .map(|(case, reference)| Run::of_any(subject, case, reference))
-            .collect();
+        let run = |(case, reference)| Run::of_any(subject, case, reference);
+        let runs: Vec<Run> = problem.cases.iter().zip(references).map(run).collect();
         let largest = |of: fn(&Run) -> Option<f64>| {
             runs.iter().map(of).try_fold(0.0, |largest: f64, value| Some(largest.max(value?)))
         };

@@ -1,0 +1,60 @@
+//! Whole runs of the suite over a program: they end in bounded time, with a row that says what it did.
+#![cfg(target_os = "linux")]
+
+mod programs;
+
+use std::time::{Duration, Instant};
+
+use programs::{answering, example, has_python};
+
+/// What `verify run` with a program prints and its exit code.
+fn verified(arguments: &[&str]) -> (String, Option<i32>) {
+    let out = tempfile::tempdir().expect("a folder");
+    let mut verify = std::process::Command::new(env!("CARGO_BIN_EXE_verify"));
+    let found =
+        verify.args(["run", "--quick", "--only", "random-cos-tilt"]).args(arguments).arg("--out").arg(out.path());
+    let found = found.output().expect("it starts");
+    let text = [found.stdout, found.stderr].concat();
+    (String::from_utf8_lossy(&text).into_owned(), found.status.code())
+}
+
+#[test]
+fn a_run_of_the_suite_ends_with_a_row_that_says_what_the_program_did() {
+    let nonsense = "where an answer is expected";
+    for (command, why) in [
+        ("true", "ended (exit status: 0)"),
+        ("false", "ended (exit status: 1)"),
+        ("cat", "wrote \"id,i1,i3"),
+        ("yes", "wrote \"y\""),
+        ("sleep 1000", "gave no answer within 3 s"),
+        (&*answering("echo $id"), nonsense),
+        (&*answering("echo $id,nan,0,0,0"), "the norm of the quaternion = NaN"),
+    ] {
+        let began = Instant::now();
+        let limits = ["--answer-seconds", "0.5", "--memory-mb", "200"];
+        let (text, code) = verified(&[&["--command", command], &limits[..]].concat());
+        assert!(code == Some(1) && text.contains(why), "{command}: {code:?}, {text}");
+        let repeated = "cargo xtask verify --replay \"";
+        assert!(text.contains(repeated) || text.contains("cargo xtask verify --only random-cos-tilt"), "{text}");
+        assert!(text.contains(&format!(" --command '{command}' --answer-seconds 0.5 --memory-mb 200")), "{text}");
+        assert!(began.elapsed() < Duration::from_secs(60), "{command}: {:?}", began.elapsed());
+    }
+    for arguments in [["--claim", "1e-9"], ["--command", "true --claim"]] {
+        let refused = verified(&[&arguments[..], &["--claim", "2"]].concat());
+        assert!(matches!(refused.1, Some(2 | 4)), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_claim() {
+    if !has_python() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let command = example(folder.path());
+    let (text, code) = verified(&["--command", &command, "--claim", "1e-12"]);
+    assert!(code == Some(0) && text.contains("PASS: 1 of 1 rows pass"), "{code:?}, {text}");
+    // It is off by its rounding errors, which are above this claim.
+    let (text, code) = verified(&["--command", &command, "--claim", "1e-18"]);
+    assert!(code == Some(1) && text.contains("above its own claim"), "{code:?}, {text}");
+}
