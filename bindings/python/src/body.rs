@@ -1,6 +1,6 @@
 //! Rigid bodies, coins among them.
 
-use ::toss::catalogue::{CATALOGUE, named_coin};
+use ::toss::catalogue::{BODIES, CATALOGUE, named_body};
 use ::toss::{Coin, InputError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -30,16 +30,16 @@ enum Origin {
 
 #[pymethods]
 impl Body {
-    /// A coin of the catalogue.
+    /// A coin or another body of the catalogue.
     ///
     /// Parameters
     /// ----------
     /// name : str
-    ///     Such as ``"us-quarter"``; ``bodies()`` lists them.
+    ///     Such as ``"us-quarter"`` or ``"racket"``; ``bodies()`` lists them.
     #[staticmethod]
     pub(crate) fn named(name: &str) -> PyResult<Self> {
-        let coin = named_coin(name).map_err(Failure::from)?;
-        Ok(Self { body: coin.into(), origin: Origin::Named(name.to_owned()) })
+        let body = named_body(name).map_err(Failure::from)?;
+        Ok(Self { body, origin: Origin::Named(name.to_owned()) })
     }
 
     /// A homogeneous cylinder.
@@ -161,8 +161,9 @@ pub(crate) fn coin_of(body: &::toss::Body, why: &'static str) -> PyResult<Coin> 
     body.symmetric().ok_or_else(|| Failure::from(refused).into())
 }
 
-/// The names of the coins of the catalogue, each with a short description.
+/// The names of the coins and other bodies of the catalogue, each with a short description.
 #[pyfunction]
 pub(crate) fn bodies() -> Vec<(&'static str, &'static str)> {
-    CATALOGUE.iter().map(|entry| (entry.name, entry.description)).collect()
+    let coins = CATALOGUE.iter().map(|entry| (entry.name, entry.description));
+    coins.chain(BODIES.iter().map(|entry| (entry.name, entry.description))).collect()
 }

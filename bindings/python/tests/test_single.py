@@ -135,6 +135,9 @@ def test_a_body_says_what_it_is():
     assert quarter.is_symmetric and 1.9 < quarter.inertia_ratio < 2.0
     assert (BOOK.moments, BOOK.inertia_ratio, BOOK.is_symmetric) == ([1.0, 2.0, 2.8], None, False)
     assert TILTED.moments is None and sorted(np.linalg.eigvalsh(TILTED.tensor)) == pytest.approx(TILTED.principal_moments)
+    assert [ut.Body.named(name).is_symmetric for name, _ in ut.bodies()].count(False) == 4
+    assert ut.Body.named("racket").moments == [1.21e-3, 1.638e-2, 1.748e-2]
+    assert ut.toss(ut.Toss((0.12, 12, 0), time=1.0472, body="racket")).outcome == "tails"
     assert dict(ut.bodies())["us-quarter"] and "quaternion" in [row[0] for row in ut.solvers()]
     with pytest.raises(errors.NoBodyError) as caught:
         ut.Body.from_moments((1, 1.5, 3.5))
