@@ -1,6 +1,6 @@
 //! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
-use dynamics::{Attitude, Coin, Launch};
+use dynamics::{AngleUnit, Attitude, Coin, Launch, Unit};
 use nalgebra::Vector3;
 
 use super::*;
@@ -168,4 +168,30 @@ fn an_outcome_that_holds_within_a_part_of_the_numbers_is_that_of_all_tosses_arou
         changed += u32::from(changes);
     }
     assert!(held > 1500 && changed > 20, "{held} hold, {changed} change");
+}
+
+/// After 104 857.6 turns about a diameter; in rad/s the rate is rounded, which shows after so many.
+#[test]
+fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
+    let (rate, time) = (0.1, f64::from(1 << 20));
+    let launch = |rate, unit| Launch::in_unit(rate, unit, TimeOfFlight::Given(time)).unwrap();
+    let in_turns = launch([rate, 0.0, 0.0], AngleUnit::Turns(Unit::ONE));
+    let in_radians = launch(in_turns.rate().into(), AngleUnit::RADIAN);
+    let [given, rounded] = [in_turns, in_radians].map(|launch| cos_tilt(&Toss { coin: Coin::PAPER, launch }).unwrap());
+    let expected = (std::f64::consts::TAU * (rate * time).fract()).cos();
+    assert!((given - expected).abs() < 1e-15, "{given}, not {expected}");
+    assert!((rounded - expected).abs() > 1e-12);
+}
+
+#[test]
+fn tosses_are_counted_by_face_and_the_first_without_an_outcome_is_named() {
+    let heads = toss(1.5, [1.0, 0.0, 0.0], Attitude::IDENTITY, 1.0);
+    let tails = toss(1.5, [3.0, 0.0, 0.0], Attitude::IDENTITY, 1.0);
+    let tie = toss(1.5, [0.0, 0.0, 7.0], on_edge(), 1.0);
+    let counts = ProvenCounts::of([tails, heads, tie, heads, heads]).unwrap();
+    assert_eq!((counts.heads(), counts.tails(), counts.ties()), (3, 1, 1));
+    assert_eq!(counts.by(Stage::Multiprecision), 1);
+    let too_long = toss(1.5, [1e16, 0.0, 0.0], Attitude::IDENTITY, 1.0);
+    let error = ProvenCounts::of([heads, too_long, too_long]).unwrap_err();
+    assert!(matches!(error, Error::Launch { index: 1, .. }), "{error}");
 }
