@@ -157,3 +157,21 @@ impl Tosses<'_, Body> {
         self.solved(index, |launch| RigidToss { body: self.body, launch }, solve)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_has_the_launches_of_its_range() {
+        let (rates, speeds) = ([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], [0.1, 0.2, 0.3]);
+        let rates = rates.each_ref().map(<[f64; 3]>::as_slice);
+        let all = Tosses::new(Coin::PAPER, Attitude::about_x(0.5), 9.81, rates, &speeds).unwrap();
+        let part = all.part(1..3);
+        assert_eq!((part.len(), part.is_empty(), all.part(2..2).is_empty()), (2, false, true));
+        assert_eq!(part.launch(0), all.launch(1));
+        assert_eq!(part.launch(1), all.launch(2));
+        assert_ne!(all.launch(1), all.launch(2));
+        assert_eq!(part.columns(1..2), [&[3.0][..], &[6.0], &[9.0], &[0.3]]);
+    }
+}

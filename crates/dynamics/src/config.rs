@@ -150,6 +150,15 @@ mod tests {
     }
 
     #[test]
+    fn a_formulation_is_passed_on_with_and_without_schemes() {
+        let own = SolverConfig::new("own").with_formulation(Formulation::RAW);
+        for schemes in [&Scheme::ALL[..], &[]] {
+            let entry = entry(schemes).with_formulations(&[Formulation::MOMENTUM, Formulation::RAW]);
+            assert_eq!(own.settings(&entry).unwrap().formulation, Formulation::RAW);
+        }
+    }
+
+    #[test]
     fn what_would_have_no_effect_or_is_not_offered_is_refused() {
         let own = || SolverConfig::new("own");
         let fields = |config: SolverConfig| {

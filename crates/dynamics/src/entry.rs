@@ -175,6 +175,7 @@ mod tests {
     fn makes_a_solver_by_an_offered_scheme_and_refuses_other_schemes() {
         let entry = SolverEntry::new("still", "", |settings| Box::new(Still("still", settings.stepping)));
         assert!(!entry.integrates());
+        assert_eq!((entry.color(), entry.clone().with_color([1, 2, 3]).color()), (None, Some([1, 2, 3])));
         let entry = entry.with_schemes(&Scheme::RUNGE_KUTTA).with_formulations(&Formulation::ALL);
         assert!(entry.integrates());
         assert_eq!(entry.solver(&Settings::default()).unwrap().stepping(), Some(Stepping::DEFAULT));

@@ -119,11 +119,14 @@ impl Decider<'_> {
         range: Range<u64>,
         progress: Progress<'_>,
     ) -> Result<Counts, Error> {
-        let filter = filter_of(space);
-        fold(space, launches, range, progress, |block| match self {
-            Self::Exact => proven(space, block, filter.as_ref()).map(|proven| Counts { proven, ..Counts::default() }),
-            Self::Solver(solver) => estimated(space, block, solver),
-        })
+        match self {
+            Self::Exact => {
+                let filter = filter_of(space);
+                let counts = |proven| Counts { proven, ..Counts::default() };
+                fold(space, launches, range, progress, |block| proven(space, block, filter.as_ref()).map(counts))
+            }
+            Self::Solver(solver) => fold(space, launches, range, progress, |block| estimated(space, block, solver)),
+        }
     }
 }
 
