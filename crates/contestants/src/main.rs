@@ -64,7 +64,7 @@ fn run(arguments: &Arguments) -> anyhow::Result<u8> {
 fn hold(size: Size) -> anyhow::Result<(Contest, Vec<verify::measure::work_precision::Sample>)> {
     let progress = ProgressBar::new_spinner().with_style(ProgressStyle::with_template("{spinner} {msg} ({elapsed})")?);
     progress.enable_steady_tick(std::time::Duration::from_millis(100));
-    let (entries, missing) = all(&root().join("crates/contestants/target/python"));
+    let (entries, missing) = all(&root().join("target/contestants"));
     let show = |text: &str| {
         progress.set_message(text.to_owned());
         // Without a terminal the bar shows nothing.
