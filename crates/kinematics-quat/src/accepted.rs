@@ -10,7 +10,7 @@ use dynamics::{Flight, SolveError, Toss, Work};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{Simd, SimdLevel, WithSimd};
 
-use crate::coins::Coins;
+use crate::coins::{Coins, End};
 use crate::defect::bounds;
 use crate::enclosure::{NO_RATE, Record, attitude_bound, steps};
 use crate::integration::Integration;
@@ -136,17 +136,6 @@ impl WithSimd for Comparison<'_> {
         }
         Record { strayed: elapsed.off(self.flight.span()), ..record }
     }
-}
-
-/// Where the series of a step end.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct End {
-    pub(crate) pieces: u64,
-    pub(crate) attitude: [f64; 4],
-    /// η and its rounding error.
-    pub(crate) eta: [[f64; 2]; 2],
-    pub(crate) moduli: [f64; 2],
-    pub(crate) longest: f64,
 }
 
 impl End {

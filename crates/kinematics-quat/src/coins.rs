@@ -4,7 +4,6 @@
 use dynamics::{Flight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, compensated_product, complex_product, polar};
 
-use crate::accepted::End;
 use crate::enclosure::Record;
 use crate::lockstep::{Clock, Motion, PerLane, store};
 use crate::plan::Plan;
@@ -29,6 +28,17 @@ pub(crate) struct Coins {
     moduli: [PerLane; 2],
     /// The longest step so far.
     longest: PerLane,
+}
+
+/// Where the series of a step end in one lane.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct End {
+    pub(crate) pieces: u64,
+    pub(crate) attitude: [f64; 4],
+    /// η and its rounding error.
+    pub(crate) eta: [[f64; 2]; 2],
+    pub(crate) moduli: [f64; 2],
+    pub(crate) longest: f64,
 }
 
 impl Motion for Coins {

@@ -5,7 +5,7 @@ use dynamics::RigidToss;
 use rayon::prelude::*;
 use toss::{ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
 
-use super::integrated::{bounds_of, errors};
+use super::enclosed::{bounds_of, errors};
 use super::judged;
 use super::rigid::at_an_edge;
 use crate::measure::bodies::{FAMILIES, FLOWN, Family, launches};

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use toss::{Formulation, QuaternionSolver, Scheme, SolveError, StepControl, Stepping, Toss};
 
-use super::integrated::{distance, require_short, share};
+use super::enclosed::{distance, require_short, share};
 use super::integrated_bodies::bounds_of_family;
 use crate::measure::bodies::FAMILIES;
 use crate::measure::case::Case;

@@ -11,6 +11,7 @@ mod claims;
 mod coins;
 mod counting;
 mod detest;
+mod enclosed;
 mod figures;
 mod first_return;
 mod integrated;
