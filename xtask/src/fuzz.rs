@@ -31,12 +31,10 @@ pub(crate) struct Fuzz {
 /// The targets, which are those of `fuzz/src/lib.rs`.
 const TARGETS: [&str; 7] = ["bodies", "columns", "part", "quantity", "rows", "scene", "space"];
 
-/// What libFuzzer needs to see: the edges of the control flow, how often each is taken, and what numbers are compared; and
-/// what finds more: the assertions of debug builds, with overflows, and lines for what it finds.
+/// What libFuzzer needs to see: the edges of the control flow, how often each is taken, and what numbers are compared.
 const INSTRUMENTATION: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
     -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
-    -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=1 --cfg fuzzing \
-    -Cdebug-assertions=on -Coverflow-checks=on -Cdebuginfo=line-tables-only";
+    -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=1 --cfg fuzzing";
 
 impl Fuzz {
     pub(crate) fn run(&self) -> Result<ExitCode, String> {
