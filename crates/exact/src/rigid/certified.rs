@@ -116,6 +116,12 @@ fn in_double_double(toss: &RigidToss) -> Option<(Ball<DoubleDouble>, [Ball<Doubl
 }
 
 fn by_multiprecision(toss: &RigidToss, digits: usize) -> Option<Outcome> {
+    let (time, vertical) = in_digits(toss, digits);
+    outcome(toss, &vertical, &time)
+}
+
+/// Balls with the time, in the unit of [`scaled`] rates, and with the vertical seen from the body at launch.
+fn in_digits(toss: &RigidToss, digits: usize) -> (Ball<Big>, [Ball<Big>; 3]) {
     let round = |value: Big| value.with_precision(digits).value();
     let relative = (Big::ONE >> (digits as isize - 16)).to_f64().value();
     let (rate, unit) = toss.launch.given_rate();
@@ -127,8 +133,7 @@ fn by_multiprecision(toss: &RigidToss, digits: usize) -> Option<Outcome> {
     let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
     // The sign of cos θ does not need the norm, but its size decides what counts as small.
     let size = norm.to_f64().value();
-    let vertical = vertical.map(|part| Ball::new(round(part) / round(exactly(size)), relative));
-    outcome(toss, &vertical, &time)
+    (time, vertical.map(|part| Ball::new(round(part) / round(exactly(size)), relative)))
 }
 
 #[cfg(test)]
@@ -182,6 +187,22 @@ mod tests {
             let toss = RigidToss { body, launch };
             let cos_tilt = RigidMotion::new(&toss).cos_tilt(0.7).unwrap();
             assert_eq!(certify_rigid(&toss).unwrap().outcome(), Outcome::of(cos_tilt, 1e-12), "{toss:?}: {cos_tilt}");
+        }
+    }
+
+    /// The time has a division and the factor of the unit, the vertical a division.
+    #[test]
+    fn balls_of_many_digits_contain_the_numbers_of_more() {
+        for toss in tosses().take(100) {
+            let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
+            let thrown = TimeOfFlight::Ballistic { speed: 1.0 + toss.launch.flight_time(), gravity: 9.81 };
+            let launch = Launch::in_unit([1.0, 2.0, 3.0], degree, thrown).unwrap();
+            let toss = RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };
+            let ((time, vertical), (finer_time, finer)) = (in_digits(&toss, 256), in_digits(&toss, 448));
+            for (ball, fine) in vertical.iter().chain([&time]).zip(finer.iter().chain([&finer_time])) {
+                let off = (fine.midpoint() - ball.midpoint()).to_f64().value().abs();
+                assert!(off <= ball.radius(), "{toss:?}: {off:e}, radius {:e}", ball.radius());
+            }
         }
     }
 

@@ -182,6 +182,21 @@ fn units_of_any_size_change_no_bit_of_the_attitude() {
     assert!(RigidMotion::new(&toss([1.0, 2.0, 2.5], [1e300, 1e290, 1e300], 1.0)).cos_tilt(1e300).is_err());
 }
 
+#[test]
+fn rates_are_scaled_by_the_largest_also_where_they_are_far_apart() {
+    for rate in [[3e5, -2.0, 1.0], [3e5, 1e-90, 0.0], [-3e-5, 1e-190, 0.0]] {
+        let rate = Vector3::from(rate);
+        let unit = power_of_two_scale(rate.amax());
+        assert_eq!(scaled(&rate, &DoubleDouble::ZERO).map(|part| part.hi()), [0, 1, 2].map(|axis| rate[axis] / unit));
+    }
+}
+
+#[test]
+fn the_larger_of_two_numbers_is_nan_if_one_of_them_is() {
+    assert_eq!([larger(2.0, 1.0), larger(1.0, 2.0), larger(3.0, 3.0)], [2.0, 2.0, 3.0]);
+    assert!([larger(f64::NAN, 1.0), larger(1.0, f64::NAN)].iter().all(|one| one.is_nan()));
+}
+
 /// A body by its tensor moves as by its moments, seen in other axes.
 #[test]
 fn a_tensor_gives_the_motion_of_its_moments_also_next_to_the_separatrix() {

@@ -263,3 +263,11 @@ fn elapsed_time_keeps_what_rounding_loses() {
     approx::assert_relative_eq!(elapsed.off(1000.0), 1e-14, max_relative = 1e-9);
     assert!(Elapsed::ZERO.off(0.0) == 0.0);
 }
+
+#[test]
+fn the_fastest_terms_turn_with_half_of_all_rates() {
+    let launch = Launch::new([3.0, 4.0, 1.0], TimeOfFlight::Given(1.0)).unwrap();
+    let mut flight = Flight::new(&Toss { coin: Coin::DISC, launch }).unwrap();
+    flight.rate = Vector3::new(3.0, 4.0, 1.0);
+    assert_eq!(fastest(&flight, 4.0, 4.0), 6.5 + 6.0);
+}
