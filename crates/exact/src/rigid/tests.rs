@@ -187,7 +187,7 @@ fn rates_are_scaled_by_the_largest_also_where_they_are_far_apart() {
     for rate in [[3e5, -2.0, 1.0], [3e5, 1e-90, 0.0], [-3e-5, 1e-190, 0.0]] {
         let rate = Vector3::from(rate);
         let unit = power_of_two_scale(rate.amax());
-        assert_eq!(scaled(&rate, &DoubleDouble::ZERO).map(|part| part.hi()), [0, 1, 2].map(|axis| rate[axis] / unit));
+        assert_eq!(scaled(&rate, &DoubleDouble::ZERO).map(DoubleDouble::hi), [0, 1, 2].map(|axis| rate[axis] / unit));
     }
 }
 
