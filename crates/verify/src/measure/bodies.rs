@@ -74,7 +74,7 @@ pub const FAMILIES: [Family; 7] = [
             let ([a, b, c], [_, y, z]) = (sorted(moments(numbers)), vector(numbers));
             let on = (c * (c - b) / (a * (b - a))).sqrt() * z;
             let off = numbers.small(16.0);
-            // Where two moments are nearly equal, the separatrix is far out, but no rate is to be above 1.
+            // Where two moments are nearly equal, the separatrix is far out, but no rate is to be much above 1.
             let outside = on.abs().max(1.0);
             ([a, b, c], [on * (1.0 + off), y, z].map(|rate| rate / outside))
         },
