@@ -28,8 +28,11 @@ use crate::double_double::DoubleDouble;
 use crate::elementary::Elementary;
 use crate::number::Number;
 
-/// What underflow may take from a double-double result: its product is exact above 2^-968.
+/// More than underflow can take away from a result.
 const TINY: f64 = f64::MIN_POSITIVE * 1.152_921_504_606_847e18 * 1.152_921_504_606_847e18; // 2^-902
+
+/// More than underflow can take away from the remainder, by which a double-double quotient or root is corrected.
+const TINY_REMAINDER: f64 = f64::MIN_POSITIVE / 1_099_511_627_776.0; // 2^-1062
 
 /// A number that is within `radius` of `midpoint`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,9 +62,14 @@ impl<N: Elementary> Ball<N> {
         self.midpoint.to_f64().abs() > self.radius
     }
 
-    /// |midpoint|, rounded, and not below the range of f64.
+    /// |midpoint|, rounded.
+    fn distance(&self) -> f64 {
+        self.midpoint.to_f64().abs()
+    }
+
+    /// |midpoint|, rounded, and not below it where that leaves the range of f64.
     fn size(&self) -> f64 {
-        self.midpoint.to_f64().abs() + f64::MIN_POSITIVE
+        self.distance() + f64::MIN_POSITIVE
     }
 
     /// A result with the propagated error `error`, and rounding errors for a result of this size.
@@ -76,10 +84,11 @@ impl<N: Elementary> Ball<N> {
         Self { midpoint: self.midpoint.like(0.0), radius: f64::INFINITY }
     }
 
-    /// Smallest and largest absolute value.
+    /// Smallest and largest absolute value; a smallest one below the range of f64 is 0.
     fn sizes(&self) -> [f64; 2] {
-        let (size, margin) = (self.size(), self.radius * (1.0 + 4.0 * f64::EPSILON));
-        [(size * (1.0 - 4.0 * f64::EPSILON) - margin).max(0.0), size * (1.0 + 4.0 * f64::EPSILON) + margin]
+        let margin = self.radius * (1.0 + 4.0 * f64::EPSILON);
+        let least = (self.distance() - f64::MIN_POSITIVE) * (1.0 - 4.0 * f64::EPSILON) - margin;
+        [least.max(0.0), self.size() * (1.0 + 4.0 * f64::EPSILON) + margin]
     }
 }
 
@@ -128,7 +137,7 @@ impl<N: Elementary> Div for Ball<N> {
         }
         let quotient = self.midpoint / other.midpoint;
         let size = quotient.to_f64().abs();
-        let error = (self.radius + size * other.radius) / least;
+        let error = (self.radius + size * other.radius + TINY_REMAINDER) / least;
         Self::rounded(quotient, error * (1.0 + 8.0 * f64::EPSILON), size)
     }
 }
@@ -167,14 +176,14 @@ impl<N: Elementary> Elementary for Ball<N> {
     fn sqrt(&self) -> Self {
         let ([least, largest], root) = (self.sizes(), self.midpoint.sqrt());
         let size = root.to_f64();
-        let error = if least > 0.0 { self.radius / least.sqrt() } else { largest.sqrt() };
+        let error = if least > 0.0 { (self.radius + TINY_REMAINDER) / least.sqrt() } else { largest.sqrt() };
         Self::rounded(root, error, size)
     }
 
     fn exp(&self) -> Self {
         let power = self.midpoint.exp();
         let size = power.to_f64();
-        Self::rounded(power, size * self.radius.exp_m1(), size)
+        Self::rounded(power, (size + f64::MIN_POSITIVE) * self.radius.exp_m1(), size)
     }
 
     fn sine_and_cosine(&self) -> [Self; 2] {
@@ -183,13 +192,19 @@ impl<N: Elementary> Elementary for Ball<N> {
     }
 
     fn atan2(&self, x: &Self) -> Self {
-        let (distance, error) = (self.size().hypot(x.size()), self.radius.hypot(x.radius));
+        let (distance, error) = (self.distance().hypot(x.distance()) - f64::MIN_POSITIVE, self.radius.hypot(x.radius));
         let angle = self.midpoint.atan2(&x.midpoint);
         let size = angle.to_f64().abs();
-        // Of NaN, too, nothing is known but that it is an angle.
-        let is_clear = 8.0 * error < distance;
-        let across = (x.size() + x.radius) * self.radius + (self.size() + self.radius) * x.radius;
-        Self::rounded(angle, if is_clear { 1.5 * across / distance / distance } else { 7.0 }, size)
+        let off = if error == 0.0 {
+            0.0
+        } else if 8.0 * error < distance {
+            let [y_error, x_error] = [self.radius, x.radius].map(|radius| radius / distance);
+            1.5 * ((x.size() + x.radius) / distance * y_error + (self.size() + self.radius) / distance * x_error)
+        } else {
+            // Of NaN, too, nothing is known but that it is an angle.
+            7.0
+        };
+        Self::rounded(angle, off, size)
     }
 
     fn pi(&self) -> Self {

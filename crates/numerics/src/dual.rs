@@ -153,22 +153,44 @@ impl<N: Elementary> Elementary for Dual<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ball::Ball;
+
+    fn formula<N: Elementary>(x: &N) -> N {
+        let one = x.like(1.0);
+        let [sin, cos] = (x.clone() * x.clone()).sine_and_cosine();
+        let root = (x.clone() + one.exp()).sqrt() / (sin - x.like(3.0));
+        root.atan2(&cos) * (-x.clone()).exp() - (x.clone() * x.pi()).times_power_of_two(-3)
+    }
 
     #[test]
-    fn slopes_are_those_of_differences() {
-        let formula = |x: Dual<DoubleDouble>| {
-            let one = x.like(1.0);
-            let [sin, cos] = (x * x).sine_and_cosine();
-            let root = (x + one.exp()).sqrt() / (sin - x.like(3.0));
-            root.atan2(&cos) * (-x).exp() - (x * x.pi()).times_power_of_two(-3)
-        };
+    fn slopes_are_those_of_differences_and_values_those_without_a_slope() {
         const STEP: f64 = 9.094_947_017_729_282e-13; // 2^-40
         for value in [-1.3, -0.2, 0.4, 2.1] {
-            let found = formula(Dual::input(value.into()));
-            let at = |value: f64| formula(Dual::constant(value.into())).value;
+            let found = formula(&Dual::input(DoubleDouble::from(value)));
+            let at = |value: f64| formula(&DoubleDouble::from(value));
             let difference = (at(value + STEP) - at(value - STEP)) / (2.0 * STEP).into();
             assert!((found.slope - difference).hi().abs() < 1e-18, "{value}: {found:?} {difference:?}");
             assert_eq!(found.value, at(value));
+            assert_eq!(formula(&Dual::constant(DoubleDouble::from(value))).slope, DoubleDouble::ZERO);
         }
+    }
+
+    /// Of a number with an error bound, so that each of these is a number of its own.
+    #[test]
+    fn everything_but_the_slope_is_that_of_the_value() {
+        for midpoint in [-2.5, 0.0, 1e-3] {
+            let value = Ball::new(DoubleDouble::quotient(midpoint, 3.0), 1e-3);
+            let dual = Dual { value, slope: value.like(7.0) };
+            assert_eq!((dual.to_f64(), dual.to_double_double()), (value.to_f64(), value.to_double_double()));
+            assert_eq!((dual.to_big(), dual.digits()), (value.to_big(), value.digits()));
+            assert_eq!((dual.sign(), dual.error()), (value.sign(), value.error()));
+            assert_eq!(dual.has_known_sign(), value.has_known_sign());
+            let big = value.to_big();
+            assert_eq!(dual.like_big(&big), Dual::constant(value.like_big(&big)));
+            assert_eq!(dual.with_value(&big), Dual { value: value.like_big(&big), slope: dual.slope });
+            assert_eq!(dual.widened(0.5), Dual { value: value.widened(0.5), slope: dual.slope });
+        }
+        // The root of a constant 0 has no slope, where that of an input of 0 is infinite.
+        assert_eq!(Dual::constant(0.0).sqrt(), Dual::constant(0.0));
     }
 }

@@ -16,6 +16,12 @@ fn contains<N: Elementary>(ball: &Ball<N>, exact: &Big) -> bool {
     off.to_f64().value().abs() <= ball.radius
 }
 
+/// Whether the ball contains the angle `exact` up to a turn, where the ball crosses the cut at π.
+fn is_angle<N: Elementary>(ball: &Ball<N>, exact: &Big) -> bool {
+    let turn = Big::pi(DIGITS) * exactly(2.0);
+    [exact + &turn, exact - &turn, exact.clone()].iter().any(|exact| contains(ball, exact))
+}
+
 /// Balls of many radii, each with a number in it that is near its edge.
 fn samples() -> Vec<(Ball<DoubleDouble>, Big)> {
     let mut samples = Vec::new();
@@ -45,10 +51,60 @@ fn every_result_contains_that_of_every_number_in_its_balls() {
             assert!(contains(&(a - b), &(&exact_a - &exact_b)), "{a:?} {b:?}");
             assert!(contains(&(a * b), &(&exact_a * &exact_b)), "{a:?} {b:?}");
             assert!(contains(&(a / b), &(&exact_a / &exact_b)), "{a:?} {b:?}");
-            // An angle is meant up to a turn where the ball crosses the cut at π.
-            let (found, exact, turn) = (a.atan2(&b), exact_a.atan2(&exact_b), Big::pi(DIGITS) * exactly(2.0));
-            let turns = [&exact + &turn, &exact - &turn, exact];
-            assert!(turns.iter().any(|exact| contains(&found, exact)), "{a:?} {b:?}");
+            assert!(is_angle(&a.atan2(&b), &exact_a.atan2(&exact_b)), "{a:?} {b:?}");
+        }
+    }
+}
+
+/// Balls of every size that an f64 has, each with a number in it that is near its edge.
+fn extremes() -> Vec<(Ball<DoubleDouble>, Big)> {
+    let mut samples = Vec::new();
+    for exponent in [-1074, -1060, -1023, -1000, -960, -903, -600, -200, -1, 2, 80, 400] {
+        for (share, side) in [(0.0, 1.0), (1e-40, -1.0), (1e-12, 1.0), (0.1, -1.0), (0.9, -1.0), (3.0, 1.0)] {
+            for mantissa in [1.0, -1.618_033_988_749_895] {
+                let midpoint = DoubleDouble::exactly(mantissa).times_power_of_two(exponent);
+                let radius = midpoint.hi().abs() * share;
+                samples.push((Ball::new(midpoint, radius), big(midpoint.hi()) + big(0.999 * side * radius)));
+            }
+        }
+    }
+    samples.push((Ball::new(DoubleDouble::ZERO, 0.0), big(0.0)));
+    samples
+}
+
+/// Whether the ball contains `exact`, or says that it knows nothing.
+fn is_right<N: Elementary>(ball: &Ball<N>, exact: &Big) -> bool {
+    !ball.radius.is_finite() || contains(ball, exact)
+}
+
+#[test]
+fn no_digit_that_underflows_is_forgotten() {
+    for (a, exact_a) in extremes() {
+        let rough_a = Ball::new(a.midpoint.hi(), a.radius);
+        if a.midpoint.hi().abs() + a.radius < 900.0 {
+            let exact = exact_a.exp();
+            assert!(is_right(&a.exp(), &exact) && is_right(&rough_a.exp(), &exact), "{a:?}");
+        }
+        let (sin, cos) = exact_a.sin_cos();
+        let [found_sin, found_cos] = a.sine_and_cosine();
+        assert!(is_right(&found_sin, &sin) && is_right(&found_cos, &cos), "{a:?} {found_sin:?} {found_cos:?}");
+        if exact_a >= Big::ZERO {
+            let exact = exact_a.sqrt();
+            assert!(is_right(&a.sqrt(), &exact) && is_right(&rough_a.sqrt(), &exact), "{a:?} {:?}", a.sqrt());
+        }
+        for (b, exact_b) in extremes() {
+            let rough_b = Ball::new(b.midpoint.hi(), b.radius);
+            let sum = &exact_a + &exact_b;
+            assert!(is_right(&(a + b), &sum) && is_right(&(rough_a + rough_b), &sum), "{a:?} {b:?}");
+            let product = &exact_a * &exact_b;
+            assert!(is_right(&(a * b), &product) && is_right(&(rough_a * rough_b), &product), "{a:?} {b:?}");
+            let angle = Elementary::atan2(&exact_a, &exact_b);
+            assert!(is_angle(&a.atan2(&b), &angle) && is_angle(&rough_a.atan2(&rough_b), &angle), "{a:?} {b:?}");
+            if exact_b != Big::ZERO {
+                let quotient = &exact_a / &exact_b;
+                assert!(is_right(&(a / b), &quotient), "{a:?} {b:?} {:?}", a / b);
+                assert!(is_right(&(rough_a / rough_b), &quotient), "{a:?} {b:?}");
+            }
         }
     }
 }
@@ -121,4 +177,92 @@ fn balls_of_many_digits_contain_more_digits() {
     let off = (rough.midpoint() - fine.midpoint()).to_f64().value().abs();
     assert!(off <= rough.radius() + fine.radius() && rough.radius() < 1e-41 && fine.radius() < 1e-178);
     assert!(!fine.widened(0.2).has_sign());
+}
+
+/// Checks the radii of the sum, the product and so on of two balls: they are those of the module's table, and no larger.
+fn check_radii<N: Elementary>(a: &Ball<N>, b: &Ball<N>) {
+    let digits = |value: f64| exactly(value).with_precision(DIGITS + 40).value();
+    let (a_mid, b_mid) = (a.midpoint.to_big(), b.midpoint.to_big());
+    let [x, y] = [&a_mid, &b_mid].map(|value| digits(0.0).like_big(value));
+    let [size, other] = [x.magnitude(), y.magnitude()];
+    let [r, s, rounding] = [a.radius, b.radius, a.midpoint.rounding()].map(digits);
+    let (grown, one) = (digits(a.radius.exp_m1()), digits(1.0));
+    let angle = Elementary::atan2(&x, &y).magnitude();
+    let across = (&other + &s) * &r + (&size + &r) * &s;
+    let [sin, cos] = a.sine_and_cosine();
+    let positive = if a_mid > Big::ZERO { a.clone() } else { -a.clone() };
+    let rows = [
+        ("+", a.clone() + b.clone(), &r + &s + &rounding * (&x + &y).magnitude()),
+        ("-", a.clone() - b.clone(), &r + &s + &rounding * (&x - &y).magnitude()),
+        ("*", a.clone() * b.clone(), &size * &s + &other * &r + &r * &s + &rounding * &size * &other),
+        ("/", a.clone() / b.clone(), (&r + &size / &other * &s) / (&other - &s) + &rounding * &size / &other),
+        ("sqrt", positive.sqrt(), &r / (&size - &r).sqrt() + &rounding * size.sqrt()),
+        ("exp", a.exp(), x.exp() * (grown + &rounding)),
+        ("sin", sin, &r + &rounding * if size < one { &size } else { &one }),
+        ("cos", cos, &r + &rounding),
+        ("atan2", a.atan2(b), digits(1.5) * across / (&x * &x + &y * &y) + &rounding * angle),
+        ("pi", a.pi(), &rounding * digits(4.0)),
+        ("like_big", a.like_big(&y), &rounding * &other),
+        ("widened", a.clone().widened(b.radius), &r + &s),
+        ("times 2^3", a.times_power_of_two(3), &r * digits(8.0)),
+    ];
+    let largest = digits(1.0 + 1e-14);
+    for (name, ball, radius) in rows {
+        let found = digits(ball.radius);
+        assert!(
+            found >= radius,
+            "{name}: {} < {}, {} {}",
+            ball.radius,
+            radius.to_f64().value(),
+            a.to_f64(),
+            b.to_f64()
+        );
+        let most = radius * &largest + digits(2.0 * TINY);
+        assert!(found <= most, "{name}: {} > {}", ball.radius, most.to_f64().value());
+    }
+}
+
+#[test]
+fn the_radius_is_the_one_of_the_table() {
+    for index in 1..40 {
+        let [x, y] = [3.0, 5.0].map(|root: f64| 5.0 * (2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0));
+        for share in [0.0, 1e-60, 1e-31, 1e-16, 1e-6, 0.03] {
+            let [r, s] = [share * x.abs(), 0.6 * share * y.abs()];
+            check_radii(&Ball::new(x, r), &Ball::new(y, s));
+            check_radii(&Ball::new(DoubleDouble::exactly(x), 0.0), &Ball::new(DoubleDouble::exactly(y), s));
+            check_radii(&Ball::new(DoubleDouble::exactly(x), r), &Ball::new(DoubleDouble::exactly(y), s));
+            check_radii(&Ball::new(big(x), r), &Ball::new(big(y), s));
+        }
+    }
+}
+
+#[test]
+fn a_sign_is_known_beyond_the_radius_and_of_an_exact_zero() {
+    for (midpoint, radius, has_sign, is_known) in [
+        (1.0, 0.5, true, true),
+        (-1.0, 0.5, true, true),
+        (0.5, 0.5, false, false),
+        (-0.5, 1.0, false, false),
+        (0.0, 0.0, false, true),
+        (0.0, 1e-300, false, false),
+        (1.0, 0.0, true, true),
+        (1.0, f64::INFINITY, false, false),
+        (1.0, f64::NAN, false, false),
+    ] {
+        let ball = Ball::new(midpoint, radius);
+        assert_eq!((ball.has_sign(), ball.has_known_sign()), (has_sign, is_known), "{ball:?}");
+        assert_eq!(ball.sign(), if midpoint == 0.0 { 0.0 } else { midpoint.signum() });
+        assert_eq!((ball.to_f64(), ball.to_double_double()), (midpoint, midpoint.into()));
+        assert_eq!((ball.to_big(), ball.digits()), (exactly(midpoint), 53));
+        assert!(ball.error() == radius || radius.is_nan());
+        assert_eq!((ball.magnitude().midpoint, ball.like(2.5)), (midpoint.abs(), Ball::new(2.5, 0.0)));
+    }
+    // A difference of 0 is exact only between exact numbers.
+    let [exact, rough] = [0.0, 1e-20].map(|radius| Ball::new(DoubleDouble::exactly(0.3), radius));
+    assert_eq!((exact - exact).radius, 0.0);
+    assert!((rough - rough).radius >= 2e-20 && (exact - rough).radius >= 1e-20);
+    // Roots of balls around 0, and a quotient by one, say so.
+    let around = Ball::new(-0.5, 1.0);
+    assert!(around.sqrt().radius >= 0.5f64.sqrt() && around.sqrt().radius < 1.3);
+    assert_eq!((exact.midpoint, (Ball::new(0.5, 0.0) / around).radius), (0.3.into(), f64::INFINITY));
 }

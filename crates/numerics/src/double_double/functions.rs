@@ -40,6 +40,9 @@ const INVERSE_FACTORIALS: [DoubleDouble; 18] = [
 /// Arguments of the exponential below which the result is 0, and above which it is infinite.
 const EXPONENTS: std::ops::RangeInclusive<f64> = -745.0..=709.0;
 
+/// Angles (rad) up to which the number of quarters of a turn is known by f64.
+const MOST_QUARTERS: f64 = 9_007_199_254_740_992.0; // 2^53
+
 impl DoubleDouble {
     /// π, to 2^-107.
     pub const PI: Self = Self { hi: 2.0 * QUARTER[0], lo: 2.0 * QUARTER[1] };
@@ -53,8 +56,11 @@ impl DoubleDouble {
         Self::exactly(hi) + (value - exactly(hi)).to_f64().value().into()
     }
 
-    /// Sine and cosine of an angle (rad) of at most 2^53, to 2^-100, besides what the error of the angle itself does.
+    /// Sine and cosine of a finite angle (rad), to 2^-100, besides what the error of the angle itself does.
     pub fn exact_sin_cos(self) -> (Self, Self) {
+        if self.hi.is_finite() && self.hi.abs() > MOST_QUARTERS {
+            return self.sin_cos_of_large();
+        }
         // The first number of quarters is off by one where it has nearly all digits of f64.
         let (rest, quarters) = self.less_quarters();
         let (rest, more) = rest.less_quarters();
@@ -71,6 +77,14 @@ impl DoubleDouble {
             2.0 => (-sin, -cos),
             _ => (-cos, sin),
         }
+    }
+
+    /// Sine and cosine by as many digits as the largest f64 has before the point, and those of the result after it.
+    #[cold]
+    fn sin_cos_of_large(self) -> (Self, Self) {
+        let angle = (exactly(self.hi) + exactly(self.lo)).with_precision(1280).value();
+        let (sin, cos) = angle.sin_cos();
+        (Self::nearest(&sin), Self::nearest(&cos))
     }
 
     /// The angle less a number of quarters of a turn, and that number.
