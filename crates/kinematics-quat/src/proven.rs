@@ -91,7 +91,7 @@ pub(crate) const OF_COS_TILT: f64 = 20.0 * UNIT_ROUNDOFF;
 /// (2).
 const OF_ATTITUDE: f64 = 24.0 * UNIT_ROUNDOFF;
 
-/// The digits of the last stage. Bounds end at 2^-902, below which they do not count underflow.
+/// The digits of the last stage. Bounds end at 2^-1022, below which they do not count underflow.
 const DIGITS: [usize; 3] = [192, 384, 768];
 
 impl QuaternionSolver {

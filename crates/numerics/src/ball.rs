@@ -8,7 +8,7 @@
 //! ```text
 //! a + b      r + s                                      + ε |a + b|
 //! a b        |a| s + |b| r + r s                        + ε |a b|
-//! a/b        (r + |a/b| s)/(|b| - s)                    + ε |a/b|     infinite for |b| ≤ s
+//! a/b        (r + |a/b| s)/(|b| - s)                    + ε |a/b|     infinite for |b| ≤ s + 2^-1022
 //! √a         r/√(a - r), or √(a + r) for a ≤ r          + ε √a
 //! e^a        e^a (e^r - 1)                              + ε e^a
 //! sin        r                                          + ε min(1, |a|)
@@ -19,7 +19,8 @@
 //! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the standard library, to less
 //! than 2^-52. It is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions
 //! to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
-//! roundings of its own and by 2^-902, which is more than underflow can take away.
+//! roundings of its own and by 2^-1022, which is more than
+//! underflow can take away; so is the r of a quotient or a root.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -28,11 +29,9 @@ use crate::double_double::DoubleDouble;
 use crate::elementary::Elementary;
 use crate::number::Number;
 
-/// More than underflow can take away from a result.
-const TINY: f64 = f64::MIN_POSITIVE * 1.152_921_504_606_847e18 * 1.152_921_504_606_847e18; // 2^-902
-
-/// More than underflow can take away from the remainder, by which a double-double quotient or root is corrected.
-const TINY_REMAINDER: f64 = f64::MIN_POSITIVE / 1_099_511_627_776.0; // 2^-1062
+/// More than underflow can take away: from a result, and from the remainder by which a double-double quotient or root is
+/// corrected. The rounding of a subnormal number takes at most 2^-1075, and no function rounds 2^50 times.
+const TINY: f64 = f64::MIN_POSITIVE; // 2^-1022
 
 /// A number that is within `radius` of `midpoint`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,7 +136,7 @@ impl<N: Elementary> Div for Ball<N> {
         }
         let quotient = self.midpoint / other.midpoint;
         let size = quotient.to_f64().abs();
-        let error = (self.radius + size * other.radius + TINY_REMAINDER) / least;
+        let error = (self.radius + size * other.radius + TINY) / least;
         Self::rounded(quotient, error * (1.0 + 8.0 * f64::EPSILON), size)
     }
 }
@@ -176,7 +175,7 @@ impl<N: Elementary> Elementary for Ball<N> {
     fn sqrt(&self) -> Self {
         let ([least, largest], root) = (self.sizes(), self.midpoint.sqrt());
         let size = root.to_f64();
-        let error = if least > 0.0 { (self.radius + TINY_REMAINDER) / least.sqrt() } else { largest.sqrt() };
+        let error = if least > 0.0 { (self.radius + TINY) / least.sqrt() } else { largest.sqrt() };
         Self::rounded(root, error, size)
     }
 
