@@ -13,8 +13,12 @@ const TOSS: &str = "cargo run -q --release --bin unfair-toss -- toss ";
 const ALL: &str = "cargo xtask verify --replay ";
 const CHECK: &str = "cargo xtask verify --only ";
 
-/// Checks that are left out because they sample or plan for a minute; all their rows are repeated by the whole check.
-const LONG: [&str; 7] = [
+/// Checks that are left out because together they sample, plan or search for a minute; all their rows are repeated by the
+/// whole check.
+const LONG: [&str; 10] = [
+    "adversarial-silence",
+    "atlas-answers",
+    "work-precision",
     "sampling-errors",
     "interval-coverage",
     "clopper-pearson-coverage",

@@ -17,6 +17,10 @@ serde = { version = \"1\", features = [\"derive\"] }
 toml = \"1\"
 toss = { path = ";
 
+/// Crates of the workspace, which are built again here. Their examples take a moment to run, and a minute to optimise.
+const NOT_OPTIMISED: [&str; 7] =
+    ["numerics", "dynamics", "exact", "kinematics-euler", "kinematics-quat", "sampling", "toss"];
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace")
 }
@@ -66,7 +70,8 @@ fn write_crate(blocks: &[String]) -> PathBuf {
     let folder = root().join("target/downstream");
     std::fs::create_dir_all(folder.join("src")).expect("a folder");
     let toss = root().join("crates/toss");
-    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n", toss.display().to_string()))
+    let profiles = NOT_OPTIMISED.map(|name| format!("[profile.release.package.{name}]\nopt-level = 0\n")).concat();
+    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n{profiles}", toss.display().to_string()))
         .expect("written");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
     let modules: String = blocks.iter().enumerate().map(|(index, block)| module(index, block)).collect();
