@@ -70,7 +70,8 @@ impl<N: Elementary> Ball<N> {
         self.distance() + f64::MIN_POSITIVE
     }
 
-    /// A result with the propagated error `error`, and rounding errors for a result of this size.
+    /// A result with the propagated error `error`, and rounding errors for a result of this size. Both are right to seven
+    /// roundings, which the last factor covers.
     fn rounded(midpoint: N, error: f64, size: f64) -> Self {
         let mut ball = Self { midpoint, radius: 0.0 };
         ball.radius = (error + ball.midpoint.rounding() * size) * (1.0 + 8.0 * f64::EPSILON) + TINY;
@@ -84,9 +85,9 @@ impl<N: Elementary> Ball<N> {
 
     /// Smallest and largest absolute value; a smallest one below the range of f64 is 0.
     fn sizes(&self) -> [f64; 2] {
-        let margin = self.radius * (1.0 + 4.0 * f64::EPSILON);
-        let least = (self.distance() - f64::MIN_POSITIVE) * (1.0 - 4.0 * f64::EPSILON) - margin;
-        [least.max(0.0), self.size() * (1.0 + 4.0 * f64::EPSILON) + margin]
+        // A difference magnifies the roundings of the distance, of the product and of the first difference.
+        let least = self.distance() * (1.0 - 2.0 * f64::EPSILON) - f64::MIN_POSITIVE - self.radius;
+        [least.max(0.0), self.size() + self.radius]
     }
 }
 
@@ -122,7 +123,7 @@ impl<N: Elementary> Mul for Ball<N> {
     fn mul(self, other: Self) -> Self {
         let (size, other_size) = (self.size(), other.size());
         let error = size * other.radius + other_size * self.radius + self.radius * other.radius;
-        Self::rounded(self.midpoint * other.midpoint, error * (1.0 + 8.0 * f64::EPSILON), size * other_size)
+        Self::rounded(self.midpoint * other.midpoint, error, size * other_size)
     }
 }
 
@@ -136,7 +137,7 @@ impl<N: Elementary> Div for Ball<N> {
         let quotient = self.midpoint / other.midpoint;
         let size = quotient.to_f64().abs();
         let error = (self.radius + size * other.radius + TINY) / least;
-        Self::rounded(quotient, error * (1.0 + 8.0 * f64::EPSILON), size)
+        Self::rounded(quotient, error, size)
     }
 }
 

@@ -69,6 +69,8 @@ fn extremes() -> Vec<(Ball<DoubleDouble>, Big)> {
         }
     }
     samples.push((Ball::new(DoubleDouble::ZERO, 0.0), big(0.0)));
+    // The exponential of the middle underflows, that of the edge does not.
+    samples.push((Ball::new(DoubleDouble::exactly(-800.0), 200.0), big(-600.0)));
     samples
 }
 
