@@ -20,6 +20,17 @@ pub(super) struct Combinations<N> {
     pub(super) p3: N,
 }
 
+impl<N: Elementary> Combinations<N> {
+    /// Those of the launch `start` with the angular momentum `m`.
+    pub(super) fn new(start: &Start<N>, m: &[N; 3]) -> Self {
+        let square = |part: &N| part.clone() * part.clone();
+        let [a12, a13, a23] = [start.alpha(0, 1), start.alpha(0, 2), start.alpha(1, 2)];
+        let p1 = a12.clone() * square(&m[1]) + a13.clone() * square(&m[2]);
+        let p3 = a13.clone() * square(&m[0]) + a23.clone() * square(&m[1]);
+        Self { alpha: [a12, a13, a23], p1, p3 }
+    }
+}
+
 /// Ω/2 and the form of a motion off the separatrix.
 pub(super) fn periodic<N: Phases<M>, M: Elementary>(
     start: &Start<N>,
@@ -110,4 +121,31 @@ pub(super) fn separatrix<N: Phases<M>, M: Elementary>(
 pub(super) fn norm<N: Elementary>(vector: &[N; 3]) -> N {
     let [x, y, z] = vector.clone().map(|part| part.clone() * part);
     (x + y + z).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::Body;
+    use numerics::{Ball, DoubleDouble};
+
+    use super::*;
+    use crate::rigid::regime::Regime;
+
+    /// Of a body that is a million times as slender as it is long, the other one of the two sums would lose twenty binary
+    /// digits of the mean rate, and so would its error bound.
+    #[test]
+    fn the_mean_rate_of_a_slender_body_keeps_its_digits_in_both_regimes() {
+        let body = Body::from_moments([1e-6, 1.0, 1.000_000_5]).unwrap();
+        for rate in [[1.0, 1e-9, 1e-7], [1.0, 0.3, 1.0], [0.3, 0.3, 1.0]] {
+            let rate = rate.map(|part| Ball::new(DoubleDouble::exactly(part), 0.0));
+            let start = Start::new(&body, &rate).unwrap();
+            let m: [_; 3] = [0, 1, 2].map(|axis: usize| start.moments[axis] * start.rate[axis]);
+            let (half_rate, _) =
+                periodic::<_, Ball<DoubleDouble>>(&start, &m, &norm(&m), &Combinations::new(&start, &m));
+            let lost = half_rate.radius() / half_rate.to_f64().abs();
+            assert!(lost < 2f64.powi(-88), "{:?}: {lost:e}", start.regime);
+            let x = rate[0].to_f64();
+            assert_eq!(start.regime, if x < 0.5 { Regime::AroundLargest } else { Regime::AroundSmallest });
+        }
+    }
 }

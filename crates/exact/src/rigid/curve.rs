@@ -41,11 +41,7 @@ impl<N: Phases<M>, M: Elementary> Curve<N, M> {
         if start.regime == Regime::Uniform {
             return Some(Self::uniform(&start, &m, &momentum));
         }
-        let square = |part: &N| part.clone() * part.clone();
-        let [a12, a13, a23] = [start.alpha(0, 1), start.alpha(0, 2), start.alpha(1, 2)];
-        let p1 = a12.clone() * square(&m[1]) + a13.clone() * square(&m[2]);
-        let p3 = a13.clone() * square(&m[0]) + a23.clone() * square(&m[1]);
-        let combinations = Combinations { alpha: [a12, a13, a23], p1, p3 };
+        let combinations = Combinations::new(&start, &m);
         let (half_rate, form) = if start.regime == Regime::Separatrix {
             separatrix(&start, &m, &momentum, &combinations)
         } else {
