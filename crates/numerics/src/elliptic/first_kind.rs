@@ -150,3 +150,28 @@ fn unit_sized<N: Elementary>(point: [N; 2]) -> [N; 2] {
     }
     point
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ball::Ball;
+
+    #[test]
+    fn the_distance_after_a_step_is_that_of_the_farthest_numbers_of_two_balls() {
+        for (a, b, expected) in [
+            ((2.0, 0.5), (1.875, 0.0), (0.625_f64 / 1.5).powi(2)),
+            ((2.0, 0.0), (1.75, 0.25), 0.0625),
+            ((2.0, 0.0), (2.25, 0.0), 0.015625),
+            ((2.0, 0.0), (0.5, 0.0), f64::INFINITY),
+            ((2.0, 3.0), (2.0, 0.0), f64::INFINITY),
+        ] {
+            let [a, b] = [a, b].map(|(midpoint, radius)| Ball::new(midpoint, radius));
+            let found = distance_after_step(&a, &b);
+            let least = expected + 2f64.powi(-53);
+            assert!(found >= least * (1.0 - 1e-15) && found <= least * (1.0 + 1e-14), "{a:?} {b:?}: {found}");
+        }
+        // Means that never meet are known by nothing.
+        assert_eq!(agm(Ball::new(0.0, 0.0)).radius(), f64::INFINITY);
+        assert!(agm(Ball::new(1e-300, 0.0)).radius() < 1e-16);
+    }
+}
