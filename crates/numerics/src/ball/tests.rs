@@ -239,6 +239,21 @@ fn the_radius_is_the_one_of_the_table() {
 }
 
 #[test]
+fn a_quotient_by_a_ball_that_nearly_holds_0_allows_for_the_rounding_of_the_distance() {
+    for exponent in [-20, -35, -48] {
+        for mantissa in [1.0, 1.3, 1.9] {
+            // The nearest f64 is half of an ulp further from 0 than the number.
+            let divisor = DoubleDouble::exactly(mantissa) - (0.49 * f64::EPSILON * mantissa).into();
+            let [radius, one] = [mantissa * (1.0 - 2f64.powi(exponent)), 1.0];
+            let found = Ball::new(DoubleDouble::exactly(one), 0.0) / Ball::new(divisor, radius);
+            let size = big(divisor.hi()) + big(divisor.lo());
+            let least = big(radius) / &size / (&size - big(radius));
+            assert!(big(found.radius) >= least && found.radius < 1.2 * least.to_f64().value(), "{divisor:?} {found:?}");
+        }
+    }
+}
+
+#[test]
 fn a_sign_is_known_beyond_the_radius_and_of_an_exact_zero() {
     for (midpoint, radius, has_sign, is_known) in [
         (1.0, 0.5, true, true),

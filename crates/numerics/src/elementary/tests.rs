@@ -55,6 +55,8 @@ fn each_kind_of_number_keeps_what_it_promises() {
         check(&DoubleDouble::exactly(value), value, 106, 2f64.powi(-98));
         check(&exactly(value).with_precision(150).value(), value, 150, 2f64.powi(-142));
     }
+    // Of a zero with a sign, too.
+    assert_eq!([Elementary::sqrt(&-0.0_f64), 0.0.magnitude()].map(f64::to_bits), [0, 0]);
     // Both parts of a double-double number count, and a sign below the range of f64.
     let third = DoubleDouble::quotient(1.0, 3.0);
     assert_eq!(third.to_big(), exactly(third.hi()) + exactly(third.lo()));
