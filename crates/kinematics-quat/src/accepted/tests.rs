@@ -271,3 +271,9 @@ fn the_fastest_terms_turn_with_half_of_all_rates() {
     flight.rate = Vector3::new(3.0, 4.0, 1.0);
     assert_eq!(fastest(&flight, 4.0, 4.0), 6.5 + 6.0);
 }
+
+#[test]
+fn the_order_is_the_smallest_that_leaves_less_than_a_rounding() {
+    // 1/18! is 1.6e-16 and 1/20! 4e-19; u is 1.1e-16.
+    assert_eq!([0.0, 1e-3, 1.0, LONGEST_PIECE, 40.0].map(order), [10, 10, 20, LARGEST_ORDER, LARGEST_ORDER]);
+}
