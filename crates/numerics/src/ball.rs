@@ -73,9 +73,14 @@ impl<N: Elementary> Ball<N> {
     /// A result with the propagated error `error`, and rounding errors for a result of this size. Both are right to seven
     /// roundings, which the last factor covers.
     fn rounded(midpoint: N, error: f64, size: f64) -> Self {
-        let mut ball = Self { midpoint, radius: 0.0 };
-        ball.radius = (error + ball.midpoint.rounding() * size) * (1.0 + 8.0 * f64::EPSILON) + TINY;
-        ball
+        let rounding = midpoint.rounding();
+        Self::within(midpoint, (error + rounding * size) * (1.0 + 8.0 * f64::EPSILON) + TINY)
+    }
+
+    /// A ball of this radius, or one of which nothing is known, because its midpoint left the range of f64.
+    fn within(midpoint: N, radius: f64) -> Self {
+        let is_finite = midpoint.to_f64().is_finite();
+        Self { midpoint, radius: if is_finite { radius } else { f64::INFINITY } }
     }
 
     /// A ball of which nothing is known.
@@ -211,8 +216,8 @@ impl<N: Elementary> Elementary for Ball<N> {
     }
 
     fn times_power_of_two(&self, exponent: i32) -> Self {
-        let factor = 2f64.powi(exponent);
-        Self { midpoint: self.midpoint.times_power_of_two(exponent), radius: self.radius * factor + TINY }
+        let (midpoint, radius) = (self.midpoint.times_power_of_two(exponent), self.radius.times_power_of_two(exponent));
+        Self::within(midpoint, radius + TINY)
     }
 
     fn sign(&self) -> f64 {

@@ -39,9 +39,9 @@ pub trait Elementary: Number + Div<Output = Self> {
     /// The number of binary digits that operations keep.
     fn digits(&self) -> i32;
 
-    /// A bound of the relative rounding error of an operation or a function.
+    /// A bound of the relative rounding error of an operation or a function; at least 2^-1000, however many the digits.
     fn rounding(&self) -> f64 {
-        2f64.powi(8 - self.digits())
+        2f64.powi((8 - self.digits()).max(-1000))
     }
 
     /// The square root; 0 for a number ≤ 0.

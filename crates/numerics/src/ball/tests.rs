@@ -69,6 +69,7 @@ fn extremes() -> Vec<(Ball<DoubleDouble>, Big)> {
         }
     }
     samples.push((Ball::new(DoubleDouble::ZERO, 0.0), big(0.0)));
+    samples.push((Ball::new(DoubleDouble::exactly(1e308), 1e307), big(1.09e308)));
     // The exponential of the middle underflows, that of the edge does not.
     samples.push((Ball::new(DoubleDouble::exactly(-800.0), 200.0), big(-600.0)));
     samples
@@ -86,6 +87,10 @@ fn no_digit_that_underflows_is_forgotten() {
         if a.midpoint.hi().abs() + a.radius < 1100.0 {
             let exact = exact_a.exp();
             assert!(is_right(&a.exp(), &exact) && is_right(&rough_a.exp(), &exact), "{a:?}");
+        }
+        for exponent in [-1100, -1030, -3, 7, 900] {
+            let exact = exact_a.times_power_of_two(exponent);
+            assert!(is_right(&a.times_power_of_two(exponent), &exact), "{a:?} {exponent}");
         }
         let (sin, cos) = exact_a.sin_cos();
         let [found_sin, found_cos] = a.sine_and_cosine();

@@ -55,6 +55,7 @@ fn each_kind_of_number_keeps_what_it_promises() {
         check(&DoubleDouble::exactly(value), value, 106, 2f64.powi(-98));
         check(&exactly(value).with_precision(150).value(), value, 150, 2f64.powi(-142));
     }
+    assert_eq!(exactly(1.0).with_precision(5000).value().rounding(), 2f64.powi(-1000));
     // Of a zero with a sign, too.
     assert_eq!([Elementary::sqrt(&-0.0_f64), 0.0.magnitude()].map(f64::to_bits), [0, 0]);
     // Both parts of a double-double number count, and a sign below the range of f64.

@@ -34,7 +34,7 @@ fn distance_after_step<N: Elementary>(a: &N, b: &N) -> f64 {
     let difference = a.clone() - b.clone();
     let distance = (difference.to_f64().abs() + difference.error()) / (a.to_f64() - a.error());
     let is_small = (0.0..=0.5).contains(&distance);
-    if is_small { distance * distance + 2f64.powi(-a.digits()) } else { f64::INFINITY }
+    if is_small { distance * distance + 2f64.powi(-a.digits().min(1000)) } else { f64::INFINITY }
 }
 
 /// AGM(1, `b`), the common limit of arithmetic and geometric means that begin with 1 and `b` > 0.
