@@ -124,8 +124,11 @@ impl Launched {
 /// By how much the time of a flight differs from that of its launch, in the unit of the flight.
 fn time_error(launch: &Launch, flight: &Flight) -> f64 {
     let exact = launch.time_of_flight().exact();
-    // The mantissa of the scale, a power of two, is ½ or 1 by convention, and its exponent is exact.
-    let (mantissa, exponent) = mantissa_and_exponent(power_of_two_scale(launch.rate().amax()));
-    let time = (exact.mantissa() * mantissa).times_power_of_two(exact.exponent() + exponent);
+    // The scale is a power of two, so that its mantissa is 1.
+    let (_, exponent) = mantissa_and_exponent(power_of_two_scale(launch.rate().amax()));
+    let time = exact.mantissa().times_power_of_two(exact.exponent() + exponent);
     (time - flight.span().into()).hi().abs() + OF_DOUBLE_DOUBLE * flight.span()
 }
+
+#[cfg(test)]
+mod tests;

@@ -240,6 +240,23 @@ fn a_jump_is_the_angle_that_no_shift_of_the_time_explains() {
     assert!(!Jump::new([0.0; 4], rates, series, 1.0).turn.is_finite());
 }
 
+/// Of a jump in exact numbers that a shift explains whole, what is left are the roundings and the square of the shift.
+#[test]
+fn the_roundings_and_the_square_of_a_shift_count_by_their_formula() {
+    const SHIFT: f64 = 1.0 / (1u64 << 34) as f64;
+    for (scale, rate) in [(1.0, 2f64.powi(14)), (1.0, 2.0), (2.0, 2f64.powi(14))] {
+        // Half the rate, of a quaternion of the norm 2.
+        let moving = 2.0 * 0.5 * rate;
+        let step = [scale * 2.0, scale * SHIFT * moving, 0.0, 0.0];
+        let found = Jump::new([2.0, 0.0, 0.0, 0.0], [rate, 0.0, 0.0], step, 1e6);
+        let jump = (step[0] - 2.0).hypot(step[1]);
+        let expected = OF_JUMP * (2.0 * jump + SHIFT * moving) / 2.0 + 8.0 * SHIFT * SHIFT;
+        assert_eq!(found.shift, SHIFT);
+        approx::assert_relative_eq!(found.turn, expected, max_relative = 1e-12);
+    }
+    assert_eq!(OF_JUMP, 32.0 * UNIT_ROUNDOFF);
+}
+
 #[test]
 fn a_turn_of_the_rates_is_measured_against_a_turn_in_time() {
     // The rates of the step are twice as large, which is no turn, but too far off.
@@ -261,6 +278,10 @@ fn elapsed_time_keeps_what_rounding_loses() {
         elapsed.add(1.0, -1e-17);
     }
     approx::assert_relative_eq!(elapsed.off(1000.0), 1e-14, max_relative = 1e-9);
+    let mut even = Elapsed::ZERO;
+    (0..1000).for_each(|_| even.add(2.0, 0.0));
+    // 8 u² a step, of the whole.
+    approx::assert_relative_eq!(even.off(2000.0), 8.0 * 2f64.powi(-106) * 1000.0 * 2000.0, max_relative = 1e-12);
     assert!(Elapsed::ZERO.off(0.0) == 0.0);
 }
 
