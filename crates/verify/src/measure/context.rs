@@ -12,7 +12,7 @@ use toss::{Error, InputError, SolverEntry};
 
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::bodies::{self, BodyFindings};
+use crate::measure::bodies::{self, BodyFindings, Family};
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
@@ -21,6 +21,7 @@ use crate::measure::planner::summary::PlannerSummary;
 use crate::measure::reference::coins::{self, ReferenceCoin};
 use crate::measure::reference::motions::ReferenceData;
 use crate::measure::reference::probabilities::ReferenceProbabilities;
+use crate::measure::rigid_errors::{self, Judged};
 use crate::measure::search::{Findings, search};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
@@ -51,6 +52,7 @@ pub struct Context {
     long_flights: OnceLock<LongFlights>,
     search: OnceLock<Vec<Findings>>,
     bodies: OnceLock<Vec<BodyFindings>>,
+    rigid_errors: OnceLock<Vec<(&'static Family, Vec<Judged>)>>,
     sweep: OnceLock<Sweep>,
     convergence: OnceLock<Vec<Convergence>>,
     trial: OnceLock<Trial>,
@@ -80,6 +82,7 @@ impl Context {
             long_flights: OnceLock::new(),
             search: OnceLock::new(),
             bodies: OnceLock::new(),
+            rigid_errors: OnceLock::new(),
             sweep: OnceLock::new(),
             convergence: OnceLock::new(),
             trial: OnceLock::new(),
@@ -123,6 +126,11 @@ impl Context {
     /// The landings of bodies by every subject that solves them; computed on the first call.
     pub fn bodies(&self) -> &[BodyFindings] {
         self.bodies.get_or_init(|| bodies::survey(&self.subjects, self.effort))
+    }
+
+    /// The errors of the exact motion of bodies in each family; computed on the first call.
+    pub(crate) fn rigid_errors(&self) -> &[(&'static Family, Vec<Judged>)] {
+        self.rigid_errors.get_or_init(|| rigid_errors::of_families(self.effort))
     }
 
     /// The sweep of tolerances and steps; computed on the first call.

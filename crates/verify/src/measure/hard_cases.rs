@@ -8,14 +8,13 @@ use sampling::Space;
 use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3};
 
 use super::case::Case;
-use super::context::Context;
 use super::effort::Effort;
 use super::random_flights::random_flights;
 use super::throws::throw;
 
 /// The number of tosses from which a check derives the sizes of its sets.
-pub(crate) fn tries(context: &Context) -> u64 {
-    match context.effort {
+pub(crate) fn tries(effort: Effort) -> u64 {
+    match effort {
         Effort::Quick => 1000,
         Effort::Standard => 8000,
         Effort::Deep => 350_000,

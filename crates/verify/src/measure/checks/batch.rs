@@ -44,9 +44,9 @@ pub(super) const OUTCOMES: Check = Check {
     unit: "tosses",
     measure: |context| {
         let sets = [
-            ("random", at_one_height(random(tries(context), 6e4, 14)?)?),
-            ("adversarial", at_one_height(adversarial(tries(context) / 2, few_turns)?)?),
-            ("adversarial, many turns", at_one_height(adversarial(tries(context) / 4, many_turns)?)?),
+            ("random", at_one_height(random(tries(context.effort), 6e4, 14)?)?),
+            ("adversarial", at_one_height(adversarial(tries(context.effort) / 2, few_turns)?)?),
+            ("adversarial, many turns", at_one_height(adversarial(tries(context.effort) / 4, many_turns)?)?),
         ];
         Ok(count(&sets, |toss| outcome_differs(toss, &Reference::new(toss))))
     },
@@ -61,8 +61,9 @@ pub(super) const SIMD_LEVELS: Check = Check {
     ceiling: 0.0,
     unit: "tosses",
     measure: |context| {
-        let adversarial = at_one_height(adversarial(tries(context), few_turns)?)?;
-        let sets = [("random", at_one_height(random(2 * tries(context), 6e4, 15)?)?), ("adversarial", adversarial)];
+        let adversarial = at_one_height(adversarial(tries(context.effort), few_turns)?)?;
+        let sets =
+            [("random", at_one_height(random(2 * tries(context.effort), 6e4, 15)?)?), ("adversarial", adversarial)];
         Ok(count(&sets, levels_that_differ))
     },
 };
@@ -155,9 +156,9 @@ fn errors(
     error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
 ) -> anyhow::Result<Vec<Measurement>> {
     let sets = [
-        ("phases to 1e2", at_one_height(random(tries(context), 1e2, 11)?)?),
-        ("phases to 1e9", at_one_height(random(tries(context), 1e9, 13)?)?),
-        ("adversarial", at_one_height(adversarial(tries(context) / 2, few_turns)?)?),
+        ("phases to 1e2", at_one_height(random(tries(context.effort), 1e2, 11)?)?),
+        ("phases to 1e9", at_one_height(random(tries(context.effort), 1e9, 13)?)?),
+        ("adversarial", at_one_height(adversarial(tries(context.effort) / 2, few_turns)?)?),
         ("corners", corners()?),
     ];
     Ok(largest_errors(&sets, error))

@@ -3,6 +3,7 @@
 //! refuse is in the atlas.
 
 use exact::motion::COS_TILT_ERROR;
+use rayon::prelude::*;
 
 use crate::measure::any_case::AnyCase;
 use crate::measure::bodies::{BodyErrors, BodyFinding, BodyFindings};
@@ -133,7 +134,7 @@ fn published(context: &Context, subject: &Subject) -> Measurement {
         found.claiming(Some(allowed))
     };
     let cases = context.data.bodies.len() as u64;
-    let all = context.data.bodies.iter().map(of_one).collect();
+    let all = context.data.bodies.par_iter().map(of_one).collect();
     let worst = Measurement::worst_of(all).unwrap_or_else(|| {
         Measurement::figure(PUBLISHED.id, &subject.name, f64::INFINITY, 0, "no published motions".to_owned())
     });

@@ -102,9 +102,9 @@ fn last_bit(
     error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
 ) -> anyhow::Result<Vec<Measurement>> {
     let sets = [
-        ("phases to 1e2", random(tries(context), 1e2, 1)?),
-        ("phases to 6e4", random(tries(context), 6e4, 2)?),
-        ("phases to 1e9", random(tries(context), 1e9, 3)?),
+        ("phases to 1e2", random(tries(context.effort), 1e2, 1)?),
+        ("phases to 6e4", random(tries(context.effort), 6e4, 2)?),
+        ("phases to 1e9", random(tries(context.effort), 1e9, 3)?),
         ("corners", corners()?),
     ];
     Ok(largest_errors(&sets, error))
@@ -130,8 +130,10 @@ fn is_in_range(result: &Deviation) -> bool {
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let sets =
-        [("random", random(3 * tries(context), 6e4, 4)?), ("adversarial", adversarial(tries(context), few_turns)?)];
+    let sets = [
+        ("random", random(3 * tries(context.effort), 6e4, 4)?),
+        ("adversarial", adversarial(tries(context.effort), few_turns)?),
+    ];
     sets.into_iter()
         .map(|(name, cases)| {
             let judged: Vec<_> = cases
@@ -158,9 +160,9 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let mut cases = Vec::new();
     for (seed, phase) in [(5, 1.0), (6, 1e2), (7, 6e4), (8, 1e9)] {
-        cases.extend(random(tries(context) / 4, phase, seed)?);
+        cases.extend(random(tries(context.effort) / 4, phase, seed)?);
     }
-    cases.extend(adversarial(tries(context) / 4, few_turns)?);
+    cases.extend(adversarial(tries(context.effort) / 4, few_turns)?);
     let largest = |name: &str, ratio: fn(&Toss, &Reference) -> Deviation| {
         let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss, &Reference::new(&case.toss))).collect();
         Measurement::of_set(name, &ratios, |index| cases[index])

@@ -78,7 +78,7 @@ pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
 type Found = Result<IntegratedCertificate, SolveError>;
 
 fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let number = tries(context);
+    let number = tries(context.effort);
     let is_short = |case: &Case| RoughPhases::new(&case.toss).largest().is_ok_and(|phase| phase <= LONGEST);
     let cases = [
         random(number, 1e2, 31)?,
@@ -104,8 +104,10 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let solver = taylor(Stepping::DEFAULT_TOLERANCE)?;
-    let sets =
-        [("random", random(tries(context), 1e2, 35)?), ("adversarial", adversarial(tries(context) / 4, few_turns)?)];
+    let sets = [
+        ("random", random(tries(context.effort), 1e2, 35)?),
+        ("adversarial", adversarial(tries(context.effort) / 4, few_turns)?),
+    ];
     let measure = |(name, cases): (&str, Vec<Case>)| {
         let differs = |case: &Case| -> Result<bool, SolveError> {
             Ok(solver.certify(&case.toss)?.outcome() != outcome(&case.toss))
@@ -114,8 +116,8 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Measurement::count_of_set(name, &differs, |index| cases[index])
     };
     let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
-    let bodies = integrated_bodies::outcomes(OUTCOMES.id, tries(context) / 20)?;
-    Ok([coins, bodies, integrated_steps::outcomes(tries(context))?].concat())
+    let bodies = integrated_bodies::outcomes(OUTCOMES.id, tries(context.effort) / 20)?;
+    Ok([coins, bodies, integrated_steps::outcomes(tries(context.effort))?].concat())
 }
 
 /// The outcome by the exact motion where cos θ is far from 0, else by the reference.
@@ -127,7 +129,7 @@ fn outcome(toss: &Toss) -> Outcome {
 }
 
 fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let (solver, number) = (taylor(Stepping::DEFAULT_TOLERANCE)?, tries(context) / 10);
+    let (solver, number) = (taylor(Stepping::DEFAULT_TOLERANCE)?, tries(context.effort) / 10);
     let sets = [("phases to 1e2", 1e2, number), ("phases to 1e3", 1e3, number), ("phases to 1e5", 1e5, number / 10)];
     let measure = |(name, phase, number): (&str, f64, u64)| {
         let cases = random(number, phase, 36)?;

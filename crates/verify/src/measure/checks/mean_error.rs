@@ -36,7 +36,7 @@ pub(super) const TERMS: Check = Check {
     unit: "1",
     measure: |context| {
         Ok(largest_errors(
-            &[("phases to 1e2", random(tries(context) / 4, 1e2, 9)?), ("corners", corners()?)],
+            &[("phases to 1e2", random(tries(context.effort) / 4, 1e2, 9)?), ("corners", corners()?)],
             terms_error,
         ))
     },
@@ -61,9 +61,10 @@ const METHODS: [(&str, CosTilt); 3] = [
 ];
 
 fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let (tilted, flat): (Vec<Case>, Vec<Case>) = batch::at_one_height(random(tries(context).min(100_000), 1e2, 16)?)?
-        .into_iter()
-        .partition(|case| case.tilt != 0.0);
+    let (tilted, flat): (Vec<Case>, Vec<Case>) =
+        batch::at_one_height(random(tries(context.effort).min(100_000), 1e2, 16)?)?
+            .into_iter()
+            .partition(|case| case.tilt != 0.0);
     let mut rows = Vec::new();
     for (launches, cases) in [("horizontal", flat), ("tilted", tilted)] {
         let references: Vec<Reference> = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();

@@ -2,6 +2,7 @@
 //! contain the true probability. The space has four free coordinates and a reference probability, so errors are
 //! known, not estimated.
 
+use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{ESTIMATORS, Estimate, Found, Plan, Rest, Sampler, Scrambled, Space, clopper_pearson, rms_error};
 use toss::Coin;
@@ -78,12 +79,10 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 const REPLICATES: u64 = 10_000;
 
 /// The fraction of the replicates for which `holds`, called with a seed and the probability, is true.
-fn covered(context: &Context, holds: impl Fn(u64, f64) -> anyhow::Result<bool>) -> anyhow::Result<f64> {
+fn covered(context: &Context, holds: impl Fn(u64, f64) -> anyhow::Result<bool> + Sync) -> anyhow::Result<f64> {
     let probability = probability(context)?;
-    let mut covered = 0;
-    for seed in 1..=REPLICATES {
-        covered += u64::from(holds(seed, probability)?);
-    }
+    let is_covered = |seed| holds(seed, probability).map(u64::from);
+    let covered: u64 = (1..=REPLICATES).into_par_iter().map(is_covered).sum::<anyhow::Result<u64>>()?;
     Ok(covered as f64 / REPLICATES as f64)
 }
 

@@ -7,6 +7,7 @@
 //! forever.
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use rayon::prelude::*;
 use toss::{Coin, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Toss, Vector3};
 
 use crate::measure::case::Case;
@@ -86,13 +87,13 @@ fn cases(coin: Coin, rate: Vector3<f64>, flights: impl Iterator<Item = TimeOfFli
 /// The number of `cases` that do not land as `expected`. Against a bound an undecided outcome counts; against the
 /// solver's own claim only a wrong one does, because an error estimate may leave an outcome undecided.
 fn misses(subject: &Subject, cases: &[Case], expected: Outcome) -> Measurement {
-    let outcomes: Vec<_> = cases.iter().map(|case| subject.solver.outcome(&case.toss)).collect();
+    let outcomes: Vec<_> = cases.par_iter().map(|case| subject.solver.outcome(&case.toss)).collect();
     let count = |is: &dyn Fn(Outcome) -> bool| {
         let found: Vec<_> = outcomes.iter().map(|outcome| outcome.clone().map(is)).collect();
         Measurement::count(subject, &found, |index| cases[index])
     };
     let wrong = count(&|outcome| ![expected, Outcome::Undecided].contains(&outcome));
-    let is_claimed = cases.iter().all(|case| !matches!(Allowance::new(subject, &case.toss), Ok(None)));
+    let is_claimed = cases.par_iter().all(|case| !matches!(Allowance::new(subject, &case.toss), Ok(None)));
     Measurement { claim: wrong.claiming(is_claimed.then_some(0.0)).claim, ..count(&|outcome| outcome != expected) }
 }
 

@@ -1,5 +1,4 @@
-//! These checks compare the motion of any rigid body with the 256-bit reference, in families of bodies and launches
-//! each of which is hard for a method of its own, with phases up to 1e9 rad.
+//! These checks compare the motion of any rigid body with the 256-bit reference.
 
 use dynamics::RigidToss;
 use exact::{RigidMotion, certify_rigid};
@@ -9,9 +8,9 @@ use toss::{Certificate, Launch, TimeOfFlight};
 use crate::measure::bodies::{FAMILIES, Family, LONG, launches};
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
-use crate::measure::hard_cases::tries;
 use crate::measure::measurement::Measurement;
 use crate::measure::reference::rigid::RigidReference;
+use crate::measure::rigid_errors::{Judged, tosses_of_a_family};
 
 pub(super) const COS_TILT: Check = Check {
     id: "rigid-cos-tilt",
@@ -21,20 +20,14 @@ pub(super) const COS_TILT: Check = Check {
     judges: Judges::Library,
     unit: "1",
     ceiling: 1e-15,
-    measure: |context| {
-        errors(context, COS_TILT.id, |toss, reference| cos_tilt_error(&RigidMotion::new(toss), toss, reference))
-    },
+    measure: |context| Ok(largest(context, COS_TILT.id, |judged| judged.motion.cos_tilt)),
 };
 
 pub(super) const COMPENSATED_COS_TILT: Check = Check {
     id: "rigid-compensated-cos-tilt",
     claim: "cos θ at landing of any rigid body by the compensated motion, whose sums are in f64, differs from the \
             256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
-    measure: |context| {
-        errors(context, COMPENSATED_COS_TILT.id, |toss, reference| {
-            cos_tilt_error(&RigidMotion::compensated(toss), toss, reference)
-        })
-    },
+    measure: |context| Ok(largest(context, COMPENSATED_COS_TILT.id, |judged| judged.compensated.cos_tilt)),
     ceiling: 1e-14,
     ..COS_TILT
 };
@@ -47,20 +40,14 @@ pub(super) const ATTITUDE: Check = Check {
     judges: Judges::Library,
     unit: "rad",
     ceiling: 1e-14,
-    measure: |context| {
-        errors(context, ATTITUDE.id, |toss, reference| attitude_error(&RigidMotion::new(toss), toss, reference))
-    },
+    measure: |context| Ok(largest(context, ATTITUDE.id, |judged| judged.motion.attitude)),
 };
 
 pub(super) const COMPENSATED_ATTITUDE: Check = Check {
     id: "rigid-compensated-attitude",
     claim: "The attitude at landing of any rigid body by the compensated motion, whose sums are in f64, differs from \
             the 256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
-    measure: |context| {
-        errors(context, COMPENSATED_ATTITUDE.id, |toss, reference| {
-            attitude_error(&RigidMotion::compensated(toss), toss, reference)
-        })
-    },
+    measure: |context| Ok(largest(context, COMPENSATED_ATTITUDE.id, |judged| judged.compensated.attitude)),
     ..ATTITUDE
 };
 
@@ -74,8 +61,9 @@ pub(super) const OUTCOMES: Check = Check {
     ceiling: 0.0,
     measure: |context| {
         let measure = |family: &Family| {
-            let tosses: Vec<RigidToss> =
-                launches(family, number(context), LONG).filter_map(|toss| at_an_edge(&toss)).collect();
+            let tosses: Vec<RigidToss> = launches(family, tosses_of_a_family(context.effort), LONG)
+                .filter_map(|toss| at_an_edge(&toss))
+                .collect();
             let differs = |toss: &RigidToss| {
                 let outcome = certify_rigid(toss).map(Certificate::outcome).ok();
                 outcome.is_none() || outcome != RigidReference::new(toss).map(|reference| reference.outcome())
@@ -89,38 +77,15 @@ pub(super) const OUTCOMES: Check = Check {
     },
 };
 
-/// The number of tosses in a family.
-fn number(context: &Context) -> u64 {
-    tries(context) / 20
-}
-
-fn cos_tilt_error(motion: &RigidMotion, toss: &RigidToss, reference: &RigidReference) -> f64 {
-    let found = motion.cos_tilt(toss.launch.time_of_flight());
-    found.map_or(f64::INFINITY, |cos_tilt| reference.cos_tilt_error(cos_tilt))
-}
-
-fn attitude_error(motion: &RigidMotion, toss: &RigidToss, reference: &RigidReference) -> f64 {
-    let found = motion.state(toss.launch.time_of_flight());
-    found.map_or(f64::INFINITY, |state| reference.attitude_error(&state.attitude))
-}
-
-/// The largest of the errors in each family.
-fn errors(
-    context: &Context,
-    check: &str,
-    error: fn(&RigidToss, &RigidReference) -> f64,
-) -> anyhow::Result<Vec<Measurement>> {
-    let measure = |family: &Family| {
-        let tosses: Vec<RigidToss> = launches(family, number(context), LONG).collect();
-        let of =
-            |toss: &RigidToss| RigidReference::new(toss).map_or(f64::INFINITY, |reference| error(toss, &reference));
-        let errors: Vec<f64> = tosses.par_iter().map(of).collect();
-        let worst = (0..errors.len()).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+/// The largest of an error in each family.
+fn largest(context: &Context, check: &str, error: fn(&Judged) -> f64) -> Vec<Measurement> {
+    let measure = |(family, tosses): &(&Family, Vec<Judged>)| {
+        let worst = tosses.iter().max_by(|a, b| error(a).total_cmp(&error(b)));
         let (measured, input) =
-            worst.map_or((f64::INFINITY, String::new()), |index| (errors[index], format!("{:?}", tosses[index])));
-        Measurement::figure(check, family.name, measured, errors.len() as u64, input)
+            worst.map_or((f64::INFINITY, String::new()), |worst| (error(worst), format!("{:?}", worst.toss)));
+        Measurement::figure(check, family.name, measured, tosses.len() as u64, input)
     };
-    Ok(FAMILIES.iter().map(measure).collect())
+    context.rigid_errors().iter().map(measure).collect()
 }
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
