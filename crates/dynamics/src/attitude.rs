@@ -211,7 +211,10 @@ impl Attitude {
     /// Angle of the turn from `self` to `other` (rad), between 0 and π.
     pub fn angle_to(&self, other: &Self) -> f64 {
         let turn = (self.inverse() * *other).quaternion;
-        2.0 * turn.imag().norm().atan2(turn.w.abs())
+        // The squares of a turn below 1e-154 rad would be 0.
+        let unit = power_of_two_scale(turn.imag().amax());
+        let sine = (turn.imag() / unit).norm() * unit;
+        2.0 * sine.atan2(turn.w.abs())
     }
 }
 

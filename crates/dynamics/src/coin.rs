@@ -158,9 +158,9 @@ mod tests {
     #[test]
     fn a_cylinder_with_h_3r_has_the_papers_inertia_ratio() {
         let rod = Coin::from_cylinder(0.002, 0.01, 0.03).unwrap();
-        approx::assert_relative_eq!(rod.inertia_ratio(), 0.5, max_relative = 1e-15);
-        approx::assert_relative_eq!(rod.i1(), 0.002 / 4.0 * (1e-4 + 9e-4 / 3.0), max_relative = 1e-15);
-        approx::assert_relative_eq!(rod.i3(), 1e-7, max_relative = 1e-15);
+        approx::assert_relative_eq!(rod.inertia_ratio(), 0.5, epsilon = 0.0, max_relative = 1e-15);
+        approx::assert_relative_eq!(rod.i1(), 0.002 / 4.0 * (1e-4 + 9e-4 / 3.0), epsilon = 0.0, max_relative = 1e-15);
+        approx::assert_relative_eq!(rod.i3(), 1e-7, epsilon = 0.0, max_relative = 1e-15);
     }
 
     #[test]

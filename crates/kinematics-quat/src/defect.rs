@@ -13,7 +13,7 @@ use crate::plan::Plan;
 use crate::taylor::{COMPENSATED, LARGEST_ORDER, Series};
 
 /// What the bound of a step depends on.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Steps {
     /// The largest |η|.
     pub(crate) modulus: f64,

@@ -34,6 +34,7 @@ fn the_angle_between_attitudes_is_precise_for_small_and_large_turns() {
         approx::assert_relative_eq!(
             Attitude::IDENTITY.angle_to(&Attitude::about_z(angle)),
             angle,
+            epsilon = 0.0,
             max_relative = 1e-15
         );
     }

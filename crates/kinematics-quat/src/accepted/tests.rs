@@ -230,11 +230,11 @@ fn a_jump_is_the_angle_that_no_shift_of_the_time_explains() {
     let none = jump(0.0, 0.0, 1.0);
     assert!(none.turn < 2e-14 && none.shift.abs() < 1e-15, "{none:?}");
     let early = jump(-1e-11, 1e-9, 1e6);
-    approx::assert_relative_eq!(early.turn, 1e-9, max_relative = 1e-4);
-    approx::assert_relative_eq!(early.shift, -1e-11, max_relative = 1e-3);
+    approx::assert_relative_eq!(early.turn, 1e-9, epsilon = 0.0, max_relative = 1e-4);
+    approx::assert_relative_eq!(early.shift, -1e-11, epsilon = 0.0, max_relative = 1e-3);
     let far = jump(1e-9, 0.0, 1.0);
     // Half the rate is 0.65.
-    approx::assert_relative_eq!(far.turn, 0.65e-9, max_relative = 1e-4);
+    approx::assert_relative_eq!(far.turn, 0.65e-9, epsilon = 0.0, max_relative = 1e-4);
     assert!(far.shift <= UNIT_ROUNDOFF);
     assert_eq!(Jump::new(series, rates, series.map(|part| -part), 1.0).turn, f64::INFINITY);
     assert!(!Jump::new([0.0; 4], rates, series, 1.0).turn.is_finite());
@@ -252,7 +252,7 @@ fn the_roundings_and_the_square_of_a_shift_count_by_their_formula() {
         let jump = (step[0] - 2.0).hypot(step[1]);
         let expected = OF_JUMP * (2.0 * jump + SHIFT * moving) / 2.0 + 8.0 * SHIFT * SHIFT;
         assert_eq!(found.shift, SHIFT);
-        approx::assert_relative_eq!(found.turn, expected, max_relative = 1e-12);
+        approx::assert_relative_eq!(found.turn, expected, epsilon = 0.0, max_relative = 1e-12);
     }
     assert_eq!(OF_JUMP, 32.0 * UNIT_ROUNDOFF);
 }
@@ -265,8 +265,8 @@ fn a_turn_of_the_rates_is_measured_against_a_turn_in_time() {
         let (sin, cos) = angle.sin_cos();
         turned_off([0.6, 0.8], [0.0; 2], [0.6 * cos - 0.8 * sin, 0.8 * cos + 0.6 * sin], further)
     };
-    approx::assert_relative_eq!(off(1e-6, 0.0), 1e-6, max_relative = 1e-8);
-    approx::assert_relative_eq!(off(1e-6, 3e-6), 2e-6, max_relative = 1e-8);
+    approx::assert_relative_eq!(off(1e-6, 0.0), 1e-6, epsilon = 0.0, max_relative = 1e-8);
+    approx::assert_relative_eq!(off(1e-6, 3e-6), 2e-6, epsilon = 0.0, max_relative = 1e-8);
     assert!(off(0.4, 0.0) > 0.4 && off(1e-7, 1e-7) < 1e-14);
     assert!(turned_off([0.6, 0.8], [1e-10, 0.0], [0.6, 0.8], 0.0) > 0.79e-10);
 }
@@ -277,11 +277,16 @@ fn elapsed_time_keeps_what_rounding_loses() {
     for _ in 0..1000 {
         elapsed.add(1.0, -1e-17);
     }
-    approx::assert_relative_eq!(elapsed.off(1000.0), 1e-14, max_relative = 1e-9);
+    approx::assert_relative_eq!(elapsed.off(1000.0), 1e-14, epsilon = 0.0, max_relative = 1e-9);
     let mut even = Elapsed::ZERO;
     (0..1000).for_each(|_| even.add(2.0, 0.0));
     // 8 u² a step, of the whole.
-    approx::assert_relative_eq!(even.off(2000.0), 8.0 * 2f64.powi(-106) * 1000.0 * 2000.0, max_relative = 1e-12);
+    approx::assert_relative_eq!(
+        even.off(2000.0),
+        8.0 * 2f64.powi(-106) * 1000.0 * 2000.0,
+        epsilon = 0.0,
+        max_relative = 1e-12
+    );
     assert!(Elapsed::ZERO.off(0.0) == 0.0);
 }
 

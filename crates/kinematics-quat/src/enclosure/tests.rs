@@ -21,8 +21,9 @@ fn of_sum(sum: f64) -> f64 {
     sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9)
 }
 
+/// To 1e-10 of itself, however small.
 fn assert_close(found: f64, expected: f64) {
-    approx::assert_relative_eq!(found, expected, max_relative = 1e-10);
+    approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-10);
 }
 
 #[test]
@@ -72,7 +73,8 @@ fn a_ratio_of_moments_and_a_time_that_are_no_f64_are_off_by_what_they_lose() {
     let time = exactly(32.0) * (exactly(6.0) / exactly(9.81)) - exactly(flight.span());
     let third = exactly(1.0) / exactly(3.0) * exactly(33.0 / 32.0);
     let rounded = exactly(body_precession_rate(coin.inertia_ratio(), 33.0 / 32.0));
-    let assert_close = |found: f64, expected: f64| approx::assert_relative_eq!(found, expected, max_relative = 1e-9);
+    let assert_close =
+        |found: f64, expected: f64| approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-9);
     assert_close(launched.time, time.hi().abs());
     assert_close(launched.q, (third - rounded).hi().abs());
     assert!(launched.time > 0.0 && launched.q > 0.0 && launched.rate == 0.0);
@@ -81,10 +83,25 @@ fn a_ratio_of_moments_and_a_time_that_are_no_f64_are_off_by_what_they_lose() {
 #[test]
 fn a_body_has_the_errors_of_its_turn_and_of_its_time() {
     let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
-    let toss = RigidToss { body, launch: Launch::new([0.7, -0.4, 1.1], TimeOfFlight::Given(10.0)).unwrap() };
+    let bound = Bound { turn: 1e-16, fastest: 3.0, strayed: 2e-16 };
+    let time = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
+    let toss = RigidToss { body, launch: Launch::new([40.0, -4.0, 33.0], time).unwrap() };
     let flight = RigidFlight::new(&toss).unwrap();
-    let bound = Bound { turn: 1e-7, fastest: 3.0, strayed: 2e-8 };
-    assert_close(attitude_bound_of_body(&toss.launch, flight.timing(), &bound), of_sum(1e-7 + 1.5 * 2e-8));
+    let of_time = time_error(&toss.launch, flight.timing());
+    assert!(of_time > 1e-17);
+    let expected = of_sum(1e-16 + 1.5 * (of_time + 2e-16));
+    assert_close(attitude_bound_of_body(&toss.launch, flight.timing(), &bound), expected);
+}
+
+#[test]
+fn what_a_bound_of_steps_depends_on_is_that_of_the_record() {
+    let (toss, flight) = in_radians([1.0, 0.0, 1.25]);
+    let record = Record { steps: 7, moduli: [0.375, 0.5], longest: 0.7, ..Record::default() };
+    let expected = Steps { modulus: 0.5, spread: 0.25, half_z: 0.625, q: 0.625, longest: 0.7 };
+    assert_eq!(steps(&toss, &flight, &record), expected);
+    let still = Record { moduli: [0.0, 1e-150], ..record };
+    assert_eq!(steps(&toss, &flight, &still), Steps { modulus: 1e-150, spread: 0.0, ..expected });
+    assert_eq!(steps(&toss, &flight, &Record { steps: 0, ..record }), Steps::default());
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn bounds_of_the_toss_cover_what_rounding_it_changes() {
     let of_time = found - solver.enclose(&rounded).unwrap().attitude_error_bound();
     let exact = time.exact();
     let lost = (exact.mantissa().times_power_of_two(exact.exponent()) - time.seconds().into()).hi().abs();
-    approx::assert_relative_eq!(of_time, 0.5 * toss.launch.turn_rate() * lost, max_relative = 1e-2);
+    approx::assert_relative_eq!(of_time, 0.5 * toss.launch.turn_rate() * lost, epsilon = 0.0, max_relative = 1e-2);
     let in_radians = Toss { launch: Launch::new(toss.launch.rate(), time).unwrap(), ..toss };
     let of_unit = found - solver.enclose(&in_radians).unwrap().attitude_error_bound();
     assert!(of_unit > UNIT_ROUNDOFF * 0.5 * toss.launch.turn_rate() * time.seconds(), "{of_unit:e}");

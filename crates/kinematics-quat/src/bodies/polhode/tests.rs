@@ -109,10 +109,10 @@ fn each_part_of_a_step_counts_by_its_formula() {
         within(errors.growing.error, reach + rounding);
         within(errors.along.shift, (2.0 * growth * H * reach + rates + rounding) / slowest * 0.99);
         let expected = 3e-7 + 0.5 * errors.growing.integral;
-        approx::assert_relative_eq!(errors.bound(), expected, max_relative = 1e-9);
+        approx::assert_relative_eq!(errors.bound(), expected, epsilon = 0.0, max_relative = 1e-9);
         errors.growing.integral = f64::INFINITY;
         let expected = 3e-7 + 0.5 * errors.along.integral + polhode.across * errors.along.shift;
-        approx::assert_relative_eq!(errors.bound(), expected, max_relative = 1e-9);
+        approx::assert_relative_eq!(errors.bound(), expected, epsilon = 0.0, max_relative = 1e-9);
     }
     let moved = Errors::at_launch(Polhode { launched: 1e-9, ..polhode }, rate);
     within(moved.along.shift, 1e-9 / speeds[0] * 0.99);
@@ -148,7 +148,7 @@ fn the_rounding_of_the_toss_counts() {
         let exact = DoubleDouble::nearest(&degree.in_digits(160)) * part;
         (exact - (part.to_radians()).into()).hi().abs()
     });
-    approx::assert_relative_eq!(polhode(&exact).launched, off.iter().sum::<f64>(), max_relative = 1e-6);
+    approx::assert_relative_eq!(polhode(&exact).launched, off.iter().sum::<f64>(), epsilon = 0.0, max_relative = 1e-6);
     let body = Body::from_tensor([[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]]).unwrap();
     let tensor = RigidToss { body, ..toss(MOMENTS[0], RATES[0]) };
     let (found, rates) = (polhode(&tensor), RigidFlight::new(&tensor).unwrap().rates);
