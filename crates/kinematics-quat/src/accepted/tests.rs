@@ -288,6 +288,8 @@ fn elapsed_time_keeps_what_rounding_loses() {
         max_relative = 1e-12
     );
     assert!(Elapsed::ZERO.off(0.0) == 0.0);
+    // The rounding of the difference itself.
+    assert_eq!(Elapsed::ZERO.off(1.0), 1.0 + 2.0 * UNIT_ROUNDOFF);
 }
 
 #[test]

@@ -105,6 +105,12 @@ fn what_a_bound_of_steps_depends_on_is_that_of_the_record() {
 }
 
 #[test]
+fn a_time_that_is_an_f64_is_off_by_the_rounding_of_its_unit() {
+    let (toss, flight) = in_radians([1.0, 0.0, 1.25]);
+    assert_eq!(time_error(&toss.launch, &flight), OF_DOUBLE_DOUBLE * 10.0);
+}
+
+#[test]
 fn large_errors_have_no_bound() {
     assert_close(whole(9e-4), of_sum(9e-4));
     assert_eq!([whole(LARGEST), whole(f64::INFINITY), whole(f64::NAN)], [f64::INFINITY; 3]);
