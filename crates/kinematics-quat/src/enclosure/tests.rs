@@ -42,6 +42,16 @@ fn errors_of_steps_jumps_drift_and_time_add_up() {
 }
 
 #[test]
+fn a_modulus_that_is_no_f64_is_off_by_what_it_loses() {
+    let (toss, flight) = in_radians([1.0, 0.3, 1.25]);
+    let modulus = modulus(&flight);
+    let record = Record { steps: 1, moduli: [modulus.hi(); 2], longest: 1.0, ..Record::default() };
+    assert!(modulus.lo().abs() > 1e-18);
+    let found = attitude_bound(&toss, &flight, &record, &StepBound::default());
+    assert_close(found, of_sum(10.0 * modulus.lo().abs()));
+}
+
+#[test]
 fn a_direction_of_no_rate_is_no_error() {
     for (rate, of_eta) in [(1e-139, STEP.eta), (1e-150, 0.0)] {
         let (toss, flight) = in_radians([rate, 0.0, 1.25]);
@@ -108,6 +118,15 @@ fn what_a_bound_of_steps_depends_on_is_that_of_the_record() {
 fn a_time_that_is_an_f64_is_off_by_the_rounding_of_its_unit() {
     let (toss, flight) = in_radians([1.0, 0.0, 1.25]);
     assert_eq!(time_error(&toss.launch, &flight), OF_DOUBLE_DOUBLE * 10.0);
+}
+
+#[test]
+fn a_flight_of_no_time_has_the_error_of_underflow_alone() {
+    let launch = Launch::new([1.0, 0.0, 1.25], TimeOfFlight::Given(0.0)).unwrap();
+    let (toss, flight) = toss(launch);
+    assert_eq!(attitude_bound(&toss, &flight, &Record::default(), &STEP), of_sum(TINY));
+    let still = Bound { turn: 0.0, fastest: 3.0, strayed: 0.0 };
+    assert_eq!(attitude_bound_of_body(&launch, &flight, &still), of_sum(TINY));
 }
 
 #[test]
