@@ -113,22 +113,27 @@ fn roundings_are_within_their_bounds_and_not_far_below() {
     }
 }
 
-/// The bound (6) of the integral of the defect of rounding, in units of u.
-struct OfRounding(Inputs);
+/// (6) in units of u, each Δₙ of (9), and (6) + (7) + (8), of steps whose |η| differs by this part of itself.
+struct Bounds(Inputs, usize, f64);
 
-impl WithSimd for OfRounding {
-    type Output = f64;
+impl WithSimd for Bounds {
+    type Output = (f64, Vec<f64>, f64);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let [modulus, half_z, q, h] = self.0.map(|value| Real::splat(simd, value));
+    fn with_simd<S: Simd>(self, simd: S) -> (f64, Vec<f64>, f64) {
+        let Self(inputs, order, spread) = self;
+        let [modulus, half_z, q, h] = inputs.map(|value| Real::splat(simd, value));
+        let spread = modulus.constant(spread);
         let mut series = Series::new(simd);
-        series.expand_eta(LARGEST_ORDER, q);
-        series.expand(LARGEST_ORDER, modulus, half_z);
-        let terms = Terms::new(&series, LARGEST_ORDER, [modulus, half_z, q, h], modulus.constant(0.0));
-        let mut number = [0.0];
-        terms.rounding.store_up_to(&mut number);
-        number[0]
+        series.expand_eta(order, q);
+        series.expand(order, modulus, half_z);
+        let terms = Terms::new(&series, order, [modulus, half_z, q, h], spread);
+        let first = |value: Real<S>| {
+            let mut number = [0.0];
+            value.store_up_to(&mut number);
+            number[0]
+        };
+        (first(terms.rounding), terms.change[..=order].iter().copied().map(first).collect(), first(terms.turn(spread)))
     }
 }
 
@@ -151,7 +156,8 @@ fn the_defect_of_rounding_is_within_its_bound_and_not_far_below() {
             };
             defect += left(u[n + 1], products(&w), u[n]).hypot(left(w[n + 1], -products(&u), w[n]));
         }
-        largest = largest.max(defect / (UNIT_ROUNDOFF * level.run(OfRounding(inputs))));
+        let (bound, _, _) = level.run(Bounds(inputs, LARGEST_ORDER, 0.0));
+        largest = largest.max(defect / (UNIT_ROUNDOFF * bound));
     }
     assert!((0.15..=1.0).contains(&largest), "{largest}");
 }
@@ -173,6 +179,60 @@ fn the_bounds_of_eta_are_those_of_the_theorem() {
             let of_eta = UNIT_ROUNDOFF * (8.0 + sum(|n| n + 5.0)) + left_out / (p + 1.0);
             for (found, exact) in [(bound.rates, modulus * h * of_turn), (bound.eta, of_eta)] {
                 assert!((1.0..1.0 + 3e-9).contains(&(found / exact)), "{order} {inputs:?}: {found:e} {exact:e}");
+            }
+        }
+    }
+}
+
+/// (6), each Δₙ of (9), and (6) + (7) + (8), written out as in the proof.
+fn written_out(inputs: Inputs, order: usize, spread: f64) -> (f64, Vec<f64>, f64) {
+    let [modulus, half_z, q, h] = inputs;
+    let [eta, c, q_h] = [modulus * h, half_z * h, q.abs() * h];
+    let [u, w, r] = exactly(inputs, order, inverse).map(|terms| {
+        let in_time = |(n, term): (usize, &DoubleDouble)| term.hi() * h.powi(n as i32);
+        terms.iter().enumerate().map(in_time).collect::<Vec<f64>>()
+    });
+    let b: Vec<f64> = r.iter().map(|term| term.abs()).collect();
+    let products = |a: &[f64], b: &[f64], n: usize| -> f64 {
+        (n.saturating_sub(order)..=n.min(order)).map(|i| a[i] * b[n - i]).sum()
+    };
+    let exponential = |x: f64, n: usize| (1..=n).fold(1.0, |term, k| term * x / number(k));
+    let lambda = (c + 0.5 * q * h).hypot(eta);
+    let (mut a, mut rounding, mut lost, mut change) = (vec![1.0], 0.0, Vec::new(), vec![0.0]);
+    for n in 0..order {
+        let roundings =
+            |of_products: f64| (of_products * eta * products(&a, &b, n) + 3.0 * c.abs() * a[n]) / number(n + 1);
+        rounding += roundings(0.5 * number(n) + 6.5);
+        lost.push(UNIT_ROUNDOFF * roundings(3.5 * number(n) + 6.5));
+        let of_rounding: f64 = (0..=n).map(|j| lost[j] * exponential(lambda + q_h, n - j)).sum();
+        change.push(1.4143 * (spread * eta * exponential(lambda + 0.5 * q_h, n) + 2.0 * of_rounding));
+        a.push(u[n + 1].abs() + w[n + 1].abs() + change[n + 1]);
+    }
+    let with_roundings: Vec<f64> =
+        change.iter().zip(&a).map(|(change, a)| change + (spread + 40.0 * UNIT_ROUNDOFF) * a).collect();
+    let dropped = (order..=2 * order).map(|n| {
+        let of_c = if n == order { c } else { 0.0 };
+        let of_u = eta * products(&w, &r, n) + of_c * u[order];
+        let of_w = -eta * products(&u, &r, n) + of_c * w[order];
+        let differs = eta * products(&with_roundings, &b, n) + of_c.abs() * with_roundings[order];
+        (of_u.abs() + of_w.abs() + differs) / number(n + 1)
+    });
+    let evaluated: f64 = a.iter().enumerate().map(|(n, a)| number(n + 1) * a).sum();
+    let turn = dropped.sum::<f64>() + UNIT_ROUNDOFF * (rounding + evaluated + 16.0);
+    (rounding, change, turn)
+}
+
+#[test]
+fn the_bounds_of_turns_are_those_of_the_theorem() {
+    for (order, spread) in [(2, 0.0), (6, 1e-3), (12, 0.0), (12, 1e-14), (LARGEST_ORDER, 0.0), (LARGEST_ORDER, 0.5)] {
+        for inputs in inputs(20, 2.0) {
+            let (rounding, change, turn) = SimdLevel::widest().run(Bounds(inputs, order, spread));
+            let exact = written_out(inputs, order, spread);
+            let close = |found: f64, exact: f64| (found - exact).abs() <= 1e-10 * exact;
+            assert!(close(rounding, exact.0), "(6), {order} {spread} {inputs:?}: {rounding:e} {:e}", exact.0);
+            assert!(close(turn, exact.2), "(6) + (7) + (8), {order} {spread} {inputs:?}: {turn:e} {:e}", exact.2);
+            for (n, (found, exact)) in change.into_iter().zip(exact.1).enumerate() {
+                assert!(close(found, exact), "(9), {n} of {order} {spread} {inputs:?}: {found:e} {exact:e}");
             }
         }
     }
