@@ -12,7 +12,7 @@ use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
 #[cfg(feature = "integrators")]
-use crate::integrate::{Accepted, OdeSystem, integrate, integrate_steps};
+use crate::integrate::{Accepted, OdeSystem, Span, integrate_steps, integrate_within};
 use crate::launch::{Launch, Toss};
 use crate::phase::RoughPhases;
 #[cfg(feature = "integrators")]
@@ -66,20 +66,23 @@ impl Flight {
         Ok(Self { rate, rate_z: launched.z, scale, duration, phase })
     }
 
-    /// Integrates `system`, whose rates are in units of σ, from `start` to landing; see [`integrate`]. For a
-    /// [long](Self::is_long) flight the tolerance is [tightened](Self::tightened).
+    /// Integrates `system`, whose rates are in units of σ, from `start` to landing; see
+    /// [`integrate`](crate::integrate::integrate). For a [long](Self::is_long) flight the tolerance is
+    /// [tightened](Self::tightened), and no step turns by more than the system's
+    /// [largest turn](OdeSystem::LARGEST_TURN).
     ///
     /// # Errors
-    /// As [`integrate`].
+    /// As [`integrate`](crate::integrate::integrate).
     #[cfg(feature = "integrators")]
-    pub fn integrate<const N: usize>(
+    pub fn integrate<const N: usize, S: OdeSystem<N>>(
         &self,
-        system: &impl OdeSystem<N>,
+        system: &S,
         start: SVector<f64, N>,
         stepping: &Stepping,
     ) -> Result<(SVector<f64, N>, Work), SolveError> {
         let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
-        integrate(system, start, self.duration, self.scale, &stepping)
+        let longest = S::LARGEST_TURN / self.phase * self.span();
+        integrate_within(system, start, Span { duration: self.duration, scale: self.scale, longest }, &stepping)
     }
 
     /// [`integrate`](Self::integrate) with all accepted steps.
@@ -137,6 +140,7 @@ impl Flight {
 mod tests {
     use super::*;
     use crate::coin::Coin;
+    use crate::integrate::integrate;
     use crate::launch::Launch;
     use crate::scheme::Scheme;
     use crate::time_of_flight::TimeOfFlight;
@@ -161,6 +165,33 @@ mod tests {
         fn derivative(&self, y: &SVector<f64, 2>) -> SVector<f64, 2> {
             SVector::from([-y.y, y.x])
         }
+    }
+
+    /// y' = 0, which leaves an adaptive scheme free to take any step.
+    struct Rest;
+
+    impl OdeSystem<1> for Rest {
+        const LARGEST_TURN: f64 = 0.5;
+
+        fn derivative(&self, _y: &SVector<f64, 1>) -> SVector<f64, 1> {
+            SVector::zeros()
+        }
+    }
+
+    #[test]
+    fn no_step_turns_by_more_than_the_system_allows() {
+        let stepping = Stepping::adaptive(Scheme::DOP853, 1e-6).unwrap();
+        for rate in [1.0, 0.75, 60.0] {
+            let (_, work) =
+                flight([rate, 0.0, 0.0], 20.0 / rate).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
+            // 40 of half a radian, after the first ones, which grow from 1e-6.
+            assert!((41..52).contains(&work.accepted_steps), "{work:?}");
+        }
+        let (_, work) = flight([0.0; 3], 20.0).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
+        assert!(work.accepted_steps < 20, "{work:?}");
+        let fixed = Stepping::fixed(Scheme::RK4, 10.0).unwrap();
+        let (_, work) = flight([1.0, 0.0, 0.0], 20.0).integrate(&Rest, SVector::zeros(), &fixed).unwrap();
+        assert_eq!(work.accepted_steps, 2);
     }
 
     #[test]

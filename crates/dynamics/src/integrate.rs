@@ -20,6 +20,11 @@ use crate::stepping::{StepControl, Stepping, step_count};
 
 /// An autonomous system of N first-order equations.
 pub trait OdeSystem<const N: usize> {
+    /// The largest angle (rad) through which a [`Flight`](crate::Flight) of this system may turn in one step of an
+    /// adaptive scheme. A system needs it if its derivative hardly changes in some flights: the steps then grow until
+    /// the scheme is unstable, and amplifies errors before it notices them.
+    const LARGEST_TURN: f64 = f64::INFINITY;
+
     /// y' at y.
     fn derivative(&self, y: &SVector<f64, N>) -> SVector<f64, N>;
 
@@ -75,7 +80,29 @@ pub fn integrate<const N: usize>(
     scale: f64,
     stepping: &Stepping,
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
-    let (run, work) = run(system, start, duration, scale, stepping)?;
+    integrate_within(system, start, Span { duration, scale, longest: f64::INFINITY }, stepping)
+}
+
+/// The time of an integration: `duration` (s), the dimensionless time `scale` × t, and its `longest` step for an
+/// adaptive scheme.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Span {
+    pub(crate) duration: f64,
+    pub(crate) scale: f64,
+    pub(crate) longest: f64,
+}
+
+/// [`integrate`] with a longest step.
+///
+/// # Errors
+/// As [`integrate`].
+pub(crate) fn integrate_within<const N: usize>(
+    system: &impl OdeSystem<N>,
+    start: SVector<f64, N>,
+    span: Span,
+    stepping: &Stepping,
+) -> Result<(SVector<f64, N>, Work), SolveError> {
+    let (run, work) = run(system, start, span, stepping)?;
     Ok((run.get().1.last().copied().unwrap_or(start), work))
 }
 
@@ -90,7 +117,7 @@ pub fn integrate_steps<const N: usize>(
     scale: f64,
     stepping: &Stepping,
 ) -> Result<Accepted<N>, SolveError> {
-    let (run, work) = run(system, start, duration, scale, stepping)?;
+    let (run, work) = run(system, start, Span { duration, scale, longest: f64::INFINITY }, stepping)?;
     let (times, states) = run.get();
     Ok(Accepted { times: times.clone(), states: states.clone(), work })
 }
@@ -101,8 +128,7 @@ type Run<const N: usize> = SolverResult<f64, SVector<f64, N>>;
 fn run<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
-    duration: f64,
-    scale: f64,
+    Span { duration, scale, longest }: Span,
     stepping: &Stepping,
 ) -> Result<(Run<N>, Work), SolveError> {
     let scheme = RungeKutta::of(stepping.scheme())?;
@@ -110,7 +136,7 @@ fn run<const N: usize>(
     if end == 0.0 {
         return Ok((SolverResult::new(vec![0.0], vec![start]), Work::default()));
     }
-    let steps = Steps::new(stepping.control(), duration, end)?;
+    let steps = Steps::new(stepping.control(), duration, end, longest)?;
     let calls = Cell::new(0);
     let met = Cell::new(None);
     let counted = Counted { system, calls: &calls, met: &met, last: start };
@@ -135,9 +161,9 @@ struct Steps {
 }
 
 impl Steps {
-    fn new(control: StepControl, duration: f64, end: f64) -> Result<Self, SolveError> {
+    fn new(control: StepControl, duration: f64, end: f64, longest: f64) -> Result<Self, SolveError> {
         match control {
-            StepControl::Tolerance(tolerance) => Ok(Self { tolerance, first: 0.0, largest: end }),
+            StepControl::Tolerance(tolerance) => Ok(Self { tolerance, first: 0.0, largest: end.min(longest) }),
             StepControl::Step(step) => {
                 let count = step_count(duration, step)?;
                 // With a tolerance that no error exceeds, an adaptive scheme keeps to its largest step. It is no larger

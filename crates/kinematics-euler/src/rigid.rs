@@ -17,6 +17,12 @@
 //!   ```
 //!
 //!   which follows from D = α' sin β = 0 by the rule of l'Hôpital. A return to the vertical is a typed error.
+//!
+//! Along the momentum the angles of a body that turns about one axis turn evenly. An adaptive scheme has no error to
+//! estimate there, and its steps would grow until it is unstable. DOP853 is stable for y' = i y up to steps of 5.8 rad, and
+//! disturbances of a plate oscillate up to twice as fast as it turns. No step therefore turns the body by more than 2 rad.
+//! Without this limit, DOP853 takes 6 steps for 20 rad, with an error of 1.2e-9 rad at the tolerance 1e-12; with it the
+//! error is 1e-14 rad.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -158,6 +164,8 @@ impl RigidAngles {
 }
 
 impl OdeSystem<6> for RigidAngles {
+    const LARGEST_TURN: f64 = 2.0;
+
     fn derivative(&self, state: &SVector<f64, 6>) -> SVector<f64, 6> {
         let &[_, beta, gamma, first, second, third] = &state.data.0[0];
         let [x, y, z] = self.axes.map(|[a, b, c]| a * first + b * second + c * third);

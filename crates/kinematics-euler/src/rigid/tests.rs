@@ -62,6 +62,23 @@ fn along_the_momentum_no_launch_is_singular() {
     }
 }
 
+/// All but α hardly changes here, and a scheme that takes steps of any length notices none of its errors.
+#[test]
+fn a_turn_about_one_axis_is_as_accurate_as_the_tolerance_asks() {
+    let body = Body::from_moments([0.906, 0.9073, 1.491]).unwrap();
+    let launch = Launch::new([27.9, -0.22, 0.0], TimeOfFlight::Given(0.75)).unwrap();
+    let toss = RigidToss { body, launch };
+    let exact = RigidMotion::new(&toss).state(launch.time_of_flight()).unwrap().attitude;
+    for scheme in [Scheme::DOP853, Scheme::DOPRI5] {
+        for tolerance in [1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
+            let stepping = Stepping::adaptive(scheme, tolerance).unwrap();
+            let landing = EulerAnglesSolver::new(stepping, Formulation::MOMENTUM).propagate_rigid(&toss).unwrap();
+            let error = exact.angle_to(&landing.state.attitude);
+            assert!(error < 10.0 * tolerance, "{scheme}, {tolerance:e}: {error:e}");
+        }
+    }
+}
+
 /// The angle of the chosen axis to the momentum, all along the exact motion.
 #[test]
 fn along_the_momentum_the_angle_stays_away_from_both_poles() {
