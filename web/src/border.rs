@@ -65,3 +65,35 @@ extern "C" fn numbers() -> *const f64 {
 extern "C" fn cells() -> *const u8 {
     at_border(|border| border.page.cells().as_ptr())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::slice;
+
+    use super::*;
+
+    /// What the page does: it writes the question's bytes to their address, and reads the answer from its own.
+    fn asked(text: &[u8]) -> String {
+        let address = question(text.len());
+        // SAFETY: `question` has made room for as many bytes, and nothing else is called before they are written.
+        unsafe { address.copy_from_nonoverlapping(text.as_ptr(), text.len()) };
+        let bytes = ask();
+        // SAFETY: `answer` is the address of so many bytes, which live until the next call.
+        String::from_utf8(unsafe { slice::from_raw_parts(answer(), bytes) }.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn a_question_is_answered_through_addresses_alone() {
+        let long = format!("{{\"{}\":1}}", "x".repeat(10_000));
+        for refused in [&b""[..], b"{\"magic\":{}}", b"\xff\xfe", long.as_bytes()] {
+            assert!(asked(refused).starts_with("{\"error\":{\"kind\":\"input\""), "{refused:?}");
+        }
+        let scene = "\"scene\":{\"rate\":[\"1\",\"1\",\"2.5\"],\"speed\":\"3\"}";
+        let fly = format!("{{\"fly\":{{{scene},\"points\":3}}}}");
+        assert!(!asked(fly.as_bytes()).contains("error"), "{}", asked(fly.as_bytes()));
+        // SAFETY: a frame has so many numbers, and lives until the next call.
+        let frame = unsafe { slice::from_raw_parts(frame(0.0), crate::flight::FRAME) };
+        assert_eq!(frame[..7], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        assert!(!numbers().is_null() && !cells().is_null());
+    }
+}
