@@ -76,3 +76,6 @@ pub(crate) fn lengths<const N: usize>(accepted: &Accepted<N>, rests: bool) -> Ve
     let lengths = accepted.times.windows(2).map(|times| times[1] - times[0]);
     lengths.filter(|_| !rests).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ use serde::Serialize;
 pub enum Effort {
     /// `--quick`: takes a minute on two cores.
     Quick,
-    /// The default: takes five minutes on two cores.
+    /// The default: takes three minutes on two cores.
     Standard,
     /// `--deep`: about ten times as many cases as the default, with no limit on time.
     Deep,

@@ -43,8 +43,9 @@ pub(super) const TILT_WORK: Check = Check {
 pub(super) const RETURN_WORK: Check = Check {
     id: "work-through-returns",
     claim: "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default \
-            no more calls of the right-hand side than the same flight in the vertical formulation, tilted so that the \
-            normal stays away from the vertical. Measured: the largest ratio of calls; it fails above the bound.",
+            no more calls of the right-hand side, unless it is short, than the same flight in the vertical formulation, \
+            tilted so that the normal stays away from the vertical. Measured: the largest ratio of calls; it fails above \
+            the bound.",
     basis: Basis::CrossMethod,
     judges: Judges::Solver,
     ceiling: 3.0,
