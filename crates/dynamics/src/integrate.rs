@@ -21,8 +21,8 @@ use crate::stepping::{StepControl, Stepping, step_count};
 /// An autonomous system of N first-order equations.
 pub trait OdeSystem<const N: usize> {
     /// The largest angle (rad) through which a [`Flight`](crate::Flight) of this system may turn in one step of an
-    /// adaptive scheme. A system needs it if its derivative hardly changes in some flights: the steps then grow until
-    /// the scheme is unstable, and amplifies errors before it notices them.
+    /// adaptive scheme. A system needs it if its derivative hardly changes in some flights: steps then grow until the
+    /// scheme is unstable, and amplifies errors. [`integrate`] does not know how far a flight turns, and has no limit.
     const LARGEST_TURN: f64 = f64::INFINITY;
 
     /// y' at y.
