@@ -88,7 +88,7 @@ impl Flight {
     /// [`integrate`](Self::integrate) with all accepted steps.
     ///
     /// # Errors
-    /// As [`integrate`].
+    /// As [`integrate`](crate::integrate::integrate).
     #[cfg(feature = "integrators")]
     pub fn integrate_steps<const N: usize>(
         &self,

@@ -206,6 +206,19 @@ mod tests {
         }
     }
 
+    #[test]
+    fn counts_are_of_each_toss_and_the_first_without_an_outcome_is_named() {
+        let few: Vec<RigidToss> = tosses().take(40).collect();
+        let counts = ProvenCounts::of_rigid(few.iter().copied()).unwrap();
+        let heads = few.iter().filter(|toss| certify_rigid(toss).unwrap().outcome() == Outcome::Heads).count() as u64;
+        assert!((5..35).contains(&heads));
+        assert_eq!((counts.heads(), counts.tails(), counts.total()), (heads, 40 - heads, 40));
+        let turning = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
+        let endless = RigidToss { launch: turning, ..few[0] };
+        let failed = ProvenCounts::of_rigid([few[0], few[1], endless, few[2], endless]).unwrap_err();
+        assert!(matches!(failed, Error::Launch { index: 2, .. }), "{failed}");
+    }
+
     /// A plate that rests on its edge: no ball proves that cos θ is 0.
     #[test]
     fn an_undecided_outcome_of_a_body_is_not_called_proven() {

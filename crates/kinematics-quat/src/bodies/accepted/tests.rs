@@ -83,7 +83,8 @@ fn landings_are_those_of_the_solver_and_the_same_at_every_simd_level() {
             assert_eq!(enclosed.landing().state, landing.state);
             let (with, without) = (enclosed.work(), landing.work);
             assert_eq!((with.accepted_steps, with.rejected_steps), (without.accepted_steps, without.rejected_steps));
-            assert!(with.rhs_calls >= without.rhs_calls + 8 * without.accepted_steps);
+            let coefficients = (with.rhs_calls - without.rhs_calls) / without.accepted_steps;
+            assert!((8..500).contains(&coefficients), "{stepping}: {coefficients} a step");
         }
     }
 }
