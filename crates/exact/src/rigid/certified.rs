@@ -219,6 +219,53 @@ mod tests {
         assert!(matches!(failed, Error::Launch { index: 2, .. }), "{failed}");
     }
 
+    /// Both radii and the midpoint's second part count, and so does the rounding of their sum.
+    #[test]
+    fn a_rounded_ball_contains_the_finer_one() {
+        for index in 1..2000 {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract();
+            let fine = DoubleDouble::from(part(2.0)) + DoubleDouble::from(1e-16 * (part(3.0) - 0.5));
+            let radius = part(5.0) * [1e-16, 1e-17, 1e-33][index as usize % 3];
+            let found = rounded(&Ball::new(fine, radius));
+            let farthest = DoubleDouble::from(fine.lo().abs()) + DoubleDouble::from(radius);
+            assert!(*found.midpoint() == fine.hi() && (DoubleDouble::from(found.radius()) - farthest).hi() >= 0.0);
+            assert!(found.radius() <= (1.0 + 4.0 * f64::EPSILON) * farthest.hi());
+        }
+    }
+
+    /// From 1e12 rad on f64 is not tried: the phase of a body that always shows heads would not be checked then.
+    #[test]
+    fn flights_of_large_phases_are_decided_in_double_double() {
+        let spinning = |time: f64| RigidToss {
+            body: Body::from_moments([1.0, 1.2, 2.0]).unwrap(),
+            launch: Launch::new([0.01, 0.01, 1.9], TimeOfFlight::Given(time)).unwrap(),
+        };
+        let certified = |time: f64| certify_rigid(&spinning(time)).map(|found| (found.outcome(), found.stage()));
+        assert_eq!(certified(1e11), Ok((Outcome::Heads, Stage::F64)));
+        // A rate of more than 1 rad/s, so that the time alone is below 1e12.
+        for time in [0.8e12, 1e13, 1e15] {
+            let (exact_time, vertical) = in_double_double(&spinning(time)).unwrap();
+            let rough = vertical.each_ref().map(rounded);
+            assert!(cos_tilt_in_ball(&spinning(time), &rough, &rounded(&exact_time)).is_none(), "{time:e}");
+            assert!(cos_tilt_in_ball(&spinning(time), &vertical, &exact_time).is_some(), "{time:e}");
+            assert_eq!(certified(time), Ok((Outcome::Heads, Stage::DoubleDouble)), "{time:e}");
+        }
+        assert!(matches!(certified(1e17), Err(SolveError::PhaseTooLarge { .. })));
+    }
+
+    /// The radii of the time and of the vertical are those that the roundings need, and no more.
+    #[test]
+    fn balls_of_the_inputs_have_the_radii_of_their_roundings() {
+        for toss in tosses().take(20) {
+            let (time, vertical) = in_double_double(&toss).unwrap();
+            assert_eq!(time.radius(), 2f64.powi(-97) * time.midpoint().hi());
+            assert!(vertical.iter().all(|part| part.radius() == 2f64.powi(-67)));
+            let (time, vertical) = in_digits(&toss, 256);
+            assert_eq!(time.radius(), 2f64.powi(-240) * time.midpoint().to_f64().value());
+            assert!(vertical.iter().all(|part| part.radius() == 2f64.powi(-240)));
+        }
+    }
+
     /// A plate that rests on its edge: no ball proves that cos θ is 0.
     #[test]
     fn an_undecided_outcome_of_a_body_is_not_called_proven() {
