@@ -266,6 +266,17 @@ mod tests {
         }
     }
 
+    /// Else the radii, which are of a vertical of length 1, would be too small or too large.
+    #[test]
+    fn the_vertical_of_a_quaternion_of_any_norm_has_length_1() {
+        let attitude = Attitude::from_components([3e9, 1e9, -2e9, 0.5e9]).unwrap();
+        let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
+        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+        let (_, vertical) = in_digits(&toss, 256);
+        let squares: f64 = vertical.iter().map(|part| part.midpoint().to_f64().value().powi(2)).sum();
+        assert!((squares - 1.0).abs() < 1e-12, "{squares}");
+    }
+
     /// A plate that rests on its edge: no ball proves that cos θ is 0.
     #[test]
     fn an_undecided_outcome_of_a_body_is_not_called_proven() {
