@@ -89,6 +89,18 @@ fn landings_are_those_of_the_solver_and_the_same_at_every_simd_level() {
     }
 }
 
+/// 80 steps of RK4, each compared with a series of this order, which leaves it whole.
+#[test]
+fn the_order_of_the_series_is_that_of_the_turn_in_the_longest_step() {
+    let launch = Launch::new([1.9; 3], TimeOfFlight::Given(4.0)).unwrap();
+    let toss = RigidToss { body: Body::from_moments([1.0, 1.4, 2.0]).unwrap(), launch };
+    let solver = solver(Stepping::fixed(Scheme::RK4, 0.05).unwrap());
+    let (with, without) = (solver.enclose_rigid(&toss).unwrap().work(), solver.propagate_rigid(&toss).unwrap().work);
+    let (turn_rate, order) = (1.9 * 3f64.sqrt(), |turn| Plan::of_pieces_of_bodies(f64::EPSILON, turn).order as u64);
+    assert_eq!(with.rhs_calls - without.rhs_calls, 80 * order(0.05 * turn_rate));
+    assert!(order(0.05 * turn_rate) > order(0.05 / turn_rate) && order(0.05 * turn_rate) < order(0.05 + turn_rate));
+}
+
 /// A flight of a body away from its axes, with one change, and its bound.
 fn bound(change: impl Fn(&mut Accepted<7>)) -> f64 {
     let launch = Launch::new([1.0, 0.3, 0.5], TimeOfFlight::Given(30.0)).unwrap();
