@@ -236,8 +236,9 @@ fn a_turn_of_the_rates_is_measured_against_a_turn_in_time() {
 fn the_fastest_terms_turn_with_half_of_all_rates() {
     let launch = Launch::new([3.0, 4.0, 1.0], TimeOfFlight::Given(1.0)).unwrap();
     let mut flight = Flight::new(&Toss { coin: Coin::DISC, launch }).unwrap();
-    flight.rate = Vector3::new(3.0, 4.0, 1.0);
-    assert_eq!(fastest(&flight, 4.0, 4.0), 6.5 + 6.0);
+    // 1, 4 and 8, whose squares are not twice as large, and 1.5 q.
+    flight.rate = Vector3::new(2.0, 8.0, 1.0);
+    assert_eq!(fastest(&flight, 6.0, 4.0), 9.0 + 6.0);
 }
 
 #[test]
