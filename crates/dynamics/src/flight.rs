@@ -81,8 +81,7 @@ impl Flight {
         stepping: &Stepping,
     ) -> Result<(SVector<f64, N>, Work), SolveError> {
         let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
-        let longest = S::LARGEST_TURN / self.phase * self.span();
-        integrate_within(system, start, Span { duration: self.duration, scale: self.scale, longest }, &stepping)
+        integrate_within(system, start, self.span_of::<N, S>(), &stepping)
     }
 
     /// [`integrate`](Self::integrate) with all accepted steps.
@@ -90,14 +89,21 @@ impl Flight {
     /// # Errors
     /// As [`integrate`](crate::integrate::integrate).
     #[cfg(feature = "integrators")]
-    pub fn integrate_steps<const N: usize>(
+    pub fn integrate_steps<const N: usize, S: OdeSystem<N>>(
         &self,
-        system: &impl OdeSystem<N>,
+        system: &S,
         start: SVector<f64, N>,
         stepping: &Stepping,
     ) -> Result<Accepted<N>, SolveError> {
         let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
-        integrate_steps(system, start, self.duration, self.scale, &stepping)
+        integrate_steps(system, start, self.span_of::<N, S>(), &stepping)
+    }
+
+    /// The time of an integration, with the longest step that the system allows.
+    #[cfg(feature = "integrators")]
+    fn span_of<const N: usize, S: OdeSystem<N>>(&self) -> Span {
+        let longest = S::LARGEST_TURN / self.phase * self.span();
+        Span { duration: self.duration, scale: self.scale, longest }
     }
 
     /// Dimensionless time σ T from launch to landing.
@@ -186,6 +192,9 @@ mod tests {
                 flight([rate, 0.0, 0.0], 20.0 / rate).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
             // 40 of half a radian, after the first ones, which grow from 1e-6.
             assert!((41..52).contains(&work.accepted_steps), "{work:?}");
+            let steps =
+                flight([rate, 0.0, 0.0], 20.0 / rate).integrate_steps(&Rest, SVector::zeros(), &stepping).unwrap();
+            assert_eq!(steps.work, work);
         }
         let (_, work) = flight([0.0; 3], 20.0).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
         assert!(work.accepted_steps < 20, "{work:?}");

@@ -106,18 +106,17 @@ pub(crate) fn integrate_within<const N: usize>(
     Ok((run.get().1.last().copied().unwrap_or(start), work))
 }
 
-/// [`integrate`] with all accepted steps.
+/// [`integrate`] with a longest step, and with all accepted steps.
 ///
 /// # Errors
 /// As [`integrate`].
-pub fn integrate_steps<const N: usize>(
+pub(crate) fn integrate_steps<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
-    duration: f64,
-    scale: f64,
+    span: Span,
     stepping: &Stepping,
 ) -> Result<Accepted<N>, SolveError> {
-    let (run, work) = run(system, start, Span { duration, scale, longest: f64::INFINITY }, stepping)?;
+    let (run, work) = run(system, start, span, stepping)?;
     let (times, states) = run.get();
     Ok(Accepted { times: times.clone(), states: states.clone(), work })
 }
