@@ -17,9 +17,13 @@ serde = { version = \"1\", features = [\"derive\"] }
 toml = \"1\"
 toss = { path = ";
 
-/// Crates of the workspace, which are built again here. Their examples take a moment to run, and a minute to optimise.
-const NOT_OPTIMISED: [&str; 7] =
-    ["numerics", "dynamics", "exact", "kinematics-euler", "kinematics-quat", "sampling", "toss"];
+/// All of it is built again here, because features differ. The examples take a moment to run, and minutes to optimise.
+const PROFILES: &str = "
+[profile.dev]
+debug = \"line-tables-only\"
+[profile.dev.package.\"*\"]
+debug = false
+";
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the root of the workspace")
@@ -70,8 +74,7 @@ fn write_crate(blocks: &[String]) -> PathBuf {
     let folder = root().join("target/downstream");
     std::fs::create_dir_all(folder.join("src")).expect("a folder");
     let toss = root().join("crates/toss");
-    let profiles = NOT_OPTIMISED.map(|name| format!("[profile.release.package.{name}]\nopt-level = 0\n")).concat();
-    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n{profiles}", toss.display().to_string()))
+    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n{PROFILES}", toss.display().to_string()))
         .expect("written");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
     let modules: String = blocks.iter().enumerate().map(|(index, block)| module(index, block)).collect();
@@ -91,7 +94,7 @@ fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_work
     let test = std::env::current_exe().expect("a test knows where it is");
     let target = test.ancestors().nth(3).expect("the folder of builds");
     let run = Command::new(env!("CARGO"))
-        .args(["run", "--release", "--offline", "--quiet", "--target-dir"])
+        .args(["run", "--offline", "--quiet", "--target-dir"])
         .arg(target)
         .current_dir(&folder)
         .output()
