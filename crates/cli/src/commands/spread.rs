@@ -141,7 +141,7 @@ fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Stri
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
         let (at_least, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
         lines.push(format!(
-            "looked at    {looks} spreads from {from:e} % on, with P(heads) >= {at_least:.6} in between"
+            "looked at    {looks} spreads from {from:.0e} % on, with P(heads) >= {at_least:.6} in between"
         ));
         let each = alone.iter().zip(["ωx", "ωy", "ωz", "v0"]);
         let each: Vec<String> = each.map(|((_, found), name)| format!("{name} {}", in_short(found))).collect();
@@ -175,6 +175,6 @@ fn in_short(found: &LargestSpread) -> String {
             let digits = (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize;
             format!("{percent:.digits$} %")
         }
-        _ => format!("below {:e} %", 100.0 * SMALLEST_SPREAD),
+        _ => format!("below {:.0e} %", 100.0 * SMALLEST_SPREAD),
     }
 }
