@@ -16,9 +16,9 @@
 //! atan2      1.5 ((|b| + s) r + (|a| + r) s)/(a² + b²)   + ε |angle|   7 next to the origin; up to a turn at the cut
 //! ```
 //!
-//! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the standard library, to less
-//! than 2^-52. It is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions
-//! to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
+//! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the platform (sine, cosine,
+//! exponential and atan2), to less than 2^-52. The radius of an exponential takes the platform's e^r - 1, right to 2^-51.
+//! ε is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
 //! roundings of its own and by 2^-1022, which is more than underflow can take away; so is the r of a quotient or a root.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

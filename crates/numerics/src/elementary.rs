@@ -110,7 +110,7 @@ pub trait Elementary: Number + Div<Output = Self> {
     }
 }
 
-/// Functions are those of the standard library.
+/// Functions are those of the platform: sine, cosine, exponential and atan2 by the standard library.
 impl Elementary for f64 {
     #[inline]
     fn like(&self, value: f64) -> Self {

@@ -146,6 +146,13 @@ fn balls_of_f64_contain_every_result_and_the_functions_are_right_to_half_of_thei
             assert!(error <= 0.55 * bound, "{number}: {x} {y} {error:e}");
         }
     }
+    // e^r - 1, by which the radius of an exponential grows.
+    for index in 1..3_000 {
+        let radius = 10f64.powf(-20.0 * (f64::from(index) * 3f64.sqrt()).fract()) * [1.0, 40.0][index as usize % 2];
+        let exact = big(radius).exp() - big(1.0);
+        let error = ((big(radius.exp_m1()) - &exact) / &exact).to_f64().value().abs();
+        assert!(error <= 0.55 * 2f64.powi(-51), "{radius}: {error:e}");
+    }
     for (a, exact_a) in samples() {
         for (b, exact_b) in samples() {
             let [x, y] = [a, b].map(|ball| Ball::new(ball.midpoint.hi(), ball.radius));
