@@ -76,7 +76,7 @@ fn the_hash_has_its_published_values() {
     }
 }
 
-/// Each digit of a file, changed to each of the others.
+/// Each digit of a file, changed to each of the others. The seventeenth digit of a number may not change the f64.
 #[test]
 fn no_digit_of_a_file_changes_unseen() {
     let few = Plan::Random { points: 9, seed: u64::MAX };
@@ -84,13 +84,14 @@ fn no_digit_of_a_file_changes_unseen() {
     for (space, plan) in cases().into_iter().chain(others) {
         let points = plan.points(&space).unwrap();
         let text = to_string(&Sampler::exact().tally(&space, plan, points / 3..points).unwrap()).unwrap();
-        assert!(from_str::<Tally>(&text).is_ok(), "{text}");
+        let part: Tally = from_str(&text).unwrap();
         for (at, digit) in text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()) {
             for other in (b'0'..=b'9').filter(|other| *other != digit) {
                 let mut bytes = text.clone().into_bytes();
                 bytes[at] = other;
                 let changed = String::from_utf8(bytes).unwrap();
-                assert!(from_str::<Tally>(&changed).is_err(), "{changed} at {at}");
+                let is_seen = from_str::<Tally>(&changed).map_or(true, |read| read == part);
+                assert!(is_seen, "{changed} at {at}");
             }
         }
     }
