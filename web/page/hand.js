@@ -50,9 +50,12 @@ export class Hand {
     const heads = byId("wanted").value;
     try {
       const found = ask({ ask: "precision", scene: question(), heads });
+      const between =
+        `; looked at ${found.looks} spreads from 1e-7 % on, with P(heads) ≥ ` +
+        `${Math.floor(1e4 * found.at_least) / 1e4} in between`;
       const text = {
-        up_to: `a spread of up to ${short(100 * found.spread, 3)} % of each rate and of the speed`,
-        any: "any spread up to 12 %, the largest that is tried",
+        up_to: `a spread of up to ${short(100 * found.spread, 3)} % of each rate and of the speed${between}`,
+        any: `any spread up to 12 %, the largest that is tried${between}`,
         toss_is_not_heads: "none: the toss itself does not land heads",
         below_smallest: "none that can be told from 0: the toss lands next to its edge",
       }[found.answer];

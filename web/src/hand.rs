@@ -1,6 +1,6 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
 use toss::{Error, InputError};
 
@@ -29,6 +29,8 @@ pub(crate) struct Precision {
     answer: &'static str,
     spread: Option<f64>,
     probability: Option<f64>,
+    looks: Option<u32>,
+    at_least: Option<f64>,
 }
 
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
@@ -47,13 +49,19 @@ pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error
 pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
     let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
-    let (answer, spread, estimate) = match &found {
-        LargestSpread::UpTo(spread, estimate) => ("up_to", Some(*spread), Some(estimate)),
-        LargestSpread::Any(estimate) => ("any", Some(LARGEST_SPREAD), Some(estimate)),
-        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None, None),
-        LargestSpread::BelowSmallest(_) => ("below_smallest", None, None),
+    let (answer, found) = match &found {
+        LargestSpread::UpTo(found) => ("up_to", Some(found)),
+        LargestSpread::Any(found) => ("any", Some(found)),
+        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
+        LargestSpread::BelowSmallest(_) => ("below_smallest", None),
     };
-    Ok(Precision { answer, spread, probability: estimate.map(|found| found.probability) })
+    Ok(Precision {
+        answer,
+        spread: found.map(|found| found.spread),
+        probability: found.map(|found| found.estimate.probability),
+        looks: found.map(|found| found.looks),
+        at_least: found.map(|found| found.at_least),
+    })
 }
 
 /// The most accurate plan for a space that spreads.

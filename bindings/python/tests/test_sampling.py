@@ -199,6 +199,21 @@ def test_a_part_that_is_there_is_not_computed_again_and_a_wrong_one_is_refused(t
         ut.probability(FIG4, RANDOM, shards=5, folder=tmp_path)
 
 
+@pytest.mark.parametrize("field", ["heads", "tails", "streams", "digest"])
+def test_a_part_with_a_changed_digit_is_refused_with_its_file(tmp_path, field):
+    ut.probability(FIG4, RANDOM, shards=2, folder=tmp_path)
+    path = tmp_path / "part-2-of-2.json"
+    text = path.read_text()
+    head, value = text.split(f'"{field}":', 1)
+    at = next(index for index, character in enumerate(value) if character.isdigit())
+    changed = value[:at] + str((int(value[at]) + 1) % 10) + value[at + 1 :]
+    path.write_text(f'{head}"{field}":{changed}')
+    with pytest.raises(errors.PartError, match="part-2-of-2.json: .*digest"):
+        ut.probability(FIG4, RANDOM, shards=2, folder=tmp_path)
+    with pytest.raises(errors.InputError, match="digest"):
+        ut.Tally.from_json(path.read_text())
+
+
 def lying(space, plan, start, end, threads):
     return original(space, plan, 0, end - start, threads)
 

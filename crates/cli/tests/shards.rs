@@ -85,6 +85,31 @@ fn a_part_that_is_there_is_not_computed_again_and_nothing_else_is_overwritten() 
     assert_eq!(stdout(&run(&command.replace(&path, "-"))), text);
 }
 
+/// A digit of a sum, changed on the way from one machine to another, moved the merged probability from 0.66 to 0.60.
+#[test]
+fn a_part_with_a_changed_digit_is_refused_with_the_name_of_the_file_and_not_held_to_be_there() {
+    let shares = "--rate-x 1:9 --rate-y x --rate-z 1:9 --speed 3:5 --method exact-speed --points 64";
+    for (options, field) in
+        [(shares, "\"probability\":\""), ("--space paper-fig4 --method random --points 1000", "heads\":")]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let paths = [1, 2].map(|index| part(folder.path(), options, index, 2));
+        let text = std::fs::read_to_string(&paths[1]).unwrap();
+        let at = text.rfind(field).unwrap() + field.len();
+        let digit = if &text[at..=at] == "2" { "3" } else { "2" };
+        std::fs::write(&paths[1], format!("{}{digit}{}", &text[..at], &text[at + 1..])).unwrap();
+        let message = refusal(&format!("merge {}", paths.join(" ")));
+        assert!(message.starts_with(&paths[1]) && message.contains("digest"), "{message}");
+        assert!(message.contains("changed since the file was written"), "{message}");
+        let again = run(&format!("probability {options} --shard 2/2 --out {}", paths[1]));
+        assert_eq!(again.status.code(), Some(2));
+        let said = stderr(&again);
+        assert!(said.contains(&paths[1]) && said.contains("digest") && said.contains("remove it"), "{said}");
+        std::fs::write(&paths[1], text).unwrap();
+        assert_eq!(run(&format!("merge {}", paths.join(" "))).status.code(), Some(0));
+    }
+}
+
 #[test]
 fn gaps_overlaps_and_parts_of_other_plans_are_refused_with_the_name_of_the_file() {
     let [folder, others] = [(); 2].map(|()| tempfile::tempdir().unwrap());

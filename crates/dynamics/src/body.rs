@@ -226,9 +226,20 @@ impl Body {
     }
 
     /// (I2 - I3)/I1, (I3 - I1)/I2 and (I1 - I2)/I3 of the sorted principal moments, by which Euler's equations in
-    /// principal axes multiply. They are between -1 and 1, because no moment is larger than the sum of the other two.
+    /// principal axes multiply. They are between -1 and 1 if no moment is larger than the sum of the other two. Moments
+    /// that break this by their rounding are accepted, so that the first can be as low as -2 for a plate as thin as
+    /// rounding, and the second above 1 by a rounding.
     pub fn couplings(&self) -> [f64; 3] {
         self.couplings
+    }
+
+    /// How many times as large as at launch |ω| can become: at most √2, and √3 for a plate as thin as rounding.
+    ///
+    /// |ω|² - pr ω2², with p and r the first and the last of the [couplings](Body::couplings), does not change: see
+    /// [`RigidPhase`](crate::RigidPhase).
+    pub fn largest_growth_of_rate(&self) -> f64 {
+        let [p, _, r] = self.couplings;
+        (1.0 + (p * r).abs().max(1.0)).sqrt()
     }
 
     /// Angular momentum (kg m²/s, BF) at the body rate `rate` (rad/s, BF). Its size is conserved.

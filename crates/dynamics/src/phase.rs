@@ -5,11 +5,10 @@
 //! rad the phases of neighbouring f64 inputs are a radian or more apart. Every solver refuses such a toss by
 //! [`require_phase`].
 
-use std::f64::consts::SQRT_2;
-
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 
+use crate::body::Body;
 use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
 use crate::launch::Toss;
@@ -26,14 +25,14 @@ pub fn require_phase(phase: f64) -> Result<f64, SolveError> {
     if phase <= LARGEST_PHASE { Ok(phase) } else { Err(SolveError::PhaseTooLarge { phase }) }
 }
 
-/// An upper bound of the angle (rad) through which a body turns in a `time`, from the size of its `rate` at launch, which
-/// never grows by more than the factor √2 (see [`RigidPhase`](crate::RigidPhase)).
+/// An upper bound of the angle (rad) through which a `body` turns in a `time`, from the size of its `rate` at launch, which
+/// never grows by more than [a factor](Body::largest_growth_of_rate).
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] if it exceeds 2^53.
-pub(crate) fn turned_at_most(rate: f64, time: f64) -> Result<f64, SolveError> {
+pub(crate) fn turned_at_most(body: &Body, rate: f64, time: f64) -> Result<f64, SolveError> {
     // Without a rate the angle is 0, also where the product would be 0 · ∞ = NaN.
-    require_phase(if rate == 0.0 { 0.0 } else { SQRT_2 * rate * time })
+    require_phase(if rate == 0.0 { 0.0 } else { body.largest_growth_of_rate() * rate * time })
 }
 
 /// The phases at landing, computed in f64 with an error of a few roundings. Integrators and error estimates need no

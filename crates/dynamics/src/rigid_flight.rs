@@ -34,7 +34,7 @@ impl RigidFlight {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the body may turn by more than 2^53 rad.
     pub fn new(toss: &RigidToss) -> Result<Self, SolveError> {
-        let flight = Flight::turning_by(&toss.launch, |rate, time| turned_at_most(rate.norm(), time))?;
+        let flight = Flight::turning_by(&toss.launch, |rate, time| turned_at_most(&toss.body, rate.norm(), time))?;
         let axes = *toss.body.principal();
         let rates = axes.rates(&flight.rate);
         Ok(Self { flight, axes, launched: toss.launch.rate(), rates, couplings: toss.body.couplings() })

@@ -2,7 +2,7 @@
 //! integrators need both.
 //!
 //! The principal moments are I1 ≤ I2 ≤ I3, the rates about these axes ω1, ω2, ω3, and T is the time of flight. With
-//! a = (I3 - I2)/I1, b = (I3 - I1)/I2 and c = (I2 - I1)/I3, each from 0 to 1, Euler's equations are
+//! a = (I3 - I2)/I1, b = (I3 - I1)/I2 and c = (I2 - I1)/I3, none below 0, Euler's equations are
 //!
 //! ```text
 //! ω1' = -a ω2 ω3,   ω2' = b ω3 ω1,   ω3' = -c ω1 ω2.
@@ -10,8 +10,9 @@
 //!
 //! # How far it turns
 //! The moments fulfil a - b + c = abc, and so (ω1² + ω2² + ω3²)' = -2 abc ω1 ω2 ω3, while (ω2²)' = 2 b ω1 ω2 ω3.
-//! Therefore |ω|² + ac ω2² is conserved, |ω| never exceeds √2 times its value at launch, and the body turns by no more
-//! than √2 |ω| T.
+//! Therefore |ω|² + ac ω2² is conserved, |ω| never exceeds √(1 + ac) times its value at launch, and the body turns by no
+//! more than √(1 + ac) |ω| T. No coupling of a body is above 1, which makes √2; but a may be as large as 2 where the
+//! moments of a thin plate are rounded.
 //!
 //! # How a disturbance grows
 //! A turn about the middle axis is unstable: next to it a disturbance grows like exp(√(ac) |ω| t). Whatever the motion,
@@ -30,7 +31,7 @@ use crate::rigid_toss::RigidToss;
 /// How far a rigid body turns, and how a disturbance grows, in f64 with an error of some roundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidPhase {
-    /// An upper bound of the angle through which the body turns, √2 |ω| T (rad).
+    /// An upper bound of the angle through which the body turns, √2 |ω| T (rad), or √(1 + ac) |ω| T where that is more.
     pub angle: f64,
     /// How many times as much as in a steady turn a disturbance grows, at least 1; infinite above the range of f64.
     pub growth: f64,
@@ -45,7 +46,7 @@ impl RigidPhase {
         let launched = toss.launch.rate();
         let scale = power_of_two_scale(launched.amax());
         let rate = launched / scale;
-        let angle = turned_at_most(rate.norm(), toss.launch.flight_time() * scale)?;
+        let angle = turned_at_most(&toss.body, rate.norm(), toss.launch.flight_time() * scale)?;
         let [a, _, c] = toss.body.couplings();
         let fastest = ((a * c).abs().sqrt() * angle).exp();
         let rates = toss.body.principal().rates(&rate);
@@ -95,6 +96,19 @@ mod tests {
             let [a, b, c] = Body::from_moments(moments).unwrap().couplings().map(f64::abs);
             assert!((a - b + c - a * b * c).abs() < 1e-15 && a.max(b).max(c) <= 1.0 + 1e-15, "{moments:?}");
         }
+    }
+
+    /// 1.2e-16 + 1 is rounded to 1 + 2^-52: a = 1.85 and c = 1. From a turn about the middle axis |ω| grows to √(κ1 + κ3) =
+    /// √(1 + ac) on the separatrix, where ω2 is 0.
+    #[test]
+    fn the_angle_of_a_plate_as_thin_as_rounding_is_bounded_by_its_own_couplings() {
+        let moments = [1.2e-16, 1.0, 1.000_000_000_000_000_2];
+        let growth = (1.0 + f64::EPSILON / 1.2e-16).sqrt();
+        let found = phase(moments, [0.0, 1.0, 0.0], 2.0).unwrap().angle;
+        assert!((found - 2.0 * growth).abs() < 1e-12 && growth > 1.68, "{found}");
+        let [a, _, c] = Body::from_moments(moments).unwrap().couplings().map(f64::abs);
+        let b = (a + c) / (1.0 + a * c);
+        assert!((found / 2.0 - (a / b + c / b).sqrt()).abs() < 1e-15);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::half_product;
 const LONGEST_SHIFT: f64 = 1e-10;
 
 /// More than the part of second order that a turn changes in the square of a shift, in the unit of the flight.
-const OF_SQUARE: f64 = 8.0;
+pub(crate) const OF_SQUARE: f64 = 8.0;
 
 /// The roundings of a measured jump, in units of u of what it is the difference of.
 pub(crate) const OF_JUMP: f64 = 32.0 * UNIT_ROUNDOFF;

@@ -16,9 +16,9 @@
 //! atan2      1.5 ((|b| + s) r + (|a| + r) s)/(a² + b²)   + ε |angle|   7 next to the origin; up to a turn at the cut
 //! ```
 //!
-//! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the standard library, to less
-//! than 2^-52. It is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions
-//! to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
+//! ε is 2^-52 for f64, whose operations are right to 2^-53 and whose functions, those of the platform (sine, cosine,
+//! exponential and atan2), to less than 2^-52. The radius of an exponential takes the platform's e^r - 1, right to 2^-51.
+//! ε is 2^-98 for double-double numbers, whose operations are right to 10 u² = 2^-102.6 and whose functions to 2^-100; and 2^(8-p) for numbers of p digits, which are rounded correctly. Radii are f64. Each is enlarged by some
 //! roundings of its own and by 2^-1022, which is more than underflow can take away; so is the r of a quotient or a root.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -40,9 +40,9 @@ pub struct Ball<N> {
 }
 
 impl<N: Elementary> Ball<N> {
-    /// The number `midpoint`, right to `radius` ≥ 0.
+    /// The number `midpoint`, right to `radius` ≥ 0; nothing is known if a part of `midpoint` is not finite.
     pub fn new(midpoint: N, radius: f64) -> Self {
-        Self { midpoint, radius }
+        Self::within(midpoint, radius)
     }
 
     /// The midpoint.
@@ -77,10 +77,10 @@ impl<N: Elementary> Ball<N> {
         Self::within(midpoint, (error + rounding * size) * (1.0 + 8.0 * f64::EPSILON) + TINY)
     }
 
-    /// A ball of this radius, or one of which nothing is known, because its midpoint left the range of f64.
+    /// A ball of this radius, or one of which nothing is known, because a part of its midpoint left the range of f64.
     fn within(midpoint: N, radius: f64) -> Self {
-        let is_finite = midpoint.to_f64().is_finite();
-        Self { midpoint, radius: if is_finite { radius } else { f64::INFINITY } }
+        let radius = if midpoint.is_in_range() { radius } else { f64::INFINITY };
+        Self { midpoint, radius }
     }
 
     /// A ball of which nothing is known.
@@ -150,9 +150,8 @@ impl<N: Elementary> Number for Ball<N> {}
 
 impl<N: Elementary> Elementary for Ball<N> {
     fn like(&self, value: f64) -> Self {
-        let midpoint = self.midpoint.like(value);
         // Exact: no precision has fewer digits than f64.
-        Self { midpoint, radius: 0.0 }
+        Self::within(self.midpoint.like(value), 0.0)
     }
 
     fn like_big(&self, value: &Big) -> Self {
@@ -175,6 +174,10 @@ impl<N: Elementary> Elementary for Ball<N> {
 
     fn digits(&self) -> i32 {
         self.midpoint.digits()
+    }
+
+    fn is_in_range(&self) -> bool {
+        self.midpoint.is_in_range()
     }
 
     fn sqrt(&self) -> Self {
@@ -201,11 +204,11 @@ impl<N: Elementary> Elementary for Ball<N> {
         let size = angle.to_f64().abs();
         let off = if error == 0.0 {
             0.0
-        } else if 8.0 * error < distance {
+        } else if distance.is_finite() && 8.0 * error < distance {
             let [y_error, x_error] = [self.radius, x.radius].map(|radius| radius / distance);
             1.5 * ((x.size() + x.radius) / distance * y_error + (self.size() + self.radius) / distance * x_error)
         } else {
-            // Of NaN, too, nothing is known but that it is an angle.
+            // Of NaN, and of a distance that overflows, nothing is known but that it is an angle.
             7.0
         };
         Self::rounded(angle, off, size)

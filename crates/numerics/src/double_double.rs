@@ -2,7 +2,8 @@
 //! exact motion needs them, because the phase of a long flight, rounded to f64, keeps too few digits after the point.
 //!
 //! With u = 2^-53 the relative errors are at most 3 u² (+), 5 u² (×), 10 u² (÷) and 4 u² (√), unless a product or its
-//! rounding error leaves the range of f64. Sources: T. J. Dekker, Numer. Math. 18 (1971), 224 (exact products);
+//! rounding error leaves the range of f64, or a factor is above 2^996, where splitting it overflows. A result then has a
+//! part that is not finite, or lost digits below 2^-1022; [`Ball`](crate::Ball) allows for both. Sources: T. J. Dekker, Numer. Math. 18 (1971), 224 (exact products);
 //! M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44 (2017), 15 (algorithms 6, 12, 17 and their
 //! bounds); V. Lefèvre et al., ACM Trans. Math. Softw. 49 (2023), 12 (√).
 
@@ -78,7 +79,7 @@ impl DoubleDouble {
         self.lo
     }
 
-    /// `a` × `b` exactly.
+    /// `a` × `b` exactly, unless a digit leaves the range of f64. The remainder is NaN for a factor above 2^996.
     #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         two_product(a, b)

@@ -110,9 +110,14 @@ impl<N: Elementary> Elementary for Dual<N> {
         self.value.digits()
     }
 
+    fn is_in_range(&self) -> bool {
+        self.value.is_in_range() && self.slope.is_in_range()
+    }
+
     fn sqrt(&self) -> Self {
         let value = self.value.sqrt();
-        let flat = self.slope.sign() == 0.0;
+        // A slope around 0 with an error bound is not 0.
+        let flat = self.slope.sign() == 0.0 && self.slope.error() == 0.0;
         let slope = if flat { self.slope.clone() } else { self.slope.clone() / (value.clone() + value.clone()) };
         Self { value, slope }
     }
@@ -192,5 +197,21 @@ mod tests {
         }
         // The root of a constant 0 has no slope, where that of an input of 0 is infinite.
         assert_eq!(Dual::constant(0.0).sqrt(), Dual::constant(0.0));
+    }
+
+    /// The slope of √x is that of x by 2√x, also where no more is known of it than that it is around 0.
+    #[test]
+    fn the_root_of_a_slope_around_0_keeps_its_error_bound() {
+        let [value, slope] = [(1e-4, 0.0), (0.0, 0.1)].map(|(midpoint, radius)| Ball::new(midpoint, radius));
+        let found = Dual { value, slope }.sqrt().slope;
+        assert!(found.midpoint().abs() + found.radius() >= 0.1 / (2.0 * 1e-2), "{found:?}");
+        assert!(found.radius() < 5.1, "{found:?}");
+    }
+
+    #[test]
+    fn a_dual_is_in_range_if_both_of_its_parts_are() {
+        for (value, slope, expected) in [(1.0, 2.0, true), (f64::NAN, 2.0, false), (1.0, f64::INFINITY, false)] {
+            assert_eq!(Dual { value, slope }.is_in_range(), expected);
+        }
     }
 }

@@ -74,6 +74,12 @@ pub trait Elementary: Number + Div<Output = Self> {
         self
     }
 
+    /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too. Of a number
+    /// with an error bound it is said of the midpoint.
+    fn is_in_range(&self) -> bool {
+        self.to_f64().is_finite()
+    }
+
     /// -1, 0 or 1, also of a number that is below the range of f64; of a number with an error bound, that of its
     /// midpoint.
     fn sign(&self) -> f64 {
@@ -104,7 +110,7 @@ pub trait Elementary: Number + Div<Output = Self> {
     }
 }
 
-/// Functions are those of the standard library.
+/// Functions are those of the platform: sine, cosine, exponential and atan2 by the standard library.
 impl Elementary for f64 {
     #[inline]
     fn like(&self, value: f64) -> Self {
@@ -194,6 +200,11 @@ impl Elementary for DoubleDouble {
 
     fn digits(&self) -> i32 {
         106
+    }
+
+    #[inline]
+    fn is_in_range(&self) -> bool {
+        self.hi().is_finite() && self.lo().is_finite()
     }
 
     fn sqrt(&self) -> Self {

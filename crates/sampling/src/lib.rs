@@ -68,5 +68,5 @@ pub use space::{AxisOrTie, Space};
 pub use space_builder::SpaceBuilder;
 #[cfg(feature = "serde")]
 pub use space_file::{DescribedSpace, named_space, named_spaces};
-pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD};
+pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
 pub use tally::Tally;

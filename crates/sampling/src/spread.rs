@@ -3,9 +3,27 @@
 //! deviation s |x|, independent of the others; an input that is 0 stays 0.
 //!
 //! P(heads) as a function of s is 1 near s = 0 for a toss that lands heads, and in general falls, but it need not fall
-//! all the way. The answer is the largest s such that P(heads) suffices at every smaller spread, too. It is found by
-//! looking at spreads that grow by a factor of √2, and by bisection where P(heads) first fails to suffice. All of these
-//! estimates use the same points, so that they differ by the spread and not by chance.
+//! all the way: it may dip below the wanted probability and rise above it again. The answer is the largest s such that
+//! P(heads) suffices at every smaller spread, too. All estimates use the same points, so that they differ by the spread
+//! and not by chance.
+//!
+//! # Between two spreads
+//! Estimates at some spreads tell what happens between them, because P(heads) is smooth. Let d inputs spread, u = ln s,
+//! and R the sum of the d squares of their deviations in units of s |x|, which has the distribution χ² of d degrees. The
+//! density of the launches depends on s through s^-d e^(-R/2) alone, so that with H the launches that land heads, T the
+//! others, and E the mean over those launches,
+//!
+//! ```text
+//! P'' = d²P/du² = E over H of h = -E over T of h,     h = (R - d)² - 2R,   whose mean over all is 0
+//! P'' ≤ ½ E|h| = C                                    0.92 for d = 1, 3.82 for d = 4
+//! P'' ≤ (2d + 1) P(T)                                 h is nowhere below -(2d + 1), its value at R = d + 1
+//! P(T) at s ≤ (s2/s)^d P(T) at s2 ≥ s                 as the density does not grow by more
+//! ```
+//!
+//! A function whose second derivative is at most c is at most c (u2 - u1)²/8 below its chord. So P(heads) between s1 and
+//! s2 is at least the smaller one of P at s1 and s2, less that, with the smaller bound of P''. Spreads are added by
+//! halving u2 - u1, until no dip of more than [`RESOLUTION`] below the wanted probability is possible. Nothing is known
+//! of spreads below the smallest that is looked at, and every estimate has an error of its own.
 
 use dynamics::error::require;
 use dynamics::{Error, InputError, Outcome};
@@ -27,17 +45,41 @@ pub const LARGEST_SPREAD: f64 = 0.12;
 /// Smallest relative spread that is looked at.
 pub const SMALLEST_SPREAD: f64 = 1e-9;
 
+/// How far P(heads) may be below the wanted probability between the spreads that are looked at, at most; where the wanted
+/// probability is next to 1, a tenth of what is left to 1.
+pub const RESOLUTION: f64 = 1e-3;
+
+/// The factor from one spread to the next, if nothing asks for a closer look.
+const LARGEST_FACTOR: f64 = 4.0;
+
+/// More than ½ E|h| for 0, 1, 2, … inputs that spread; see [this module](self).
+const CURVATURE: [f64; Coordinate::ALL.len() + 1] = [0.0, 0.917, 1.881, 2.849, 3.817, 4.785, 5.753];
+
 /// How large a relative spread may be for a wanted probability of heads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LargestSpread {
-    /// Up to this spread, at which heads has this probability.
-    UpTo(f64, Estimate),
-    /// Up to [`LARGEST_SPREAD`] at least, at which heads has this probability. No larger one was looked at.
-    Any(Estimate),
+    /// Up to this spread.
+    UpTo(SufficientSpread),
+    /// Up to [`LARGEST_SPREAD`] at least. No larger one was looked at.
+    Any(SufficientSpread),
     /// No spread is small enough, because the toss itself does not land heads.
     TossIsNotHeads(Outcome),
     /// Not even [`SMALLEST_SPREAD`], at which heads has this probability: the toss lands heads, next to tails.
     BelowSmallest(Estimate),
+}
+
+/// A spread that suffices, and what is known of the smaller ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SufficientSpread {
+    /// The relative spread.
+    pub spread: f64,
+    /// The estimate of P(heads) at this spread.
+    pub estimate: Estimate,
+    /// At how many spreads P(heads) was estimated, from [`SMALLEST_SPREAD`] on.
+    pub looks: u32,
+    /// P(heads) at every spread from [`SMALLEST_SPREAD`] to this one is at least this, as far as the estimates are right.
+    /// It is at most [`RESOLUTION`] below the wanted probability.
+    pub at_least: f64,
 }
 
 impl Space {
@@ -58,7 +100,8 @@ impl Space {
 
 impl Sampler<'_> {
     /// The largest relative spread of the coordinates `inputs` of `space`, which have single values, with which heads has
-    /// at least the probability `heads`. It is found with `points` Sobol points for each estimate.
+    /// at least the probability `heads`, and so at all smaller spreads from [`SMALLEST_SPREAD`] on, up to [`RESOLUTION`]. It
+    /// is found to 1e-5 of itself, with `scrambled` Sobol points for each estimate.
     ///
     /// # Errors
     /// As [`Sampler::estimate`], and [`InputError`] for a probability `heads` that is not between 0 and 1, and for a
@@ -81,41 +124,63 @@ impl Sampler<'_> {
         if landing != Outcome::Heads {
             return Ok(LargestSpread::TossIsNotHeads(landing));
         }
-        let estimate = |spread: f64| {
-            let spread = space.with_spread(spread, inputs)?;
-            self.silent().estimate(&spread, plan(&spread, scrambled))
+        let enough = heads - RESOLUTION.min(0.1 * (1.0 - heads));
+        let spreading = space.with_spread(LARGEST_SPREAD, inputs)?.free().count();
+        let mut looks = 0;
+        let mut look = |spread: f64| {
+            looks += 1;
+            let spread_out = space.with_spread(spread, inputs)?;
+            let estimate = self.silent().estimate(&spread_out, plan(&spread_out, scrambled))?;
+            Ok::<_, Error>(Look { spread, estimate })
         };
-        let suffices = |found: &Estimate| found.probability >= heads;
-        let mut largest = (SMALLEST_SPREAD, estimate(SMALLEST_SPREAD)?);
-        if !suffices(&largest.1) {
-            return Ok(LargestSpread::BelowSmallest(largest.1));
+        let mut here = look(SMALLEST_SPREAD)?;
+        if here.estimate.probability < heads {
+            return Ok(LargestSpread::BelowSmallest(here.estimate));
         }
-        while largest.0 < LARGEST_SPREAD {
-            let next = (largest.0 * std::f64::consts::SQRT_2).min(LARGEST_SPREAD);
-            let found = estimate(next)?;
-            if !suffices(&found) {
-                let (spread, found) = bisect(largest, next, estimate, suffices)?;
-                return Ok(LargestSpread::UpTo(spread, found));
+        let mut at_least = here.estimate.probability;
+        // Larger spreads that were looked at, the nearest last.
+        let mut ahead: Vec<Look> = Vec::new();
+        while here.spread < LARGEST_SPREAD {
+            let Some(next) = ahead.pop() else {
+                ahead.push(look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD))?);
+                continue;
+            };
+            let (suffices, between) = (next.estimate.probability >= heads, here.least_up_to(&next, spreading));
+            if suffices && between >= enough {
+                (here, at_least) = (next, at_least.min(between));
+            } else if !suffices && next.spread <= here.spread * (1.0 + 1e-5) {
+                return Ok(LargestSpread::UpTo(here.sufficient(looks, at_least)));
+            } else {
+                let middle = look((here.spread * next.spread).sqrt())?;
+                ahead.extend([next, middle]);
             }
-            largest = (next, found);
         }
-        Ok(LargestSpread::Any(largest.1))
+        Ok(LargestSpread::Any(here.sufficient(looks, at_least)))
     }
 }
 
-/// The largest spread that suffices, to 1e-5 of itself, between `from`, which does, and `to`, which does not.
-fn bisect(
-    mut from: (f64, Estimate),
-    mut to: f64,
-    estimate: impl Fn(f64) -> Result<Estimate, Error>,
-    suffices: impl Fn(&Estimate) -> bool,
-) -> Result<(f64, Estimate), Error> {
-    while to > from.0 * (1.0 + 1e-5) {
-        let middle = 0.5 * (from.0 + to);
-        let found = estimate(middle)?;
-        if suffices(&found) { from = (middle, found) } else { to = middle }
+/// A spread and the estimate of P(heads) there.
+struct Look {
+    spread: f64,
+    estimate: Estimate,
+}
+
+impl Look {
+    /// A lower bound of P(heads) at the spreads from this one to that of `next`, if `spreading` inputs spread and both
+    /// estimates are right; see [this module](self).
+    fn least_up_to(&self, next: &Self, spreading: usize) -> f64 {
+        let factor = next.spread / self.spread;
+        let inputs = f64::from(u8::try_from(spreading).unwrap_or(u8::MAX));
+        let surely = next.estimate.interval.map_or(next.estimate.probability, |interval| interval.lo);
+        let not_heads = ((1.0 - surely) * factor.powf(inputs)).min(1.0);
+        let curvature = CURVATURE[spreading].min((2.0 * inputs + 1.0) * not_heads);
+        let chord = self.estimate.probability.min(next.estimate.probability);
+        (chord - 0.125 * curvature * factor.ln().powi(2)).max(1.0 - not_heads).min(chord)
     }
-    Ok(from)
+
+    fn sufficient(self, looks: u32, at_least: f64) -> SufficientSpread {
+        SufficientSpread { spread: self.spread, estimate: self.estimate, looks, at_least }
+    }
 }
 
 /// The most accurate plan for a space that spreads.
@@ -152,13 +217,13 @@ mod tests {
     fn the_spread_of_a_toss_end_over_end_is_that_of_the_normal_distribution() {
         let toss = space(["62.83185307179586", "0", "0"], "4.905");
         let found = Sampler::exact().largest_spread(&toss, &[Speed], 0.95, POINTS).unwrap();
-        let LargestSpread::UpTo(spread, estimate) = found else { panic!("{found:?}") };
+        let LargestSpread::UpTo(SufficientSpread { spread, estimate, .. }) = found else { panic!("{found:?}") };
         assert!((spread / 0.012_755_3 - 1.0).abs() < 2e-5, "{spread}");
         assert!((0.95..0.950_01).contains(&estimate.probability));
         // The rate alone is the same by symmetry, and both together add in squares.
         for (inputs, factor) in [(vec![RateX], 1.0), (HAND.to_vec(), 0.5_f64.sqrt())] {
             let found = Sampler::exact().largest_spread(&toss, &inputs, 0.95, POINTS).unwrap();
-            let LargestSpread::UpTo(spread, _) = found else { panic!("{found:?}") };
+            let LargestSpread::UpTo(SufficientSpread { spread, .. }) = found else { panic!("{found:?}") };
             assert!((spread / (0.012_755_3 * factor) - 1.0).abs() < 5e-3, "{inputs:?}: {spread}");
         }
         // Without an effect of the input, any spread will do.
@@ -166,7 +231,7 @@ mod tests {
         // A drop changes the plan, and a drop of nearly nothing hardly the answer.
         let found =
             Sampler::exact().largest_spread(&toss.with_drop(Some(1e-9)).unwrap(), &[Speed], 0.95, POINTS).unwrap();
-        let LargestSpread::UpTo(spread, _) = found else { panic!("{found:?}") };
+        let LargestSpread::UpTo(SufficientSpread { spread, .. }) = found else { panic!("{found:?}") };
         assert!((spread / 0.012_755_3 - 1.0).abs() < 2e-3, "{spread}");
     }
 
@@ -174,7 +239,7 @@ mod tests {
     fn tosses_that_are_always_or_never_or_hardly_heads_have_answers_of_their_own() {
         let largest = |toss: &Space| Sampler::exact().largest_spread(toss, &HAND, 0.9, POINTS).unwrap();
         let always = largest(&space(["1", "1", "9"], "3"));
-        assert!(matches!(&always, LargestSpread::Any(found) if found.probability == 1.0), "{always:?}");
+        assert!(matches!(&always, LargestSpread::Any(found) if found.estimate.probability == 1.0), "{always:?}");
         let never = largest(&space(["2", "2", "0.5"], "4"));
         assert_eq!(never, LargestSpread::TossIsNotHeads(Outcome::Tails));
         // A quarter of a turn less 1e-12.
@@ -195,6 +260,80 @@ mod tests {
         }
         let varies = Sampler::exact().largest_spread(&space(["1", "1", "1:9"], "3"), &HAND, 0.9, POINTS).unwrap_err();
         assert_eq!(varies.field(), Some("rate z [rad/s]"));
+    }
+
+    /// P(heads) of this toss dips to 0.560595 at a spread of 0.18 % and rises above the wanted 0.56271 again: a scan by
+    /// factors of √2 saw 0.563 on both sides of the dip.
+    #[test]
+    fn a_dip_between_two_spreads_is_found() {
+        let toss = space(["40", "0", "19.816177"], "6.275725").with_body(Coin::DISC);
+        let largest = |heads| Sampler::exact().largest_spread(&toss, &HAND, heads, Scrambled::new(1 << 14, 1)).unwrap();
+        let found = largest(0.562_71);
+        let LargestSpread::UpTo(SufficientSpread { spread, estimate, looks, at_least }) = found else {
+            panic!("{found:?}")
+        };
+        assert!((0.001..0.0018).contains(&spread) && estimate.probability >= 0.562_71, "{spread}");
+        assert!((0.561_71..=0.562_711).contains(&at_least) && looks < 100, "{at_least} by {looks} looks");
+        // Below the dip, any spread will do.
+        let LargestSpread::Any(found) = largest(0.560_4) else { panic!("{:?}", largest(0.560_4)) };
+        assert!((0.559_4..0.560_62).contains(&found.at_least), "{found:?}");
+    }
+
+    /// The bounds between two spreads hold for P(heads) in closed form: of a toss end over end by one input, where heads are
+    /// the deviations z with cos (a + b z s) > 0.
+    #[test]
+    fn bounds_between_two_spreads_hold_for_sets_of_every_kind() {
+        use statrs::distribution::{ContinuousCDF, Normal};
+        let normal = Normal::standard();
+        let mut closest = f64::INFINITY;
+        for [phase, width] in [[0.3, 1.0], [1.5, 0.4], [-1.2, 2.0], [1.55, 0.1], [0.0, 1.0]] {
+            // Intervals of y = z s that land heads.
+            let ends = |turn: i32| {
+                [-0.5, 0.5].map(|part| ((f64::from(turn) * 2.0 + part) * std::f64::consts::PI - phase) * width)
+            };
+            let exact = |spread: f64| -> f64 {
+                let share = |turn| ends(turn).map(|end| normal.cdf(end / spread));
+                (-60..=60).map(share).map(|[from, to]| to - from).sum()
+            };
+            for start in 0..120 {
+                for factor in [1.01, 1.1, 1.5, 2.0, 4.0] {
+                    let spread = 0.01 * 1.06f64.powi(start);
+                    let look = |spread: f64| {
+                        let share = crate::exact_speed::Share::new(exact(spread), 0.0);
+                        Look { spread, estimate: Estimate::of_grid_share(share, 1, false) }
+                    };
+                    let (here, next) = (look(spread), look(spread * factor));
+                    let bound = here.least_up_to(&next, 1);
+                    let between = (0..=40).map(|part| exact(spread * factor.powf(f64::from(part) / 40.0)));
+                    let least = between.fold(f64::INFINITY, f64::min);
+                    assert!(bound <= least + 1e-12, "{phase} {width} {spread} {factor}: {bound} > {least}");
+                    closest = closest.min((least - bound) / factor.ln().powi(2));
+                }
+            }
+        }
+        assert!(closest < 1e-3, "{closest}");
+    }
+
+    /// ½ E|h| by the trapezoidal rule over the distribution of χ, and the least value of h.
+    #[test]
+    fn the_bounds_of_the_curvature_are_those_of_the_normal_distribution() {
+        for (inputs, bound) in CURVATURE.into_iter().enumerate().skip(1) {
+            let d = inputs as f64;
+            let weight = |r: f64| r.powf(d - 1.0) * (-0.5 * r * r).exp();
+            let h = |r: f64| (r * r - d).powi(2) - 2.0 * r * r;
+            let points = (1..20_000).map(|index| f64::from(index) * 1e-3);
+            let [mut sum, mut mean, mut all, mut least] = [0.0, 0.0, 0.0, f64::INFINITY];
+            for r in points {
+                sum += h(r).abs() * weight(r);
+                mean += h(r) * weight(r);
+                all += weight(r);
+                least = least.min(h(r));
+            }
+            let half = 0.5 * sum / all;
+            assert!(half < bound && bound < 1.002 * half, "{inputs}: {half}");
+            assert!((mean / all).abs() < 1e-3, "{inputs}: {mean}");
+            assert!((-(2.0 * d + 1.0)..-(2.0 * d + 1.0) + 1e-5).contains(&least), "{inputs}: {least}");
+        }
     }
 
     #[test]

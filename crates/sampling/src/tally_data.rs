@@ -1,23 +1,33 @@
 //! Tallies as plain data, for files that different runs or machines write and one of them merges. Sums of shares are
 //! texts, because many readers of JSON round integers above 2^53.
 //!
-//! What is read is checked: the sums have to be those of as many launches as the range has. Counts are read as counts of
-//! outcomes that are not proven, whatever they were: a file proves nothing.
+//! What is read is checked. The digest has to be that of the contents, so that no digit was changed since the file was
+//! written; the streams have to be those of this program, so that it would have counted the same launches; and the sums
+//! have to be those of as many launches as the range has. All of this is against accidents: anybody can write a file with
+//! a right digest. Counts are read as counts of outcomes that are not proven, whatever they were: a file proves nothing.
+
+use std::fmt;
 
 use dynamics::InputError;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::coordinate::Coordinate;
 use crate::counts::Counts;
-use crate::plan::Plan;
+use crate::plan::{Plan, Rest, Scrambled};
 use crate::shares::Shares;
 use crate::space::Space;
 use crate::tally::{Sums, Tally};
 
 /// The number of the format. It grows when a field changes its meaning.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
-/// The version of this crate. Parts of different versions do not merge, because their launches may differ.
+/// The number of what makes the sums: the launches of each plan with their numbers, and how shares are rounded to integers.
+/// It grows whenever a count or a share of any plan changes, as a test over known sums holds. Parts of different streams
+/// do not merge.
+const STREAMS: u32 = 1;
+
+/// The version of this crate, for the reader of a file.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A tally in a file.
@@ -25,6 +35,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 #[serde(deny_unknown_fields)]
 struct TallyData {
     schema: u32,
+    /// None in files of before there was this number.
+    #[serde(default)]
+    streams: u32,
     version: String,
     space: Space,
     plan: Plan,
@@ -33,6 +46,45 @@ struct TallyData {
     counts: Option<Vec<CountsData>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     shares: Option<Vec<SharesData>>,
+    /// [`TallyData::digest`], in 16 hexadecimal digits.
+    #[serde(default)]
+    digest: String,
+}
+
+impl TallyData {
+    /// The FNV-1a hash of all other fields, as numbers that do not depend on how the file is laid out.
+    fn digest(&self) -> String {
+        let Self { schema, streams, version, space, plan, range: [start, end], counts, shares, digest: _ } = self;
+        let mut text = format!("{schema} {streams} {version} {start} {end} {}", plan.method());
+        let mut add = |part: &dyn fmt::Display| text.push_str(&format!(" {part}"));
+        match plan {
+            Plan::Random { points, seed } => [points, seed].into_iter().for_each(|number| add(number)),
+            Plan::Sobol(Scrambled { points, scrambles, seed })
+            | Plan::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles, seed })) => {
+                [points, scrambles, seed].into_iter().for_each(|number| add(number));
+            }
+            Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => {}
+        }
+        space.body().inertia().iter().for_each(|element| add(element));
+        Coordinate::ALL.into_iter().for_each(|of| add(&space.axis_or_tie(of)));
+        space.drop().iter().for_each(|drop| add(drop));
+        for CountsData { heads, tails, undecided } in counts.iter().flatten() {
+            [heads, tails, undecided].into_iter().for_each(|number| add(number));
+        }
+        for SharesData { launches, probability, error } in shares.iter().flatten() {
+            add(launches);
+            [probability, error].into_iter().for_each(|sum| add(sum));
+        }
+        format!("{:016x}", fnv_1a(text.as_bytes()))
+    }
+}
+
+/// The 64-bit hash FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, RFC 9923). Each byte permutes the 2^64 states, so
+/// that no change of a single byte leaves it as it was.
+fn fnv_1a(bytes: &[u8]) -> u64 {
+    const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    bytes.iter().fold(OFFSET_BASIS, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
 }
 
 #[derive(Serialize, Deserialize)]
@@ -88,14 +140,17 @@ impl TryFrom<TallyData> for Tally {
     fn try_from(data: TallyData) -> Result<Self, InputError> {
         let refused = |field, value, expected| Err(InputError::Malformed { field, value, expected });
         if data.schema != SCHEMA {
-            return refused("schema", data.schema.to_string(), "1");
+            let expected = "2, the format of this program; others have no digest, or a meaning of their own";
+            return refused("schema", data.schema.to_string(), expected);
         }
-        if data.version != VERSION {
-            return refused(
-                "version",
-                data.version,
-                concat!("the version of this program, ", env!("CARGO_PKG_VERSION")),
-            );
+        let digest = data.digest();
+        if data.digest != digest {
+            let value = format!("{}, and {digest} of the contents", data.digest);
+            return refused("digest", value, "that of the contents: they have changed since the file was written");
+        }
+        if data.streams != STREAMS {
+            let value = format!("{} of version {}", data.streams, data.version);
+            return refused("streams", value, "the streams of this program, which would have counted other launches");
         }
         let sums = match (data.counts, data.shares) {
             (Some(counts), None) => Sums::Counts(counts.into_iter().map(Counts::try_from).collect::<Result<_, _>>()?),
@@ -130,6 +185,11 @@ impl Serialize for Tally {
         };
         let range = [self.range.start, self.range.end];
         let (version, space, plan) = (VERSION.to_owned(), self.space, self.plan);
-        TallyData { schema: SCHEMA, version, space, plan, range, counts, shares }.serialize(to)
+        let digest = String::new();
+        let data = TallyData { schema: SCHEMA, streams: STREAMS, version, space, plan, range, counts, shares, digest };
+        TallyData { digest: data.digest(), ..data }.serialize(to)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -78,7 +78,7 @@ class NotReachedError(InputError):
 
 
 class PartError(InputError):
-    """A part of an estimate that is of another plan, is there twice or is missing."""
+    """A part of an estimate that is of another plan, there twice, missing, or changed since it was written."""
 
 
 class SolveError(TossError, RuntimeError):

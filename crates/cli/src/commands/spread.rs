@@ -1,7 +1,8 @@
 //! `unfair-toss spread` finds how precise a hand must be for a wanted probability of heads. It prints the largest
-//! relative spread of the launch with which heads is still as probable, and that of each input alone.
+//! relative spread of the launch with which heads is still as probable, and that of each input alone, and says how finely
+//! smaller spreads were looked at.
 
-use sampling::{Coordinate, Estimate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space};
+use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread};
 use serde::Serialize;
 use toss::{Error, RigidToss, TimeOfFlight};
 
@@ -40,6 +41,10 @@ struct Answer {
     probability: Option<f64>,
     interval: Option<[f64; 2]>,
     interval_kind: Option<String>,
+    /// At how many spreads P(heads) was estimated.
+    looks: Option<u32>,
+    /// P(heads) at all smaller spreads from the smallest that is tried, as far as the estimates are right.
+    at_least: Option<f64>,
     alone: Vec<Alone>,
 }
 
@@ -50,6 +55,8 @@ struct Alone {
     answer: &'static str,
     spread: Option<f64>,
     probability: Option<f64>,
+    looks: Option<u32>,
+    at_least: Option<f64>,
 }
 
 impl Args {
@@ -88,27 +95,37 @@ impl Args {
     }
 }
 
-/// The parts of an answer: its name, the spread, and the estimate there.
-fn parts(found: &LargestSpread) -> (&'static str, Option<f64>, Option<&Estimate>) {
+/// The parts of an answer: its name, and the spread with what is known of it.
+fn parts(found: &LargestSpread) -> (&'static str, Option<&SufficientSpread>) {
     match found {
-        LargestSpread::UpTo(spread, estimate) => ("up_to", Some(*spread), Some(estimate)),
-        LargestSpread::Any(estimate) => ("any", Some(LARGEST_SPREAD), Some(estimate)),
-        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None, None),
-        LargestSpread::BelowSmallest(_) => ("below_smallest", None, None),
+        LargestSpread::UpTo(found) => ("up_to", Some(found)),
+        LargestSpread::Any(found) => ("any", Some(found)),
+        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
+        LargestSpread::BelowSmallest(_) => ("below_smallest", None),
     }
 }
 
 impl Answer {
     fn new(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Self {
-        let (answer, spread, estimate) = parts(together);
+        let (answer, found) = parts(together);
         let alone = alone.iter().map(|(of, found)| {
-            let (answer, spread, estimate) = parts(found);
-            Alone { input: of.name(), answer, spread, probability: estimate.map(|found| found.probability) }
+            let (answer, found) = parts(found);
+            Alone {
+                input: of.name(),
+                answer,
+                spread: found.map(|found| found.spread),
+                probability: found.map(|found| found.estimate.probability),
+                looks: found.map(|found| found.looks),
+                at_least: found.map(|found| found.at_least),
+            }
         });
+        let estimate = found.map(|found| &found.estimate);
         Self {
             answer,
-            spread,
+            spread: found.map(|found| found.spread),
             probability: estimate.map(|found| found.probability),
+            looks: found.map(|found| found.looks),
+            at_least: found.map(|found| found.at_least),
             interval: estimate.and_then(|found| found.interval).map(|interval| [interval.lo, interval.hi]),
             interval_kind: estimate.map(|found| found.interval_kind.to_string()),
             alone: alone.collect(),
@@ -118,10 +135,14 @@ impl Answer {
 
 fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
     let mut lines = vec![format!("spread       {}", in_words(together))];
-    if let (_, _, Some(found)) = parts(together) {
-        lines.push(format!("P(heads)     {:.6} at this spread", found.probability));
-        let interval = found.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
-        lines.push(format!("interval     {}({})", interval.unwrap_or_default(), found.interval_kind));
+    if let (_, Some(SufficientSpread { estimate, looks, at_least, .. })) = parts(together) {
+        lines.push(format!("P(heads)     {:.6} at this spread", estimate.probability));
+        let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
+        lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
+        let (at_least, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
+        lines.push(format!(
+            "looked at    {looks} spreads from {from:.0e} % on, with P(heads) >= {at_least:.6} in between"
+        ));
         let each = alone.iter().zip(["ωx", "ωy", "ωz", "v0"]);
         let each: Vec<String> = each.map(|((_, found), name)| format!("{name} {}", in_short(found))).collect();
         lines.push(format!("each alone   {}", each.join(", ")));
@@ -147,13 +168,13 @@ fn in_words(found: &LargestSpread) -> String {
 /// The spread in percent, to three digits.
 fn in_short(found: &LargestSpread) -> String {
     match parts(found) {
-        ("any", ..) => "any".to_owned(),
-        (_, Some(spread), _) => {
-            let percent = 100.0 * spread;
+        ("any", _) => "any".to_owned(),
+        (_, Some(found)) => {
+            let percent = 100.0 * found.spread;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 12")]
             let digits = (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize;
             format!("{percent:.digits$} %")
         }
-        _ => format!("below {:e} %", 100.0 * SMALLEST_SPREAD),
+        _ => format!("below {:.0e} %", 100.0 * SMALLEST_SPREAD),
     }
 }

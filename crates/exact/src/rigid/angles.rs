@@ -3,17 +3,14 @@
 //! angles are no sum of two phases; they are found by steps that are too short for an angle to turn unseen.
 //!
 //! The halves p = w + iz and r = x + iy of the attitude have the arguments (α + γ)/2 and (α - γ)/2. The quaternion's
-//! path is ½|ω| long in a unit of time, and |ω| ≤ √2 |ω(0)| (see [`dynamics::RigidPhase`]). In a step whose path is
-//! shorter than |p| the argument of p changes by less than a quarter turn, so the nearest branch is the continuous one;
-//! likewise for r.
+//! path is ½|ω| long in a unit of time, and |ω| ≤ √2 |ω(0)|, or a little more for a plate as thin as rounding (see
+//! [`Body::largest_growth_of_rate`](dynamics::Body::largest_growth_of_rate)). In a step whose path is shorter than |p| the
+//! argument of p changes by less than a quarter turn, so the nearest branch is the continuous one; likewise for r.
 //!
 //! Where |p| or |r| is below 1e-13, as after every horizontal launch, the attitude tells no argument. The angles are
 //! continued straight through such a point, as those of a coin are, and β goes on past 0 or π.
 
-use std::f64::consts::SQRT_2;
-
 use dynamics::{Attitude, EulerAngles, RigidToss, SolveError};
-
 use numerics::scale::power_of_two_scale;
 
 use super::RigidMotion;
@@ -85,7 +82,7 @@ impl Walk {
         let launch = Point { time: 0.0, attitude: toss.launch.attitude(), angles: departure(toss) };
         let rate = toss.launch.rate();
         let scale = power_of_two_scale(rate.amax());
-        let speed = 0.5 * SQRT_2 * (rate / scale).norm() * scale * (1.0 + 1e-9);
+        let speed = 0.5 * toss.body.largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
         Self { motion: RigidMotion::compensated(toss), launch, speed, last: launch }
     }
 

@@ -9,7 +9,7 @@ use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 use super::enclosed::Bound;
 use super::polhode::{Errors, Polhode, Step};
 use super::{Bodies, RigidSeries};
-use crate::jump::{Elapsed, Jump, OF_JUMP, lengths};
+use crate::jump::{self, Elapsed, Jump, OF_JUMP, lengths};
 use crate::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
 use crate::plan::Plan;
 
@@ -120,9 +120,10 @@ impl Comparison<'_> {
         let off: [f64; 3] = std::array::from_fn(|axis| after[axis] - last.after[axis]);
         let left = std::array::from_fn(|axis| off[axis] - moving[axis]);
         // A shift backwards leaves out the end of the series, and with it at most what was counted for it.
-        let measured = size(left) + OF_JUMP * (size(off) + size(moving)) + OF_SQUARE * jump.shift * jump.shift;
+        let (square, widest) = (jump.shift * jump.shift, self.errors.widest());
+        let measured = size(left) + OF_JUMP * (size(off) + size(moving)) + OF_SQUARE * widest.powi(3) * square;
         last.rounding += measured + last.rates;
-        last.turn = jump.turn + 2.0 * last.turn;
+        last.turn = jump.turn + jump::OF_SQUARE * (widest * widest - 1.0) * square + 2.0 * last.turn;
         last.h += jump.shift.abs();
         last.after = after;
         jump.shift

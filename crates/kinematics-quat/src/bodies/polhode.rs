@@ -15,6 +15,9 @@ pub(super) use self::errors::{Errors, Step};
 pub(super) struct Polhode {
     /// κ1 and κ3.
     kappas: [Ball<DoubleDouble>; 2],
+    /// κ̄, which none of κ1, κ3 and 1 exceeds. It is above 1 for a plate whose moments, as rounded, break the inequality of
+    /// bodies.
+    widest: f64,
     /// A and B.
     invariants: [Ball<DoubleDouble>; 2],
     /// b, the largest coupling of Euler's equations.
@@ -60,16 +63,19 @@ impl Polhode {
         let [x, y, z] = rates.map(|rate| rate * rate);
         let kappas = [a / b, c / b];
         let invariants = [x + kappas[0] * y, z + kappas[1] * y];
+        let widest = kappas.iter().map(above).fold(1.0, f64::max);
         let fastest = above(&(x + y + z + a * c * y).sqrt());
         let about_axis = rates.iter().filter(|rate| rate.to_f64() == 0.0 && rate.radius() == 0.0).count() > 1;
         // Turns about a principal axis stay as they are.
         let still = if about_axis { 0.0 } else { 1.0 };
         let found = Self {
             kappas,
+            widest,
             invariants,
             coupling: still * above(&b),
             fastest,
-            across: across(&moments, &rates, above(&(b * (invariants[0] * invariants[1]).sqrt()))).min(fastest),
+            across: across(&moments, &rates, widest * above(&(b * (invariants[0] * invariants[1]).sqrt())))
+                .min(fastest),
             growth: still * above(&(a + c)) * fastest * INVERSE_ROOT_3,
             launched: distance(&rates, flight.rates),
             axes: axes_error(&axes),
@@ -83,7 +89,7 @@ impl Polhode {
     /// A bound (16) of an error of the rates after the time `h` that is at most `start` now.
     fn grown(&self, start: f64, h: f64) -> f64 {
         let first = start * exp_above(self.growth * h);
-        let grown = first * exp_above(2.0 * INVERSE_ROOT_3 * self.coupling * first * h);
+        let grown = first * exp_above(2.0 * INVERSE_ROOT_3 * self.widest * self.coupling * first * h);
         if grown <= 2.0 * first { grown } else { f64::INFINITY }
     }
 
@@ -102,7 +108,7 @@ impl Polhode {
 
     /// A lower bound of the speed at an ideal rate that is at most `error` from these rates.
     fn speed_near(&self, rates: [f64; 3], error: f64) -> f64 {
-        self.speed(rates) - error * (ROOT_2 * self.fastest + INVERSE_ROOT_3 * error)
+        self.speed(rates) - error * self.widest * (ROOT_2 * self.fastest + INVERSE_ROOT_3 * error)
     }
 
     /// Bounds of what A and B are off at these rates.
@@ -125,9 +131,10 @@ impl Polhode {
         let [x, y, z] = rates;
         let ([k, l], [of_a, of_b]) = (self.rounded_kappas(), self.residuals(rates));
         let off = self.kappas.map(|kappa| kappa.radius() * self.fastest);
-        let gradient_a = (x * x + k * y * k * y).sqrt() + error + off[0];
-        let gradient_b = (z * z + l * y * l * y).sqrt() + error + off[1];
-        let left = speed - 0.5 * error * (gradient_a + gradient_b);
+        let widened = self.widest * error;
+        let gradient_a = (x * x + k * y * k * y).sqrt() + widened + off[0];
+        let gradient_b = (z * z + l * y * l * y).sqrt() + widened + off[1];
+        let left = speed - 0.5 * widened * (gradient_a + gradient_b);
         if left > 0.0 { (0.5 * (gradient_a * of_b + gradient_b * of_a) / left).min(error) } else { error }
     }
 }
@@ -216,7 +223,8 @@ fn distance(ideal: &[Ball<DoubleDouble>; 3], computed: [f64; 3]) -> f64 {
 
 /// A bound of the error of a turn that is taken from principal axes to those of the body with rounded axes.
 fn axes_error(axes: &[[Ball<DoubleDouble>; 3]; 3]) -> f64 {
-    let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, f64::max);
+    // `f64::max` would pass over a NaN.
+    let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, |most, one| if one <= most { most } else { one });
     if are_exact(axes) { 0.0 } else { 12.0 * UNIT_ROUNDOFF + 6.0 * radius }
 }
 

@@ -224,6 +224,26 @@ fn a_turn_about_an_axis_needs_no_shift() {
     }
 }
 
+/// Plates so thin that their moments, as rounded, break the inequality of bodies, and with it couplings of at most 1.
+#[test]
+fn bounds_hold_for_plates_as_thin_as_rounding() {
+    let (mut numbers, solver, mut beyond) = (Numbers(5), solver(1e-13), 0);
+    for index in 0..300 {
+        let (thin, long) = (10f64.powf(-numbers.between(13.0, 15.9)), numbers.between(0.5, 2.0));
+        let Ok(body) = Body::from_moments([thin, long, long + thin]) else { continue };
+        let mut rate = numbers.vector();
+        if index % 2 == 0 {
+            (rate[0], rate[2]) = (1e-3 * rate[0], 1e-3 * rate[2]);
+        }
+        let launch = Launch::new(rate, TimeOfFlight::Given(numbers.between(5.0, 50.0))).unwrap();
+        let toss = RigidToss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
+        let Ok(found) = solver.enclose_rigid(&toss) else { continue };
+        assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{toss:?}");
+        beyond += u32::from(found.error_bound() < 1e-6 && body.couplings()[0] < -1.0);
+    }
+    assert!(beyond > 50, "{beyond}");
+}
+
 #[test]
 fn extreme_numbers_have_bounds_or_errors() {
     let (mut numbers, solver) = (Numbers(11), solver(1e-10));

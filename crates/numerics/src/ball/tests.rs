@@ -146,6 +146,13 @@ fn balls_of_f64_contain_every_result_and_the_functions_are_right_to_half_of_thei
             assert!(error <= 0.55 * bound, "{number}: {x} {y} {error:e}");
         }
     }
+    // e^r - 1, by which the radius of an exponential grows.
+    for index in 1..3_000 {
+        let radius = 10f64.powf(-20.0 * (f64::from(index) * 3f64.sqrt()).fract()) * [1.0, 40.0][index as usize % 2];
+        let exact = big(radius).exp() - big(1.0);
+        let error = ((big(radius.exp_m1()) - &exact) / &exact).to_f64().value().abs();
+        assert!(error <= 0.55 * 2f64.powi(-51), "{radius}: {error:e}");
+    }
     for (a, exact_a) in samples() {
         for (b, exact_b) in samples() {
             let [x, y] = [a, b].map(|ball| Ball::new(ball.midpoint.hi(), ball.radius));
@@ -153,6 +160,54 @@ fn balls_of_f64_contain_every_result_and_the_functions_are_right_to_half_of_thei
             assert!(contains(&(x / y), &(&exact_a / &exact_b)) && contains(&x.exp(), &exact_a.exp()));
         }
     }
+}
+
+/// The leading f64 of a number may be finite where the remainder is not: splitting a factor above 2^996 overflows.
+#[test]
+fn of_a_midpoint_with_a_part_that_is_not_finite_nothing_is_known() {
+    let torn = DoubleDouble::product(1e301, 1.0);
+    assert!(torn.hi() == 1e301 && torn.lo().is_nan());
+    for midpoint in [torn, torn.times_power_of_two(-30), -torn, f64::NAN.into(), f64::INFINITY.into()] {
+        let ball = Ball::new(midpoint, 0.0);
+        let one = ball.like(1.0);
+        let [sin, cos] = ball.sine_and_cosine();
+        let results = [
+            ball,
+            -ball,
+            ball + one,
+            ball * one,
+            ball / one,
+            ball.exp(),
+            ball.sqrt(),
+            sin,
+            cos,
+            ball.atan2(&one),
+            ball.times_power_of_two(-3),
+            ball.widened(0.1),
+            ball.magnitude(),
+            one.like(midpoint.hi() * f64::INFINITY),
+        ];
+        for (number, found) in results.into_iter().enumerate() {
+            assert!(!found.radius().is_finite() && !found.has_sign(), "{number} of {midpoint:?}: {found:?}");
+            assert!(!found.has_known_sign(), "{number} of {midpoint:?}");
+        }
+    }
+    for midpoint in [f64::NAN, f64::INFINITY] {
+        let found = Ball::new(midpoint, 0.0);
+        assert!(found.radius().is_infinite() && !found.exp().radius().is_finite(), "{found:?}");
+    }
+}
+
+/// The distance from the origin overflows where neither of the coordinates does.
+#[test]
+fn an_angle_of_coordinates_next_to_the_largest_f64_keeps_its_error() {
+    let corner = Ball::new(1.5e308, 1e307);
+    let exact = big(1.6e308).atan2(&big(1.4e308));
+    assert!(contains(&corner.atan2(&corner), &exact), "{:?}", corner.atan2(&corner));
+    let double_double = Ball::new(DoubleDouble::exactly(1.5e308), 1e307);
+    assert!(contains(&double_double.atan2(&double_double), &exact));
+    let known = Ball::new(1.5e308, 0.0);
+    assert!(known.atan2(&known).radius() < 1e-15);
 }
 
 /// A bound that were always infinite would pass the test above.

@@ -58,7 +58,7 @@ impl DoubleDouble {
 
     /// Sine and cosine of a finite angle (rad), to 2^-100, besides what the error of the angle itself does.
     pub fn exact_sin_cos(self) -> (Self, Self) {
-        if self.hi.is_finite() && self.hi.abs() > MOST_QUARTERS {
+        if self.hi.abs() > MOST_QUARTERS && (self.hi + self.lo).is_finite() {
             return self.sin_cos_of_large();
         }
         // The first number of quarters is off by one where it has nearly all digits of f64.
@@ -93,12 +93,13 @@ impl DoubleDouble {
         (QUARTER.iter().fold(self, |rest, part| rest - Self::product(quarters, *part)), quarters)
     }
 
-    /// e to this power; 0 below -745, and infinite above 709.
+    /// e to this power; 0 below -745, infinite above 709, and NaN of NaN.
     #[must_use]
     pub fn exp(self) -> Self {
         const HALVINGS: i32 = 6;
         if !EXPONENTS.contains(&self.hi) {
-            return Self::exactly(if self.hi > 0.0 { f64::INFINITY } else { 0.0 });
+            let beyond = if self.hi > 0.0 { f64::INFINITY } else { 0.0 };
+            return Self::exactly(if self.hi.is_nan() { self.hi } else { beyond });
         }
         let twos = (self.hi * std::f64::consts::LOG2_E).round_ties_even();
         let rest = LN_2.iter().fold(self, |rest, part| rest - Self::product(twos, *part));
@@ -200,6 +201,7 @@ mod tests {
         }
         assert_eq!((DoubleDouble::exactly(-1e9).exp().hi, DoubleDouble::ZERO.exp().hi), (0.0, 1.0));
         assert_eq!(DoubleDouble::exactly(1e9).exp().hi, f64::INFINITY);
+        assert!(DoubleDouble::exactly(f64::NAN).exp().hi.is_nan());
     }
 
     #[test]

@@ -75,6 +75,11 @@ impl Errors {
         self.turn + along.min(0.5 * self.growing.integral) + self.polhode.axes
     }
 
+    /// κ̄.
+    pub(crate) fn widest(&self) -> f64 {
+        self.polhode.widest
+    }
+
     /// W.
     pub(crate) fn fastest(&self) -> f64 {
         self.polhode.fastest
@@ -106,9 +111,9 @@ impl Along {
         let least = self.speed / exp_above(growth * h);
         // The times by which the shift grows, at no less than this speed (17).
         let time = |speed: f64| -> Option<f64> {
-            let tilt = ROOT_2 * polhode.fastest * error / speed;
-            let arc =
-                (2.0 * growth + INVERSE_ROOT_3 * polhode.coupling * reach) * h * reach + step.rates + step.rounding;
+            let tilt = ROOT_2 * polhode.widest * polhode.fastest * error / speed;
+            let square = INVERSE_ROOT_3 * polhode.widest * polhode.coupling * reach;
+            let arc = (2.0 * growth + square) * h * reach + step.rates + step.rounding;
             (tilt <= 0.25 && speed > SLOWEST).then(|| arc / (1.0 - tilt) / (polhode.coupling * (1.0 - 1e-11) * speed))
         };
         let slowed = growth * time(0.875 * least)?;
