@@ -2,13 +2,14 @@
 //!
 //! A step of the search evaluates cos θ in a [`Ball`](numerics::Ball) that contains a whole interval of one input, so
 //! that an interval whose ball has the sign of the launch holds no flip. Steps shrink towards a flip, and no flip is
-//! passed over. Next to one they are double-double. On the separatrix no ball has a sign, because the motion has another
-//! form there; cos θ of a given time is continuous, and a shortest step passes it as it passes a touch.
+//! passed over. Next to one they have more digits. On the separatrix no ball has a sign, because the motion has another
+//! form there; cos θ of a given time is continuous, and a shortest step between two tosses that are decided passes it as it
+//! passes a touch. A search that ends before its limit, for want of work or digits, says how far it went.
 
 use dynamics::{Outcome, RigidToss, SolveError, TimeOfFlight};
 use numerics::DoubleDouble;
 
-use super::walk::{End, Input, Line, Walk};
+use super::walk::{End, Input, Line, RESOLUTION, Walk};
 use super::{RigidMotion, certify_rigid, cos_tilt};
 use crate::margin::{Margin, margin, speed_and_gravity};
 
@@ -144,7 +145,9 @@ pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Ve
         return Ok(Some(Vec::new()));
     }
     let line = Line::new(toss, Input::Time);
-    let first = line.outcome_at(from - to);
+    // A toss that begins on edge has the outcome of the one next to it.
+    let first = [0.0, RESOLUTION * to].map(|later| line.outcome_at(from - to + later));
+    let first = first.into_iter().find(|outcome| *outcome != Outcome::Undecided).unwrap_or(Outcome::Undecided);
     let mut flips = Walk::new(&line, first, 1.0, to - from, from).starting_at(from - to);
     let (mut intervals, mut begin) = (Vec::new(), (first == Outcome::Heads).then_some(slowest));
     loop {
@@ -158,7 +161,7 @@ pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Ve
             }
             End::Limit => break,
             End::Spent(change) => {
-                return Err(SolveError::StepLimit { time: to + change, limit: super::walk::MOST_STEPS });
+                return Err(SolveError::StepLimit { time: to + change, limit: super::walk::MOST_WORK });
             }
         }
     }
