@@ -3,8 +3,8 @@
 //! The formula is that of [`height`](super::height), the inputs are those of the toss without a rounding.
 
 use dynamics::Toss;
-use numerics::{Elementary, UNIT_ROUNDOFF};
 use numerics::big::{Big, exactly};
+use numerics::{Elementary, UNIT_ROUNDOFF};
 
 use super::height::{Height, Landing, functions_of_phase};
 use crate::multiprecision::{flight_time, momentum};

@@ -1,7 +1,8 @@
 //! The search for flips along one input of a toss, by balls that contain whole intervals of it.
 //!
-//! An interval that is not decided is halved if the toss at its middle is decided by the same digits: then it is the
-//! interval that is too wide. Else digits are what is missing, as next to the separatrix, and the next stage has more.
+//! An interval that is not decided is halved. If that does not help, the toss at its middle tells why: where the same
+//! digits decide it, the interval is too wide. Else digits are what is missing, as next to the separatrix, and the next
+//! stage has more.
 //! The search passes no toss that it cannot decide: it ends there, and says how far it came.
 
 use std::cell::OnceCell;
@@ -20,11 +21,11 @@ pub(super) const RESOLUTION: f64 = 2.5e-13;
 /// Digits of the stages after f64 and double-double.
 const DIGITS: [usize; 3] = [256, 448, 832];
 
-/// The work of an evaluation in each stage, roughly in units of 5 µs.
+/// The work of an evaluation in each stage, roughly in units of 2 µs.
 const WORK: [u32; 2 + DIGITS.len()] = [1, 8, 200, 400, 1000];
 
-/// The work that a search may take, some tenths of a second.
-pub(super) const MOST_WORK: u32 = 100_000;
+/// The work that a search may take, about half a second.
+pub(super) const MOST_WORK: u32 = 250_000;
 
 /// An input of a toss.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,28 +85,44 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven, for the interval is too wide or
-    /// the digits have run out. `work` is added to.
-    fn sign(&self, change: f64, radius: f64, work: &mut u32) -> f64 {
+    /// The sign of cos θ for this change, 0 if no stage decides it. `work` is added to.
+    fn sign_at(&self, change: f64, work: &mut u32) -> f64 {
+        let sign = |(stage, of_stage)| {
+            *work += of_stage;
+            self.sign_in(stage, change, 0.0)
+        };
+        WORK.into_iter().enumerate().map(sign).find(|sign| *sign != 0.0).unwrap_or(0.0)
+    }
+
+    /// The sign of cos θ at all changes within `radius` of `change`, and the stage that proves it: `None` if none does, for
+    /// the interval is too wide or the digits have run out. Stages above `enough` are tried if `is_retry`, while the toss
+    /// at the middle is not decided. `work` is added to.
+    fn sign_around(
+        &self,
+        [change, radius]: [f64; 2],
+        enough: usize,
+        is_retry: bool,
+        work: &mut u32,
+    ) -> Option<(f64, usize)> {
         for (stage, of_stage) in WORK.into_iter().enumerate() {
             *work += of_stage;
             let sign = self.sign_in(stage, change, radius);
             if sign != 0.0 {
-                return sign;
+                return Some((sign, stage));
             }
-            if radius > 0.0 {
+            if stage >= enough {
                 *work += of_stage;
-                if self.sign_in(stage, change, 0.0) != 0.0 {
-                    return 0.0;
+                if !is_retry || self.sign_in(stage, change, 0.0) != 0.0 {
+                    return None;
                 }
             }
         }
-        0.0
+        None
     }
 
     /// The outcome of the toss with this change.
     pub(super) fn outcome_at(&self, change: f64) -> Outcome {
-        Outcome::of(self.sign(change, 0.0, &mut 0), 0.0)
+        Outcome::of(self.sign_at(change, &mut 0), 0.0)
     }
 }
 
@@ -196,6 +213,9 @@ pub(super) struct Walk<'a> {
     limit: f64,
     /// What is added to the distance before the resolution is taken of it.
     offset: f64,
+    /// The stage that decided the last interval, and whether none decided the one after it.
+    stage: usize,
+    is_retry: bool,
     work: u32,
 }
 
@@ -207,7 +227,19 @@ impl<'a> Walk<'a> {
             Outcome::Tails => -1.0,
             Outcome::Undecided => 0.0,
         };
-        Self { line, sign, sense, origin: 0.0, distance: 0.0, step: limit / 64.0, limit, offset, work: 0 }
+        Self {
+            line,
+            sign,
+            sense,
+            origin: 0.0,
+            distance: 0.0,
+            step: limit / 64.0,
+            limit,
+            offset,
+            stage: 0,
+            is_retry: false,
+            work: 0,
+        }
     }
 
     /// The same walk from another change of the input.
@@ -225,12 +257,14 @@ impl<'a> Walk<'a> {
             let middle = self.origin + self.sense * (self.distance + 0.5 * step);
             // The middle is rounded, and so are both ends.
             let radius = 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step);
-            if self.line.sign(middle, radius, &mut self.work) == self.sign {
-                self.distance += step;
-                self.step = 1.5 * step;
-                continue;
+            match self.line.sign_around([middle, radius], self.stage, self.is_retry, &mut self.work) {
+                Some((sign, stage)) if sign == self.sign => {
+                    self.distance += step;
+                    (self.step, self.stage, self.is_retry) = (1.5 * step, stage, false);
+                    continue;
+                }
+                _ => (self.step, self.is_retry) = (0.5 * step, true),
             }
-            self.step = 0.5 * step;
             if step <= RESOLUTION * (self.offset + self.distance) {
                 let Some((passed, sign)) = self.decided_after(step) else {
                     return End::Spent(self.origin + self.distance);
@@ -251,7 +285,7 @@ impl<'a> Walk<'a> {
     fn decided_after(&mut self, step: f64) -> Option<(f64, f64)> {
         for passed in [step, 2.0 * step] {
             let distance = self.distance + passed;
-            let sign = self.line.sign(self.origin + self.sense * distance, 0.0, &mut self.work);
+            let sign = self.line.sign_at(self.origin + self.sense * distance, &mut self.work);
             if sign != 0.0 || distance >= self.limit {
                 return Some((passed, sign));
             }
@@ -276,7 +310,9 @@ mod tests {
             [0.0, 0.0, 300.0],
             [1e-300, 2.0, 1e200],
         ];
-        for (rate, tilt) in rates.into_iter().flat_map(|rate| [0.0, 1.0, 1.5707963267948966].map(|tilt| (rate, tilt))) {
+        for (rate, tilt) in
+            rates.into_iter().flat_map(|rate| [0.0, 1.0, std::f64::consts::FRAC_PI_2].map(|tilt| (rate, tilt)))
+        {
             let launch = Launch::new(rate, TimeOfFlight::Given(0.8)).unwrap().with_tilt(tilt).unwrap();
             let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
             for (input, limit) in [(Input::Time, 20.0), (Input::Rate(0), 1000.0), (Input::Rate(2), 1000.0)] {

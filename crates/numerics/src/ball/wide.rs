@@ -28,6 +28,16 @@ fn part(value: f64) -> Big {
     exactly(value).with_precision(DIGITS).value()
 }
 
+/// The propagated error of a product of numbers of these sizes with the radii `r` and `s`.
+fn error_of_product([one, two]: [&Big; 2], (r, s): (Big, Big)) -> Big {
+    one * &s + two * &r + r * s
+}
+
+/// The propagated error of a `quotient` by a number that is at least `least`.
+fn error_of_quotient(quotient: &Big, least: &Big, (r, s): (Big, Big)) -> Big {
+    (r + size(quotient) * s) / least
+}
+
 impl WideBall {
     /// The number `midpoint`, of limited precision, right to `radius` ≥ 0.
     pub fn new(midpoint: Big, radius: &Big) -> Self {
@@ -110,7 +120,7 @@ impl Mul for WideBall {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let [one, two] = [&self.midpoint, &other.midpoint].map(size);
-        let error = self.radius.zip(other.radius).map(|(r, s)| &one * &s + &two * &r + r * s);
+        let error = self.radius.zip(other.radius).map(|radii| error_of_product([&one, &two], radii));
         let product = self.midpoint * other.midpoint;
         let of_size = product.clone();
         Self::rounded(product, error, &of_size)
@@ -123,7 +133,7 @@ impl Div for WideBall {
         let Some([least, _]) = other.sizes().filter(|[least, _]| *least > Big::ZERO) else { return self.anything() };
         let quotient = self.midpoint / other.midpoint;
         let of_size = quotient.clone();
-        let error = self.radius.zip(other.radius).map(|(r, s)| (r + size(&quotient) * s) / least);
+        let error = self.radius.zip(other.radius).map(|radii| error_of_quotient(&quotient, &least, radii));
         Self::rounded(quotient, error, &of_size)
     }
 }
@@ -291,7 +301,10 @@ mod tests {
                 // Across the cut an angle is one but for a turn.
                 let (angle, turn) = (Elementary::atan2(&exact_a, &exact_b), Big::pi(900) * exactly(2.0));
                 let found = a.atan2(&b);
-                assert!([&angle + &turn, &angle - &turn, angle].iter().any(|angle| contains(&found, angle)), "{a:?} {b:?}");
+                assert!(
+                    [&angle + &turn, &angle - &turn, angle].iter().any(|angle| contains(&found, angle)),
+                    "{a:?} {b:?}"
+                );
             }
         }
     }
@@ -325,7 +338,10 @@ mod tests {
                     assert!(wide.midpoint == *near.midpoint(), "{number}");
                     let [found, expected] = [wide.error(), near.radius()];
                     // e^r - 1 is bounded by r + r².
-                    assert!(found >= 0.999_999 * expected - 1e-300 && found <= 1.05 * expected, "{number}: {found:e} {expected:e}");
+                    assert!(
+                        found >= 0.999_999 * expected - 1e-300 && found <= 1.05 * expected,
+                        "{number}: {found:e} {expected:e}"
+                    );
                 }
             }
         }
@@ -338,7 +354,9 @@ mod tests {
         assert!((tiny(2001).sign(), tiny(2001).to_f64()) == (-1.0, 0.0) && tiny(2001).error() > 0.0);
         let exact = tiny(2001).like(0.0);
         assert!(exact.has_known_sign() && !exact.has_sign() && exact.error() == 0.0);
-        assert!(tiny(2001).is_right_to(0.6) && !tiny(2001).is_right_to(0.4) && !tiny(2001).widened(f64::NAN).has_sign());
+        assert!(
+            tiny(2001).is_right_to(0.6) && !tiny(2001).is_right_to(0.4) && !tiny(2001).widened(f64::NAN).has_sign()
+        );
         assert_eq!(exact.clone() / exact, exact_less(MANY));
     }
 

@@ -101,6 +101,25 @@ fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
     }
 }
 
+/// So near to the separatrix, E is 1e-15 of its terms, double-double decides no toss within 1e-9 s of the flip. The flip is by
+/// bisection in 300 digits.
+#[test]
+fn the_margin_next_to_the_separatrix_is_the_nearest_flip_or_says_how_far_it_went() {
+    let rate = [5.276_195_533_573_627_5, 3.0, 3.046_212_911_605_835];
+    let next = toss([1.0, 2.0, 3.0], rate, TimeOfFlight::Given(0.8), 1.0);
+    let found = margin_rigid(&next).unwrap();
+    let time = found.margin.time.unwrap();
+    assert!((time - 0.152_854_524_666_798_52).abs() < 1e-12 * time, "{time:e}");
+    let outcome = |axis: usize, change: f64| certify_rigid(&changed(&next, axis, change)).unwrap().outcome();
+    for (axis, range) in found.margin.rate_range.into_iter().enumerate() {
+        assert!(found.margin.rate[axis].is_none_or(|change| change.abs() <= range), "{axis}: {found:?}");
+        for step in -20..=20 {
+            let change = f64::from(step) / 20.5 * found.margin.rate[axis].map_or(range, f64::abs);
+            assert_eq!(outcome(axis, change), outcome(axis, 0.0), "{axis} {change:e}");
+        }
+    }
+}
+
 #[test]
 fn a_coin_has_the_margin_that_it_had() {
     let coin = dynamics::Coin::PAPER;
