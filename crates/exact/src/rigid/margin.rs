@@ -31,7 +31,7 @@ pub struct RigidMargin {
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
 /// Two flips nearer to each other than 5e-13 of their distance may count as none. All inputs take some hundred
-/// milliseconds.
+/// milliseconds, and each search at most about half a second: a range says where it ended.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
