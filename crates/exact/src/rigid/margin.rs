@@ -145,10 +145,10 @@ pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Ve
         return Ok(Some(Vec::new()));
     }
     let line = Line::new(toss, Input::Time);
-    // A toss that begins on edge has the outcome of the one next to it.
-    let first = [0.0, RESOLUTION * to].map(|later| line.outcome_at(from - to + later));
-    let first = first.into_iter().find(|outcome| *outcome != Outcome::Undecided).unwrap_or(Outcome::Undecided);
-    let mut flips = Walk::new(&line, first, 1.0, to - from, from).starting_at(from - to);
+    // A toss that begins on edge, but for the rounding of the time, has the outcome of the one next to it.
+    let skipped = (RESOLUTION * to).min(0.5 * (to - from));
+    let (start, first) = (from + skipped, line.outcome_at(from - to + skipped));
+    let mut flips = Walk::new(&line, first, 1.0, to - start, start).starting_at(start - to);
     let (mut intervals, mut begin) = (Vec::new(), (first == Outcome::Heads).then_some(slowest));
     loop {
         match flips.next_flip() {

@@ -42,8 +42,8 @@ const DIGITS: [usize; 2] = [320, 960];
 const VANISHING: f64 = 1.499_696_813_895_631_2e-241; // 2^-800
 const LARGEST_PHASE_WITHOUT: f64 = 300.0;
 
-/// Part of the time that a derivative of cos θ is above, or it may be 0.
-const NO_SLOPE: f64 = 1e-250;
+/// Part of the turn that a derivative of cos θ is above, or it may be 0.
+const NO_SLOPE: f64 = 1e-60;
 
 /// Turns (rad) below which a change δω of the rate turns the landing by T δω, to this relative error.
 const SHORT: f64 = 1e-14;
@@ -53,7 +53,7 @@ type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
     /// The derivatives at the landing of a toss of any body. Each column of the attitude, and each derivative of cos θ by a
-    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-250 of the time may be 0. On the separatrix itself
+    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. On the separatrix itself
     /// both hold for turns of up to 30 rad.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl Sensitivity {
         }
         let (_, unit) = motion.time_and_unit(at.into())?;
         let up = landing.attitude.lab_to_body(&Vector3::z());
-        let changes = spun(toss, &motion, unit, &up)?.or_else(|| changes(toss, &motion, unit));
+        let changes = spun(toss, &motion, unit, &up)?.or_else(|| changes(toss, &motion));
         let (mut attitude, mut slopes) = (Matrix3x4::zeros(), Vector4::zeros());
         // In many digits there is a regime, so that none is missing.
         let changes = changes.ok_or(SolveError::NotFinite { time: at.seconds() })?;
@@ -105,7 +105,7 @@ fn without_vanishing(toss: &RigidToss) -> Option<RigidToss> {
 }
 
 /// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
-fn changes(toss: &RigidToss, motion: &RigidMotion, unit: f64) -> Option<[Change<f64>; 3]> {
+fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
     let (rate, _) = toss.launch.given_rate();
     // Without an error bound: beside a motion that has a form of its own, and of a tensor whose regime no ball tells.
     let without_bound = |aside: f64| {
@@ -120,7 +120,6 @@ fn changes(toss: &RigidToss, motion: &RigidMotion, unit: f64) -> Option<[Change<
         Some(in_f64(&changes_in(toss, &moved, &time, &vertical)?))
     };
     let is_tensor = toss.body.moments().is_none();
-    let none_above = NO_SLOPE * toss.launch.flight_time() * unit;
     if motion.regime() == Regime::Separatrix || is_tensor && motion.regime() == Regime::Uniform {
         return without_bound(ASIDE);
     }
@@ -135,7 +134,7 @@ fn changes(toss: &RigidToss, motion: &RigidMotion, unit: f64) -> Option<[Change<
     let in_digits = |digits: usize| {
         let (time, vertical) = in_wide_balls(toss, digits);
         let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
-        let none_above = if digits == DIGITS[1] { none_above } else { 0.0 };
+        let none_above = if digits == DIGITS[1] { NO_SLOPE } else { 0.0 };
         are_right(&found, none_above).then(|| in_f64(&found))
     };
     let close = if components_are_close(&rate) { in_double_double() } else { None };
@@ -158,12 +157,13 @@ fn changes_in<N: Elementary>(toss: &RigidToss, rate: &[N; 3], time: &N, vertical
     Some([change(0)?, change(1)?, change(2)?])
 }
 
-/// Whether the radii leave enough digits, where a change of cos θ that is smaller than `none_above` counts as 0.
+/// Whether the radii leave enough digits, where a change of cos θ below the part `none_above` of the turn
+/// counts as 0.
 fn are_right<N: Elementary>(changes: &[Change<N>; 3], none_above: f64) -> bool {
     let is_right = |part: &N, size: f64, least: f64| part.error() <= (RELATIVE * size).max(least);
     changes.iter().all(|(turn, slope)| {
         let size = turn.iter().map(|part| part.to_f64().abs()).fold(0.0, f64::max);
-        let is_known = is_right(slope, slope.to_f64().abs(), none_above);
+        let is_known = is_right(slope, slope.to_f64().abs(), none_above * size);
         is_known && turn.iter().all(|part| is_right(part, size, 0.0))
     })
 }
@@ -361,6 +361,11 @@ mod tests {
         // A derivative by a rate is about the time.
         let shortest = of([13.0, -2e-185, 8e-320], 8e-320).unwrap();
         assert!((0..3).all(|axis| shortest.attitude[(axis, axis)] == 8e-320), "{shortest:?}");
+        // By 1e-200 beside the middle axis, the motion is another one after 577 e-folds; along ωx cos θ stays as it is.
+        let launch = Launch::new([1e-200, 5.0, 0.0], TimeOfFlight::Given(1000.0)).unwrap();
+        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+        let grown = Sensitivity::of_rigid(&toss).unwrap();
+        assert!(grown.cos_tilt.x == 0.0 && grown.attitude.column(0).norm() > 1e40, "{grown:?}");
         // Next to the middle axis, what is so small grows in 10^3 rad to a motion that is not that without it.
         assert_eq!(of([1e-320, 5.0, 0.0], 1000.0).unwrap_err().kind(), "not_finite");
     }

@@ -148,3 +148,19 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
     assert_eq!(rigid_speeds_of_heads(&given, 0.0), Ok(None));
 }
+
+/// At the speed 0 the body is on edge, which is no flip and does not end the search.
+#[test]
+fn intervals_may_begin_on_edge() {
+    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let upright = toss([1.0, 2.0, 3.0], [1.0, 5.0, 0.5], TimeOfFlight::thrown(9.0, 9.81, None), 0.0);
+    let launch = upright.launch.with_tilt(quarter).unwrap();
+    let toss = RigidToss { launch, ..upright };
+    let heads = rigid_speeds_of_heads(&toss, 0.0).unwrap().unwrap();
+    for speed in (1..=200).map(|step| f64::from(step) * 0.0449) {
+        let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
+        let launch = Launch::new(launch.rate(), TimeOfFlight::thrown(speed, 9.81, None)).unwrap();
+        let thrown = RigidToss { launch: launch.with_tilt(quarter).unwrap(), ..toss };
+        assert_eq!(certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
+    }
+}
