@@ -8,8 +8,8 @@
 //! | input | line of turns | searched |
 //! |---|---|---|
 //! | ωx, ωy, ωz | parallel to an axis | changes up to [`Margin::rate_range`] |
-//! | time of flight | through Φ = 0 | one turn of S each way, after which the outcomes repeat |
-//! | speed, gravity | the same: each time of flight has one of each | all |
+//! | time of flight | none: a closed form (`margin/time.rs`) | all |
+//! | speed, gravity | none: each time of flight has one of each | all |
 //! | tilt | none: f(δ) = f cos δ + f(90°) sin δ | all |
 
 mod digits;
@@ -18,8 +18,7 @@ mod height;
 mod line;
 mod search;
 mod sine;
-
-use std::f64::consts::TAU;
+mod time;
 
 use dynamics::phase::LARGEST_PHASE;
 use dynamics::time_of_flight::ExactTime;
@@ -37,8 +36,8 @@ use crate::motion::ExactMotion;
 /// relative 1e-12.
 ///
 /// `None` where no value does, or, of a rate, none in the range. An undecided toss is on the edge: all its margins are 0. A
-/// motion that touches the edge and turns back does not flip there, nor does one that is beyond it for less than 5e-13 of
-/// its distance.
+/// motion that touches the edge and turns back does not flip there, nor, along a rate, does one that is beyond it for less
+/// than 5e-13 of its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margin {
     /// Of the time of flight (s).
@@ -104,19 +103,20 @@ fn on_edge(toss: &Toss) -> Margin {
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 fn of_flight(toss: &Toss, outcome: f64) -> Result<[Option<f64>; 3], SolveError> {
-    // More than one turn of S.
-    const TURN: f64 = 1.01 * TAU;
     let motion = ExactMotion::new(toss);
     let flight = toss.launch.time_of_flight();
     let (phase, _) = motion.phases(flight)?;
     if motion.precession_rate() == 0.0 {
         return Ok([None; 3]);
     }
-    let line = Line::of_time(toss, phase);
-    let limits = [TURN.min(LARGEST_PHASE - phase.hi()), TURN.min(phase.hi())];
-    let [later, earlier] = [(1.0, limits[0]), (-1.0, limits[1])].map(|(sense, limit)| {
-        let change = motion.time_of(Walk::new(&line, outcome, sense, limit, f64::INFINITY).first()?);
-        change.is_finite().then_some(change)
+    let Some([later, earlier]) = time::flips(toss, phase) else { return Ok([None; 3]) };
+    let time_of = |phase: f64| Some(motion.time_of(phase)).filter(|change| change.is_finite());
+    let later = time_of(later).filter(|_| later < LARGEST_PHASE - phase.hi());
+    let earlier = time_of(earlier).filter(|_| {
+        // Next to the launch, the phase does not tell whether the flip is after it. It is if the face then was the other.
+        let [.., at_launch] = toss.launch.attitude().exact_vertical();
+        let is_near = (earlier + phase.hi()).abs() <= 1e-12 * phase.hi();
+        if is_near { at_launch.hi() * outcome < 0.0 } else { -earlier < phase.hi() }
     });
     let thrown =
         [later, earlier].map(|change| change.map_or([None; 2], |change| flight::speed_and_gravity(flight, change)));

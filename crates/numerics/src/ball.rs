@@ -236,5 +236,9 @@ impl<N: Elementary> Elementary for Ball<N> {
     }
 }
 
+mod wide;
+
+pub use wide::WideBall;
+
 #[cfg(test)]
 mod tests;

@@ -106,6 +106,10 @@ impl<N: Elementary> Elementary for Dual<N> {
         self.value.error()
     }
 
+    fn has_known_sign(&self) -> bool {
+        self.value.has_known_sign()
+    }
+
     fn digits(&self) -> i32 {
         self.value.digits()
     }

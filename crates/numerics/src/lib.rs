@@ -29,7 +29,7 @@ pub mod quantity;
 pub mod scale;
 
 pub use angle::{Angle, AngleUnit};
-pub use ball::Ball;
+pub use ball::{Ball, WideBall};
 pub use big::Big;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;

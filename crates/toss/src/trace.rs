@@ -23,8 +23,8 @@ pub struct TracePoint {
     pub time: f64,
     /// Attitude (BF to LF).
     pub attitude: Attitude,
-    /// Euler angles (rad), continuous over the flight. After some million radians of a body with I1 ≠ I2 they are those
-    /// nearest to the point before.
+    /// Euler angles (rad), continuous over the flight. After some hundred thousand radians of a body with I1 ≠ I2 they are
+    /// those nearest to the point before.
     pub angles: EulerAngles,
     /// The coin's normal n (unit vector in LF).
     pub normal: Vector3<f64>,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use toss::{
     Backend, Body, IntegratedCertificate, Margin, Outcome, Propagation, QuaternionSolver, Registry, RigidMargin,
-    RigidToss, Sensitivity, Solver, TimeOfFlight, Work, margin_rigid,
+    RigidToss, Sensitivity, SolveError, Solver, TimeOfFlight, Work, margin_rigid,
 };
 
 use crate::failure::Failure;
@@ -43,7 +43,7 @@ struct Answer {
     remark: String,
     /// None for a body with I1 ≠ I2, unless it is asked for.
     margin: Option<MarginAnswer>,
-    /// Of a body with I1 ≠ I2.
+    /// Of a body with I1 ≠ I2, unless it leaves the range of f64.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensitivity: Option<Slopes>,
     attitude: [f64; 4],
@@ -155,7 +155,7 @@ impl Answer {
         let &Propagation { state, cos_tilt, norm_error, work, .. } = landing;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
         let is_coin = toss.body.symmetric().is_some();
-        let sensitivity = if is_coin { None } else { Some(Slopes::new(toss)?) };
+        let sensitivity = if is_coin { None } else { Slopes::new(toss)? };
         let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
         Ok(Self {
             coin: Moments::new(&toss.body),
@@ -189,7 +189,8 @@ impl Answer {
             )
         };
         let margin = self.margin.as_ref().map(|margin| format!("margin       {}", margin.text()));
-        margin.or_else(|| self.sensitivity.as_ref().map(slopes)).unwrap_or_default()
+        let unknown = || "sensitivity  beyond the range of numbers".to_owned();
+        margin.or_else(|| self.sensitivity.as_ref().map(slopes)).unwrap_or_else(unknown)
     }
 
     fn text(&self, body: &Body) -> String {
@@ -238,9 +239,14 @@ impl Moments {
 }
 
 impl Slopes {
-    fn new(toss: &RigidToss) -> Result<Self, Failure> {
-        let [x, y, z, time] = Sensitivity::of_rigid(toss)?.cos_tilt.into();
-        Ok(Self { rate: [x, y, z].map(without_sign_of_zero), time: without_sign_of_zero(time) })
+    /// `None` where they leave the range of f64, which the landing does not.
+    fn new(toss: &RigidToss) -> Result<Option<Self>, Failure> {
+        let derivatives = match Sensitivity::of_rigid(toss) {
+            Err(SolveError::NotFinite { .. }) => return Ok(None),
+            derivatives => derivatives?,
+        };
+        let [x, y, z, time] = derivatives.cos_tilt.into();
+        Ok(Some(Self { rate: [x, y, z].map(without_sign_of_zero), time: without_sign_of_zero(time) }))
     }
 }
 

@@ -3,10 +3,10 @@
 //! The formula is that of [`height`](super::height), the inputs are those of the toss without a rounding.
 
 use dynamics::Toss;
-use numerics::UNIT_ROUNDOFF;
 use numerics::big::{Big, exactly};
+use numerics::{Elementary, UNIT_ROUNDOFF};
 
-use super::height::{Height, Input, Landing, functions_of_phase};
+use super::height::{Height, Landing, functions_of_phase};
 use crate::multiprecision::{flight_time, momentum};
 
 /// Digits to begin with, and after which a height counts as 0. The smallest height that is not 0 and that inputs in f64 can
@@ -17,15 +17,15 @@ const MOST_DIGITS: usize = 3072;
 /// Of these digits at most 80 are lost: the phase is up to 2^53, and there are some fifty operations.
 const LOST_DIGITS: usize = 80;
 
-/// f and f' of a toss whose turn is `change` (rad) further on the line of `input`.
-pub(super) fn height_in_digits(toss: &Toss, input: Input, change: f64) -> Height {
-    decided(|digits| height_and_slope(landing(toss, input, change, vertical(toss, digits), digits), digits))
+/// f and f' of a toss whose turn is `change` (rad) further on the line of the rate `axis`.
+pub(super) fn height_in_digits(toss: &Toss, axis: usize, change: f64) -> Height {
+    decided(|digits| height_and_slope(landing(toss, axis, change, vertical(toss, digits), digits), digits))
 }
 
 /// cos θ of a toss, and what it becomes after a quarter of a turn of the launch about the lab's x axis.
 pub(super) fn tilted_heights(toss: &Toss) -> [Height; 2] {
     let of = |vertical: fn(&Toss, usize) -> [Big; 3]| {
-        decided(|digits| height_and_slope(landing(toss, Input::Rate(0), 0.0, vertical(toss, digits), digits), digits))
+        decided(|digits| height_and_slope(landing(toss, 0, 0.0, vertical(toss, digits), digits), digits))
     };
     [of(vertical), of(quarter_turned_vertical)]
 }
@@ -38,7 +38,10 @@ fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
         let bound = Big::ONE >> (digits - LOST_DIGITS).cast_signed();
         let [size, threshold] = [if value < Big::ZERO { -value.clone() } else { value.clone() }, bound.clone() << 60];
         if size > threshold || digits >= MOST_DIGITS {
+            let sign = if size > threshold { Elementary::sign(&value) } else { 0.0 };
             let [value, slope, bound] = [value, slope, bound].map(|number| number.to_f64().value());
+            // Below the range of f64 the sign is kept.
+            let value = if value == 0.0 { sign * f64::from_bits(1) } else { value };
             let rounding = |value: f64| 2.0 * UNIT_ROUNDOFF * value.abs();
             return Height { value, slope, error: bound + rounding(value), slope_error: 2.0 * bound + rounding(slope) };
         }
@@ -46,29 +49,16 @@ fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
     }
 }
 
-/// The landing `change` (rad) further on the line of `input`, in `digits` binary digits.
-fn landing(toss: &Toss, input: Input, change: f64, vertical: [Big; 3], digits: usize) -> Landing<Big> {
+/// The landing `change` (rad) further on the line of the rate `axis`, in `digits` binary digits.
+fn landing(toss: &Toss, axis: usize, change: f64, vertical: [Big; 3], digits: usize) -> Landing<Big> {
     let big = |value: f64| exactly(value).with_precision(digits).value();
     let time = flight_time(toss, digits);
-    let momentum = momentum(toss, digits);
-    match input {
-        Input::Rate(axis) => {
-            let mut turn = momentum.map(|part| part * &time);
-            turn[axis] += big(change);
-            let mut direction = [0.0; 3].map(big);
-            direction[axis] = big(1.0);
-            let along = turn[axis].clone();
-            Landing { vertical, turn, direction, along }
-        }
-        Input::Time => {
-            let [x, y, z] = &momentum;
-            let rate = (x * x + y * y + z * z).sqrt();
-            let along = &rate * time + big(change);
-            let direction = momentum.map(|part| part / &rate);
-            let turn = direction.clone().map(|part| part * &along);
-            Landing { vertical, turn, direction, along }
-        }
-    }
+    let mut turn = momentum(toss, digits).map(|part| part * &time);
+    turn[axis] += big(change);
+    let mut direction = [0.0; 3].map(big);
+    direction[axis] = big(1.0);
+    let along = turn[axis].clone();
+    Landing { vertical, turn, direction, along }
 }
 
 /// f and f' at a landing.

@@ -18,15 +18,6 @@ use std::ops::Div;
 
 use numerics::Number;
 
-/// An input that moves the turn along a straight line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Input {
-    /// ωx, ωy or ωz, by its index.
-    Rate(usize),
-    /// The time of flight.
-    Time,
-}
-
 /// cos θ and its slope along a line of turns, each with a bound of its error.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Height {

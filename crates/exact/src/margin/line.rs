@@ -6,15 +6,14 @@
 //! |f''| ≤ 1                                            everywhere
 //! |f''| ≤ σ² + (1 + 4.5 σ)/φ + 10/φ²                   σ = |Φ·e|/φ and φ where each is worst on the part skipped
 //! |f''| ≤ |mz| + |a|/3 + |a'| + |b|/12 + |b'|/3 + |b''|/2
-//! |f''| ≤ |B| + |C|                                    along Φ itself, as for the time of flight
 //! (m·Φ)² + Φz² > |Φ|²                                  no flip: the cone of n does not reach the horizontal
 //! ```
 //!
 //! The second follows from cos θ = F(s, φ) = (m·s)(ẑ·s)(1 - cos φ) + mz cos φ + sin φ (m × s)z with s = Φ/φ:
 //! φ' = σ and φ'' ≤ 1/φ; |s'| ≤ 1/φ and |s''| ≤ 1.16/φ²; the derivatives of F are at most 1 (twice by φ, or once), √5 (by s
 //! and φ), 5 (by s) and 4 (twice by s). The third is for coins that stay near the edge all the time; there S = ∫ cos(t φ) dt
-//! and V = ∫ (1 - t) cos(t φ) dt over t from 0 to 1, and the n-th derivative of cos(t φ) is at most tⁿ. The fourth and the last
-//! are those of cos θ = A + B cos φ + C sin φ; the last says |A| > √(B² + C²).
+//! and V = ∫ (1 - t) cos(t φ) dt over t from 0 to 1, and the n-th derivative of cos(t φ) is at most tⁿ. The last is that of
+//! cos θ = A + B cos φ + C sin φ, and says |A| > √(B² + C²).
 //!
 //! Errors of f in units of u = 2^-53, in the notation of [`height`](super::height):
 //!
@@ -35,15 +34,14 @@ use numerics::scale::mantissa_and_exponent;
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::digits::height_in_digits;
-use super::height::{Height, Input, Landing, functions_of_phase};
+use super::height::{Height, Landing, functions_of_phase};
 use super::sine::sine_and_cosine;
-use crate::motion::momentum_direction;
-use crate::tilt_terms::terms;
 
 /// The turns Φ + u e of one input.
 pub(super) struct Line<'a> {
     toss: &'a Toss,
-    input: Input,
+    /// The input, ωx, ωy or ωz, by its index.
+    axis: usize,
     /// m.
     vertical: [DoubleDouble; 3],
     /// e.
@@ -65,25 +63,12 @@ impl<'a> Line<'a> {
         let across_squared = across.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part);
         Self {
             toss,
-            input: Input::Rate(axis),
+            axis,
             vertical: toss.launch.attitude().exact_vertical(),
             direction,
             across,
             across_squared,
             along: turn[axis],
-        }
-    }
-
-    /// The line of the time of flight, which ends at the `phase` ωL T (rad).
-    pub(super) fn of_time(toss: &'a Toss, phase: DoubleDouble) -> Self {
-        Self {
-            toss,
-            input: Input::Time,
-            vertical: toss.launch.attitude().exact_vertical(),
-            direction: momentum_direction(toss),
-            across: [DoubleDouble::ZERO; 3],
-            across_squared: DoubleDouble::ZERO,
-            along: phase,
         }
     }
 
@@ -116,7 +101,7 @@ impl<'a> Line<'a> {
         match stage {
             0 => self.rough_height(change),
             1 => self.fine_height(change),
-            _ => height_in_digits(self.toss, self.input, change),
+            _ => height_in_digits(self.toss, self.axis, change),
         }
     }
 
@@ -141,11 +126,7 @@ impl<'a> Line<'a> {
     pub(super) fn curvature(&self, change: f64, sense: f64, length: f64) -> f64 {
         let from = self.along.hi() + change;
         let ends = [from, from + sense * length];
-        let bound = if self.across_squared.hi() > 0.0 {
-            self.curvature_far_out(ends).min(self.curvature_by_size(ends))
-        } else {
-            self.amplitude()
-        };
+        let bound = self.curvature_far_out(ends).min(self.curvature_by_size(ends));
         // The factor is for the roundings of the bound.
         (1.000_001 * bound).min(1.0)
     }
@@ -172,14 +153,6 @@ impl<'a> Line<'a> {
         let by_across = (m_x * y + m_y * x) / 3.0 + (m_x * e_y + m_y * e_x);
         let by_tilted = z * level / 12.0 + (e_z * level + z * level_slope) / 3.0 + e_z * level_slope;
         m_z + by_across + by_tilted
-    }
-
-    /// |B| + |C| of cos θ = A + B cos φ + C sin φ, along Φ itself.
-    fn amplitude(&self) -> f64 {
-        const ROUNDING: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
-        let [x, y, _] = self.direction;
-        let [_, cosine, sine] = terms(self.vertical, self.direction, x * x + y * y);
-        cosine.hi().abs() + sine.hi().abs() + ROUNDING
     }
 
     /// A length from `change` on in the direction of `sense` over which the cone of n does not reach the horizontal: 0 if it

@@ -61,14 +61,6 @@ impl<'a> Walk<'a> {
         Self { line, outcome, sense, distance: 0.0, limit, state, work }
     }
 
-    /// The first flip (rad, with the sign of its direction), if there is one up to the limit.
-    pub(super) fn first(mut self) -> Option<f64> {
-        while self.state == State::Under {
-            self.advance();
-        }
-        self.flip()
-    }
-
     /// The nearer flip of two directions; the distance up to which there is none if the work ended before the limits.
     pub(super) fn nearer(mut walks: [Self; 2]) -> Result<Option<f64>, f64> {
         loop {

@@ -2,15 +2,27 @@
 //! For a coin the closed form tells it. A body with three moments turns with two frequencies, and the turns of the
 //! angles are no sum of two phases; they are found by steps that are too short for an angle to turn unseen.
 //!
-//! The halves p = w + iz and r = x + iy of the attitude have the arguments (α + γ)/2 and (α - γ)/2. The quaternion's
-//! path is ½|ω| long in a unit of time, and |ω| ≤ √2 |ω(0)|, or a little more for a plate as thin as rounding (see
-//! [`Body::largest_growth_of_rate`](dynamics::Body::largest_growth_of_rate)). In a step whose path is shorter than |p| the
-//! argument of p changes by less than a quarter turn, so the nearest branch is the continuous one; likewise for r.
+//! The halves p = w + iz and r = x + iy of the attitude have the arguments (α + γ)/2 and (α - γ)/2. With
+//! ω⊥ = ωx + iωy, Q' = ½ Q ω is
+//!
+//! ```text
+//! p' = ½ (iωz p - r ω⊥*),    r' = ½ (p ω⊥ - iωz r)
+//! ```
+//!
+//! so that an argument turns by ½ωz, and by what the distance ½ ∫|ω⊥| dt takes p or r around the origin. Now
+//! |ω| ≤ g |ω(0)|, with g = √2 or a little more for a plate as thin as rounding
+//! ([`Body::largest_growth_of_rate`](dynamics::Body::largest_growth_of_rate)), and where n is a principal axis |ω⊥|' ≤ |ωz| |ω⊥|, because no ratio
+//! |I_i - I_j|/I_k is above 1 by more than rounding. In a step h with g |ω(0)| h ≤ 1 and ½ e |ω⊥| h ≤ 0.8 |r| the argument of r turns by less
+//! than ½ + asin 0.8 < π/2, so that the nearest branch is the continuous one; likewise for p. The spin about an upright
+//! normal, where r and ω⊥ are 0, needs no short steps. Of another tensor, the whole path ½ g |ω(0)| h is below 0.8 |r|.
 //!
 //! Where |p| or |r| is below 1e-13, as after every horizontal launch, the attitude tells no argument. The angles are
 //! continued straight through such a point, as those of a coin are, and β goes on past 0 or π.
 
-use dynamics::{Attitude, EulerAngles, RigidToss, SolveError};
+use std::f64::consts::E;
+
+use dynamics::{Attitude, EulerAngles, RigidToss, SolveError, State};
+
 use numerics::scale::power_of_two_scale;
 
 use super::RigidMotion;
@@ -19,11 +31,12 @@ use crate::motion::ExactMotion;
 /// Size of p or r below which it has no argument: some hundred roundings of an attitude.
 const NO_ARGUMENT: f64 = 1e-13;
 
-/// Part of |p| and |r| that the path of a step is long.
-const STEP: f64 = 0.9;
+/// Part of |p| and |r| that a step may take them across.
+const STEP: f64 = 0.8;
 
-/// Steps of a walk, a second of time. Between close passages of the vertical a step turns the body by half a radian.
-const MOST_STEPS: u32 = 4_000_000;
+/// Steps of a walk from the launch on, about a second of time. Between close passages of the vertical a step turns the
+/// body by up to a radian.
+const MOST_STEPS: u32 = 400_000;
 
 /// The Euler angles of a rigid body from its launch on.
 #[derive(Debug, Clone)]
@@ -51,7 +64,8 @@ impl RigidAngles {
     /// time before the last one starts again from the launch.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`]; for bodies with I1 ≠ I2 also [`SolveError::StepLimit`] after some million radians.
+    /// [`SolveError::PhaseTooLarge`]; for bodies with I1 ≠ I2 also [`SolveError::StepLimit`] after some hundred thousand
+    /// radians, here and at every later time.
     pub fn at(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
         match &mut self.kind {
             Kind::Coin(motion) => motion.euler_angles(time),
@@ -65,42 +79,50 @@ impl RigidAngles {
 struct Walk {
     motion: RigidMotion,
     launch: Point,
-    /// An upper bound of ½|ω| (rad/s).
+    /// An upper bound of |ω| (rad/s).
     speed: f64,
+    /// Whether n is a principal axis.
+    is_principal: bool,
     last: Point,
+    /// Steps since launch.
+    steps: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Point {
     time: f64,
     attitude: Attitude,
+    /// |ω⊥| (rad/s).
+    across: f64,
     angles: EulerAngles,
 }
 
 impl Walk {
     fn new(toss: &RigidToss) -> Self {
-        let launch = Point { time: 0.0, attitude: toss.launch.attitude(), angles: departure(toss) };
         let rate = toss.launch.rate();
+        let across = rate.x.hypot(rate.y);
+        let launch = Point { time: 0.0, attitude: toss.launch.attitude(), across, angles: departure(toss) };
         let scale = power_of_two_scale(rate.amax());
-        let speed = 0.5 * toss.body.largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
-        Self { motion: RigidMotion::compensated(toss), launch, speed, last: launch }
+        let speed = toss.body.largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
+        let is_principal = toss.body.moments().is_some();
+        Self { motion: RigidMotion::compensated(toss), launch, speed, is_principal, last: launch, steps: 0 }
     }
 
     /// Goes on to `time` (s).
     fn to(&mut self, time: f64) -> Result<EulerAngles, SolveError> {
         self.motion.phase(time)?;
         if time < self.last.time {
-            self.last = self.launch;
+            (self.last, self.steps) = (self.launch, 0);
         }
-        let mut steps = 0;
         while self.last.time < time {
-            if steps == MOST_STEPS {
+            if self.steps == MOST_STEPS {
                 return Err(SolveError::StepLimit { time: self.last.time, limit: MOST_STEPS });
             }
-            steps += 1;
+            self.steps += 1;
             let next = (self.last.time + self.step()).min(time);
-            let attitude = self.motion.state(next)?.attitude;
-            self.last = Point { time: next, attitude, angles: EulerAngles::nearest(&attitude, &self.last.angles) };
+            let State { attitude, rate } = self.motion.state(next)?;
+            let (across, angles) = (rate.x.hypot(rate.y), EulerAngles::nearest(&attitude, &self.last.angles));
+            self.last = Point { time: next, attitude, across, angles };
         }
         Ok(self.last.angles)
     }
@@ -108,9 +130,13 @@ impl Walk {
     /// The length of the next step (s): infinite at rest.
     fn step(&self) -> f64 {
         let [w, x, y, z] = self.last.attitude.components();
-        let path = STEP * w.hypot(z).min(x.hypot(y)).max(NO_ARGUMENT);
+        let distance = STEP * w.hypot(z).min(x.hypot(y)).max(NO_ARGUMENT);
+        let turned = 1.0 / self.speed;
+        // The largest |ω⊥| in a step that is no longer.
+        let across = if self.is_principal { (E * self.last.across).min(self.speed) } else { self.speed };
+        let moved = if across == 0.0 { f64::INFINITY } else { 2.0 * distance / across };
         // A shorter step would not change the time.
-        (path / self.speed).max(self.last.time * f64::EPSILON)
+        turned.min(moved).max(self.last.time * f64::EPSILON)
     }
 }
 
@@ -193,6 +219,32 @@ mod tests {
             EulerAngles { alpha: 0.0, beta: 30.0, gamma: 0.0 },
             1e-12,
         );
+    }
+
+    /// Spins about an upright normal, to the last bit and nearly, took steps of 1e-13 rad. Of the exact one α + γ (or, upside
+    /// down, γ - α) is the whole turn, in one step a radian.
+    #[test]
+    fn a_body_that_spins_upright_takes_a_step_a_radian() {
+        for (tilt, sign) in [(0.0, 1.0), (std::f64::consts::PI, -1.0)] {
+            for (across, most) in [(0.0, 300), (1e-300, 300), (1e-30, 300), (1e-14, 300), (1e-12, 9000), (1e-3, 9000)] {
+                let mut walk = Walk::new(&toss([1.0, 2.0, 2.5], [across, 0.0, 5.0], tilt));
+                let EulerAngles { alpha, beta, gamma } = walk.to(20.0).unwrap();
+                let (turned, steps) = (gamma + sign * alpha, walk.steps);
+                let off = (turned - 100.0).abs() + beta.sin().abs();
+                assert!(off < 1e-12 + across, "{tilt} {across:e}: {alpha} {beta} {gamma}");
+                assert!(steps <= most, "{tilt} {across:e}: {steps}");
+            }
+        }
+    }
+
+    /// A trace of many points spends the steps once.
+    #[test]
+    fn a_walk_has_one_budget_for_all_times() {
+        let mut walk = Walk::new(&toss([1.0, 2.0, 2.5], [9.0, 4.0, 3.0], 0.3));
+        for time in [1e9, 1.5e9, 2e9] {
+            assert_eq!(walk.to(time).unwrap_err().kind(), "step_limit");
+            assert_eq!(walk.steps, MOST_STEPS);
+        }
     }
 
     #[test]

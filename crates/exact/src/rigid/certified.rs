@@ -8,7 +8,7 @@
 use dynamics::time_of_flight::ExactTime;
 use dynamics::{AngleUnit, Error, Outcome, RigidToss, SolveError};
 use numerics::big::exactly;
-use numerics::{Ball, Big, DoubleDouble, Elementary};
+use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
 
 use super::{RigidMotion, components_are_close, cos_tilt, scaled};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
@@ -18,14 +18,16 @@ use crate::rigid::curve::Curve;
 /// Digits of the stages after double-double. Radii are f64, which ends the sequence.
 const DIGITS: [usize; 3] = [256, 448, 832];
 
+/// Digits for rates so unequal that radii in f64 underflow.
+const WIDE_DIGITS: [usize; 2] = [320, 960];
+
 /// Phases (rad) from which on f64 is not tried.
 const LARGEST_PHASE_IN_F64: f64 = 1e12;
 
 /// Proves the outcome of a toss of any body. That of a coin is proven by [`certify`].
 ///
-/// An outcome is undecided, without a proof, if cos θ is 0, as far as 832 digits can tell; if the rates are so unequal, by a factor of
-/// 1e135 or more, that the radii underflow; or if two principal moments of a tensor are equal, for its axes are then
-/// not known.
+/// An outcome is undecided, without a proof, if cos θ is 0, as far as 832 digits can tell; or if two principal moments of a
+/// tensor are equal, for its axes are then not known. No ratio of rates leaves it undecided.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
@@ -40,7 +42,11 @@ pub fn certify_rigid(toss: &RigidToss) -> Result<Certificate, SolveError> {
     if let Some(outcome) = by_double_double(toss) {
         return Ok(Certificate::new(outcome, Stage::DoubleDouble));
     }
-    let outcome = DIGITS.iter().find_map(|digits| by_multiprecision(toss, *digits));
+    let outcome = if components_are_close(&toss.launch.given_rate().0) {
+        DIGITS.iter().find_map(|digits| by_multiprecision(toss, *digits))
+    } else {
+        WIDE_DIGITS.iter().find_map(|digits| by_wide_balls(toss, *digits))
+    };
     let proven = |outcome| Certificate::new(outcome, Stage::Multiprecision);
     Ok(outcome.map_or_else(Certificate::without_proof, proven))
 }
@@ -118,6 +124,29 @@ fn in_double_double(toss: &RigidToss) -> Option<(Ball<DoubleDouble>, [Ball<Doubl
 fn by_multiprecision(toss: &RigidToss, digits: usize) -> Option<Outcome> {
     let (time, vertical) = in_digits(toss, digits);
     outcome(toss, &vertical, &time)
+}
+
+/// The outcome of rates of any ratio.
+fn by_wide_balls(toss: &RigidToss, digits: usize) -> Option<Outcome> {
+    let (time, vertical) = in_wide_balls(toss, digits);
+    let curve = Curve::new(&toss.body, &scaled(&toss.launch.given_rate().0, &time))?;
+    let cos_tilt = cos_tilt(&curve.turn(&time), &vertical);
+    cos_tilt.has_sign().then(|| Outcome::of(cos_tilt.sign(), 0.0))
+}
+
+/// The same balls as [`in_digits`], with radii of any size.
+pub(super) fn in_wide_balls(toss: &RigidToss, digits: usize) -> (WideBall, [WideBall; 3]) {
+    let round = |value: Big| value.with_precision(digits).value();
+    let right_to_roundings = |value: Big, size: Big| WideBall::new(value, &(size >> (digits - 16).cast_signed()));
+    let (rate, unit) = toss.launch.given_rate();
+    let scale = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(rate.amax())).1;
+    let time = round(toss.launch.time_of_flight().in_digits(digits)) * round(unit.in_digits(digits));
+    let time = time.times_power_of_two(scale);
+    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+    let norm = round(norm);
+    let one = exactly(1.0).with_precision(digits).value();
+    let vertical = vertical.map(|part| right_to_roundings(round(part) / &norm, one.clone()));
+    (right_to_roundings(time.clone(), time), vertical)
 }
 
 /// Balls with the time, in the unit of [`scaled`] rates, and with the vertical seen from the body at launch.
@@ -275,6 +304,51 @@ mod tests {
         let (_, vertical) = in_digits(&toss, 256);
         let squares: f64 = vertical.iter().map(|part| part.midpoint().to_f64().value().powi(2)).sum();
         assert!((squares - 1.0).abs() < 1e-12, "{squares}");
+    }
+
+    /// Of components that differ by any factor, the outcome is that of the motion without the smallest where that one does
+    /// not grow. Next to the middle axis it grows by 1e250 in 200 s; then the motion is that of 1536 digits without bounds.
+    #[test]
+    fn no_ratio_of_rates_leaves_an_outcome_undecided() {
+        for exponent in [-20, -140, -200, -300, -320] {
+            let tiny = 10f64.powi(exponent);
+            for (rate, still) in [
+                ([tiny, 5.0, 0.0], [0.0, 5.0, 0.0]),
+                ([tiny, 5.0, -tiny], [0.0, 5.0, 0.0]),
+                ([3.0, 5.0, tiny], [3.0, 5.0, 0.0]),
+                ([tiny, 5.0, 2.0], [0.0, 5.0, 2.0]),
+                ([3.0, tiny, 2.0], [3.0, 0.0, 2.0]),
+                ([5.0, tiny, tiny], [5.0, 0.0, 0.0]),
+                ([-tiny, tiny, 5.0], [0.0, 0.0, 5.0]),
+                ([tiny, 0.0, 5.0], [0.0, 0.0, 5.0]),
+                ([tiny * tiny, tiny, 5.0], [0.0, 0.0, 5.0]),
+                ([tiny, 5e-324, 1e300], [0.0, 0.0, 1e300]),
+            ] {
+                for (moments, tilt) in [([1.0, 2.0, 3.0], 0.3), ([3.0, 1.0, 2.0], 1.2), ([2.0, 3.0, 1.5], 2.0)] {
+                    let time = if still[2] > 1e200 { 1e-300 } else { 1.3 };
+                    let toss = |rate: [f64; 3]| {
+                        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+                        let launch = launch.with_attitude(Attitude::about_x(tilt));
+                        RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+                    };
+                    let [found, expected] = [toss(rate), toss(still)].map(|toss| certify_rigid(&toss).unwrap());
+                    assert!(
+                        found.is_proven() && found.outcome() == expected.outcome(),
+                        "{rate:?} {moments:?}: {found:?}"
+                    );
+                    let [one, other] =
+                        [toss(rate), toss(still)].map(|toss| RigidMotion::new(&toss).cos_tilt(time).unwrap());
+                    assert!((one - other).abs() < 1e-15, "{rate:?} {moments:?}: {one} {other}");
+                }
+            }
+        }
+        for (rate, time) in [([1e-140, 5.0, 0.0], 200.0), ([1e-200, 5.0, -1e-201], 200.0), ([1e-200, 5.0, 0.0], 1000.0)]
+        {
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(0.3).unwrap();
+            let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+            let (found, cos_tilt) = (certify_rigid(&toss).unwrap(), RigidMotion::new(&toss).cos_tilt(time).unwrap());
+            assert!(found.is_proven() && found.outcome() == Outcome::of(cos_tilt, 1e-15), "{rate:?} {cos_tilt}");
+        }
     }
 
     /// A plate that rests on its edge: no ball proves that cos θ is 0.

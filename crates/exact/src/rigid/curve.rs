@@ -176,18 +176,6 @@ impl<N: Phases<M>, M: Elementary> Curve<N, M> {
         })
     }
 
-    /// Whether the motions around this one are of another form: on the separatrix, about a principal axis, and at rest.
-    pub(super) fn is_special(&self) -> bool {
-        let [first, second, third] = &self.moments;
-        let is_0 = |part: M| part.sign() == 0.0;
-        let symmetric = is_0(second.clone() - first.clone()) || is_0(third.clone() - second.clone());
-        match self.form {
-            Form::Series { .. } | Form::Gaussian { .. } => false,
-            Form::Separatrix { .. } => true,
-            Form::Uniform { .. } => !symmetric || is_0(self.momentum.clone()),
-        }
-    }
-
     /// The kind of motion.
     pub(super) fn regime(&self) -> Regime {
         match &self.form {

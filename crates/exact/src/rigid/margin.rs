@@ -2,13 +2,14 @@
 //!
 //! A step of the search evaluates cos θ in a [`Ball`](numerics::Ball) that contains a whole interval of one input, so
 //! that an interval whose ball has the sign of the launch holds no flip. Steps shrink towards a flip, and no flip is
-//! passed over. Next to one they are double-double. On the separatrix no ball has a sign, because the motion has another
-//! form there; cos θ of a given time is continuous, and a shortest step passes it as it passes a touch.
+//! passed over. Next to one they have more digits. On the separatrix no ball has a sign, because the motion has another
+//! form there; cos θ of a given time is continuous, and a shortest step between two tosses that are decided passes it as it
+//! passes a touch. A search that ends before its limit, for want of work or digits, says how far it went.
 
 use dynamics::{Outcome, RigidToss, SolveError, TimeOfFlight};
 use numerics::DoubleDouble;
 
-use super::walk::{End, Input, Line, Walk};
+use super::walk::{End, Input, Line, RESOLUTION, Walk};
 use super::{RigidMotion, certify_rigid, cos_tilt};
 use crate::margin::{Margin, margin, speed_and_gravity};
 
@@ -30,7 +31,7 @@ pub struct RigidMargin {
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
 /// Two flips nearer to each other than 5e-13 of their distance may count as none. All inputs take some hundred
-/// milliseconds.
+/// milliseconds, and each search at most about half a second: a range says where it ended.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
@@ -144,8 +145,10 @@ pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Ve
         return Ok(Some(Vec::new()));
     }
     let line = Line::new(toss, Input::Time);
-    let first = line.outcome_at(from - to);
-    let mut flips = Walk::new(&line, first, 1.0, to - from, from).starting_at(from - to);
+    // A toss that begins on edge, but for the rounding of the time, has the outcome of the one next to it.
+    let skipped = (RESOLUTION * to).min(0.5 * (to - from));
+    let (start, first) = (from + skipped, line.outcome_at(from - to + skipped));
+    let mut flips = Walk::new(&line, first, 1.0, to - start, start).starting_at(start - to);
     let (mut intervals, mut begin) = (Vec::new(), (first == Outcome::Heads).then_some(slowest));
     loop {
         match flips.next_flip() {
@@ -158,7 +161,7 @@ pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Ve
             }
             End::Limit => break,
             End::Spent(change) => {
-                return Err(SolveError::StepLimit { time: to + change, limit: super::walk::MOST_STEPS });
+                return Err(SolveError::StepLimit { time: to + change, limit: super::walk::MOST_WORK });
             }
         }
     }

@@ -1,47 +1,87 @@
 //! The derivatives of the landing of any rigid body with respect to its launch, by evaluating the motion in numbers
 //! with a derivative. Next to the separatrix they are huge: one ulp of a rate moves a flight off it by radians.
+//!
+//! Values and derivatives are balls. The radius of a derivative tells how many digits it has lost, as next to a spin about
+//! a principal axis, where period and phase have derivatives that cancel; more digits are taken until enough are left.
+//! The radius leaves out what the ends of series change of a derivative, so that it proves nothing.
+//!
+//! A spin about a principal axis has a form of its own, and so have its derivatives. With the axes a, b, c in cyclic order
+//! and L = I_a ω_a, the change of the rate is δω_a = const and
+//!
+//! ```text
+//! δω_b' = (I_c - I_a)/I_b ω_a δω_c,   δω_c' = (I_a - I_b)/I_c ω_a δω_b
+//! ```
+//!
+//! and the turn ε (BF) follows from the change of the angular momentum, which is fixed in space:
+//! ε × L = R⁻¹ δL(0) - δL(T), ε_a = T δω_a.
 
-use dynamics::{RigidToss, SolveError};
+use dynamics::{Launch, RigidToss, SolveError};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
-use numerics::{DoubleDouble, Dual, Elementary};
+use numerics::{Ball, DoubleDouble, Dual, Elementary};
 
+use super::certified::in_wide_balls;
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
-use super::{MANY_DIGITS, RigidMotion, cos_tilt, scaled};
+use super::regime::{Regime, along};
+use super::{MANY_DIGITS, RigidMotion, components_are_close, cos_tilt, scaled};
 use crate::sensitivity::Sensitivity;
 
-/// How far, in units of the largest component, a launch is moved off the motions that have a form of their own. Their
-/// derivatives across are those of the motions around them, which differ by this times the second derivatives.
+/// How far, in units of the largest component, a launch is moved off the separatrix, or off the axis of a tensor. Its
+/// derivatives across are those of the motions around it, which differ by this times the second derivatives.
 const ASIDE: f64 = 7.888_609_052_210_118e-31; // 2^-100
 
+/// Relative error of a derivative.
+const RELATIVE: f64 = 1.421_085_471_520_200_4e-14; // 2^-46
+
+/// Digits of the stages after double-double.
+const DIGITS: [usize; 2] = [320, 960];
+
+/// Parts of the largest component of the rate below which balls of so many digits lose the derivatives, and the phase (rad)
+/// up to which the derivatives are those without such a component: it grows by less than e^300.
+const VANISHING: f64 = 1.499_696_813_895_631_2e-241; // 2^-800
+const LARGEST_PHASE_WITHOUT: f64 = 300.0;
+
+/// Part of the turn that a derivative of cos θ is above, or it may be 0.
+const NO_SLOPE: f64 = 1e-60;
+
+/// Turns (rad) below which a change δω of the rate turns the landing by T δω, to this relative error.
+const SHORT: f64 = 1e-14;
+
 /// A turn (BF at landing) and a change of cos θ.
-type Change = (Vector3<f64>, f64);
+type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
-    /// The derivatives at the landing of a toss of any body.
+    /// The derivatives at the landing of a toss of any body. Each column of the attitude, and each derivative of cos θ by a
+    /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. On the separatrix itself
+    /// both hold for turns of up to 30 rad.
     ///
     /// # Errors
-    /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, as that of a time
-    /// below 1e-308 s.
+    /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, and of turns above
+    /// 300 rad with a component of the rate below 1e-241 of the largest.
     pub fn of_rigid(toss: &RigidToss) -> Result<Self, SolveError> {
         if let Some(toss) = toss.symmetric() {
             return Self::new(&toss);
         }
         let (motion, at) = (RigidMotion::new(toss), toss.launch.time_of_flight());
         let landing = motion.state(at)?;
-        let (time, unit) = motion.time_and_unit(at.into())?;
-        let many = exactly(0.0).with_precision(MANY_DIGITS).value();
-        let changes = changes(toss, &time).or_else(|| changes(toss, &many.like_big(&time.to_big())));
+        if let Some(without) = without_vanishing(toss) {
+            if motion.phase(at)? > LARGEST_PHASE_WITHOUT {
+                return Err(SolveError::NotFinite { time: at.seconds() });
+            }
+            return Self::of_rigid(&without);
+        }
+        let (_, unit) = motion.time_and_unit(at.into())?;
+        let up = landing.attitude.lab_to_body(&Vector3::z());
+        let changes = spun(toss, &motion, unit, &up)?.or_else(|| changes(toss, &motion));
         let (mut attitude, mut slopes) = (Matrix3x4::zeros(), Vector4::zeros());
         // In many digits there is a regime, so that none is missing.
         let changes = changes.ok_or(SolveError::NotFinite { time: at.seconds() })?;
         for (input, (turn, slope)) in changes.into_iter().enumerate() {
-            attitude.set_column(input, &(turn / unit));
+            attitude.set_column(input, &(Vector3::from(turn) / unit));
             slopes[input] = slope / unit;
         }
         attitude.set_column(3, &landing.rate);
-        let up = landing.attitude.lab_to_body(&Vector3::z());
         slopes[3] = Vector3::z().cross(&up).dot(&landing.rate);
         let is_finite = attitude.iter().chain(&slopes).all(|part| part.is_finite());
         if is_finite {
@@ -52,51 +92,168 @@ impl Sensitivity {
     }
 }
 
-/// The changes of the landing with each component of the rate, in the unit of the curve. `None` if the numbers have too
-/// few digits.
-fn changes<N: Elementary>(toss: &RigidToss, time: &N) -> Option<[Change; 3]> {
-    let (given, _) = toss.launch.given_rate();
-    let rate = scaled(&given, time);
-    if given == Vector3::zeros() {
-        // A body at rest is turned by the change of its rate times the time.
-        let [x, y, _] = toss.launch.attitude().exact_vertical().map(DoubleDouble::hi);
-        let time = toss.launch.flight_time();
-        let changes = [(Vector3::x(), -y), (Vector3::y(), x), (Vector3::z(), 0.0)];
-        return Some(changes.map(|(axis, slope)| (axis * time, slope * time)));
-    }
-    let special = Curve::new(&toss.body, &rate)?.is_special();
-    // So near a special motion, the period and the phase at launch have derivatives of 2^100 and more that cancel.
-    if special && time.digits() < 400 {
+/// The toss without the components of its rate that vanish beside the largest; `None` if it has none.
+fn without_vanishing(toss: &RigidToss) -> Option<RigidToss> {
+    let (rate, unit) = toss.launch.given_rate();
+    let vanishes = |part: f64| part != 0.0 && (part / rate.amax()).abs() < VANISHING;
+    if !rate.iter().any(|part| vanishes(*part)) {
         return None;
     }
-    let aside = if special { [ASIDE, -0.7 * ASIDE, 0.6 * ASIDE] } else { [0.0; 3] };
-    let vertical = toss.launch.attitude().exact_vertical().map(|part| Dual::constant(time.like_big(&part.to_big())));
-    let mut changes = [(Vector3::zeros(), 0.0); 3];
-    for (input, (turn_change, slope)) in changes.iter_mut().enumerate() {
-        let mut inputs = [0, 1, 2].map(|axis: usize| Dual::constant(rate[axis].clone() + time.like(aside[axis])));
+    let rest = rate.map(|part| if vanishes(part) { 0.0 } else { part });
+    let launch = Launch::in_unit(rest, unit, toss.launch.time_of_flight()).ok()?;
+    Some(RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+}
+
+/// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
+fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
+    let (rate, _) = toss.launch.given_rate();
+    // Without an error bound: beside a motion that has a form of its own, and of a tensor whose regime no ball tells.
+    let without_bound = |aside: f64| {
+        let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
+        let like = exactly(0.0).with_precision(MANY_DIGITS).value();
+        let time = like.like_big(&time.to_big());
+        let vertical = toss.launch.attitude().exact_vertical().map(|part| time.like_big(&part.to_big()));
+        let mut moved = scaled(&rate, &time);
+        for (part, direction) in moved.iter_mut().zip([1.0, -0.7, 0.6]) {
+            *part = part.clone() + time.like(direction * aside);
+        }
+        Some(in_f64(&changes_in(toss, &moved, &time, &vertical)?))
+    };
+    let is_tensor = toss.body.moments().is_none();
+    if motion.regime() == Regime::Separatrix || is_tensor && motion.regime() == Regime::Uniform {
+        return without_bound(ASIDE);
+    }
+    let in_double_double = || {
+        // The time and the vertical are right to 2^-97 and 2^-67.
+        let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
+        let time = Ball::new(time, 2f64.powi(-97) * time.hi());
+        let vertical = toss.launch.attitude().exact_vertical().map(|part| Ball::new(part, 2f64.powi(-67)));
+        let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
+        are_right(&found, 0.0).then(|| in_f64(&found))
+    };
+    let in_digits = |digits: usize| {
+        let (time, vertical) = in_wide_balls(toss, digits);
+        let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
+        let none_above = if digits == DIGITS[1] { NO_SLOPE } else { 0.0 };
+        are_right(&found, none_above).then(|| in_f64(&found))
+    };
+    let close = if components_are_close(&rate) { in_double_double() } else { None };
+    let found = close.or_else(|| DIGITS.into_iter().find_map(in_digits));
+    if is_tensor { found.or_else(|| without_bound(0.0)) } else { found }
+}
+
+/// The changes in one kind of number. `None` if it has too few digits.
+fn changes_in<N: Elementary>(toss: &RigidToss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
+    let vertical = vertical.clone().map(Dual::constant);
+    let change = |input: usize| {
+        let mut inputs = rate.clone().map(Dual::constant);
         inputs[input].slope = time.like(1.0);
         let turn = Curve::new(&toss.body, &inputs)?.turn(&Dual::constant(time.clone()));
         let [values, rises] = [turn.clone().map(|part| part.value), turn.clone().map(|part| part.slope)];
         let size = norm_squared(&values);
         let [_, x, y, z] = product(&conjugate(&values), &rises).map(|part| (part.clone() + part) / size.clone());
-        *turn_change = Vector3::from([x, y, z].map(|part| part.to_f64()));
-        *slope = cos_tilt(&turn, &vertical).slope.to_f64();
+        Some(([x, y, z], cos_tilt(&turn, &vertical).slope))
+    };
+    Some([change(0)?, change(1)?, change(2)?])
+}
+
+/// Whether the radii leave enough digits, where a change of cos θ below the part `none_above` of the turn
+/// counts as 0.
+fn are_right<N: Elementary>(changes: &[Change<N>; 3], none_above: f64) -> bool {
+    let is_right = |part: &N, size: f64, least: f64| part.error() <= (RELATIVE * size).max(least);
+    changes.iter().all(|(turn, slope)| {
+        let size = turn.iter().map(|part| part.to_f64().abs()).fold(0.0, f64::max);
+        let is_known = is_right(slope, slope.to_f64().abs(), none_above * size);
+        is_known && turn.iter().all(|part| is_right(part, size, 0.0))
+    })
+}
+
+/// The midpoints; 0 for what might be.
+fn in_f64<N: Elementary>(changes: &[Change<N>; 3]) -> [Change<f64>; 3] {
+    let rounded = |part: &N| if part.has_known_sign() { part.to_f64() } else { 0.0 };
+    changes.each_ref().map(|(turn, slope)| (turn.each_ref().map(N::to_f64), rounded(slope)))
+}
+
+/// The changes of a body that hardly turns, or one that spins about a principal axis, in the unit of the curve (rad/s);
+/// `None` for another motion. `up` is the vertical (BF) at landing.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+fn spun(
+    toss: &RigidToss,
+    motion: &RigidMotion,
+    unit: f64,
+    up: &Vector3<f64>,
+) -> Result<Option<[Change<f64>; 3]>, SolveError> {
+    let (given, _) = toss.launch.given_rate();
+    let like = DoubleDouble::ZERO;
+    let principal = toss.body.scaled_principal(&like);
+    let with_slope = |turn: [f64; 3]| (turn, Vector3::z().cross(up).dot(&Vector3::from(turn)));
+    // A body at rest is turned by the change of its rate times the time, as is one that has not turned yet.
+    if motion.phase(toss.launch.time_of_flight())? < SHORT {
+        let time = toss.launch.flight_time() * unit;
+        let turn = |input: usize| with_slope([0, 1, 2].map(|part| if part == input { time } else { 0.0 }));
+        return Ok(Some([0, 1, 2].map(turn)));
     }
-    Some(changes)
+    if !components_are_close(&given) || toss.body.moments().is_none() {
+        return Ok(None);
+    }
+    let rate = scaled(&given, &like);
+    let rate = principal.axes.each_ref().map(|axis| along(axis, &rate));
+    let spins: Vec<usize> = (0..3).filter(|axis| rate[*axis].sign() != 0.0).collect();
+    let &[a] = spins.as_slice() else { return Ok(None) };
+    let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into())?;
+    let (b, c) = ((a + 1) % 3, (a + 2) % 3);
+    let [i_a, i_b, i_c] = [a, b, c].map(|axis| principal.moments[axis]);
+    let (spin, angle) = (rate[a], rate[a] * time);
+    let [sin, cos] = angle.sine_and_cosine();
+    // δω_b = even δω_b(0) + odd (I_c - I_a)/I_b δω_c(0) and the like, where the square of λ may have both signs.
+    let [of_b, of_c] = [(i_c - i_a) / i_b, (i_a - i_b) / i_c];
+    let product = of_b * of_c;
+    let lambda = product.magnitude().sqrt() * spin.magnitude();
+    let (even, odd) = if lambda.sign() == 0.0 {
+        (DoubleDouble::from(1.0), angle)
+    } else if product.sign() < 0.0 {
+        let [sin, cos] = (lambda * time).sine_and_cosine();
+        (cos, sin * spin / lambda)
+    } else {
+        let [grown, fallen] = [lambda * time, -(lambda * time)].map(DoubleDouble::exp);
+        ((grown + fallen).half(), (grown - fallen).half() * spin / lambda)
+    };
+    let change = |input: usize| {
+        let [d_a, d_b, d_c] = [a, b, c].map(|axis| principal.axes[axis][input]);
+        let [b_now, c_now] = [even * d_b + odd * of_b * d_c, even * d_c + odd * of_c * d_b];
+        let momentum = i_a * spin;
+        let left_b = cos * i_b * d_b + sin * i_c * d_c - i_b * b_now;
+        let left_c = cos * i_c * d_c - sin * i_b * d_b - i_c * c_now;
+        let turn = [(a, time * d_a), (b, -left_c / momentum), (c, left_b / momentum)];
+        let along =
+            |column: usize| turn.iter().fold(like, |sum, (axis, part)| sum + principal.axes[*axis][column] * *part);
+        with_slope([0, 1, 2].map(|column| along(column).hi()))
+    };
+    Ok(Some([0, 1, 2].map(change)))
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Body, Launch, TimeOfFlight};
+    use dynamics::{Body, TimeOfFlight};
 
     use super::*;
 
     #[test]
     fn derivatives_match_central_differences_of_the_exact_motion_in_every_regime() {
         const STEP: f64 = 1e-5;
-        let bodies = [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 2.0, 2.25], [1.0, 2.0, 2.0]];
-        let rates =
-            [[0.5, -1.25, 2.0], [2.0, 0.5, -0.75], [0.75, 1.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.0; 3]];
+        let bodies =
+            [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 2.0, 2.25], [1.0, 2.0, 2.0], [1.0, 2.5, 2.0], [2.0, 1.0, 2.5]];
+        let rates = [
+            [0.5, -1.25, 2.0],
+            [2.0, 0.5, -0.75],
+            [0.75, 1.0, 1.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, -1.0],
+            [2.0, 0.0, 0.0],
+            [0.0; 3],
+        ];
         for (moments, rate) in bodies.into_iter().flat_map(|moments| rates.map(|rate| (moments, rate))) {
             let toss = |change: Vector4<f64>| {
                 let [x, y, z] = rate;
@@ -124,11 +281,93 @@ mod tests {
         }
     }
 
+    /// By differences of the Taylor series of the equations of motion in 240 digits.
     #[test]
-    fn a_derivative_that_is_not_finite_is_an_error() {
-        let launch = Launch::new(Vector3::new(13.0, -2e-185, 8e-320), TimeOfFlight::Given(8e-320)).unwrap();
-        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
-        assert_eq!(Sensitivity::of_rigid(&toss).unwrap_err(), SolveError::NotFinite { time: 8e-320 });
+    fn derivatives_keep_their_digits_for_components_of_any_ratio() {
+        for (moments, rate, tilt, time, expected) in [
+            (
+                [1.0, 2.0, 3.0],
+                [1e-30, 5.0, 0.0],
+                0.0,
+                1.0,
+                [7.514291607640379e-31, 0.9589242746631385, -1.578252002491573e-30],
+            ),
+            (
+                [1.0, 2.0, 3.0],
+                [1e-16, 5.0, 0.0],
+                0.3,
+                1.0,
+                [-0.4292404809797739, 0.916095349894001, 0.7723442658266834],
+            ),
+            (
+                [1.0, 2.0, 3.0],
+                [1e-20, 5.0, 1e-25],
+                0.3,
+                2.0,
+                [-8.216086367949599, 1.039446436174525, 14.333189472141502],
+            ),
+            (
+                [1.0, 3.0, 2.0],
+                [5.0, 1e-30, -1e-28],
+                0.3,
+                2.0,
+                [1.5353716195271638, -2.704447070874085e-29, -1.0392538452018462e-28],
+            ),
+            (
+                [1.0, 2.0, 2.5],
+                [2.0, 1e-40, 0.001],
+                0.5,
+                2.0,
+                [1.9550577666137408, -0.0014670239518761131, 0.0010663929351104168],
+            ),
+            ([3.0, 1.0, 2.0], [0.0, 0.0, 5.0], 0.7, 3.0, [-607.0297777800084, 350.5332232818621, 0.0]),
+            (
+                [3.0, 1.0, 2.0],
+                [0.0, -4.0, 0.0],
+                0.7,
+                3.0,
+                [0.5946742628307183, -1.2311808127232196, 0.014419191837199198],
+            ),
+        ] {
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
+            let toss = RigidToss { body: Body::from_moments(moments).unwrap(), launch };
+            let found = Sensitivity::of_rigid(&toss).unwrap().cos_tilt;
+            for (found, expected) in found.iter().zip(expected) {
+                let off = (found - expected).abs();
+                assert!(off <= 1e-13 * expected.abs(), "{moments:?} {rate:?} {tilt}: {found:e}, not {expected:e}");
+            }
+        }
+    }
+
+    /// Components that are too small for a ball leave the derivatives of the motion without them.
+    #[test]
+    fn derivatives_of_vanishing_components_are_those_of_the_motion_without_them() {
+        let of = |rate: [f64; 3], time: f64| {
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(0.3).unwrap();
+            Sensitivity::of_rigid(&RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch })
+        };
+        for tiny in [1e-140, 1e-200, 1e-245, 1e-260, 1e-320] {
+            for (rate, without) in [
+                ([tiny, 5.0, -tiny], [0.0, 5.0, 0.0]),
+                ([3.0, tiny, tiny], [3.0, 0.0, 0.0]),
+                ([3.0, tiny, 2.0], [3.0, 0.0, 2.0]),
+                ([tiny, 1.0, 2.0], [0.0, 1.0, 2.0]),
+            ] {
+                let [found, expected] = [of(rate, 1.7).unwrap(), of(without, 1.7).unwrap()];
+                let off = (found.attitude - expected.attitude).norm() + (found.cos_tilt - expected.cos_tilt).norm();
+                assert!(off < 1e-13, "{rate:?}: {found:?} {expected:?}");
+            }
+        }
+        // A derivative by a rate is about the time.
+        let shortest = of([13.0, -2e-185, 8e-320], 8e-320).unwrap();
+        assert!((0..3).all(|axis| shortest.attitude[(axis, axis)] == 8e-320), "{shortest:?}");
+        // By 1e-200 beside the middle axis, the motion is another one after 577 e-folds; along ωx cos θ stays as it is.
+        let launch = Launch::new([1e-200, 5.0, 0.0], TimeOfFlight::Given(1000.0)).unwrap();
+        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+        let grown = Sensitivity::of_rigid(&toss).unwrap();
+        assert!(grown.cos_tilt.x == 0.0 && grown.attitude.column(0).norm() > 1e40, "{grown:?}");
+        // Next to the middle axis, what is so small grows in 10^3 rad to a motion that is not that without it.
+        assert_eq!(of([1e-320, 5.0, 0.0], 1000.0).unwrap_err().kind(), "not_finite");
     }
 
     /// One ulp of the rate, 1e-16, moves this flight off the separatrix by radians.

@@ -1,22 +1,31 @@
 //! The search for flips along one input of a toss, by balls that contain whole intervals of it.
+//!
+//! An interval that is not decided is halved. If that does not help, the toss at its middle tells why: where the same
+//! digits decide it, the interval is too wide. Else digits are what is missing, as next to the separatrix, and the next
+//! stage has more.
+//! The search passes no toss that it cannot decide: it ends there, and says how far it came.
 
-use dynamics::time_of_flight::ExactTime;
+use std::cell::OnceCell;
+
 use dynamics::{Outcome, RigidToss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
-use numerics::{Ball, DoubleDouble, Elementary};
+use numerics::{Ball, Big, DoubleDouble, Elementary};
 
 use super::certified::rounded;
 use super::cos_tilt;
 use super::curve::Curve;
 
 /// Width of the interval that a flip is known to lie in, in parts of its distance; also the shortest step.
-const RESOLUTION: f64 = 2.5e-13;
+pub(super) const RESOLUTION: f64 = 2.5e-13;
 
-/// The steps that a search may take: some tenths of a second.
-pub(super) const MOST_STEPS: u32 = 100_000;
+/// Digits of the stages after f64 and double-double.
+const DIGITS: [usize; 3] = [256, 448, 832];
 
-/// |cos θ| below which a step is tried in double-double if f64 does not decide it.
-const SMALL: f64 = 1e-6;
+/// The work of an evaluation in each stage, roughly in units of 2 µs.
+const WORK: [u32; 2 + DIGITS.len()] = [1, 8, 200, 400, 1000];
+
+/// The work that a search may take, about half a second.
+pub(super) const MOST_WORK: u32 = 250_000;
 
 /// An input of a toss.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,97 +40,154 @@ pub(super) enum Input {
 pub(super) struct Line<'a> {
     toss: &'a RigidToss,
     input: Input,
-    vertical: [Ball<DoubleDouble>; 3],
-    time: ExactTime,
+    rough: Stage<f64>,
+    fine: Stage<DoubleDouble>,
+    /// Those of more digits, made when they are needed.
+    many: [OnceCell<Stage<Big>>; DIGITS.len()],
+}
+
+/// What a line is evaluated with in one kind of number.
+struct Stage<N> {
+    /// The vertical seen from the body at launch.
+    vertical: [Ball<N>; 3],
+    /// The time of flight is `mantissa` 2^`exponent` s.
+    mantissa: Ball<N>,
+    exponent: i32,
     /// The motion, where the input does not change it.
-    rough: Option<Curve<Ball<f64>>>,
-    fine: Option<Curve<Ball<DoubleDouble>>>,
+    fixed: Option<Curve<Ball<N>>>,
 }
 
 impl<'a> Line<'a> {
     pub(super) fn new(toss: &'a RigidToss, input: Input) -> Self {
-        // The vertical to 2^-67.
+        // The vertical to 2^-67, and the time to 2^-97 of itself.
         const VERTICAL: f64 = 6.776_263_578_034_403e-21;
+        const TIME: f64 = 6.310_887_241_768_095e-30;
         let vertical = toss.launch.attitude().exact_vertical().map(|part| Ball::new(part, VERTICAL));
-        let time = toss.launch.time_of_flight().into();
-        let mut line = Self { toss, input, vertical, time, rough: None, fine: None };
-        if input == Input::Time {
-            line.rough = line.curve(0.0, 0.0, &0.0);
-            line.fine = line.curve(0.0, 0.0, &DoubleDouble::ZERO);
+        let time: dynamics::time_of_flight::ExactTime = toss.launch.time_of_flight().into();
+        let mantissa = Ball::new(time.mantissa(), TIME * time.mantissa().hi());
+        let rough_vertical = vertical.each_ref().map(rounded);
+        let rough = Stage::new(toss, input, rough_vertical, rounded(&mantissa), time.exponent());
+        let fine = Stage::new(toss, input, vertical, mantissa, time.exponent());
+        Self { toss, input, rough, fine, many: Default::default() }
+    }
+
+    /// The sign of cos θ at all changes within `radius` of `change`, in a stage: 0 if it is not proven.
+    fn sign_in(&self, stage: usize, change: f64, radius: f64) -> f64 {
+        let (toss, input) = (self.toss, self.input);
+        match stage {
+            0 => self.rough.sign(toss, input, change, radius),
+            1 => self.fine.sign(toss, input, change, radius),
+            _ => {
+                let stage = stage - 2;
+                let many = self.many[stage].get_or_init(|| Stage::in_digits(toss, input, DIGITS[stage]));
+                many.sign(toss, input, change, radius)
+            }
         }
-        line
     }
 
-    /// Exponent of the unit of the rates, a power of two near the largest.
-    fn exponent(&self, change: f64) -> i32 {
-        let moved = if let Input::Rate(_) = self.input { change.abs() } else { 0.0 };
-        mantissa_and_exponent(power_of_two_scale(self.toss.launch.rate().amax().max(moved))).1
+    /// The sign of cos θ for this change, 0 if no stage decides it. `work` is added to.
+    fn sign_at(&self, change: f64, work: &mut u32) -> f64 {
+        let sign = |(stage, of_stage)| {
+            *work += of_stage;
+            self.sign_in(stage, change, 0.0)
+        };
+        WORK.into_iter().enumerate().map(sign).find(|sign| *sign != 0.0).unwrap_or(0.0)
     }
 
-    /// The motion for a ball of changes.
-    fn curve<N: Elementary>(&self, change: f64, radius: f64, like: &N) -> Option<Curve<Ball<N>>> {
-        let exponent = self.exponent(change);
-        let number = |value: f64| Ball::new(like.like(value), 0.0).times_power_of_two(-exponent);
-        let rate = self.toss.launch.rate();
-        let mut rates = [rate.x, rate.y, rate.z]
-            .map(|part| if part == 0.0 { Ball::new(like.like(0.0), 0.0) } else { number(part) });
-        if let Input::Rate(axis) = self.input {
-            let width = radius * 2f64.powi(-exponent);
-            rates[axis] = (rates[axis].clone() + number(change)).widened(width);
-        }
-        Curve::new(&self.toss.body, &rates)
-    }
-
-    /// cos θ for all changes within `radius` of `change`, by the motion `fixed` if the input does not change it.
-    fn height<N: Elementary>(
+    /// The sign of cos θ at all changes within `radius` of `change`, and the stage that proves it: `None` if none does, for
+    /// the interval is too wide or the digits have run out. Stages above `enough` are tried if `is_retry`, while the toss
+    /// at the middle is not decided. `work` is added to.
+    fn sign_around(
         &self,
         [change, radius]: [f64; 2],
-        vertical: &[Ball<N>; 3],
-        fixed: Option<&Curve<Ball<N>>>,
-    ) -> Option<Ball<N>> {
-        let like = vertical[0].midpoint();
-        let exponent = self.exponent(change);
-        // 2^-97 of the time is its own error.
-        let time = Ball::new(like.like_big(&self.time.mantissa().to_big()), 0.0);
-        let time = time.times_power_of_two(self.time.exponent() + exponent);
-        let own = time.to_f64() * (2.0 * f64::EPSILON * f64::from(u8::from(like.digits() == 53)) + 2f64.powi(-97));
-        let time = time.widened(own);
-        let (turn, moved);
-        match (self.input, fixed) {
-            (Input::Time, Some(curve)) => {
-                let change = Ball::new(like.like(change), radius).times_power_of_two(exponent);
-                moved = time + change;
-                turn = curve.turn(&moved);
+        enough: usize,
+        is_retry: bool,
+        work: &mut u32,
+    ) -> Option<(f64, usize)> {
+        for (stage, of_stage) in WORK.into_iter().enumerate() {
+            *work += of_stage;
+            let sign = self.sign_in(stage, change, radius);
+            if sign != 0.0 {
+                return Some((sign, stage));
             }
-            (Input::Time, None) => return None,
-            (Input::Rate(_), _) => turn = self.curve(change, radius, like)?.turn(&time),
-        }
-        Some(cos_tilt(&turn, vertical))
-    }
-
-    /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven.
-    fn sign(&self, change: f64, radius: f64) -> f64 {
-        let vertical = self.vertical.each_ref().map(rounded);
-        let rough = self.height([change, radius], &vertical, self.rough.as_ref());
-        if let Some(rough) = rough {
-            if rough.has_sign() {
-                return rough.sign();
-            }
-            // A ball that is much wider than that of one toss is not helped by more digits.
-            if rough.midpoint().abs() > SMALL {
-                return 0.0;
+            if stage >= enough {
+                *work += of_stage;
+                if !is_retry || self.sign_in(stage, change, 0.0) != 0.0 {
+                    return None;
+                }
             }
         }
-        match self.height([change, radius], &self.vertical, self.fine.as_ref()) {
-            Some(fine) if fine.has_sign() => fine.sign(),
-            _ => 0.0,
-        }
+        None
     }
 
     /// The outcome of the toss with this change.
     pub(super) fn outcome_at(&self, change: f64) -> Outcome {
-        Outcome::of(self.sign(change, 0.0), 0.0)
+        Outcome::of(self.sign_at(change, &mut 0), 0.0)
     }
+}
+
+impl<N: Elementary> Stage<N> {
+    fn new(toss: &RigidToss, input: Input, vertical: [Ball<N>; 3], mantissa: Ball<N>, exponent: i32) -> Self {
+        let mut stage = Self { vertical, mantissa, exponent, fixed: None };
+        if input == Input::Time {
+            stage.fixed = stage.curve(toss, input, 0.0, 0.0);
+        }
+        stage
+    }
+
+    /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven.
+    fn sign(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> f64 {
+        self.height(toss, input, [change, radius]).filter(Ball::has_sign).map_or(0.0, |height| height.sign())
+    }
+
+    /// The motion for a ball of changes.
+    fn curve(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> Option<Curve<Ball<N>>> {
+        let like = self.mantissa.midpoint();
+        let exponent = unit_exponent(toss, input, change);
+        let number = |value: f64| Ball::new(like.like(value), 0.0).times_power_of_two(-exponent);
+        let rate = toss.launch.rate();
+        let mut rates = [rate.x, rate.y, rate.z]
+            .map(|part| if part == 0.0 { Ball::new(like.like(0.0), 0.0) } else { number(part) });
+        if let Input::Rate(axis) = input {
+            let width = radius * 2f64.powi(-exponent);
+            rates[axis] = (rates[axis].clone() + number(change)).widened(width);
+        }
+        Curve::new(&toss.body, &rates)
+    }
+
+    /// cos θ for all changes within `radius` of `change`.
+    fn height(&self, toss: &RigidToss, input: Input, [change, radius]: [f64; 2]) -> Option<Ball<N>> {
+        let exponent = unit_exponent(toss, input, change);
+        let time = self.mantissa.times_power_of_two(self.exponent + exponent);
+        let turn = if input == Input::Time {
+            let change = Ball::new(time.midpoint().like(change), radius).times_power_of_two(exponent);
+            self.fixed.as_ref()?.turn(&(time + change))
+        } else {
+            self.curve(toss, input, change, radius)?.turn(&time)
+        };
+        Some(cos_tilt(&turn, &self.vertical))
+    }
+}
+
+impl Stage<Big> {
+    fn in_digits(toss: &RigidToss, input: Input, digits: usize) -> Self {
+        let round = |value: Big| value.with_precision(digits).value();
+        // Both are right to some roundings.
+        let relative = (Big::ONE >> (digits - 16).cast_signed()).to_f64().value();
+        let exponent = mantissa_and_exponent(toss.launch.flight_time()).1;
+        let time = round(toss.launch.time_of_flight().in_digits(digits)).times_power_of_two(-exponent);
+        let mantissa = Ball::new(time, 2.0 * relative);
+        let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+        let norm = round(norm);
+        let vertical = vertical.map(|part| Ball::new(round(part) / &norm, relative));
+        Self::new(toss, input, vertical, mantissa, exponent)
+    }
+}
+
+/// Exponent of the unit of the rates, a power of two near the largest.
+fn unit_exponent(toss: &RigidToss, input: Input, change: f64) -> i32 {
+    let moved = if let Input::Rate(_) = input { change.abs() } else { 0.0 };
+    mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax().max(moved))).1
 }
 
 /// How a search ended.
@@ -131,7 +197,7 @@ pub(super) enum End {
     Flip(f64),
     /// At the limit.
     Limit,
-    /// For want of steps or digits, at this distance.
+    /// For want of work or digits, at this distance.
     Spent(f64),
 }
 
@@ -147,7 +213,10 @@ pub(super) struct Walk<'a> {
     limit: f64,
     /// What is added to the distance before the resolution is taken of it.
     offset: f64,
-    steps: u32,
+    /// The stage that decided the last interval, and whether none decided the one after it.
+    stage: usize,
+    is_retry: bool,
+    work: u32,
 }
 
 impl<'a> Walk<'a> {
@@ -158,7 +227,19 @@ impl<'a> Walk<'a> {
             Outcome::Tails => -1.0,
             Outcome::Undecided => 0.0,
         };
-        Self { line, sign, sense, origin: 0.0, distance: 0.0, step: limit / 64.0, limit, offset, steps: 0 }
+        Self {
+            line,
+            sign,
+            sense,
+            origin: 0.0,
+            distance: 0.0,
+            step: limit / 64.0,
+            limit,
+            offset,
+            stage: 0,
+            is_retry: false,
+            work: 0,
+        }
     }
 
     /// The same walk from another change of the input.
@@ -169,25 +250,27 @@ impl<'a> Walk<'a> {
     /// Goes on to the next flip. The distances that it returns are from the toss of the line.
     pub(super) fn next_flip(&mut self) -> End {
         while self.distance < self.limit {
-            self.steps += 1;
-            if self.steps > MOST_STEPS || self.sign == 0.0 || self.step < f64::MIN_POSITIVE {
+            if self.work > MOST_WORK || self.sign == 0.0 || self.step < f64::MIN_POSITIVE {
                 return End::Spent(self.origin + self.distance);
             }
             let step = self.step.min(self.limit - self.distance);
             let middle = self.origin + self.sense * (self.distance + 0.5 * step);
             // The middle is rounded, and so are both ends.
             let radius = 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step);
-            if self.line.sign(middle, radius) == self.sign {
-                self.distance += step;
-                self.step = 1.5 * step;
-                continue;
+            match self.line.sign_around([middle, radius], self.stage, self.is_retry, &mut self.work) {
+                Some((sign, stage)) if sign == self.sign => {
+                    self.distance += step;
+                    (self.step, self.stage, self.is_retry) = (1.5 * step, stage, false);
+                    continue;
+                }
+                _ => (self.step, self.is_retry) = (0.5 * step, true),
             }
-            let shortest = RESOLUTION * (self.offset + self.distance);
-            self.step = 0.5 * step;
-            if step <= shortest {
-                self.distance += step;
+            if step <= RESOLUTION * (self.offset + self.distance) {
+                let Some((passed, sign)) = self.decided_after(step) else {
+                    return End::Spent(self.origin + self.distance);
+                };
+                self.distance += passed;
                 self.step = step;
-                let sign = self.line.sign(self.origin + self.sense * self.distance, 0.0);
                 if sign == -self.sign {
                     self.sign = sign;
                     return End::Flip(self.origin + self.distance);
@@ -195,5 +278,53 @@ impl<'a> Walk<'a> {
             }
         }
         End::Limit
+    }
+
+    /// A step or two after which the outcome is decided, and its sign. One step may end on a tie. The limit needs no
+    /// outcome: a flip there is none before it.
+    fn decided_after(&mut self, step: f64) -> Option<(f64, f64)> {
+        for passed in [step, 2.0 * step] {
+            let distance = self.distance + passed;
+            let sign = self.line.sign_at(self.origin + self.sense * distance, &mut self.work);
+            if sign != 0.0 || distance >= self.limit {
+                return Some((passed, sign));
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Body, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// Of all inputs, in both directions, at and next to the separatrix, at rest, upright and on edge.
+    #[test]
+    fn a_search_ends_within_its_work() {
+        let rates = [
+            [5.276_195_533_573_627, 3.0, 3.046_212_911_605_835],
+            [0.75, 1.0, 1.0],
+            [1e-30, 5.0, 0.0],
+            [0.0, 0.0, 300.0],
+            [1e-300, 2.0, 1e200],
+        ];
+        for (rate, tilt) in
+            rates.into_iter().flat_map(|rate| [0.0, 1.0, std::f64::consts::FRAC_PI_2].map(|tilt| (rate, tilt)))
+        {
+            let launch = Launch::new(rate, TimeOfFlight::Given(0.8)).unwrap().with_tilt(tilt).unwrap();
+            let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
+            for (input, limit) in [(Input::Time, 20.0), (Input::Rate(0), 1000.0), (Input::Rate(2), 1000.0)] {
+                let line = Line::new(&toss, input);
+                let outcome = line.outcome_at(0.0);
+                for sense in [-1.0, 1.0] {
+                    let mut walk = Walk::new(&line, outcome, sense, if sense < 0.0 { 0.8 } else { limit }, 0.0);
+                    let end = walk.next_flip();
+                    let most = MOST_WORK + 6 * WORK.iter().sum::<u32>();
+                    assert!(walk.work <= most, "{rate:?} {tilt} {input:?}: {end:?} by {}", walk.work);
+                }
+            }
+        }
     }
 }

@@ -101,6 +101,25 @@ fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
     }
 }
 
+/// So near to the separatrix, E is 1e-15 of its terms, double-double decides no toss within 1e-9 s of the flip. The flip is by
+/// bisection in 300 digits.
+#[test]
+fn the_margin_next_to_the_separatrix_is_the_nearest_flip_or_says_how_far_it_went() {
+    let rate = [5.276_195_533_573_627_5, 3.0, 3.046_212_911_605_835];
+    let next = toss([1.0, 2.0, 3.0], rate, TimeOfFlight::Given(0.8), 1.0);
+    let found = margin_rigid(&next).unwrap();
+    let time = found.margin.time.unwrap();
+    assert!((time - 0.152_854_524_666_798_52).abs() < 1e-12 * time, "{time:e}");
+    let outcome = |axis: usize, change: f64| certify_rigid(&changed(&next, axis, change)).unwrap().outcome();
+    for (axis, range) in found.margin.rate_range.into_iter().enumerate() {
+        assert!(found.margin.rate[axis].is_none_or(|change| change.abs() <= range), "{axis}: {found:?}");
+        for step in -20..=20 {
+            let change = f64::from(step) / 20.5 * found.margin.rate[axis].map_or(range, f64::abs);
+            assert_eq!(outcome(axis, change), outcome(axis, 0.0), "{axis} {change:e}");
+        }
+    }
+}
+
 #[test]
 fn a_coin_has_the_margin_that_it_had() {
     let coin = dynamics::Coin::PAPER;
@@ -128,4 +147,20 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     }
     let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
     assert_eq!(rigid_speeds_of_heads(&given, 0.0), Ok(None));
+}
+
+/// At the speed 0 the body is on edge, which is no flip and does not end the search.
+#[test]
+fn intervals_may_begin_on_edge() {
+    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let upright = toss([1.0, 2.0, 3.0], [1.0, 5.0, 0.5], TimeOfFlight::thrown(9.0, 9.81, None), 0.0);
+    let launch = upright.launch.with_tilt(quarter).unwrap();
+    let toss = RigidToss { launch, ..upright };
+    let heads = rigid_speeds_of_heads(&toss, 0.0).unwrap().unwrap();
+    for speed in (1..=200).map(|step| f64::from(step) * 0.0449) {
+        let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
+        let launch = Launch::new(launch.rate(), TimeOfFlight::thrown(speed, 9.81, None)).unwrap();
+        let thrown = RigidToss { launch: launch.with_tilt(quarter).unwrap(), ..toss };
+        assert_eq!(certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
+    }
 }

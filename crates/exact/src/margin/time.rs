@@ -1,0 +1,123 @@
+//! The nearest flips along the time of flight, in closed form.
+//!
+//! At the landing let f = cos θ = A + B cos φ + C sin φ with the phase φ = |L| T, and f' its slope by φ. A phase h further,
+//! with τ = tan(h/2),
+//!
+//! ```text
+//! (1 + τ²) f(φ + h) = f + 2 f' τ + g τ²       g = 2A - f
+//! D = f'² - f g = B² + C² - A²
+//! τ = q/g and τ = f/q                         q = -(f' ± √D), with the sign that f' has
+//! ```
+//!
+//! are the flips. There is none for D ≤ 0, and a touch at D = 0. What a difference can cancel is f, f', g and D: where their
+//! errors count, as next to an edge or a touch, they are found in more digits.
+
+use std::f64::consts::{PI, TAU};
+
+use dynamics::Toss;
+use numerics::big::Big;
+use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
+
+use super::sine::sine_and_cosine;
+use crate::motion::momentum_direction;
+use crate::multiprecision::{flight_time, momentum};
+use crate::tilt_terms::terms;
+
+/// Relative error of a change of the phase.
+const RESOLUTION: f64 = 2e-13;
+
+/// Digits to begin with, and after which a motion counts as one that touches the edge. Of components that differ by 2^2100,
+/// as f64 allows, D is some 2^-4200 or exactly 0.
+const DIGITS: usize = 192;
+const MOST_DIGITS: usize = 12_288;
+
+/// Of these digits at most 80 are lost: the phase is up to 2^53, and there are some thirty operations.
+const LOST_DIGITS: usize = 80;
+
+/// The changes of the `phase` of the landing (rad) to the next flip and to the last one before, if the motion flips at all.
+pub(super) fn flips(toss: &Toss, phase: DoubleDouble) -> Option<[f64; 2]> {
+    let halves = in_double_double(toss, phase).unwrap_or_else(|| in_digits(toss))?;
+    // Each flip is one of the turn after the landing, and one of the turn before.
+    let later = halves.map(|half| if half.is_sign_positive() { 2.0 * half } else { 2.0 * half + TAU });
+    let earlier = halves.map(|half| if half.is_sign_positive() { 2.0 * half - TAU } else { 2.0 * half });
+    Some([later[0].min(later[1]), earlier[0].max(earlier[1])])
+}
+
+/// h/2 of both flips (rad), from -π/2 to π/2.
+fn halves<N: Elementary>([f, slope, g, root]: [&N; 4]) -> [N; 2] {
+    let sum = |a: &N, b: &N| a.clone() + b.clone();
+    let q = if slope.sign() < 0.0 { sum(&-slope.clone(), root) } else { -sum(slope, root) };
+    [q.clone() / g.clone(), f.clone() / q]
+}
+
+/// h/2 of both flips, none if there are none; `None` if more digits are needed.
+fn in_double_double(toss: &Toss, phase: DoubleDouble) -> Option<Option<[f64; 2]>> {
+    const SQUARED: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+    let attitude = toss.launch.attitude();
+    // The vertical seen from a tilted coin is right to 2^-67.
+    let of_vertical = if attitude.tilt().is_some() { 2f64.powi(-66) } else { 0.0 };
+    let (term_error, error) = (200.0 * SQUARED + of_vertical, (2000.0 + 100.0 * phase.hi()) * SQUARED + of_vertical);
+    let direction = momentum_direction(toss);
+    let [x, y, _] = direction;
+    let [mean, cosine, sine] = terms(attitude.exact_vertical(), direction, x * x + y * y);
+    let (sin, cos) = sine_and_cosine(phase);
+    let (f, slope) = (mean + cosine * cos + sine * sin, sine * cos - cosine * sin);
+    let g = mean + mean - f;
+    let discriminant = cosine * cosine + sine * sine - mean * mean;
+    let size = [mean, cosine, sine].map(|term| term.hi().abs() + term_error).iter().sum::<f64>();
+    let d_error = 4.0 * size * term_error;
+    if discriminant.hi() < -d_error {
+        return Some(None);
+    }
+    if discriminant.hi() <= 4.0 * d_error {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let (q_size, q_error) = (slope.hi().abs() + root.hi(), error + d_error / root.hi());
+    let (g_size, g_error) = (g.hi().abs(), error + 2.0 * term_error);
+    let [by_g, by_q] = halves([&f, &slope, &g, &root]).map(|tangent| tangent.hi().atan());
+    let off_g = (q_error * g_size + g_error * q_size) / (q_size * q_size + g_size * g_size);
+    let off_q = error / f.hi().abs() + q_error / q_size;
+    let is_right = q_error < 0.1 * q_size && off_g < RESOLUTION * by_g.abs() && off_q < RESOLUTION;
+    is_right.then_some(Some([by_g, by_q]))
+}
+
+/// h/2 of both flips in as many digits as it takes.
+fn in_digits(toss: &Toss) -> Option<[f64; 2]> {
+    let mut digits = DIGITS;
+    while digits <= MOST_DIGITS {
+        let round = |value: Big| value.with_precision(digits).value();
+        let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+        let [x, y, z] = momentum(toss, digits);
+        let across = &x * &x + &y * &y;
+        let squared = &across + &z * &z;
+        let rate = squared.sqrt();
+        let (sin, cos) = (&rate * flight_time(toss, digits)).sin_cos();
+        // Without the factor |m| |L|² of all terms, of which each is then right to 2^(10 - digits).
+        let size = &squared * round(norm);
+        let [mean, cosine, sine] = terms(vertical.map(round), [x, y, z], across);
+        // Exactly 0 where no digit was rounded, as for a horizontal launch with (k ωz)² = ωx² + ωy².
+        let discriminant = &cosine * &cosine + &sine * &sine * &squared - &mean * &mean;
+        if discriminant == Big::ZERO {
+            return None;
+        }
+        let sine = sine * rate;
+        let (f, slope) = (&mean + &cosine * &cos + &sine * &sin, &sine * &cos - &cosine * &sin);
+        let g = &mean + &mean - &f;
+        let bound = Big::ONE >> (digits - LOST_DIGITS - 60).cast_signed();
+        let is_clear = |value: &Big, of: &Big| value.magnitude() > of * &bound;
+        if is_clear(&f, &size) && is_clear(&discriminant, &(&size * &size)) {
+            if discriminant < Big::ZERO {
+                return None;
+            }
+            let root = discriminant.sqrt();
+            // An infinite tangent is that of half a turn.
+            let is_level = g == Big::ZERO;
+            let divisor = if is_level { g.like(1.0) } else { g };
+            let [by_g, by_q] = halves([&f, &slope, &divisor, &root]).map(|tangent| tangent.to_f64().value().atan());
+            return Some([if is_level { 0.5 * PI } else { by_g }, by_q]);
+        }
+        digits *= 2;
+    }
+    None
+}
