@@ -4,6 +4,7 @@
 use exact::{ProvenCounts, Stage};
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Scrambled};
 use serde::Serialize;
+use crate::output::whole;
 use toss::{IntegratedCounts, Integration};
 
 /// An estimate as JSON.
@@ -25,7 +26,7 @@ pub(crate) struct Answer {
     /// The number of outcomes that each kind of integration decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) integrated_by: Option<IntegratedBy>,
-    seed: Option<u64>,
+    seed: Option<serde_json::Value>,
     /// The method by which launches were chosen.
     method: &'static str,
 }
@@ -86,7 +87,7 @@ impl Answer {
             certified: proven.is_some(),
             proven_by: proven.map(ProvenBy::from),
             integrated_by: None,
-            seed: seed_of(plan),
+            seed: seed_of(plan).map(whole),
             method: name_of(plan),
         }
     }
