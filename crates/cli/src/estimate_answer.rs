@@ -1,10 +1,10 @@
 //! What commands print of an estimate of P(heads), as JSON and as text: `probability`, which makes one, and `merge`, which
 //! adds its parts.
 
+use crate::output::whole;
 use exact::{ProvenCounts, Stage};
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Scrambled};
 use serde::Serialize;
-use crate::output::whole;
 use toss::{IntegratedCounts, Integration};
 
 /// An estimate as JSON.

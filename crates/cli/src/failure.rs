@@ -127,7 +127,9 @@ impl Failure {
 
     fn kind(&self) -> &'static str {
         match self {
-            Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => error.kind(),
+            Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => {
+                error.kind()
+            }
             Self::Arguments(_) | Self::Usage { .. } | Self::Part { .. } => "input",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",

@@ -63,8 +63,11 @@ impl SeriesArgs {
             if whole_file::leads_to(path) {
                 return Ok(chart);
             }
-            whole_file::write(path, &chart)
-                .map_err(|source| Failure::Write { option: "svg", target: path.display().to_string(), source })?;
+            whole_file::write(path, &chart).map_err(|source| Failure::Write {
+                option: "svg",
+                target: path.display().to_string(),
+                source,
+            })?;
         }
         Ok(data(self.format.unwrap_or(DataFormat::Csv)))
     }

@@ -63,9 +63,8 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
 
 /// What is wrong with a text that is not what was `expected`.
 fn expected(text: &str, expected: &str) -> String {
-    let look_alike = look_alike(text).map(|(found, meant)| {
-        format!("'{found}' (U+{:04X}) only looks like '{meant}'; ", u32::from(found))
-    });
+    let look_alike = look_alike(text)
+        .map(|(found, meant)| format!("'{found}' (U+{:04X}) only looks like '{meant}'; ", u32::from(found)));
     format!("{}expected {expected}", look_alike.unwrap_or_default())
 }
 

@@ -80,7 +80,11 @@ impl ShardArgs {
                 return Ok(text);
             }
             let target = || path.display().to_string();
-            whole_file::write(path, &(text + "\n")).map_err(|source| Failure::Write { option: "out", target: target(), source })?;
+            whole_file::write(path, &(text + "\n")).map_err(|source| Failure::Write {
+                option: "out",
+                target: target(),
+                source,
+            })?;
         }
         let Shard { index, number } = shard;
         let (file, was) = (path.display(), if there { ", which held it already" } else { "" });
@@ -98,7 +102,8 @@ fn already_there(path: &Path, space: &Space, plan: Plan, range: &Range<u64>) -> 
         return Ok(false);
     }
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "out", path: shown.clone(), source })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "out", path: shown.clone(), source })?;
     match serde_json::from_str::<Tally>(&text) {
         Ok(tally) if (tally.space(), tally.plan(), tally.range()) == (space, plan, range.clone()) => Ok(true),
         Ok(_) => Err(Failure::part(&shown, "it holds another part; remove it to write this one".to_owned())),

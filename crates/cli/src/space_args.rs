@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use clap::Args;
-use sampling::{AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces};
+use sampling::{
+    AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces,
+};
 use toss::{Coin, Dimension, Error};
 
 use crate::failure::Failure;
@@ -114,8 +116,10 @@ pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure
         space_file(Path::new(name))?
     } else if name.contains(['.', '/', '\\']) {
         let known: Vec<&str> = named_spaces().map(|(name, _)| name).collect();
-        let message =
-            format!("space = '{name}' can't be used: expected a file that ends in .toml, or one of {}", known.join(", "));
+        let message = format!(
+            "space = '{name}' can't be used: expected a file that ends in .toml, or one of {}",
+            known.join(", ")
+        );
         return Err(Failure::usage("space", message));
     } else {
         named_space(name)?
@@ -125,7 +129,8 @@ pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure
 
 fn space_file(path: &Path) -> Result<Space, Failure> {
     let shown = || path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "space", path: shown(), source })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "space", path: shown(), source })?;
     let described = DescribedSpace::from_toml(&text).map_err(|source| Failure::Text { path: shown(), source })?;
     Ok(described.space)
 }

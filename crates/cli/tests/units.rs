@@ -195,5 +195,8 @@ fn what_the_conversion_of_units_rounds_is_said_with_its_bound() {
     assert!(said.contains("\nunit error   at most "), "{said}");
     assert!(!common::stdout(&common::run("toss --rate 1,2,3 --speed 240cm/s")).contains("unit error"));
     let body = json("toss --coin book --rate 1deg/s,2rpm,3deg/s --time 1", 0);
-    assert_eq!((body["unit_error"].clone(), body.as_object().unwrap().contains_key("unit_error")), (value!(null), true));
+    assert_eq!(
+        (body["unit_error"].clone(), body.as_object().unwrap().contains_key("unit_error")),
+        (value!(null), true)
+    );
 }

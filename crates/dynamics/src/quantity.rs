@@ -293,6 +293,6 @@ pub fn read_quantities(
 }
 
 mod given;
-mod typed;
 #[cfg(test)]
 mod tests;
+mod typed;

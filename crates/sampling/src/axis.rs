@@ -23,7 +23,8 @@ const FORMS: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:S
 const FORMS_OF_DEVIATION: &str = "normal:MEAN:SD for a mean and a standard deviation, LO:HI for a range, or VALUE";
 
 /// The numbers of points that a grid may have.
-const GRIDS: &str = "POINTS as a whole number: at least 2 grid points on a range, 1 on a single value or a normal distribution";
+const GRIDS: &str =
+    "POINTS as a whole number: at least 2 grid points on a range, 1 on a single value or a normal distribution";
 
 /// A fixed value, a range or a normal distribution, with the number of points that a grid has on it.
 ///

@@ -55,8 +55,7 @@ impl Rounding {
     /// Whether the time of flight was rounded so that its error has no bound: a landing above the launch may end the flight
     /// near its top, where the time depends on the speed without a bound.
     fn time_is_unbounded(&self, toss: &RigidToss) -> bool {
-        self.flight
-            && matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0)
+        self.flight && matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0)
     }
 
     /// A bound of the angle (rad) between the landing of `toss` and that of the numbers as they were typed: 0 if none was
@@ -161,8 +160,7 @@ mod tests {
         // A rounding is at most an eighth of what the bound allows of each factor.
         assert!(largest > 0.01, "{largest}");
         let body = toss(Body::from_moments([1.0, 2.0, 2.5]).unwrap(), 1.0, TimeOfFlight::Given(1.0));
-        let caught =
-            toss(Coin::DISC, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: -0.1 });
+        let caught = toss(Coin::DISC, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: -0.1 });
         let flight = Rounding { flight: true, ..NONE };
         assert_eq!([flight.error_bound(&body), flight.error_bound(&caught)], [Ok(None), Ok(None)]);
     }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use toss::{
-    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, MOST_POINTS, Nanoseconds, QuaternionSolver, Reason, Registry,
-    Scene, Scheme, SolverEntry, StepControl, Want,
+    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, MOST_POINTS, Nanoseconds, QuaternionSolver,
+    Reason, Registry, Scene, Scheme, SolverEntry, StepControl, Want,
 };
 
 use crate::estimate_answer::name_of;
@@ -160,7 +160,11 @@ impl Args {
 
 fn scene_file(path: &Path) -> Result<Scene, Failure> {
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "scene", path: shown.clone(), source })?;
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read {
+        option: "scene",
+        path: shown.clone(),
+        source,
+    })?;
     let scene = if path.extension().is_some_and(|extension| extension == "json") {
         serde_json::from_str(&text).map_err(|error| {
             let (line, column) = (error.line(), error.column());

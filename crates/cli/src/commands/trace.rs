@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 use toss::{
-    Dimension, EnclosedPoint, MOST_POINTS, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed, trace_enclosed_every,
-    trace_every,
+    Dimension, EnclosedPoint, MOST_POINTS, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed,
+    trace_enclosed_every, trace_every,
 };
 
 use crate::chart;

@@ -32,7 +32,10 @@ fn plans_are_read_back_and_have_defaults() {
     }
     let plain = "{\"method\":\"random\",\"points\":64,\"seed\":18446744073709551615}";
     assert_eq!(serde_json::from_str(plain).ok(), Some(Plan::Random { points: 64, seed: u64::MAX }));
-    assert_eq!(read::<Plan>("method = 'random'\npoints = 64\nseed = '1e6'"), Ok(Plan::Random { points: 64, seed: 1_000_000 }));
+    assert_eq!(
+        read::<Plan>("method = 'random'\npoints = 64\nseed = '1e6'"),
+        Ok(Plan::Random { points: 64, seed: 1_000_000 })
+    );
     assert_eq!(read::<Plan>("method = 'sobol'\npoints = 64"), Ok(Plan::Sobol(Scrambled::new(64, 1))));
     assert_eq!(read::<Plan>("method = 'random'\npoints = 64"), Ok(Plan::Random { points: 64, seed: 1 }));
 }

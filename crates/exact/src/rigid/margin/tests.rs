@@ -130,12 +130,12 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     assert_eq!(rigid_speeds_of_heads(&given, 0.0), Ok(None));
 }
 
-/// v/3 rad/s for 3 T is the motion of v rad/s for T, at a third of the rate. In rad/s a third is rounded, which after 10^8 turns
-/// moves a flip by a part in 10^7 of its distance.
+/// v/3 rad/s for 3 T is the motion of v rad/s for T, at a third of the rate. In rad/s a third is rounded, which after 4 × 10^5
+/// turns moves a flip by some parts in 10^10 of its distance.
 #[test]
 fn rates_in_another_unit_have_the_margins_of_the_same_motion() {
     let thirds = dynamics::AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap());
-    let (rate, time) = ([311.5, -20.25, 500.125], f64::from(1 << 20));
+    let (rate, time) = ([500.125, 311.5, -20.25], 4096.0);
     for moments in [[1.0, 1.0, 0.5], [1.0, 2.0, 2.5]] {
         let body = Body::from_moments(moments).unwrap();
         let plain = RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() };
