@@ -1,7 +1,7 @@
 //! Integrators beside the exact motion: where each lands, what it costs, and how its error grows along the flight.
 
 use serde::{Deserialize, Serialize};
-use toss::{Backend, Error, ExactSolver, Formulation, Launch, Registry, RigidToss, Solver, SolverConfig, TimeOfFlight};
+use toss::{Backend, Error, ExactSolver, Formulation, Registry, RigidToss, Solver, SolverConfig, TimeOfFlight};
 
 use crate::known::scheme_of;
 use crate::thrown::{Thrown, malformed};
@@ -180,7 +180,6 @@ impl Growth {
 
 /// The same toss, caught `time` (s) after its launch.
 fn until(toss: &RigidToss, time: f64) -> Result<RigidToss, Error> {
-    let (rate, unit) = toss.launch.given_rate();
-    let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time))?.with_attitude(toss.launch.attitude());
-    Ok(RigidToss { body: toss.body, launch })
+    let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?;
+    Ok(RigidToss { launch, ..*toss })
 }

@@ -82,7 +82,9 @@ fn class_of(error: &Error) -> (&'static str, Details) {
 fn class_of_input(error: &InputError) -> (&'static str, Details) {
     let (class, valid) = match error {
         InputError::OutOfRange { valid, .. } => ("OutOfRangeError", Some((*valid).to_owned())),
-        InputError::Malformed { expected, .. } => ("MalformedError", Some((*expected).to_owned())),
+        InputError::Malformed { expected, .. } | InputError::LookAlike { expected, .. } => {
+            ("MalformedError", Some((*expected).to_owned()))
+        }
         InputError::Missing { expected, .. } => ("MissingError", Some((*expected).to_owned())),
         InputError::OutsideModel { .. } => ("OutsideModelError", None),
         InputError::NoBody { limit, .. } => ("NoBodyError", Some(format!("at most {limit}"))),

@@ -1,6 +1,7 @@
 //! What commands print of an estimate of P(heads), as JSON and as text: `probability`, which makes one, and `merge`, which
 //! adds its parts.
 
+use crate::output::whole;
 use exact::{ProvenCounts, Stage};
 use sampling::{Counts, Estimate, Found, Interval, IntervalKind, Plan, Rest, Scrambled};
 use serde::Serialize;
@@ -25,7 +26,7 @@ pub(crate) struct Answer {
     /// The number of outcomes that each kind of integration decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) integrated_by: Option<IntegratedBy>,
-    seed: Option<u64>,
+    seed: Option<serde_json::Value>,
     /// The method by which launches were chosen.
     method: &'static str,
 }
@@ -86,7 +87,7 @@ impl Answer {
             certified: proven.is_some(),
             proven_by: proven.map(ProvenBy::from),
             integrated_by: None,
-            seed: seed_of(plan),
+            seed: seed_of(plan).map(whole),
             method: name_of(plan),
         }
     }

@@ -27,9 +27,19 @@ pub(crate) enum Failure {
         /// What is wrong with it.
         message: String,
     },
+    /// The value of an option from which a part follows that is invalid.
+    #[error("--{option}: {source}")]
+    Value {
+        /// The option.
+        option: &'static str,
+        /// What is wrong with the part.
+        source: Error,
+    },
     /// A file that can't be read.
-    #[error("cannot read {path}: {source}")]
+    #[error("{}: cannot read {path}: {source}{}", shown(.option), folder(.source))]
     Read {
+        /// The option that names it.
+        option: &'static str,
         /// The file.
         path: String,
         /// The error of the operating system.
@@ -55,9 +65,11 @@ pub(crate) enum Failure {
     #[error("cannot write standard output: {0}")]
     Print(std::io::Error),
     /// A file that can't be written.
-    #[error("cannot write {target}: {source}")]
+    #[error("{}: cannot write {target}: {source}{}", shown(.option), folder(.source))]
     Write {
-        /// The file, or "standard output".
+        /// The option that names it.
+        option: &'static str,
+        /// The file.
         target: String,
         /// The error of the operating system.
         source: std::io::Error,
@@ -80,6 +92,11 @@ impl From<SolveError> for Failure {
 }
 
 impl Failure {
+    /// An input of the option that `source` may not call by its name.
+    pub(crate) fn value(option: &'static str, source: InputError) -> Self {
+        if source.field() == option { source.into() } else { Self::Value { option, source: source.into() } }
+    }
+
     /// The option `field` can't be used, as `message` says.
     pub(crate) fn usage(field: &'static str, message: impl Into<String>) -> Self {
         Self::Usage { field, message: message.into() }
@@ -110,7 +127,9 @@ impl Failure {
 
     fn kind(&self) -> &'static str {
         match self {
-            Self::Unanswered(error) | Self::Text { source: error, .. } => error.kind(),
+            Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => {
+                error.kind()
+            }
             Self::Arguments(_) | Self::Usage { .. } | Self::Part { .. } => "input",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
@@ -131,12 +150,14 @@ impl Failure {
 
     fn details(&self) -> Value {
         match self {
-            Self::Unanswered(error) => details(error),
+            Self::Unanswered(error) | Self::Value { source: error, .. } => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
-            Self::Read { path, .. } | Self::Part { path, .. } => json!({"path": path}),
-            Self::Arguments(error) => option_of(error).map_or_else(|| json!({}), |field| json!({"field": field})),
+            Self::Part { path, .. } => json!({"path": path}),
+            Self::Read { option, path, .. } | Self::Write { option, target: path, .. } => {
+                json!({"field": option, "path": path})
+            }
+            Self::Arguments(error) => argument_details(error),
             Self::Usage { field, .. } => json!({"field": field}),
-            Self::Write { target, .. } => json!({"path": target}),
             Self::Print(_) | Self::Chart(_) => json!({}),
         }
     }
@@ -151,6 +172,28 @@ fn words(error: &clap::Error) -> String {
     let text = text.strip_prefix("error: ").unwrap_or(&text);
     let end = ["\n\nUsage:", "\n\nFor more information"].iter().filter_map(|rest| text.find(rest)).min();
     text[..end.unwrap_or(text.len())].split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// An option as it is typed; the files of parts have none.
+fn shown(option: &str) -> String {
+    if option == "parts" { "PART".to_owned() } else { format!("--{option}") }
+}
+
+/// What is valid in place of a file that is not there.
+fn folder(error: &std::io::Error) -> &'static str {
+    if error.kind() == std::io::ErrorKind::NotFound { "; expected a file in a folder that exists" } else { "" }
+}
+
+/// The option that clap complains about, and its value.
+fn argument_details(error: &clap::Error) -> Value {
+    let mut details = json!({});
+    if let Some(field) = option_of(error) {
+        details["field"] = json!(field);
+    }
+    if let Some(ContextValue::String(value)) = error.get(ContextKind::InvalidValue) {
+        details["value"] = json!(value);
+    }
+    details
 }
 
 /// The option that clap complains about, without dashes and value.
@@ -181,7 +224,9 @@ fn details(error: &Error) -> Value {
 fn input_details(source: &InputError) -> Value {
     match source {
         InputError::OutOfRange { field, value, valid } => json!({"field": field, "value": value, "valid": valid}),
-        InputError::Malformed { field, value, .. } | InputError::UnknownName { field, value, .. } => {
+        InputError::Malformed { field, value, .. }
+        | InputError::LookAlike { field, value, .. }
+        | InputError::UnknownName { field, value, .. } => {
             json!({"field": field, "value": value})
         }
         other => json!({"field": other.field()}),

@@ -4,6 +4,7 @@ use clap::{ArgMatches, Command};
 use dynamics::quantity::Given;
 use serde_json::{Map, Value};
 
+use crate::output::whole;
 use crate::quantity;
 
 /// What does not change the answer, only where it goes, in which form, and how fast it is there.
@@ -21,7 +22,7 @@ pub(crate) fn input(command: &Command, given: &ArgMatches) -> Map<String, Value>
 
 /// A number where the option is one, else the text as it was given.
 fn value(name: &str, given: &ArgMatches) -> Option<Value> {
-    let whole = || number::<u64>(name, given).or_else(|| number::<u32>(name, given));
+    let whole = || count(name, given).or_else(|| number::<u32>(name, given));
     if let Ok(Some(flag)) = given.try_get_one::<bool>(name) {
         return flag.then(|| true.into());
     }
@@ -45,4 +46,9 @@ fn value(name: &str, given: &ArgMatches) -> Option<Value> {
 /// The value of an option that holds a `T`.
 fn number<T: Into<Value> + Copy + Clone + Send + Sync + 'static>(name: &str, given: &ArgMatches) -> Option<Value> {
     given.try_get_one::<T>(name).ok()?.map(|number| (*number).into())
+}
+
+/// The value of an option that is a count or a seed.
+fn count(name: &str, given: &ArgMatches) -> Option<Value> {
+    given.try_get_one::<u64>(name).ok()?.map(|number| whole(*number))
 }

@@ -23,6 +23,12 @@ pub(crate) fn json(input: &Input, answer: &impl Serialize) -> String {
     plain_json(&Answered { schema: SCHEMA, input, answer })
 }
 
+/// A whole number as JSON: its digits as a text above 2^53, because readers that take numbers for f64, as JavaScript does,
+/// would round it.
+pub(crate) fn whole(number: u64) -> serde_json::Value {
+    if number <= 1 << 53 { number.into() } else { number.to_string().into() }
+}
+
 /// Plain data as JSON: numbers with the fewest digits that read back as the same number, and no -0.
 pub(crate) fn plain_json(value: &impl Serialize) -> String {
     let mut text = Vec::new();

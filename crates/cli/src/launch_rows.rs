@@ -44,18 +44,29 @@ pub(crate) fn read<R: Read>(text: R, body: Body) -> Result<impl Iterator<Item = 
     }))
 }
 
+/// The name of a column that may also be called as in spaces or as its option.
+fn column_name(heading: &str) -> &str {
+    match heading {
+        "rate_x" | "rate-x" => "wx",
+        "rate_y" | "rate-y" => "wy",
+        "rate_z" | "rate-z" => "wz",
+        other => other,
+    }
+}
+
 /// The place of each of [`COLUMNS`] among the headings.
 fn places(headings: &StringRecord) -> Result<[Option<usize>; 8], Failure> {
     let known = COLUMNS.map(|(name, ..)| name);
-    for (column, heading) in headings.iter().enumerate() {
+    let headings: Vec<&str> = headings.iter().map(column_name).collect();
+    for (column, heading) in headings.iter().copied().enumerate() {
         if !known.contains(&heading) && !ANSWERS.contains(&heading) {
             return Err(at(1, column, format!("column '{heading}' is unknown; known: {}", known.join(", "))));
         }
-        if headings.iter().take(column).any(|other| other == heading) {
+        if headings.iter().take(column).any(|other| *other == heading) {
             return Err(at(1, column, format!("column '{heading}' is there twice")));
         }
     }
-    let places = known.map(|name| headings.iter().position(|heading| heading == name));
+    let places = known.map(|name| headings.iter().position(|heading| *heading == name));
     let [x, y, z, speed, time, ..] = places;
     let missing = known.into_iter().zip([x, y, z]).find(|(_, place)| place.is_none()).map(|(name, _)| name);
     let missing = missing.or_else(|| speed.or(time).is_none().then_some("speed or time"));

@@ -2,13 +2,13 @@
 //! the same form.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
-pub(crate) use crate::json::{Input, json, plain_json, without_sign_of_zero};
+pub(crate) use crate::json::{Input, json, plain_json, whole, without_sign_of_zero};
 
 /// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -40,13 +40,14 @@ pub(crate) struct SeriesArgs {
 }
 
 impl SeriesArgs {
-    /// Refuses a format of data that will not be printed, before anything is computed.
+    /// Refuses a format of data that will not be printed, and a chart in a folder that is not there, before anything is computed.
     pub(crate) fn validate(&self) -> Result<(), Failure> {
         match (&self.svg, self.format) {
             (Some(path), Some(_)) if whole_file::leads_to(path) => Err(Failure::usage(
                 "format",
                 "--format has no effect with --svg on standard output, where the chart stands in place of the data",
             )),
+            (Some(path), _) => require_folder("svg", path),
             _ => Ok(()),
         }
     }
@@ -62,11 +63,21 @@ impl SeriesArgs {
             if whole_file::leads_to(path) {
                 return Ok(chart);
             }
-            whole_file::write(path, &chart)
-                .map_err(|source| Failure::Write { target: path.display().to_string(), source })?;
+            whole_file::write(path, &chart).map_err(|source| Failure::Write {
+                option: "svg",
+                target: path.display().to_string(),
+                source,
+            })?;
         }
         Ok(data(self.format.unwrap_or(DataFormat::Csv)))
     }
+}
+
+/// Refuses a file for an answer whose folder is not there, before anything is computed.
+pub(crate) fn require_folder(option: &'static str, path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let found = folder.map_or(Ok(()), |folder| std::fs::metadata(folder).map(drop));
+    found.map_err(|source| Failure::Write { option, target: path.display().to_string(), source })
 }
 
 /// Lines of plain data in `format`.

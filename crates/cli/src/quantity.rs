@@ -1,8 +1,12 @@
-//! Readers of options that are physical quantities. All units come from the table of [`dynamics::quantity`], and every
-//! number that a person types with a unit is converted here and in the axes of spaces, nowhere else.
+//! Readers of options that are numbers: quantities, counts, fractions and tolerances, one reader for each kind, so that all
+//! options have one grammar. What a text may be is decided in [`dynamics::quantity`], for the axes of spaces too.
+//!
+//! A reader says what is valid; clap puts the option and the value before it.
+
+use std::ops::RangeInclusive;
 
 use dynamics::Dimension;
-use dynamics::quantity::{Given, read_quantities};
+use dynamics::quantity::{Given, look_alike, read_count, read_fraction, read_quantities};
 use toss::InputError;
 
 /// What is expected of three rates.
@@ -19,19 +23,49 @@ const INERTIA: &str = "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg
 
 /// A reader of an option that is a quantity of this kind, in the SI unit.
 pub(crate) fn of(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
-    move |text| dimension.read("", text).map_err(|_| format!("expected {}", dimension.expected()))
+    move |text| dimension.read("", text).map_err(|_| expected(text, dimension.expected()))
 }
 
 /// As [`of`], but in the unit that was given, so that nothing is rounded.
 pub(crate) fn given(dimension: Dimension) -> impl Fn(&str) -> Result<Given, String> + Clone + Send + Sync + 'static {
-    move |text| dimension.given("", text).map_err(|_| format!("expected {}", dimension.expected()))
+    move |text| dimension.given("", text).map_err(|_| expected(text, dimension.expected()))
 }
 
-/// A probability or another part of a whole, such as `0.95` or `95%`.
-pub(crate) fn part(text: &str) -> Result<f64, String> {
-    let (number, whole) = text.trim().strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
-    let part = number.trim().parse::<f64>().map(|number| number / whole);
-    part.map_err(|_| "expected a number, or a percentage such as 95%".to_owned())
+/// A reader of a whole number in a range, such as `1000` or `1e6`.
+pub(crate) fn count<T: TryFrom<u64>>(
+    range: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let valid = || {
+            let (least, most) = (range.start(), range.end());
+            let to = if *most == u64::MAX { " to 2^64 - 1".to_owned() } else { format!(" to {most}") };
+            expected(text, &format!("a whole number from {least}{to}, such as 1000 or 1e3"))
+        };
+        let number = read_count(text).filter(|number| range.contains(number));
+        number.and_then(|number| T::try_from(number).ok()).ok_or_else(valid)
+    }
+}
+
+/// A reader of a seed.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    count(0..=u64::MAX)(text)
+}
+
+/// A reader of a probability or another part of a whole, such as `0.95` or `95%`.
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
+    read_fraction(text).ok_or_else(|| expected(text, "a part of a whole, such as 0.95 or 95%"))
+}
+
+/// A reader of an accuracy or a tolerance.
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| expected(text, "a number > 0, such as 1e-9"))
+}
+
+/// What is wrong with a text that is not what was `expected`.
+fn expected(text: &str, expected: &str) -> String {
+    let look_alike = look_alike(text)
+        .map(|(found, meant)| format!("'{found}' (U+{:04X}) only looks like '{meant}'; ", u32::from(found)));
+    format!("{}expected {expected}", look_alike.unwrap_or_default())
 }
 
 /// An option that is a list of quantities, in SI units; `None` for any other option.
@@ -85,7 +119,7 @@ fn each(
 }
 
 fn malformed(field: &'static str, text: &str, expected: &'static str) -> InputError {
-    InputError::Malformed { field, value: text.to_owned(), expected }
+    InputError::unreadable(field, text, expected)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use dynamics::quantity::read_count;
 use sampling::{Plan, Sampler, Space, Tally};
 
 use crate::failure::Failure;
@@ -15,7 +16,8 @@ use crate::space_args::ThreadArgs;
 #[derive(Debug, Args)]
 pub(crate) struct ShardArgs {
     /// Compute part I of N equal parts, from 1 to N, and write it to --out; `merge` adds the parts
-    #[arg(long, value_name = "I/N", requires_all = ["out", "method"], value_parser = shard)]
+    #[arg(long, value_name = "I/N", requires_all = ["out", "method"], allow_hyphen_values = true,
+          value_parser = shard)]
     shard: Option<Shard>,
     /// File for the part; if it holds this part already, nothing is computed; - is standard output
     #[arg(long, value_name = "FILE", requires = "shard")]
@@ -31,11 +33,10 @@ struct Shard {
 
 /// Reads `I/N`.
 fn shard(text: &str) -> Result<Shard, String> {
-    let expected = || format!("'{text}' is not I/N with whole numbers, I from 1 to N");
+    let expected = || "expected I/N with whole numbers, I from 1 to N".to_owned();
     let (index, number) = text.split_once('/').ok_or_else(expected)?;
-    let [index, number] = [index, number].map(str::parse);
-    match (index, number) {
-        (Ok(index), Ok(number)) if (1..=number).contains(&index) => Ok(Shard { index, number }),
+    match (read_count(index), read_count(number)) {
+        (Some(index), Some(number)) if (1..=number).contains(&index) => Ok(Shard { index, number }),
         _ => Err(expected()),
     }
 }
@@ -68,6 +69,7 @@ impl ShardArgs {
         if !sampler.is_exact() {
             return Err(Failure::usage("solver", "--solver has no parts: --shard takes the exact motion"));
         }
+        output::require_folder("out", path)?;
         let range = shard.range(plan.points(space)?);
         let there = already_there(path, space, plan, &range)?;
         if !there {
@@ -78,7 +80,11 @@ impl ShardArgs {
                 return Ok(text);
             }
             let target = || path.display().to_string();
-            whole_file::write(path, &(text + "\n")).map_err(|source| Failure::Write { target: target(), source })?;
+            whole_file::write(path, &(text + "\n")).map_err(|source| Failure::Write {
+                option: "out",
+                target: target(),
+                source,
+            })?;
         }
         let Shard { index, number } = shard;
         let (file, was) = (path.display(), if there { ", which held it already" } else { "" });
@@ -96,7 +102,8 @@ fn already_there(path: &Path, space: &Space, plan: Plan, range: &Range<u64>) -> 
         return Ok(false);
     }
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown.clone(), source })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "out", path: shown.clone(), source })?;
     match serde_json::from_str::<Tally>(&text) {
         Ok(tally) if (tally.space(), tally.plan(), tally.range()) == (space, plan, range.clone()) => Ok(true),
         Ok(_) => Err(Failure::part(&shown, "it holds another part; remove it to write this one".to_owned())),

@@ -20,7 +20,8 @@ pub(crate) struct SolverArgs {
     solver: String,
     #[arg(long, value_name = "NAME", help = scheme_help(Registry::standard()))]
     scheme: Option<String>,
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true, help = tolerance_help(Registry::standard()))]
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true, value_parser = quantity::tolerance,
+          help = tolerance_help(Registry::standard()))]
     tolerance: Option<f64>,
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time),
           help = step_help(Registry::standard()))]

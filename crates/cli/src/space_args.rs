@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use clap::Args;
-use sampling::{AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space};
+use sampling::{
+    AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces,
+};
 use toss::{Coin, Dimension, Error};
 
 use crate::failure::Failure;
@@ -49,7 +51,7 @@ pub(crate) struct SpaceArgs {
     drop: Option<f64>,
     /// A hand: each rate and the speed that has a single value is normal around it, with the standard deviation S times
     /// the value; at most 12%
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::part)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::fraction)]
     spread: Option<f64>,
 }
 
@@ -110,13 +112,25 @@ impl SpaceArgs {
 /// The space with this name or in this file. A coin or body that is given replaces that of the space.
 pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
     let body = coin.given()?;
-    let space = if name.ends_with(".toml") { space_file(Path::new(name))? } else { named_space(name)? };
+    let space = if name.ends_with(".toml") {
+        space_file(Path::new(name))?
+    } else if name.contains(['.', '/', '\\']) {
+        let known: Vec<&str> = named_spaces().map(|(name, _)| name).collect();
+        let message = format!(
+            "space = '{name}' can't be used: expected a file that ends in .toml, or one of {}",
+            known.join(", ")
+        );
+        return Err(Failure::usage("space", message));
+    } else {
+        named_space(name)?
+    };
     Ok(body.map_or(space, |body| space.with_body(body)))
 }
 
 fn space_file(path: &Path) -> Result<Space, Failure> {
     let shown = || path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown(), source })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "space", path: shown(), source })?;
     let described = DescribedSpace::from_toml(&text).map_err(|source| Failure::Text { path: shown(), source })?;
     Ok(described.space)
 }
@@ -126,10 +140,10 @@ fn space_file(path: &Path) -> Result<Space, Failure> {
 pub(crate) struct PlanArgs {
     /// Number of launches [default: 250000 for random, 262144 for sobol, 1024 per node of a map, at most 65536 of a body
     /// with I1 ≠ I2; exact-speed takes the grid of the other axes if all have points, else as many launches as sobol]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=u64::MAX))]
     points: Option<u64>,
     /// Seed of the random launches or of the scrambles [default: 1]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: Option<u64>,
 }
 
@@ -245,11 +259,14 @@ pub(crate) fn require_few(sampler: &Sampler<'_>, launches: u64) -> Result<(), Fa
     Err(Failure::usage("points", format!("{launches} launches would take too long: at most {most} by {by}")))
 }
 
+/// The largest number of threads.
+const MOST_THREADS: u64 = 1024;
+
 /// Option for the number of threads.
 #[derive(Debug, Args)]
 pub(crate) struct ThreadArgs {
     /// Number of threads [default: one per core]
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = quantity::count::<usize>(1..=MOST_THREADS))]
     threads: Option<usize>,
 }
 
@@ -276,15 +293,8 @@ impl ThreadArgs {
     }
 
     fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
-        const MOST_THREADS: usize = 1024;
-        let threads = match self.threads {
-            None => 0,
-            Some(threads @ 1..=MOST_THREADS) => threads,
-            Some(threads) => {
-                let message = format!("threads = {threads}: valid are 1 to {MOST_THREADS}");
-                return Err(Failure::usage("threads", message));
-            }
-        };
+        // 0 means one thread per core.
+        let threads = self.threads.unwrap_or(0);
         let build = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         build.map_err(|error| Failure::usage("threads", format!("threads = {threads}: {error}")))
     }

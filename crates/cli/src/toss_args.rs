@@ -37,14 +37,25 @@ pub(crate) struct CoinArgs {
 
 impl CoinArgs {
     /// The body, if one of the options was given.
-    pub(crate) fn given(&self) -> Result<Option<Body>, InputError> {
+    pub(crate) fn given(&self) -> Result<Option<Body>, Failure> {
+        let named = |source: InputError| Failure::value(self.option(), source);
         if let Some(text) = &self.cylinder {
             let [mass, radius, thickness] = quantity::cylinder(text)?.map(Given::quantity);
-            return Coin::from_cylinder(mass, radius, thickness).map(|coin| Some(coin.into()));
+            return Coin::from_cylinder(mass, radius, thickness).map(|coin| Some(coin.into())).map_err(named);
         }
         match self.elements()? {
-            Some(elements) => self.of_elements(elements.into_iter().map(Given::si).collect()).map(Some),
-            None => self.coin.as_deref().map(str::parse).transpose(),
+            Some(elements) => self.of_elements(elements.into_iter().map(Given::si).collect()).map(Some).map_err(named),
+            None => Ok(self.coin.as_deref().map(str::parse).transpose()?),
+        }
+    }
+
+    /// The option that gives the body.
+    fn option(&self) -> &'static str {
+        match (&self.cylinder, &self.moments, &self.inertia) {
+            (Some(_), ..) => "cylinder",
+            (_, Some(_), _) => "moments",
+            (.., Some(_)) => "inertia",
+            _ => "coin",
         }
     }
 
@@ -57,13 +68,7 @@ impl CoinArgs {
 
     /// The error of a body with I1 ≠ I2 where a coin is needed.
     pub(crate) fn refused(&self, why: &str) -> Failure {
-        let option = if self.inertia.is_some() {
-            "inertia"
-        } else if self.moments.is_some() {
-            "moments"
-        } else {
-            "coin"
-        };
+        let option = self.option();
         Failure::usage(option, format!("--{option}: this body has I1 ≠ I2, and {why}"))
     }
 

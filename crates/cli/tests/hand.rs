@@ -53,7 +53,7 @@ fn tosses_that_are_always_or_never_heads_say_so() {
         ("spread --rate 1,1,1 --time 1 --heads 0.9", ["--time", "--speed is needed"]),
         ("spread --rate 1,1,1 --speed 3 --heads 0", ["heads = 0.0", "above 0 and below 1"]),
         ("spread --rate 1,1,1 --speed 3 --heads 100%", ["heads = 1.0", "above 0 and below 1"]),
-        ("spread --rate 1,1,1 --speed 3 --heads many", ["--heads", "a percentage"]),
+        ("spread --rate 1,1,1 --speed 3 --heads many", ["--heads", "a part of a whole, such as 0.95 or 95%"]),
         ("spread --rate 1,1,1 --speed 3 --heads 0.9 --points 9", ["points = '9'", "a multiple of"]),
         ("spread --rate 1,1,1 --speed 3", ["--heads", "required"]),
         ("probability --space paper-fig4 --spread 13%", ["spread = 0.13", "0 to 0.12"]),

@@ -35,6 +35,8 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate 1,1,2.5 --time 1 --inertia 2,3,4,0.1,0.2,0.3",
             "--coin racket --rate 1,12,3 --speed 3 --margin",
             "--rate 1,1,2.5 --time 1 --solver quaternion --prove",
+            "--rate 1,1,2.5 --speed 240cm/s",
+            "--coin book --rate 1rpm,1deg/s,2rpm --time 1",
         ],
     ),
     (
@@ -50,10 +52,11 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--space paper-fig4 --method exact-speed",
             "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method quadrature --accuracy 1e-6",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
+            "--space tails --method random --points 9 --seed 18446744073709551615",
             "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
         ],
     ),
-    ("merge", &["PART-OF-RANDOM", "PART-OF-GRID", "PART-OF-EXACT-SPEED"]),
+    ("merge", &["PART-OF-RANDOM", "PART-OF-GRID", "PART-OF-EXACT-SPEED", "PART-OF-SOBOL"]),
     (
         "compare",
         &[
@@ -95,10 +98,11 @@ fn every_field_of_every_command_is_documented_and_every_documented_field_is_foun
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
     std::fs::write(&scene, "accuracy = 1e-9\n[want.tilt]\nlaunch = { rate = [1, 1, 2], speed = 3 }\n").unwrap();
-    let parts = ["RANDOM", "GRID", "EXACT-SPEED"].map(|method| {
+    let parts = ["RANDOM", "GRID", "EXACT-SPEED", "SOBOL"].map(|method| {
         let path = folder.path().join(format!("{method}.json")).display().to_string();
         let space = if method == "EXACT-SPEED" { "tails" } else { "paper-fig4" };
-        let options = format!("--space {space} --method {} --shard 1/1 --out {path}", method.to_lowercase());
+        let seed = if method == "SOBOL" { "--seed 18446744073709551615" } else { "" };
+        let options = format!("--space {space} --method {} {seed} --shard 1/1 --out {path}", method.to_lowercase());
         assert_eq!(run(&format!("probability {options}")).status.code(), Some(0));
         (format!("PART-OF-{method}"), path)
     });

@@ -117,7 +117,7 @@ fn what_would_never_end_or_fit_is_refused() {
         ),
         (
             "convergence --rate-x 0:1:2000000 --rate-y 0 --rate-z 1 --speed 1 --steps 1000001",
-            ["steps = 1000001", "1000000"],
+            ["'1000001' for '--steps", "from 1 to 1000000"],
         ),
         ("map --rate-x 0:9:10000 --rate-y 0 --rate-z 1:9:10000 --speed 3:5", ["10000 × 10000 points", "1000000 nodes"]),
         (&format!("map --rate-x 0:9:{large} --rate-y 0 --rate-z 1:9:{large} --speed 3:5"), ["rate x", "2 to 10000"]),

@@ -55,7 +55,7 @@ fn bad_input_ends_with_2_and_names_field_value_and_range() {
             "toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor --step 1e-3",
             ["--step is for rk4", "taylor takes --tolerance"],
         ),
-        ("trace --rate 1,1,1 --time 1 --points 1", ["points = '1'", "2 to 1000000"]),
+        ("trace --rate 1,1,1 --time 1 --points 1", ["'1' for '--points", "from 2 to 1000000"]),
         (
             "trace --rate 1,1,1 --time 1 --points 3 --svg /no/such/folder/x.svg",
             ["/no/such/folder/x.svg", "cannot write"],

@@ -103,7 +103,7 @@ fn columns_are_found_by_their_heading_and_may_have_units() {
     let timed = rows(&stdout(&fed("sample -", "wx,wy,wz,time,speed\n1,1,2.5,0.5,\n1,1,2.5,,3\n")));
     assert_eq!((timed[0][3].as_str(), timed[0][4].as_str(), timed[0][5].as_str()), ("", "0.5", ""));
     assert_eq!((timed[1][3].as_str(), timed[1][4].as_str()), ("3.0", ""));
-    assert_eq!(stdout(&fed("sample -", "wx,wy,wz,time\n")), "");
+    assert_eq!(stdout(&fed("sample -", "wx,wy,wz,time\n")), format!("{HEADING}\n"));
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn options_that_do_not_fit_are_refused() {
         ("sample --space tails", ["--points N is needed", "number of launches"]),
         ("sample --space tails --method grid --points 3", ["--points: a grid", "axes"]),
         ("sample --space tails --method grid --seed 3", ["--seed", "grid"]),
-        ("sample --space tails --points 0", ["points = 0.0", "at least 1"]),
+        ("sample --space tails --points 0", ["'0' for '--points", "from 1 to 2^64 - 1"]),
         ("sample --points 3", ["a space is needed", "--space"]),
         ("sample - --points 3", ["--points", "cannot be used with"]),
         ("sample - --tilt 3", ["--tilt", "cannot be used with"]),
@@ -192,4 +192,22 @@ fn a_reader_that_goes_away_ends_it_quietly() {
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+}
+
+#[test]
+fn a_table_without_rows_has_its_heading_and_columns_may_be_called_as_options() {
+    let text = |arguments: &str, input: &str| {
+        let output = fed(arguments, input);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+    };
+    assert_eq!(text("sample -", "wx,wy,wz,speed\n"), format!("{HEADING}\n"));
+    assert_eq!(text("sample - --format json", "wx,wy,wz,speed\n"), "");
+    let expected = text("sample -", "wx,wy,wz,speed\n1,2,3,4\n");
+    assert_eq!(text("sample -", "rate_x,rate-y,wz,speed\n1,2,3,4\n"), expected);
+    assert_eq!(rows(&expected).len(), 1);
+    let twice = fed("sample -", "rate_x,wx,wy,wz,speed\n1,1,2,3,4\n");
+    assert!(twice.status.code() == Some(2) && stderr(&twice).contains("column 'wx' is there twice"));
+    // An error before the first row has no table before it.
+    assert!(fed("sample -", "wx,wy,wz,speed\n1,2,3,x\n").stdout.is_empty());
 }

@@ -97,7 +97,7 @@ fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
 fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
     assert_refused(&[
         ("probability --space moon --method grid", ["space = 'moon'", "paper-fig4"]),
-        ("probability --space tails --method random --points 0", ["points = 0.0", "at least 1"]),
+        ("probability --space tails --method random --points 0", ["'0' for '--points", "from 1 to 2^64 - 1"]),
         ("probability --space tails --method grid --points 9", ["--points: a grid", "axes"]),
         ("probability --space tails --method sobol --points 9", ["points = '9'", "a multiple of"]),
         ("probability --space tails --method exact-speed --solver gamma", ["solver = 'gamma'", "exact-speed"]),
@@ -113,7 +113,7 @@ fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
             ["gravity [m/s²] = 0.0", "> 0"],
         ),
         ("probability --method grid", ["--space", "--rate-x"]),
-        ("probability --space tails --method grid --threads 0", ["threads = 0", "1 to 1024"]),
+        ("probability --space tails --method grid --threads 0", ["'0' for '--threads", "from 1 to 1024"]),
         (
             "probability --rate-x 5:3 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
             ["rate x [rad/s] = 3.0", "at or above the lower bound"],
@@ -124,16 +124,16 @@ fn bad_spaces_and_plans_end_with_2_and_name_field_value_and_range() {
         ),
         (
             "probability --rate-x 0:3:0 --rate-y x --rate-z 1 --speed 3:5:9 --method grid",
-            ["rate x [rad/s] = 0.0", "at least 2 grid points"],
+            ["rate x [rad/s] = '0:3:0'", "at least 2 grid points"],
         ),
         ("probability --rate-x 1 --rate-y x --rate-z 1 --speed -1:5:9 --method grid", ["speed [m/s] = -1.0", ">= 0"]),
         ("map --rate-x 0:9 --rate-y 0 --rate-z 1:2:3 --speed 4", ["rate x [rad/s] = '0:9'", "LO:HI:POINTS"]),
         ("map --rate-x 0:9:3 --rate-y 0 --rate-z 1 --speed 4", ["rate z [rad/s] = '1'", "2 to 10000"]),
         ("map --rate-x 0:9:3 --rate-y x --rate-z 1 --speed 4 --up rate_y", ["rate y [rad/s] = 'x'", "not tied"]),
-        ("map --space paper-fig4 --up omega", ["coordinate = 'omega'", "rate_x, rate_y"]),
+        ("map --space paper-fig4 --up omega", ["up = 'omega'", "rate_x, rate_y"]),
         ("map --space paper-fig4 --up rate_x", ["rate x [rad/s] = 'rate_x'", "two different"]),
         ("convergence --rate-x 0:9 --rate-y x --rate-z 1 --speed 4", ["rate x [rad/s] = '0:9'", "a grid"]),
-        ("convergence --space tails --steps 0", ["steps = 0.0", "at least 1"]),
+        ("convergence --space tails --steps 0", ["'0' for '--steps", "from 1 to 1000000"]),
         ("convergence --space tails --steps 501", ["steps = 501.0", "at most the number of launches"]),
         ("convergence --space tails --svg /no/such/folder/x.svg", ["/no/such/folder/x.svg", "cannot write"]),
     ]);

@@ -8,6 +8,8 @@ use thiserror::Error;
 
 pub use solve::{Fault, Reason, Singularity, SolveError};
 
+use crate::quantity::look_alike;
+
 /// An input value that describes no toss. It is found before anything is computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -29,6 +31,23 @@ pub enum InputError {
         field: &'static str,
         /// What was given.
         value: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// Text with a character that looks like one of a number or a unit, and is another.
+    #[error(
+        "{field} = '{value}' can't be used: '{found}' (U+{code:04X}) only looks like '{meant}'; expected {expected}",
+        code = u32::from(*.found)
+    )]
+    LookAlike {
+        /// The field, with its unit.
+        field: &'static str,
+        /// What was given.
+        value: String,
+        /// The character that was found.
+        found: char,
+        /// The character that it looks like.
+        meant: char,
         /// What was expected.
         expected: &'static str,
     },
@@ -73,11 +92,21 @@ pub enum InputError {
 }
 
 impl InputError {
+    /// The error of a text that can't be read as a value of the field.
+    pub fn unreadable(field: &'static str, text: &str, expected: &'static str) -> Self {
+        let value = text.to_owned();
+        match look_alike(text) {
+            Some((found, meant)) => Self::LookAlike { field, value, found, meant, expected },
+            None => Self::Malformed { field, value, expected },
+        }
+    }
+
     /// The field that is at fault.
     pub fn field(&self) -> &'static str {
         match self {
             Self::OutOfRange { field, .. }
             | Self::Malformed { field, .. }
+            | Self::LookAlike { field, .. }
             | Self::Missing { field, .. }
             | Self::OutsideModel { field, .. }
             | Self::NoBody { field, .. }

@@ -2,7 +2,7 @@
 //! leaves the hand; a [`Toss`] is a launch with its coin, and is all that a solver takes.
 
 use nalgebra::Vector3;
-use numerics::{Angle, AngleUnit, UNIT_ROUNDOFF};
+use numerics::{Angle, AngleUnit, DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
@@ -62,6 +62,16 @@ impl Launch {
         Ok(Self::new(state.rate, time_of_flight)?.with_attitude(state.attitude))
     }
 
+    /// The same launch with another time of flight. The body rate stays as it was given, in its unit.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for an impossible time of flight.
+    pub fn with_time_of_flight(self, time_of_flight: TimeOfFlight) -> Result<Self, InputError> {
+        // As in `new`, -0 is 0.
+        let flight_time = time_of_flight.validated_seconds()? + 0.0;
+        Ok(Self { time_of_flight, flight_time, ..self })
+    }
+
     /// The same launch with this attitude (from BF to LF, the laboratory frame).
     #[must_use]
     pub fn with_attitude(self, attitude: Attitude) -> Self {
@@ -83,6 +93,16 @@ impl Launch {
     #[inline]
     pub fn given_rate(&self) -> (Vector3<f64>, AngleUnit) {
         self.given_rate.unwrap_or((self.rate, AngleUnit::RADIAN))
+    }
+
+    /// ω at launch (BF, rad/s) as it was given: without an error if that was in rad/s, else to 16 u² of each component, with
+    /// u = 2^-53, as far as none of its digits is below the range of f64. The leading parts are those of [`Launch::rate`].
+    #[inline]
+    pub fn exact_rate(&self) -> [DoubleDouble; 3] {
+        match self.given_rate {
+            None => <[f64; 3]>::from(self.rate).map(DoubleDouble::exactly),
+            Some((rate, unit)) => <[f64; 3]>::from(rate).map(|part| unit.times(part).double_double()),
+        }
     }
 
     /// ω at launch (BF, rad/s), to rounding where it was given in another unit. `<[f64; 3]>::from` makes an array of it.

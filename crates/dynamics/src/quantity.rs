@@ -12,6 +12,8 @@ use numerics::{Angle, AngleUnit, Quantity, Unit};
 
 use crate::error::InputError;
 
+pub use typed::{look_alike, read_count, read_fraction};
+
 /// The kind of a physical quantity, which decides the units that it may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
@@ -244,8 +246,8 @@ impl Dimension {
     /// # Errors
     /// As [`Dimension::read`].
     pub fn given(self, field: &'static str, text: &str) -> Result<Given, InputError> {
-        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: self.expected() };
-        self.parsed(text).map(|(given, _)| given).ok_or_else(malformed)
+        let unreadable = || InputError::unreadable(field, text, self.expected());
+        self.parsed(text).map(|(given, _)| given).ok_or_else(unreadable)
     }
 
     /// The quantity, and whether it has a unit of its own; `None` if there is no number, or another unit.
@@ -280,7 +282,7 @@ pub fn read_quantities(
     expected: &'static str,
     parts: &[(Dimension, &str)],
 ) -> Result<Vec<Given>, InputError> {
-    let malformed = |expected| InputError::Malformed { field, value: whole.to_owned(), expected };
+    let malformed = |expected| InputError::unreadable(field, whole, expected);
     let parsed = parts.iter().map(|(dimension, text)| dimension.parsed(text).ok_or_else(|| malformed(expected)));
     let parsed = parsed.collect::<Result<Vec<(Given, bool)>, _>>()?;
     let lacks_unit = |(given, has_unit): &(Given, bool)| !has_unit && given.value != 0.0;
@@ -293,3 +295,4 @@ pub fn read_quantities(
 mod given;
 #[cfg(test)]
 mod tests;
+mod typed;

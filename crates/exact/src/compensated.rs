@@ -4,7 +4,8 @@
 //! In plain f64 the phases ωL T and q T are off by a few roundings, and the error of cos θ grows with them. Here the
 //! rounding error of each operation is carried along to first order. For products and sums it is computed exactly; for
 //! the quotient and the root it follows from the residual of multiplying them out. The phases φ are then right to a few
-//! u² φ, with u = 2^-53, and the rounding of sine, cosine and the result is what remains.
+//! u² φ, with u = 2^-53, and the rounding of sine, cosine and the result is what remains. Rates that were not given in rad/s
+//! are left to the exact motion, which takes them as they were given.
 
 use dynamics::phase::require_phase;
 use dynamics::{Attitude, SolveError, State, Toss};
@@ -13,6 +14,7 @@ use numerics::DoubleDouble;
 use numerics::double_double::two_sum;
 use numerics::scale::power_of_two_scale;
 
+use crate::motion::ExactMotion;
 use crate::tilt_terms::{SLOWEST_SQUARED, TiltTerms};
 
 /// The angular momentum divided by I1, L = (ωx, ωy, k ωz), in the body frame (BF).
@@ -81,6 +83,9 @@ pub(crate) fn turned([rate, rest]: [f64; 2], toss: &Toss, unit: f64) -> Result<D
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub fn compensated_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+    if toss.launch.rate_error() != 0.0 {
+        return ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
+    }
     let Momentum { vector, squared, rate, unit } = Momentum::new(toss);
     let phase = turned(rate, toss, unit)?;
     let spin = (toss.coin.inertia_ratio() - 1.0) * toss.launch.rate().z;
@@ -98,6 +103,9 @@ pub fn compensated_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
 pub fn compensated_landing(toss: &Toss) -> Result<State, SolveError> {
+    if toss.launch.rate_error() != 0.0 {
+        return ExactMotion::new(toss).state(toss.launch.time_of_flight());
+    }
     let Momentum { vector, rate: precession_rate, unit, .. } = Momentum::new(toss);
     let phase = turned(precession_rate, toss, unit)?;
     let spin = turned(spin_rate(toss, unit), toss, unit)?;
@@ -128,7 +136,6 @@ mod tests {
     use dynamics::{Coin, Launch, TimeOfFlight};
 
     use super::*;
-    use crate::motion::ExactMotion;
 
     /// The bounds are the same after 3 s and after 10^7 s.
     #[test]

@@ -56,15 +56,15 @@ impl ExactMotion {
     pub fn new(toss: &Toss) -> Self {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
         let k = toss.coin.exact_inertia_ratio();
-        let scale = power_of_two_scale(rate.amax());
-        let (direction, precession_rate) = unit_momentum(&(rate / scale), k);
+        let (scaled, exponent) = scaled_rate(toss);
+        let (direction, precession_rate) = unit_momentum(scaled, k);
         let [s_x, s_y, s_z] = direction;
         Self {
             launch: State { attitude, rate },
-            exponent: mantissa_and_exponent(scale).1,
+            exponent,
             momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
             precession_rate,
-            spin_rate: (k - 1.0.into()) * (rate.z / scale),
+            spin_rate: (k - 1.0.into()) * scaled[2],
             tilt: terms(attitude.exact_vertical(), direction, s_x * s_x + s_y * s_y),
         }
     }
@@ -187,17 +187,23 @@ impl ExactMotion {
 
 /// ŝ, the direction of S at the launch of a toss (BF); ẑ without a precession.
 pub(crate) fn momentum_direction(toss: &Toss) -> [DoubleDouble; 3] {
-    let rate = toss.launch.rate();
-    unit_momentum(&(rate / power_of_two_scale(rate.amax())), toss.coin.exact_inertia_ratio()).0
+    unit_momentum(scaled_rate(toss).0, toss.coin.exact_inertia_ratio()).0
 }
 
-/// ŝ and ωL for a `rate` (BF) in a unit that is near its largest component.
-fn unit_momentum(rate: &Vector3<f64>, k: DoubleDouble) -> ([DoubleDouble; 3], DoubleDouble) {
-    let spin = k * rate.z;
+/// The rate of a toss (BF) as it was given, in a unit near its largest component: 2 to the power of the second number
+/// (rad/s).
+fn scaled_rate(toss: &Toss) -> ([DoubleDouble; 3], i32) {
+    let (_, exponent) = mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax()));
+    (toss.launch.exact_rate().map(|part| part.times_power_of_two(-exponent)), exponent)
+}
+
+/// ŝ and ωL for a rate (BF) in a unit that is near its largest component.
+fn unit_momentum([x, y, z]: [DoubleDouble; 3], k: DoubleDouble) -> ([DoubleDouble; 3], DoubleDouble) {
+    let spin = k * z;
     // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
-    let unit = power_of_two_scale(rate.x.abs().max(rate.y.abs()).max(spin.hi().abs()));
+    let unit = power_of_two_scale(x.hi().abs().max(y.hi().abs()).max(spin.hi().abs()));
     let (_, unit_exponent) = mantissa_and_exponent(unit);
-    let momentum = [(rate.x / unit).into(), (rate.y / unit).into(), spin.times_power_of_two(-unit_exponent)];
+    let momentum = [x, y, spin].map(|part| part.times_power_of_two(-unit_exponent));
     let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
     let direction =
         if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };

@@ -2,7 +2,7 @@
 //! is proportional to the speed, and [`speeds_of_heads`] has the answer. A landing at h below the launch has the time
 //! T = (v0 + √(v0² + 2 g h))/g, which a throw at u = g T/2 has without the drop; back from it, v0 = u - g h/(2 u).
 
-use dynamics::{Launch, SolveError, TimeOfFlight, Toss};
+use dynamics::{SolveError, TimeOfFlight, Toss};
 
 use crate::margin::speeds_of_heads;
 
@@ -22,8 +22,7 @@ pub fn thrown_speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f
     let as_level = TimeOfFlight::Ballistic { speed: to, gravity };
     // The time of flight is that of the valid launch to rounding, so that only the largest of all f64 can be too large.
     let too_large = |_| SolveError::PhaseTooLarge { phase: f64::MAX };
-    let launch = Launch::new(toss.launch.rate(), as_level).map_err(too_large)?;
-    let level_toss = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
+    let level_toss = Toss { launch: toss.launch.with_time_of_flight(as_level).map_err(too_large)?, ..*toss };
     let speed_of = |level: f64| match level {
         end if end <= from => slowest,
         end if end >= to => speed,
@@ -34,7 +33,7 @@ pub fn thrown_speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Outcome};
+    use dynamics::{Coin, Launch, Outcome};
     use nalgebra::Vector3;
 
     use super::*;

@@ -102,9 +102,10 @@ impl Angle {
         size.value() == 0.0
     }
 
-    /// The angle (rad) to 16 u², unless it leaves the range of f64.
+    /// The angle (rad) to 16 u²; above 1e290 turns it is rounded to f64. It may be infinite, or lose digits below the
+    /// range of f64.
     #[inline]
-    fn double_double(self) -> DoubleDouble {
+    pub fn double_double(self) -> DoubleDouble {
         match self {
             Self::Radians(radians) => radians.double_double(),
             Self::Turns(turns) => {

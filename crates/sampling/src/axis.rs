@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use dynamics::error::require;
-use dynamics::quantity::{Given, read_quantities};
+use dynamics::quantity::{Given, read_count, read_quantities};
 use dynamics::{Dimension, InputError};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -18,6 +18,13 @@ pub const NORMAL_REACH: f64 = 8.3;
 
 /// The forms of an axis as a text.
 const FORMS: &str = "VALUE, LO:HI, LO:HI:POINTS, normal:MEAN:SD or normal:MEAN:SD:POINTS";
+
+/// The same for a text with `±`.
+const FORMS_OF_DEVIATION: &str = "normal:MEAN:SD for a mean and a standard deviation, LO:HI for a range, or VALUE";
+
+/// The numbers of points that a grid may have.
+const GRIDS: &str =
+    "POINTS as a whole number: at least 2 grid points on a range, 1 on a single value or a normal distribution";
 
 /// A fixed value, a range or a normal distribution, with the number of points that a grid has on it.
 ///
@@ -86,8 +93,9 @@ impl Axis {
     /// [`InputError::OutOfRange`] that names `of` for
     /// - a range that is not finite or is reversed,
     /// - a mean that is not finite, a standard deviation that is not positive, or one so large that values leave the
-    ///   range of f64,
-    /// - zero grid points, or a single one on a range of more than one value.
+    ///   range of f64.
+    ///
+    /// [`InputError::Malformed`] for zero grid points, or a single one on a range of more than one value.
     pub(crate) fn validated(self, of: Coordinate) -> Result<Self, InputError> {
         match self.distribution {
             Distribution::Uniform { lo, hi } => {
@@ -106,11 +114,9 @@ impl Axis {
             Distribution::Uniform { lo, hi } if lo < hi => 2,
             _ => 1,
         };
-        let points = self.points.unwrap_or(fewest);
-        #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
-        let shown = points as f64;
-        let valid = "at least 2 grid points on a range, 1 on a single value or a normal distribution";
-        require(of.field(), shown, valid, points >= fewest)?;
+        if self.points.is_some_and(|points| points < fewest) {
+            return Err(InputError::Malformed { field: of.field(), value: self.to_string(), expected: GRIDS });
+        }
         Ok(self)
     }
 
@@ -124,7 +130,11 @@ impl Axis {
             let starts_as_number =
                 |text: &str| text.trim_start_matches(['-', '.']).starts_with(|c: char| c.is_ascii_digit());
             let has_unit = |text: &&str| text.parse::<f64>().is_err() && starts_as_number(text);
-            let expected = if texts.iter().any(has_unit) { of.dimension().expected() } else { FORMS };
+            let expected = match texts.iter().any(has_unit) {
+                _ if text.contains('±') => FORMS_OF_DEVIATION,
+                true => of.dimension().expected(),
+                false => FORMS,
+            };
             let parts: Vec<(Dimension, &str)> = texts.iter().map(|text| (of.dimension(), *text)).collect();
             let numbers = read_quantities(of.field(), text, expected, &parts)?;
             Ok(numbers.into_iter().map(Given::si).collect())
@@ -138,7 +148,7 @@ impl Axis {
         text: &str,
         numbers: impl Fn(&[&str]) -> Result<Vec<f64>, InputError>,
     ) -> Result<Self, InputError> {
-        let malformed = || InputError::Malformed { field, value: text.to_owned(), expected: FORMS };
+        let malformed = || InputError::unreadable(field, text, FORMS);
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
         let (is_normal, values, points) = match parts[..] {
             ["normal", mean, sd] => (true, vec![mean, sd], None),
@@ -151,7 +161,8 @@ impl Axis {
         let values = numbers(&values)?;
         let [first, second] = values[..] else { return Err(malformed()) };
         let axis = if is_normal { Self::normal(first, second) } else { Self::range(first..=second) };
-        let points = points.map(|points| points.parse().map_err(|_| malformed())).transpose()?;
+        let no_count = || InputError::unreadable(field, text, GRIDS);
+        let points = points.map(|points| read_count(points).ok_or_else(no_count)).transpose()?;
         Ok(Self { points, ..axis })
     }
 

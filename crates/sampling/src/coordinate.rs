@@ -53,12 +53,21 @@ impl Coordinate {
         ["rate_x", "rate_y", "rate_z", "speed", "gravity", "tilt"][self as usize]
     }
 
-    /// The coordinate called `name`.
+    /// The coordinate called `name`, which may also be written as the option of the command line, such as `rate-x`.
     ///
     /// # Errors
     /// [`InputError::UnknownName`] with the list of known names.
     pub fn named(name: &str) -> Result<Self, InputError> {
-        find_named("coordinate", name, &Self::ALL, |of| of.name()).copied()
+        Self::named_in("coordinate", name)
+    }
+
+    /// As [`Coordinate::named`], for a `field` of its own.
+    ///
+    /// # Errors
+    /// [`InputError::UnknownName`] that names `field`.
+    pub fn named_in(field: &'static str, name: &str) -> Result<Self, InputError> {
+        let by_option = Self::ALL.into_iter().find(|of| of.name().replace('_', "-") == name);
+        by_option.map_or_else(|| find_named(field, name, &Self::ALL, |of| of.name()).copied(), Ok)
     }
 
     /// The name and unit in messages, such as `rate x [rad/s]`.
@@ -106,6 +115,7 @@ mod tests {
     fn names_fields_and_symbols_agree_in_name_and_unit() {
         for of in Coordinate::ALL {
             assert_eq!((Coordinate::named(of.name()), of.to_string().parse()), (Ok(of), Ok(of)));
+            assert_eq!(Coordinate::named(&of.name().replace('_', "-")), Ok(of));
             let (name, unit) = of.field().split_once(' ').expect("a name and a unit");
             assert!(of.name().starts_with(name), "{of:?}");
             assert!(unit.ends_with(&format!("[{}]", of.dimension().units()[0].name())), "{of:?}");
@@ -114,5 +124,7 @@ mod tests {
             let bare = unit_on_charts.trim_start_matches('(').trim_end_matches(')');
             assert!(unit.ends_with(&format!("[{bare}]")), "{of:?}: {unit}, {unit_on_charts}");
         }
+        let unknown = Coordinate::named_in("up", "rate x").unwrap_err().to_string();
+        assert_eq!(unknown, "up = 'rate x' is unknown; known: rate_x, rate_y, rate_z, speed, gravity, tilt");
     }
 }

@@ -21,6 +21,40 @@ use crate::estimate::{Estimate, Found, IntervalKind};
 use crate::interval::Interval;
 use crate::plan::{Method, Plan, Rest, SCRAMBLES, Scrambled};
 
+/// Seeds as plain data: a number or its digits as a text. A seed above 2^53 is written as a text, because many readers of JSON
+/// round such numbers, and TOML has none above 2^63.
+mod seed {
+    use dynamics::quantity::read_count;
+
+    use super::{Deserialize, Deserializer, Error, Serializer};
+
+    const LARGEST_NUMBER: u64 = 1 << 53;
+
+    #[derive(serde::Deserialize)]
+    #[serde(untagged, expecting = "expected a seed: a whole number from 0 to 2^64 - 1, or its digits as a text")]
+    enum Seed {
+        Number(u64),
+        Text(String),
+    }
+
+    pub(super) fn serialize<S: Serializer>(seed: &Option<u64>, to: S) -> Result<S::Ok, S::Error> {
+        match seed {
+            None => to.serialize_none(),
+            Some(seed) if *seed <= LARGEST_NUMBER => to.serialize_some(seed),
+            Some(seed) => to.serialize_some(&seed.to_string()),
+        }
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u64>, D::Error> {
+        match Seed::deserialize(from)? {
+            Seed::Number(seed) => Ok(Some(seed)),
+            Seed::Text(text) => read_count(&text).map(Some).ok_or_else(|| {
+                D::Error::custom(format!("seed = '{text}' can't be used: expected a whole number from 0 to 2^64 - 1"))
+            }),
+        }
+    }
+}
+
 /// Reads and writes values by their names.
 macro_rules! by_name {
     ($($named:ty),*) => {$(
@@ -49,7 +83,7 @@ struct PlanData {
     points: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     scrambles: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "seed")]
     seed: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<f64>,

@@ -38,8 +38,11 @@ pub(crate) fn paper() -> Body {
 struct SpaceData {
     #[serde(default = "paper", alias = "body")]
     coin: Body,
+    #[serde(alias = "rate-x")]
     rate_x: Option<Entry>,
+    #[serde(alias = "rate-y")]
     rate_y: Option<Entry>,
+    #[serde(alias = "rate-z")]
     rate_z: Option<Entry>,
     speed: Option<Entry>,
     gravity: Option<Entry>,

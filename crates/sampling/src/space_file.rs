@@ -41,8 +41,11 @@ struct File {
     description: String,
     #[serde(default = "paper", alias = "body")]
     coin: Body,
+    #[serde(alias = "rate-x")]
     rate_x: Option<Spanned<Entry>>,
+    #[serde(alias = "rate-y")]
     rate_y: Option<Spanned<Entry>>,
+    #[serde(alias = "rate-z")]
     rate_z: Option<Spanned<Entry>>,
     speed: Option<Spanned<Entry>>,
     gravity: Option<Spanned<Entry>>,
@@ -134,6 +137,16 @@ mod tests {
         let coin = Coin::from_cylinder(0.00567, 0.01213, 0.00175).unwrap();
         assert_eq!(described.space, Space::parse(coin, &texts).unwrap().with_drop(Some(0.5)).unwrap());
         assert_eq!(described.description, "d");
+    }
+
+    #[test]
+    fn rates_may_be_called_as_on_the_command_line() {
+        let text = "rate-x = '0:1'\nrate-y = 'x'\nrate-z = 0\nspeed = 3\n";
+        let named = DescribedSpace::from_toml(&text.replace("rate-", "rate_")).unwrap();
+        assert_eq!(DescribedSpace::from_toml(text), Ok(named.clone()));
+        assert_eq!(toml::from_str::<Space>(text).unwrap(), named.space);
+        let twice = DescribedSpace::from_toml(&format!("{text}rate_x = 3\n")).unwrap_err();
+        assert!(twice.to_string().contains("duplicate field `rate_x`"), "{twice}");
     }
 
     #[test]

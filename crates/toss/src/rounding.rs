@@ -4,7 +4,7 @@
 use dynamics::quantity::{Given, common_unit};
 use dynamics::{Body, InputError, Outcome, RigidToss, SolveError, TimeOfFlight};
 use exact::certified::holds_within;
-use exact::certify_rigid;
+use exact::{ExactMotion, certify_rigid};
 
 /// What was rounded when the numbers of a toss were converted to SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,25 +42,55 @@ impl BodyRounding {
     }
 }
 
+/// Relative error of a number after a conversion. With u = 2^-53, conversions change the rates by up to 8 u of themselves,
+/// k by 3 u and T by 4 u.
+const RELATIVE: f64 = 4.0 * f64::EPSILON;
+
 impl Rounding {
+    /// Whether nothing was rounded.
+    pub fn is_none(&self) -> bool {
+        !self.flight && !self.rate && self.body == BodyRounding::Exact
+    }
+
+    /// Whether the time of flight was rounded so that its error has no bound: a landing above the launch may end the flight
+    /// near its top, where the time depends on the speed without a bound.
+    fn time_is_unbounded(&self, toss: &RigidToss) -> bool {
+        self.flight && matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0)
+    }
+
+    /// A bound of the angle (rad) between the landing of `toss` and that of the numbers as they were typed: 0 if none was
+    /// rounded, `None` where no bound is known, as for a body with I1 ≠ I2 next to whose separatrix a rounding may change
+    /// all.
+    ///
+    /// The landed coin is the launched one, turned by Φ = (ωx, ωy, k ωz) T and then by -q T with q = (k - 1) ωz about n. Three
+    /// factors, each with a relative error of [`RELATIVE`], change Φ by up to 3.1 of it and q T by as much of q T and of
+    /// k ωz T, which |Φ| bounds.
+    ///
+    /// # Errors
+    /// [`SolveError::PhaseTooLarge`].
+    pub fn error_bound(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+        if self.is_none() {
+            return Ok(Some(0.0));
+        }
+        let Some(coin_toss) = toss.symmetric().filter(|_| !self.time_is_unbounded(toss)) else { return Ok(None) };
+        let (turn, spin) = ExactMotion::new(&coin_toss).phases(toss.launch.time_of_flight())?;
+        Ok(Some(RELATIVE * (6.3 * turn.hi() + 3.1 * spin.hi().abs())))
+    }
+
     /// Whether `outcome`, which is proven for `toss`, is proven for the numbers as they were typed. It is not if a number
     /// was rounded and cos θ is so near to 0 that this could have changed it.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn keeps(&self, toss: &RigidToss, outcome: Outcome) -> Result<bool, SolveError> {
-        if !self.flight && !self.rate && self.body == BodyRounding::Exact {
+        if self.is_none() {
             return Ok(true);
         }
         let Some(coin_toss) = toss.symmetric() else { return self.keeps_rigid(toss, outcome) };
-        // A landing above the launch may end the flight near its top, where the time depends on the speed without a bound.
-        let is_caught_higher =
-            matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0);
-        if self.flight && is_caught_higher {
+        if self.time_is_unbounded(toss) {
             return Ok(false);
         }
-        // With u = 2^-53, conversions change the rates by up to 8 u of themselves, k by 3 u and T by 4 u.
-        holds_within(&coin_toss, 4.0 * f64::EPSILON)
+        holds_within(&coin_toss, RELATIVE)
     }
 
     /// As [`Rounding::keeps`], for a body with I1 ≠ I2.
@@ -78,6 +108,7 @@ impl Rounding {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Dimension, Launch};
+    use exact::RigidMotion;
 
     use super::*;
 
@@ -105,6 +136,33 @@ mod tests {
             assert_eq!(rounded.keeps(&edge, Outcome::Heads), Ok(false), "{rounded:?}");
             assert_eq!(rounded.keeps(&far, Outcome::Heads), Ok(true), "{rounded:?}");
         }
+    }
+
+    /// Rates in one unit are carried as they are. In two units they are rounded, which the bound has to contain.
+    #[test]
+    fn a_landing_is_off_by_no_more_than_the_bound_of_its_rounding() {
+        let mut largest = 0.0_f64;
+        for index in 1..200 {
+            let part = |square: f64| 2e4 * (f64::from(index) * square.sqrt()).fract() - 1e4;
+            let rate = [2.0, 3.0, 5.0].map(part);
+            let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit();
+            let (unit, time) = (degrees.angle_unit(), TimeOfFlight::Given(1e5));
+            let toss = |launch: Launch| RigidToss { body: Coin::DISC.into(), launch };
+            let typed = toss(Launch::in_unit(rate, unit, time).unwrap());
+            let rounded = toss(Launch::new(rate.map(|part| degrees.to_si(part)), time).unwrap());
+            let landed = |toss: &RigidToss| RigidMotion::new(toss).state(time).unwrap().attitude;
+            let off = landed(&typed).angle_to(&landed(&rounded));
+            let bound = Rounding { rate: true, ..NONE }.error_bound(&rounded).unwrap().unwrap();
+            assert!(off <= bound, "{rate:?}: {off:e}, not {bound:e}");
+            largest = largest.max(off / bound);
+            assert_eq!(NONE.error_bound(&rounded), Ok(Some(0.0)));
+        }
+        // A rounding is at most an eighth of what the bound allows of each factor.
+        assert!(largest > 0.01, "{largest}");
+        let body = toss(Body::from_moments([1.0, 2.0, 2.5]).unwrap(), 1.0, TimeOfFlight::Given(1.0));
+        let caught = toss(Coin::DISC, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: -0.1 });
+        let flight = Rounding { flight: true, ..NONE };
+        assert_eq!([flight.error_bound(&body), flight.error_bound(&caught)], [Ok(None), Ok(None)]);
     }
 
     #[test]

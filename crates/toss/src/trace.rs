@@ -55,7 +55,8 @@ fn spaced(launch: &Launch, points: usize) -> Result<Vec<f64>, InputError> {
     Ok((0..points).map(time).collect())
 }
 
-/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing.
+/// The flight of `toss` by `solver` every `step` seconds from launch on, and at landing. Where a step ends at the landing
+/// to rounding, the landing takes its place.
 ///
 /// # Errors
 /// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
@@ -70,7 +71,10 @@ fn stepped(launch: &Launch, step: f64) -> Result<Vec<f64>, InputError> {
     let landing = launch.flight_time();
     let valid = "> 0 s, and at least a millionth of the time of flight";
     require("dt [s]", step, valid, step > 0.0 && landing / step < (MOST_POINTS - 2) as f64)?;
-    let steps = (0_u32..).map(|index| f64::from(index) * step).take_while(|time| *time < landing);
+    // A step that ends at the landing to rounding is the landing: 0.9 is three steps of 0.3, though 3 × 0.3 is below it in
+    // f64. The step, the product, and up to three factors of the time are rounded, each by at most u = 2^-53 of the time.
+    let last = landing * (1.0 - 4.0 * f64::EPSILON);
+    let steps = (0_u32..).map(|index| f64::from(index) * step).take_while(|time| *time < last);
     Ok(steps.chain([landing]).collect())
 }
 
@@ -115,10 +119,8 @@ pub fn trace_enclosed_every(
 #[cfg(feature = "integrators")]
 fn enclosed_at(solver: &QuaternionSolver, toss: &RigidToss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
     let mut branch = Branch::new(toss);
-    let (rate, unit) = toss.launch.given_rate();
     let mut at = |time: f64| -> Result<EnclosedPoint, Error> {
-        let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time))?;
-        let flown = RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
+        let flown = RigidToss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?, ..*toss };
         let certificate = solver.enclose_rigid(&flown)?;
         let point = TracePoint::new(time, certificate.landing().state.attitude, &branch.at(time)?);
         branch.before = point.angles;
@@ -135,8 +137,14 @@ fn trace_at(solver: &dyn Solver, toss: &RigidToss, times: impl Iterator<Item = f
     let mut last = (0.0, launch);
     let mut trace = Vec::with_capacity(times.size_hint().0);
     for time in times {
-        let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
-        let leg = RigidToss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
+        // A closed form starts from the launch as it was given, whose rate may have a unit.
+        let (since, leg) = match solver.stepping() {
+            Some(_) => (last.0, Launch::from_state(&last.1, TimeOfFlight::Given(time - last.0))?),
+            // So does the time of the landing, which is not the rounded one.
+            None if time == toss.launch.flight_time() => (0.0, toss.launch),
+            None => (0.0, toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?),
+        };
+        let leg = RigidToss { launch: leg, ..*toss };
         let state = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?.state;
         // A closed form leaves a turn of 1e-33 at launch, which would say where n goes.
         let attitude = if time == 0.0 { branch.launched(&state) } else { state.attitude };

@@ -19,7 +19,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     toss: TossArgs,
     /// Local error per step of the schemes that control their step
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_TOLERANCE)]
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_TOLERANCE,
+          value_parser = quantity::tolerance)]
     tolerance: f64,
     /// Step of the schemes with a fixed step (s)
     #[arg(long, value_name = "H", allow_hyphen_values = true, default_value_t = Stepping::DEFAULT_STEP,
@@ -29,7 +30,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME|all", default_value = Formulation::default().name())]
     formulation: String,
     /// Number of measurements of the time, of which the median is printed; 0 for no times
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 7, allow_hyphen_values = true,
+          value_parser = quantity::count::<u32>(0..=1000))]
     repeats: u32,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -7,6 +7,7 @@ use toss::Registry;
 
 use crate::failure::Failure;
 use crate::output::{self, Input, SeriesArgs};
+use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
@@ -19,10 +20,10 @@ pub(crate) struct Args {
     space: SpaceArgs,
     /// Number of equal steps, of which the last one contains the whole grid [default: 500, or the number of launches if there
     /// are fewer]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=1_000_000))]
     steps: Option<u64>,
     /// Seed of the random launches, which are as many as the grid has
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

@@ -7,6 +7,7 @@ use toss::Error;
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
 use crate::output::{self, Input, SeriesArgs};
+use crate::quantity;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
 #[derive(Debug, clap::Args)]
@@ -14,13 +15,15 @@ pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
     /// Number of seeds over which the root mean square error is taken
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 16, allow_hyphen_values = true,
+          value_parser = quantity::count::<u64>(1..=10_000))]
     replicates: u64,
     /// The largest number of launches is 2^EXPONENT
-    #[arg(long, value_name = "EXPONENT", default_value_t = 18, value_parser = clap::value_parser!(u32).range(8..=24))]
+    #[arg(long, value_name = "EXPONENT", default_value_t = 18, allow_hyphen_values = true,
+          value_parser = quantity::count::<u32>(8..=24))]
     up_to: u32,
     /// The probability that is taken as true [default: exact-speed with 64 times the largest number of launches]
-    #[arg(long, value_name = "P", value_parser = probability)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = probability)]
     reference: Option<f64>,
     #[command(flatten)]
     threads: ThreadArgs,
@@ -29,8 +32,9 @@ pub(crate) struct Args {
 }
 
 fn probability(text: &str) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok().filter(|number| (0.0..=1.0).contains(number));
-    number.ok_or_else(|| "expected a probability from 0 to 1".to_owned())
+    let number = quantity::fraction(text)?;
+    let is_valid = (0.0..=1.0).contains(&number);
+    is_valid.then_some(number).ok_or_else(|| "expected a probability from 0 to 1, or from 0% to 100%".to_owned())
 }
 
 impl Args {

@@ -1,12 +1,11 @@
 //! `unfair-toss intervals` lists the ranges of launch speed that land heads, for one body rate. A range is where the
 //! outcome does not change, so the list shows how precisely a speed has to be met.
 
+use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{
-    Coin, Dimension, Launch, RigidMotion, RigidToss, TimeOfFlight, rigid_speeds_of_heads, thrown_speeds_of_heads,
-};
+use toss::{Coin, Dimension, RigidMotion, RigidToss, TimeOfFlight, rigid_speeds_of_heads, thrown_speeds_of_heads};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
@@ -35,9 +34,9 @@ pub(crate) struct Args {
     drop: Option<f64>,
     /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal
     /// towards -y
-    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value_t = 0.0,
-          value_parser = quantity::of(Dimension::Angle))]
-    tilt: f64,
+    #[arg(long, value_name = "B", allow_hyphen_values = true, default_value = "0",
+          value_parser = quantity::given(Dimension::Angle))]
+    tilt: Given,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -54,15 +53,14 @@ struct Answer {
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
-        let rate = self.rate.rate(&body)?;
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
             return Err(Failure::usage("speed", "--speed: a range LO:HI of more than one speed is needed"));
         }
+        let thrown = |speed: f64| TimeOfFlight::thrown(speed, self.gravity, self.drop);
         // The slowest throw has to reach the landing, too.
-        Launch::new(rate, TimeOfFlight::thrown(slowest, self.gravity, self.drop))?;
-        let thrown = TimeOfFlight::thrown(fastest, self.gravity, self.drop);
-        let toss = RigidToss { body, launch: Launch::new(rate, thrown)?.with_tilt(self.tilt)? };
+        let launch = self.rate.launch(&body, thrown(slowest))?.with_tilt(self.tilt.angle())?;
+        let toss = RigidToss { body, launch: launch.with_time_of_flight(thrown(fastest))? };
         let phase = RigidMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
             let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");

@@ -4,6 +4,7 @@
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
+use crate::quantity;
 use crate::toss_args::CoinArgs;
 use sampling::{long_flight_cone, rate_ratio};
 use serde::Serialize;
@@ -13,7 +14,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
     /// Wanted probability of heads in long flights from horizontal, above 1/2 and at most 1
-    #[arg(long, value_name = "P", allow_hyphen_values = true)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::fraction)]
     probability: f64,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -9,6 +9,7 @@ use toss::Registry;
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, Input, SeriesArgs};
+use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::ThreadArgs;
 use crate::toss_args::CoinArgs;
@@ -18,10 +19,11 @@ pub(crate) struct Args {
     #[command(flatten)]
     coin: CoinArgs,
     /// Number of flights at each ψ
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true,
+          value_parser = quantity::count::<u64>(1..=u64::MAX))]
     points: u64,
     /// Seed of the random speeds
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

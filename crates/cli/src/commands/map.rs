@@ -44,7 +44,7 @@ impl Args {
         self.series.validate()?;
         let space = self.space.space()?;
         let backend = self.solver.backend(registry)?;
-        let axes = [Coordinate::named(&self.across)?, Coordinate::named(&self.up)?];
+        let axes = [Coordinate::named_in("across", &self.across)?, Coordinate::named_in("up", &self.up)?];
         let nodes = map_nodes(&space, axes)?;
         let node = first_node(&space, axes)?;
         let plan = self.plan.plan(self.method, &node, DEFAULTS)?;

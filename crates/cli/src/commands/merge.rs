@@ -56,7 +56,11 @@ impl Args {
 impl Part {
     fn read(path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown.clone(), source })?;
+        let text = std::fs::read_to_string(path).map_err(|source| Failure::Read {
+            option: "parts",
+            path: shown.clone(),
+            source,
+        })?;
         let tally = serde_json::from_str(&text).map_err(|error| Failure::part(&shown, error.to_string()))?;
         Ok(Self { path: shown, tally })
     }

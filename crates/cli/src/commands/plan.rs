@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use toss::{
-    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, Nanoseconds, QuaternionSolver, Reason, Registry,
-    Scene, Scheme, SolverEntry, StepControl, Want,
+    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, MOST_POINTS, Nanoseconds, QuaternionSolver,
+    Reason, Registry, Scene, Scheme, SolverEntry, StepControl, Want,
 };
 
 use crate::estimate_answer::name_of;
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
+use crate::quantity;
 use crate::solver_args;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
@@ -27,10 +28,12 @@ pub(crate) struct Args {
     #[arg(long, value_enum, required_unless_present = "scene")]
     want: Option<WantArg>,
     /// The largest acceptable error: of cos θ, of an attitude (rad) or of a probability
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene")]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene",
+          value_parser = quantity::tolerance)]
     accuracy: Option<f64>,
     /// Number of times in a trace, launch and landing included [default: 100]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true,
+          value_parser = quantity::count::<usize>(2..=MOST_POINTS as u64))]
     points: Option<usize>,
     /// A space of launches for a probability, instead of a toss: a name (`spaces` lists them), or a file
     /// that ends in .toml
@@ -157,7 +160,11 @@ impl Args {
 
 fn scene_file(path: &Path) -> Result<Scene, Failure> {
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read { path: shown.clone(), source })?;
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read {
+        option: "scene",
+        path: shown.clone(),
+        source,
+    })?;
     let scene = if path.extension().is_some_and(|extension| extension == "json") {
         serde_json::from_str(&text).map_err(|error| {
             let (line, column) = (error.line(), error.column());

@@ -7,6 +7,7 @@ use toss::{Answer as Answered, Backend, How, Integration, Proving, Registry, Sce
 use crate::estimate_answer::{Answer, name_of, text};
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
+use crate::quantity;
 use crate::shard_args::ShardArgs;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{DEFAULT_QUADRATURE, Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
@@ -27,7 +28,7 @@ pub(crate) struct Args {
     method: Option<MethodArg>,
     /// Largest acceptable error of the probability, if no method is given [default: 1e-4, and 1e-3 for a body with
     /// I1 ≠ I2], or of quadrature [default: 1e-10]
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = quantity::fraction)]
     accuracy: Option<f64>,
     #[command(flatten)]
     plan: PlanArgs,

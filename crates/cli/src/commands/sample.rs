@@ -14,6 +14,7 @@ use crate::commands::sample_rows::{Given, Row, Writer};
 use crate::failure::Failure;
 use crate::launch_rows;
 use crate::output::DataFormat;
+use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs, require_few};
 
@@ -35,13 +36,13 @@ pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
     /// Number of launches
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=u64::MAX))]
     points: Option<u64>,
     /// How launches are chosen [default: random]
     #[arg(long, value_enum)]
     method: Option<DrawArg>,
     /// Seed of the random launches or of the scramble [default: 1]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: Option<u64>,
     #[command(flatten)]
     threads: ThreadArgs,
@@ -73,6 +74,9 @@ impl Args {
             Some(_) => self.answer_input(&backend, &mut **input, &mut writer),
             None => self.answer_space(&backend, &mut writer),
         })?;
+        if written.is_ok() {
+            writer.head()?;
+        }
         // What was solved before an error is printed before it.
         writer.finish()?;
         written?;

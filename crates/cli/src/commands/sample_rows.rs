@@ -22,7 +22,7 @@ pub(crate) struct Given {
 
 /// A row: body rate (rad/s), speed (m/s) or time of flight (s), gravity (m/s²), drop (m) and tilt (rad), all as they were
 /// given; time of flight (s), cos θ at landing, outcome, and whether it is proven.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Row {
     wx: f64,
     wy: f64,
@@ -90,6 +90,16 @@ impl<'a> Writer<'a> {
         };
         self.rows += rows.len() as u64;
         self.print(&text)
+    }
+
+    /// Prints the heading of a table without rows.
+    pub(crate) fn head(&mut self) -> Result<(), Failure> {
+        if self.rows > 0 || self.format != DataFormat::Csv {
+            return Ok(());
+        }
+        let table = self.csv(&[Row::default()]);
+        let heading = table.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default();
+        self.print(heading)
     }
 
     /// Ends the output.

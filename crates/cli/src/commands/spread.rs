@@ -17,13 +17,13 @@ pub(crate) struct Args {
     #[command(flatten)]
     toss: TossArgs,
     /// Wanted probability of heads, such as 0.95 or 95%
-    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::part)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::fraction)]
     heads: f64,
     /// Number of launches of each estimate, a multiple of 8 [default: 16384, and 2048 for a body with I1 ≠ I2]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(8..=1 << 24))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(8..=1 << 24))]
     points: Option<u64>,
     /// Seed of the scrambles
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,

@@ -38,6 +38,10 @@ struct Answer {
     /// The proven bounds of the errors of cos θ and of the quaternion.
     error_bound: Option<f64>,
     attitude_error_bound: Option<f64>,
+    /// If numbers were rounded as their units were converted: a bound of how far this turns the landing (rad), or null if none
+    /// is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit_error: Option<Option<f64>>,
     /// What the text adds to the outcome.
     #[serde(skip)]
     remark: String,
@@ -111,7 +115,9 @@ impl Args {
             let (outcome, answer) = Answer::new(&toss, &backend, self.margin)?;
             (toss, outcome, answer)
         };
-        if answer.certified && !self.flight.toss().rounding()?.keeps(&toss, outcome)? {
+        let rounding = self.flight.toss().rounding()?;
+        answer.unit_error = if rounding.is_none() { None } else { Some(rounding.error_bound(&toss)?) };
+        if answer.certified && !rounding.keeps(&toss, outcome)? {
             (answer.certified, answer.proof) = (false, None);
             ", not proven: the conversion of a unit may have changed it".clone_into(&mut answer.remark);
         }
@@ -166,6 +172,7 @@ impl Answer {
             proof: None,
             error_bound: None,
             attitude_error_bound: None,
+            unit_error: None,
             remark: String::new(),
             margin: (is_coin || with_margin).then(|| MarginAnswer::new(toss)).transpose()?,
             sensitivity,
@@ -207,6 +214,10 @@ impl Answer {
         lines.insert(1, self.changes());
         if let (Some(cos_tilt), Some(attitude)) = (self.error_bound, self.attitude_error_bound) {
             lines.push(format!("error bound  {cos_tilt:.1e} of cos θ, {attitude:.1e} of the attitude's quaternion"));
+        }
+        // Where it can be seen in the attitude.
+        if let Some(Some(turn)) = self.unit_error.filter(|turn| turn.is_some_and(|turn| turn > 1e-10)) {
+            lines.push(format!("unit error   at most {turn:.1e} rad of the attitude, by the conversion of units"));
         }
         if self.norm_error > 0.0 {
             lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", self.norm_error));

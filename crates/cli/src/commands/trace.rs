@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 use toss::{
-    Dimension, EnclosedPoint, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed, trace_enclosed_every,
-    trace_every,
+    Dimension, EnclosedPoint, MOST_POINTS, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed,
+    trace_enclosed_every, trace_every,
 };
 
 use crate::chart;
@@ -18,7 +18,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     flight: FlightArgs,
     /// Number of times, equally spaced, launch and landing included
-    #[arg(long, value_name = "N", conflicts_with = "dt")]
+    #[arg(long, value_name = "N", conflicts_with = "dt", allow_hyphen_values = true,
+          value_parser = quantity::count::<usize>(2..=MOST_POINTS as u64))]
     points: Option<usize>,
     /// Step of time from launch on; the last time is the landing
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time))]

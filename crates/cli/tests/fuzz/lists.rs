@@ -60,7 +60,7 @@ pub(crate) const EXTREME: &[&str] = &[
 ];
 
 /// Counts that are quickly computed.
-pub(crate) const SMALL: &[&str] = &["1", "2", "3", "8", "16"];
+pub(crate) const SMALL: &[&str] = &["1", "2", "3", "8", "16", "1e1", "1.6e1"];
 
 /// Counts that are none, too small, or so large that they have to be refused.
 pub(crate) const HUGE: &[&str] = &[
@@ -72,7 +72,7 @@ pub(crate) const HUGE: &[&str] = &[
     "18446744073709551615",
     "18446744073709551616",
     "99999999999999999999999999",
-    "1e3",
+    "1e15",
     "1.5",
     "100000000000000",
 ];

@@ -23,7 +23,7 @@ impl FromStr for Given {
             Some((given, true)) => Some(given),
             _ => None,
         });
-        read.ok_or_else(|| InputError::Malformed { field: "quantity", value: text.to_owned(), expected })
+        read.ok_or_else(|| InputError::unreadable("quantity", text, expected))
     }
 }
 

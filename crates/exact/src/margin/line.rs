@@ -183,11 +183,11 @@ impl<'a> Line<'a> {
 /// Φ at landing (rad), in double-double.
 pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
     let time = ExactTime::from(toss.launch.time_of_flight());
-    let rate = toss.launch.rate();
+    let [x, y, z] = toss.launch.exact_rate();
     let k = toss.coin.exact_inertia_ratio();
-    [(rate.x, 1.0.into()), (rate.y, 1.0.into()), (rate.z, k)].map(|(rate, ratio): (f64, DoubleDouble)| {
-        let (mantissa, exponent) = mantissa_and_exponent(rate);
-        (ratio * mantissa * time.mantissa()).times_power_of_two(exponent + time.exponent())
+    [(x, 1.0.into()), (y, 1.0.into()), (z, k)].map(|(rate, ratio): (DoubleDouble, DoubleDouble)| {
+        let (_, exponent) = mantissa_and_exponent(rate.hi());
+        (ratio * rate.times_power_of_two(-exponent) * time.mantissa()).times_power_of_two(exponent + time.exponent())
     })
 }
 

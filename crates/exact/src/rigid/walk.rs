@@ -145,9 +145,16 @@ impl<N: Elementary> Stage<N> {
         let like = self.mantissa.midpoint();
         let exponent = unit_exponent(toss, input, change);
         let number = |value: f64| Ball::new(like.like(value), 0.0).times_power_of_two(-exponent);
-        let rate = toss.launch.rate();
-        let mut rates = [rate.x, rate.y, rate.z]
-            .map(|part| if part == 0.0 { Ball::new(like.like(0.0), 0.0) } else { number(part) });
+        // A rate that was not given in rad/s has a second part, and an error of 16 u²; a tiny one has lost digits.
+        let mut rates = toss.launch.exact_rate().map(|part| match [part.hi(), part.lo()] {
+            [0.0, _] => Ball::new(like.like(0.0), 0.0),
+            [leading, 0.0] => number(leading),
+            [leading, rest] => {
+                let relative = 2f64.powi(if leading.abs() < 1e-250 { -50 } else { -101 });
+                let error = number(leading).to_f64().abs() * relative;
+                (number(leading) + number(rest)).widened(error)
+            }
+        });
         if let Input::Rate(axis) = input {
             let width = radius * 2f64.powi(-exponent);
             rates[axis] = (rates[axis].clone() + number(change)).widened(width);

@@ -68,6 +68,49 @@ fn a_trace_by_steps_of_time_ends_at_the_landing() {
     assert_eq!(trace_every(&ExactSolver, still, 0.1).unwrap().len(), 1);
 }
 
+/// 0.9 is three steps of 0.3, though 3 × 0.3 is 0.899999999999999911 in f64. All are read as decimals, as they are typed.
+#[test]
+fn a_step_that_divides_the_time_of_flight_in_decimals_has_no_row_next_to_the_landing() {
+    let read = |digits: u32, places: &str| format!("{digits}{places}").parse::<f64>().unwrap();
+    for places in ["e-1", "e-2", "e-3", "e-6", "e2"] {
+        for (step, number) in (1..100).flat_map(|step| (1..33).map(move |number| (step, number))) {
+            let (dt, landing) = (read(step, places), read(step * number, places));
+            let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(landing)).unwrap();
+            let times = stepped(&launch, dt).unwrap();
+            assert_eq!((times.len(), times.last()), (number as usize + 1, Some(&landing)), "{dt} {landing}");
+        }
+    }
+    // 2 v0/g is 1 s, which f64 makes of these to two roundings at most.
+    for (dt, number) in [(0.1, 10), (0.01, 100), (0.05, 20)] {
+        for gravity in (900..1000).map(|digits| read(digits, "e-2")) {
+            let thrown = TimeOfFlight::Ballistic { speed: gravity / 2.0, gravity };
+            assert_eq!(stepped(&Launch::new([1.0, 0.0, 0.0], thrown).unwrap(), dt).unwrap().len(), number + 1);
+        }
+    }
+    // What is further from the landing than roundings stays a row.
+    let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
+    assert_eq!(stepped(&launch, 0.999_999_999_999_99).unwrap(), [0.0, 0.999_999_999_999_99, 1.0]);
+}
+
+/// In rad/s the rate would be rounded, and the time of flight to f64, by 1e-8 rad after these turns.
+#[test]
+fn closed_forms_are_traced_from_the_launch_as_it_was_given() {
+    let turns = dynamics::AngleUnit::Turns(dynamics::Unit::ONE);
+    let thrown = TimeOfFlight::Ballistic { speed: 4_905_000.1, gravity: 9.81 };
+    let launch = Launch::in_unit([101.1, 0.7, -3.3], turns, thrown).unwrap();
+    for body in [Coin::PAPER.into(), Body::from_moments([1.0, 2.0, 2.5]).unwrap()] {
+        let toss = RigidToss { body, launch };
+        let traced = trace(&ExactSolver, toss, 3).unwrap();
+        let motion = RigidMotion::new(&toss);
+        let middle = motion.state(traced[1].time).unwrap().attitude;
+        let landed = motion.state(thrown).unwrap().attitude;
+        for (point, expected) in [(&traced[1], middle), (&traced[2], landed)] {
+            assert!(point.attitude.angle_to(&expected) < 2e-15, "{}", point.time);
+            assert!((point.cos_tilt - expected.cos_tilt()).abs() < 1e-15, "{}", point.time);
+        }
+    }
+}
+
 /// An integrator that fails in the middle of every leg but the first.
 struct Weary;
 impl Solver for Weary {

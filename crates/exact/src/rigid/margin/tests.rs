@@ -164,3 +164,31 @@ fn intervals_may_begin_on_edge() {
         assert_eq!(certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
     }
 }
+
+/// v/3 rad/s for 3 T is the motion of v rad/s for T, at a third of the rate. In rad/s a third is rounded, which after 4 × 10^5
+/// turns moves a flip by some parts in 10^10 of its distance.
+#[test]
+fn rates_in_another_unit_have_the_margins_of_the_same_motion() {
+    let thirds = dynamics::AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap());
+    let (rate, time) = ([500.125, 311.5, -20.25], 4096.0);
+    for moments in [[1.0, 1.0, 0.5], [1.0, 2.0, 2.5]] {
+        let body = Body::from_moments(moments).unwrap();
+        let plain = RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() };
+        let slow = RigidToss { body, launch: Launch::in_unit(rate, thirds, TimeOfFlight::Given(3.0 * time)).unwrap() };
+        let landed = |toss: &RigidToss| RigidMotion::new(toss).state(toss.launch.flight_time()).unwrap().attitude;
+        assert!(landed(&plain).angle_to(&landed(&slow)) < 2e-15, "{moments:?}");
+        let [expected, found] = [&plain, &slow].map(|toss| margin_rigid(toss).unwrap().margin);
+        let near = |found: Option<f64>, expected: Option<f64>, factor: f64| match (found, expected) {
+            (Some(found), Some(expected)) => (found / (factor * expected) - 1.0).abs() < 1e-11,
+            (found, expected) => found == expected,
+        };
+        assert!(near(found.time, expected.time, 3.0), "{moments:?}: {found:?} {expected:?}");
+        assert!(near(found.tilt, expected.tilt, 1.0), "{moments:?}: {found:?} {expected:?}");
+        let mut flips = 0;
+        for axis in 0..3 {
+            assert!(near(found.rate[axis], expected.rate[axis], 1.0 / 3.0), "{moments:?}: {found:?} {expected:?}");
+            flips += u32::from(found.rate[axis].is_some());
+        }
+        assert!(flips >= 2 && found.time.is_some(), "{moments:?}: {found:?}");
+    }
+}

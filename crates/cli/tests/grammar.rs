@@ -1,0 +1,304 @@
+//! One grammar for all options: each option of each command, as the program itself defines them, is given wrong values of every
+//! kind. The answer is an error with code 2 that names the option, the value and what is valid.
+
+mod common;
+
+use std::ffi::OsString;
+
+use clap::{Arg, Command};
+use common::{json, run, stderr, stdout};
+use serde_json::Value;
+use unfair_toss::Streams;
+
+/// Values that no option takes, but one that is the name of a file.
+const WRONG: [&str; 9] = ["abc", "−3", "3−4", "15º", "30±1", "0x10", "1e999x", "7 apples", "~"];
+
+/// Options that are no numbers.
+const TEXTS: [&str; 14] = [
+    "coin",
+    "solver",
+    "scheme",
+    "formulation",
+    "method",
+    "want",
+    "format",
+    "across",
+    "up",
+    "space",
+    "scene",
+    "svg",
+    "out",
+    "shard",
+];
+
+/// Options whose values are whole numbers.
+const COUNTS: [&str; 7] = ["points", "seed", "threads", "steps", "repeats", "replicates", "up_to"];
+
+/// Effects that are outside the model: no value of these is valid.
+const OUTSIDE: [&str; 2] = ["drag", "bounce"];
+
+/// Files that are written or read, which may have any name in a folder that exists.
+const FILES: [&str; 3] = ["svg", "out", "scene"];
+
+/// The other options of a command line with `option`, such that the value of the option is what is wrong with it.
+fn others(command: &str, option: &str) -> &'static str {
+    let toss = |command: &str| matches!(command, "toss" | "trace" | "compare" | "spread" | "plan" | "intervals");
+    match (command, option) {
+        ("plan", "scene") | ("map" | "errors" | "convergence", "space") => "",
+        ("plan", "space") => "--want probability --accuracy 1e-3",
+        ("plan", "want" | "accuracy" | "points") => "--rate 1,2,3 --speed 3 --want trace --accuracy 1e-6",
+        ("plan", "scheme") => "--rate 1,2,3 --speed 3 --want tilt --accuracy 1e-6 --solver gamma",
+        ("plan", "rate") => "--speed 3 --want tilt --accuracy 1e-6",
+        ("plan", "turn") => "--wobble 1 --speed 3 --want tilt --accuracy 1e-6",
+        ("plan", "wobble") => "--turn 1 --speed 3 --want tilt --accuracy 1e-6",
+        ("plan", "time") => "--rate 1,2,3 --want tilt --accuracy 1e-6",
+        ("plan", _) => "--rate 1,2,3 --speed 3 --want tilt --accuracy 1e-6",
+        ("intervals", "rate") => "--speed 3:4",
+        ("intervals", "turn") => "--wobble 1 --speed 3:4",
+        ("intervals", "wobble") => "--turn 1 --speed 3:4",
+        ("intervals", _) => "--rate 1,2,3 --speed 3:4",
+        ("trace", "dt") => "--rate 1,2,3 --speed 3",
+        ("trace", "rate") => "--speed 3 --points 3",
+        ("trace", "turn") => "--wobble 1 --speed 3 --points 3",
+        ("trace", "wobble") => "--turn 1 --speed 3 --points 3",
+        ("trace", "time") => "--rate 1,2,3 --points 3",
+        ("trace", "scheme" | "tolerance" | "formulation") => "--rate 1,2,3 --speed 3 --points 3 --solver gamma",
+        ("trace", "step") => "--rate 1,2,3 --speed 3 --points 3 --solver gamma --scheme rk4",
+        ("trace", _) => "--rate 1,2,3 --speed 3 --points 3",
+        ("spread", "rate") => "--speed 3 --heads 0.9",
+        ("spread", "turn") => "--wobble 1 --speed 3 --heads 0.9",
+        ("spread", "wobble") => "--turn 1 --speed 3 --heads 0.9",
+        ("spread", "time") => "--rate 1,2,3 --heads 0.9",
+        ("spread", _) => "--rate 1,2,3 --speed 3 --heads 0.9",
+        (command, "rate") if toss(command) => "--speed 3",
+        (command, "turn") if toss(command) => "--wobble 1 --speed 3",
+        (command, "wobble") if toss(command) => "--turn 1 --speed 3",
+        (command, "time") if toss(command) => "--rate 1,2,3",
+        ("toss", "scheme" | "tolerance" | "formulation") => "--rate 1,2,3 --speed 3 --solver gamma",
+        ("toss", "step") => "--rate 1,2,3 --speed 3 --solver gamma --scheme rk4",
+        (command, _) if toss(command) => "--rate 1,2,3 --speed 3",
+        ("inverse", _) => "--probability 0.7",
+        ("limit", "scheme" | "tolerance" | "formulation") => "--points 9 --solver gamma",
+        ("limit", "step") => "--points 9 --solver gamma --scheme rk4",
+        ("limit", _) => "--points 9",
+        ("probability" | "sample", "space") => "--points 8 --method random",
+        ("probability" | "sample" | "map" | "errors" | "convergence", "turn") => "--wobble 1 --speed 3",
+        ("probability" | "sample" | "map" | "errors" | "convergence", "wobble") => "--turn 1 --speed 3",
+        ("probability", "shard") => "--space tails --method random --points 8 --out /no/such/folder/part.json",
+        ("probability", "out") => "--space tails --method random --points 8 --shard 1/2",
+        ("probability", "accuracy") => "--space tails",
+        ("map", "step") => {
+            "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3 --method random --points 8 --solver gamma --scheme rk4"
+        }
+        ("map", "scheme" | "tolerance" | "formulation") => {
+            "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3 --method random --points 8 --solver gamma"
+        }
+        ("map", _) => "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3",
+        ("errors", _) => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --up-to 8 --replicates 1 --reference 0.5",
+        ("convergence", "scheme" | "tolerance" | "formulation") => {
+            "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3 --solver gamma"
+        }
+        ("convergence", "step") => "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3 --solver gamma --scheme rk4",
+        ("convergence", _) => "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3",
+        (_, "scheme" | "tolerance" | "formulation") => {
+            "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random --solver gamma"
+        }
+        (_, "step") => {
+            "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random --solver gamma --scheme rk4"
+        }
+        ("probability" | "sample", _) => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random",
+        _ => "",
+    }
+}
+
+/// A run in this process: code, standard output and standard error.
+fn ran(arguments: &[String]) -> (u8, String, String) {
+    let arguments: Vec<OsString> =
+        std::iter::once("unfair-toss").chain(arguments.iter().map(String::as_str)).map(OsString::from).collect();
+    let (mut input, mut out, mut err) = (std::io::empty(), Vec::new(), Vec::new());
+    let code = unfair_toss::run(&arguments, Streams { input: &mut input, out: &mut out, err: &mut err });
+    let plain = |text: Vec<u8>| anstream_free(&String::from_utf8(text).expect("UTF-8"));
+    (code, plain(out), plain(err))
+}
+
+/// A text without the colours of a terminal.
+fn anstream_free(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('\u{1b}') {
+        plain.push_str(before);
+        rest = after.split_once('m').map_or("", |(_, after)| after);
+    }
+    plain + rest
+}
+
+/// A text in which an option is called as in messages: `rate x` for `--rate-x`.
+fn spaced(text: &str) -> String {
+    text.replace(['_', '-'], " ")
+}
+
+/// The command line of `option` with `value`. The option stands first, so that the others do not hide it.
+fn line(command: &Command, option: &Arg, value: &str) -> Vec<String> {
+    let (command, id) = (command.get_name(), option.get_id().as_str());
+    let long = format!("--{}", option.get_long().expect("an option"));
+    let others: Vec<&str> = others(command, id).split_whitespace().collect();
+    let mut line = vec![command.to_owned(), long.clone(), value.to_owned()];
+    let mut others = others.into_iter();
+    while let Some(other) = others.next() {
+        let value = others.next().expect("each has a value");
+        if other != long {
+            line.extend([other.to_owned(), value.to_owned()]);
+        }
+    }
+    line
+}
+
+/// Every option with a value of every command.
+fn options(program: &Command) -> Vec<(&Command, &Arg)> {
+    let of = |command| Command::get_arguments(command).map(move |option| (command, option));
+    let all = program.get_subcommands().flat_map(of);
+    all.filter(|(_, option)| option.get_long().is_some() && option.get_action().takes_values()).collect()
+}
+
+/// What is wrong with the refusal of a command line; `None` if nothing is.
+fn complaint(line: &[String], id: &str, value: &str) -> Option<String> {
+    let (code, out, message) = ran(line);
+    let is_json = line.iter().any(|part| part == "json");
+    let said = spaced(&message);
+    let problem = if code != 2 {
+        format!("ended with {code}")
+    } else if !is_json && !out.is_empty() {
+        "printed an answer".to_owned()
+    } else if !said.contains(&spaced(id)) {
+        "does not name the option".to_owned()
+    } else if !OUTSIDE.contains(&id) && !message.contains(value) {
+        "does not name the value".to_owned()
+    } else if !OUTSIDE.contains(&id)
+        && !["expected", "known:", "possible values", "valid range"].iter().any(|word| message.contains(word))
+    {
+        "does not say what is valid".to_owned()
+    } else if value.contains('−') && !TEXTS.contains(&id) && !OUTSIDE.contains(&id) && !message.contains("U+2212") {
+        "does not name the look-alike".to_owned()
+    } else {
+        return None;
+    };
+    Some(format!("{}: {problem}: {message}", line.join(" ")))
+}
+
+#[test]
+fn every_option_refuses_wrong_values_by_its_name_with_the_value_and_what_is_valid() {
+    let program = unfair_toss::program();
+    let options = options(&program);
+    let mut complaints = Vec::new();
+    for (command, option) in &options {
+        let id = option.get_id().as_str();
+        let values: &[&str] =
+            if FILES.contains(&id) { &["/no/such/folder/file.toml", "/no/such/folder/file.json"] } else { &WRONG };
+        for value in values {
+            complaints.extend(complaint(&line(command, option, value), id, value));
+        }
+        if id == "space" {
+            for value in ["launches.json", "folder/launches", "/no/such/folder/launches.toml"] {
+                complaints.extend(complaint(&line(command, option, value), id, value));
+            }
+        }
+        // With another format, the error is JSON that names the field.
+        let in_json = command.get_arguments().any(|argument| argument.get_id() == "format");
+        if in_json && !["format", "out", "shard"].contains(&id) {
+            let mut line = line(command, option, values[0]);
+            line.retain(|part| part != "--format");
+            line.extend(["--format", "json"].map(str::to_owned));
+            let (code, out, _) = ran(&line);
+            let error: Value = serde_json::from_str(&out).unwrap_or_default();
+            let field = spaced(error["error"]["field"].as_str().unwrap_or_default());
+            if code != 2 || !field.contains(&spaced(id)) {
+                complaints.push(format!("{}: the field is '{field}': {out}", line.join(" ")));
+            }
+        }
+    }
+    assert!(options.len() > 150, "{}", options.len());
+    assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
+}
+
+/// A negative number is a value, and no unknown option; a fraction is no count, and neither is what no u64 holds.
+#[test]
+fn counts_are_whole_numbers_in_a_range_that_is_said() {
+    let program = unfair_toss::program();
+    let (mut complaints, mut counts) = (Vec::new(), 0);
+    for (command, option) in options(&program) {
+        let id = option.get_id().as_str();
+        if TEXTS.contains(&id) || OUTSIDE.contains(&id) {
+            continue;
+        }
+        let (code, _, message) = ran(&line(command, option, "-5"));
+        if code != 0 && (message.contains("unexpected argument") || !message.contains("-5")) {
+            complaints.push(format!("{} --{id} -5: {message}", command.get_name()));
+        }
+        if COUNTS.contains(&id) {
+            counts += 1;
+            for value in ["-5", "1.5", "1e-1", "18446744073709551616", "1e99", "nan", "inf", "1_000", "50%"] {
+                complaints.extend(complaint(&line(command, option, value), id, value));
+            }
+        }
+    }
+    assert!(counts > 20, "{counts}");
+    assert!(complaints.is_empty(), "{} complaints:\n{}", complaints.len(), complaints.join("\n"));
+}
+
+/// The input that answers repeat is the same however a number is written.
+#[test]
+fn counts_fractions_and_coordinates_may_be_written_in_any_of_their_forms() {
+    let answer = |options: &str| json(options, 0).to_string();
+    for (one, other) in [
+        (
+            "probability --space tails --method random --points 1e3",
+            "probability --space tails --method random --points 1000",
+        ),
+        ("limit --points 0.9e1 --seed 1e0", "limit --points 9 --seed 1"),
+        ("convergence --space tails --steps 5e0", "convergence --space tails --steps 5"),
+        ("trace --rate 1,2,3 --time 1 --points 1e1", "trace --rate 1,2,3 --time 1 --points 10"),
+        ("inverse --probability 70%", "inverse --probability 0.7"),
+        (
+            "spread --rate 20,0,5 --speed 3.5 --heads 90% --points 512",
+            "spread --rate 20,0,5 --speed 3.5 --heads 0.9 --points 512",
+        ),
+        (
+            "errors --space tails --up-to 8 --replicates 1 --reference 50%",
+            "errors --space tails --up-to 8 --replicates 1 --reference 0.5",
+        ),
+        ("probability --space tails --accuracy 1%", "probability --space tails --accuracy 0.01"),
+    ] {
+        assert_eq!(answer(one), answer(other), "{one}");
+    }
+    let map = |names: &str| stdout(&run(&format!("map --rate-x 0:9:3 --rate-y 0 --rate-z 0:9:3 --speed 3 {names}")));
+    assert_eq!(map("--across rate-z --up rate-x"), map("--across rate_z --up rate_x"));
+    assert!(map("--across rate-z --up rate-x").starts_with("rate_z,rate_x,probability\n"));
+    let grid = |points: &str| {
+        stdout(&run(&format!("probability --rate-x 0:9:{points} --rate-y 0 --rate-z 1 --speed 3 --method grid")))
+    };
+    assert_eq!(grid("1e1"), grid("10"));
+    let refused = stderr(&run("probability --rate-x 0:9:1 --rate-y 0 --rate-z 1 --speed 3 --method grid"));
+    assert!(refused.contains("rate x [rad/s] = '0:9:1'") && refused.contains("at least 2 grid points"), "{refused}");
+}
+
+/// A reader that takes numbers for f64 would round 2^53 + 1.
+#[test]
+fn seeds_that_no_f64_holds_are_texts_in_json_and_are_read_again() {
+    for (seed, expected) in [
+        ("9007199254740992", Value::from(1_u64 << 53)),
+        ("9007199254740993", "9007199254740993".into()),
+        ("18446744073709551615", "18446744073709551615".into()),
+    ] {
+        let answer = json(&format!("probability --space tails --method random --points 8 --seed {seed}"), 0);
+        assert_eq!((&answer["seed"], &answer["input"]["seed"]), (&expected, &expected));
+        let folder = tempfile::tempdir().unwrap();
+        let part = folder.path().join("part.json").display().to_string();
+        let sharded =
+            format!("probability --space tails --method random --points 8 --seed {seed} --shard 1/1 --out {part}");
+        assert_eq!(run(&sharded).status.code(), Some(0));
+        let written: Value = serde_json::from_str(&std::fs::read_to_string(&part).unwrap()).unwrap();
+        assert_eq!(written["plan"]["seed"], expected);
+        assert_eq!(json(&format!("merge {part}"), 0)["seed"], expected);
+        assert!(stdout(&run(&sharded)).contains("which held it already"), "{seed}");
+    }
+}
