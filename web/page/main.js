@@ -30,7 +30,11 @@ async function main() {
   parts.player = new Player(show);
   Object.assign(measured, { map: parts.map.timing, frames: parts.player.frames });
   byId("version").textContent = known.version;
-  onChange((what) => (what === "scene" ? sceneChanged() : viewChanged()));
+  onChange((what) => {
+    byId("address-error").hidden = true;
+    if (what === "scene") sceneChanged();
+    else viewChanged();
+  });
   onTheme(recolour);
   byId("theme").addEventListener("click", toggle);
   byId("copy").addEventListener("click", copy);
@@ -46,13 +50,16 @@ async function main() {
 function readAddress() {
   const text = read();
   let found = null;
+  let fault = null;
   try {
     found = text && fromAddress(text);
   } catch (error) {
-    byId("address-error").textContent = `${error.message}; this is the paper's cheated toss instead`;
+    fault = error;
   }
-  byId("address-error").hidden = found !== null;
   change(found || ofPreset("cheated"));
+  // Until the next change.
+  byId("address-error").textContent = fault && `${fault.message}; this is the paper's cheated toss instead`;
+  byId("address-error").hidden = !fault;
 }
 
 const announce = later(700, (text) => (byId("announcement").textContent = text));
