@@ -42,6 +42,7 @@ export function showRefusal(refusal) {
   byId("outcome").textContent = "No answer";
   byId("proof").textContent = refusal.message;
   byId("cos-tilt").textContent = "–";
+  byId("command").textContent = "–";
   fill(byId("facts"));
   stop();
   showMargins(null, null);

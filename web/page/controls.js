@@ -100,7 +100,9 @@ export class Controls {
     for (const input of this.inputs.values()) input.refuse(input.id === id ? refusal.message : null);
     const isBody = Boolean(refusal) && !id && /^(coin|cylinder|moments|I[123]|mass|radius|thickness|inertia)/.test(refusal.field ?? "");
     byId("body").toggleAttribute("aria-invalid", isBody);
-    byId("body-error").textContent = isBody ? refusal.message : "";
+    const hasCommas = isBody && /\d,\d/.test(state.scene[state.scene.body]);
+    const hint = hasCommas ? "; commas separate the numbers, and decimals take a point" : "";
+    byId("body-error").textContent = isBody ? refusal.message + hint : "";
     byId("body-error").hidden = !isBody;
     return Boolean(id) || isBody;
   }

@@ -28,14 +28,25 @@ export function later(wait, act) {
   return Object.assign(call, { drop: () => clearTimeout(timer) });
 }
 
-/** Calls `act` at most once a frame, with what was given last. */
+let isInFrame = false;
+
+/**
+ * Calls `act` at most once a frame, with what was given last. What is called in a frame by another such function is done in
+ * that frame, so that no frame shows one without the other.
+ */
 export function onceAFrame(act) {
   let pending = null;
   return (...given) => {
+    if (isInFrame && !pending) return act(...given);
     if (!pending) requestAnimationFrame(() => {
       const last = pending;
       pending = null;
-      act(...last);
+      isInFrame = true;
+      try {
+        act(...last);
+      } finally {
+        isInFrame = false;
+      }
     });
     pending = given;
   };

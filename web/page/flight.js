@@ -21,6 +21,11 @@ export function fly(toss) {
   flight.time = Math.min(flight.time, flight.answer.flight_time);
 }
 
+/** Forgets the flight: the scene has none. */
+export function land() {
+  Object.assign(flight, { answer: null, trace: null, time: 0 });
+}
+
 /** The column of the trace that begins at `of`, such as `POINT.cosTilt`. */
 export function column(of) {
   const { points } = flight.answer;

@@ -24,6 +24,12 @@ function trimmed(text) {
 /** A number for an input: as short as four digits allow, with a plain minus. */
 export const typed = (number, digits = 4) => String(Number(number.toPrecision(digits)));
 
+/** The reason why `text` is refused, with the same text by a decimal point if it has one decimal comma. */
+export function withPoint(reason, text) {
+  const hasComma = /^[^,]*\d,\d[^,]*$/.test(text);
+  return hasComma ? `${reason}; decimals take a point: ${text.trim().replace(",", ".")}` : reason;
+}
+
 /** An angle in degrees. */
 export const degrees = (radians, digits = 4) => `${short((radians * 180) / Math.PI, digits)}°`;
 

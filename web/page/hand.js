@@ -1,7 +1,7 @@
 // P(heads) for a hand that varies, and how precise a hand must be.
 import { ask } from "./library.js";
 import { byId, later } from "./dom.js";
-import { percent, short } from "./format.js";
+import { percent, short, withPoint } from "./format.js";
 import { change, question, state } from "./state.js";
 
 /** The hand. */
@@ -11,6 +11,7 @@ export class Hand {
     byId("spread").addEventListener("input", ({ target }) => take(target.value));
     byId("spread-slider").addEventListener("input", ({ target }) => take(`${target.value}%`));
     byId("find-precision").addEventListener("click", () => this.find());
+    byId("wanted").addEventListener("input", () => (byId("precision").textContent = ""));
     this.update = later(120, () => this.compute());
   }
 
@@ -20,29 +21,47 @@ export class Hand {
     if (document.activeElement !== byId("spread")) byId("spread").value = spread;
     const number = Number.parseFloat(spread) * (spread.includes("%") ? 1 : 100);
     if (Number.isFinite(number) && document.activeElement !== byId("spread-slider")) byId("spread-slider").value = number;
-    byId("precision").textContent = "";
+    // What else of the view has changed makes no other probability.
+    const asked = JSON.stringify([question(), spread]);
+    if (asked === this.asked) return;
+    this.clear();
+    this.asked = asked;
+    byId("chance").textContent = "…";
     this.update();
+  }
+
+  /** Shows no answer, and computes none. */
+  clear() {
+    this.update.drop();
+    this.asked = null;
+    this.say("–");
+    byId("precision").textContent = "";
+    this.refuse(null);
+  }
+
+  say(chance, note = "", probability = null) {
+    byId("chance").textContent = chance;
+    byId("chance-note").textContent = note;
+    if (probability === null) delete byId("chance").dataset.probability;
+    else byId("chance").dataset.probability = String(probability);
   }
 
   compute() {
     try {
       const { probability, interval, interval_kind, points } = ask({ ask: "hand", scene: question(), spread: state.view.spread });
       const error = interval ? (interval[1] - interval[0]) / 2 : 5e-5;
-      byId("chance").textContent = percent(probability, error);
-      byId("chance").dataset.probability = String(probability);
       const range = interval ? `${percent(interval[0], error)} to ${percent(interval[1], error)} (${interval_kind})` : interval_kind;
-      byId("chance-note").textContent = `${range}; ${points} launches, each at all its speeds`;
+      this.say(percent(probability, error), `${range}; ${points} launches, each at all its speeds`, probability);
       this.refuse(null);
     } catch (refusal) {
-      byId("chance").textContent = "–";
-      byId("chance-note").textContent = "";
+      this.say("–");
       this.refuse(refusal);
     }
   }
 
   refuse(refusal) {
     byId("spread").toggleAttribute("aria-invalid", refusal?.field === "spread");
-    byId("spread-error").textContent = refusal?.message ?? "";
+    byId("spread-error").textContent = refusal ? withPoint(refusal.message, state.view.spread) : "";
     byId("spread-error").hidden = !refusal;
   }
 
@@ -61,7 +80,7 @@ export class Hand {
       }[found.answer];
       byId("precision").textContent = text;
     } catch (refusal) {
-      byId("precision").textContent = refusal.message;
+      byId("precision").textContent = withPoint(refusal.message, heads);
     }
   }
 }

@@ -1,9 +1,9 @@
 // Integrators side by side: how the error of each grows along the flight, what it costs, and where it fails.
 import { ask } from "./library.js";
 import { byId, fill, later, make, options } from "./dom.js";
-import { duration, short } from "./format.js";
+import { duration, short, withPoint } from "./format.js";
 import { Plot } from "./plot.js";
-import { change, question, state } from "./state.js";
+import { CHOICES, change, question, state } from "./state.js";
 import { ofSolver } from "./theme.js";
 
 const POINTS = 60;
@@ -24,8 +24,10 @@ export class Integrators {
     options(byId("solver"), [["all", "all of them"], ...this.known.map(({ name, summary }) => [name, `${name}: ${summary}`])]);
     options(byId("scheme"), [...schemes.keys()].map((name) => [name, name]));
     options(byId("formulation"), [...formulations].map((name) => [name, FORMULATIONS[name] ?? name]));
+    const names = (options) => [...options].map(({ value }) => value);
+    for (const name of ["solver", "scheme", "formulation"]) CHOICES[name] = names(byId(name).options);
     for (const name of ["solver", "scheme", "tolerance", "step", "formulation"]) {
-      byId(name).addEventListener("change", ({ target }) => change({ view: { [name]: target.value } }, "integrators"));
+      byId(name).addEventListener("input", ({ target }) => change({ view: { [name]: target.value } }, "integrators"));
     }
     this.plot = new Plot(byId("plot-errors"), { title: "error of the attitude (rad)", series: [], logarithmic: true, height: 230, value: (value) => (value == null ? "–" : value.toExponential(1)) });
     this.update = later(250, () => this.compute());
@@ -39,12 +41,37 @@ export class Integrators {
   }
 
   show() {
-    for (const name of ["solver", "scheme", "tolerance", "step", "formulation"]) byId(name).value = state.view[name];
+    for (const name of ["solver", "scheme", "tolerance", "step", "formulation"]) {
+      if (byId(name).value !== state.view[name]) byId(name).value = state.view[name];
+    }
     const isAdaptive = this.schemes.get(state.view.scheme)?.adaptive ?? true;
     byId("tolerance-box").hidden = !isAdaptive;
     byId("step-box").hidden = isAdaptive;
+    // What else of the view has changed makes no other answer.
+    const { solver, scheme, tolerance, step, formulation } = state.view;
+    const asked = JSON.stringify([question(), solver, scheme, tolerance, step, formulation]);
+    if (asked === this.asked) return;
+    this.clear();
+    this.asked = asked;
     this.isStale = true;
     if (this.isSeen) this.update();
+  }
+
+  /** Draws again, in other colours. */
+  recolour() {
+    this.asked = null;
+    this.show();
+  }
+
+  /** Shows no answer, and computes none. */
+  clear() {
+    this.update.drop();
+    this.isStale = false;
+    this.asked = null;
+    this.plot.clear();
+    fill(byId("failures"));
+    fill(byId("candidates"));
+    this.refuse(null);
   }
 
   /** The settings of a solver: the chosen scheme, or `null` if it does not have it. */
@@ -59,16 +86,17 @@ export class Integrators {
   compute() {
     this.isStale = false;
     try {
-      this.refuse(null);
       this.drawGrowth();
       this.fillTable();
     } catch (refusal) {
+      this.clear();
       this.refuse(refusal);
     }
   }
 
   refuse(refusal) {
-    byId("integrators-error").textContent = refusal?.message ?? "";
+    const typed = { tolerance: state.view.tolerance, step: state.view.step }[refusal?.field?.split(" ")[0]] ?? "";
+    byId("integrators-error").textContent = refusal ? withPoint(refusal.message, typed) : "";
     byId("integrators-error").hidden = !refusal;
   }
 

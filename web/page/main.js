@@ -1,9 +1,10 @@
 // Starts the page: the library, the first answer, then what is slower.
 import { ask, frame, start } from "./library.js";
+import { read } from "./address.js";
 import { showAnswer, showRefusal } from "./answer.js";
 import { Controls } from "./controls.js";
 import { byId, later, onceAFrame } from "./dom.js";
-import { flight, fly } from "./flight.js";
+import { flight, fly, land } from "./flight.js";
 import { typed } from "./format.js";
 import { Hand } from "./hand.js";
 import { Integrators } from "./integrators.js";
@@ -29,11 +30,15 @@ async function main() {
   parts.player = new Player(show);
   Object.assign(measured, { map: parts.map.timing, frames: parts.player.frames });
   byId("version").textContent = known.version;
-  onChange((what) => (what === "scene" ? sceneChanged() : viewChanged()));
+  onChange((what) => {
+    byId("address-error").hidden = true;
+    if (what === "scene") sceneChanged();
+    else viewChanged();
+  });
   onTheme(recolour);
   byId("theme").addEventListener("click", toggle);
   byId("copy").addEventListener("click", copy);
-  addEventListener("hashchange", () => location.hash.slice(1) !== address() && readAddress());
+  addEventListener("hashchange", () => (location.hash.slice(1) === address() ? read() : readAddress()));
   // The page is at its place only when it has its height; the address chooses what it shows.
   readAddress();
   measured.firstAnswer = performance.now();
@@ -43,23 +48,28 @@ async function main() {
 
 /** Takes the scene of the address, or the first preset. */
 function readAddress() {
+  const text = read();
+  let found = null;
+  let fault = null;
   try {
-    const text = location.hash.slice(1);
-    byId("address-error").hidden = true;
-    change(text ? fromAddress(text) : ofPreset("cheated"));
+    found = text && fromAddress(text);
   } catch (error) {
-    byId("address-error").textContent = `${error.message}; this is the paper's cheated toss instead`;
-    byId("address-error").hidden = false;
-    change(ofPreset("cheated"));
+    fault = error;
   }
+  change(found || ofPreset("cheated"));
+  // Until the next change.
+  byId("address-error").textContent = fault && `${fault.message}; this is the paper's cheated toss instead`;
+  byId("address-error").hidden = !fault;
 }
 
 const announce = later(700, (text) => (byId("announcement").textContent = text));
 
-/** Answers the scene. What is quick is done at once; the map follows in the next frame. */
+/** Answers the scene. What is quick is done at once; the map follows before the next frame is shown. */
 function sceneChanged() {
   parts.controls.show();
   parts.player.refresh();
+  parts.hand.clear();
+  parts.integrators.clear();
   try {
     toss = ask({ ask: "toss", scene: question() });
     fly(toss);
@@ -68,7 +78,11 @@ function sceneChanged() {
     announce(`${byId("outcome").textContent}, ${byId("proof").textContent}`);
   } catch (refusal) {
     toss = null;
-    parts.player.pause();
+    land();
+    parts.player.clear();
+    parts.map.clear();
+    parts.traces.clear();
+    byId("ruler").hidden = true;
     showRefusal(refusal);
     parts.controls.refuse(refusal);
     announce(refusal.message);
@@ -119,13 +133,13 @@ function recolour() {
   if (!toss) return;
   parts.traces.recolour();
   parts.map.draw();
-  parts.integrators.show();
+  parts.integrators.recolour();
   parts.scene?.recolour(colours());
   parts.player.at(flight.time);
 }
 
 async function copy() {
-  const text = location.href;
+  const text = new URL(`#${address()}`, location.href).href;
   try {
     await navigator.clipboard.writeText(text);
     byId("announcement").textContent = "The address of this toss is copied.";
@@ -157,7 +171,13 @@ function loadScene() {
 /** Takes the launch whose S was dragged in this direction (LF). */
 function aimed(direction) {
   if (!toss) return;
-  const { rate } = ask({ ask: "aim", scene: question(), direction });
+  let rate;
+  try {
+    ({ rate } = ask({ ask: "aim", scene: question(), direction }));
+  } catch ({ message }) {
+    announce(message);
+    return;
+  }
   parts.player.pause();
   flight.time = 0;
   change({ scene: { by: "rate", rate: rate.map((part) => typed(part)) } }, "scene");
@@ -168,3 +188,4 @@ main().catch((error) => {
   byId("proof").textContent = error.message;
 });
 window.tossState = state;
+window.tossAddress = address;

@@ -44,9 +44,19 @@ export class MapView {
       if (isQuick) this.compute([0, this.grid.rows]);
       else this.inParts(turn, 0);
     } catch (refusal) {
-      this.grid = null;
+      this.clear();
       this.say(refusal.message);
     }
+    this.draw();
+  }
+
+  /** Shows that there is no map. */
+  clear() {
+    this.turn = (this.turn ?? 0) + 1;
+    this.grid = null;
+    this.isHeld = false;
+    byId("map-lines").textContent = "";
+    this.say("");
     this.draw();
   }
 
@@ -88,7 +98,7 @@ export class MapView {
     try {
       this.compute([first, next]);
     } catch (refusal) {
-      this.grid = null;
+      this.clear();
       this.say(refusal.message);
     }
     this.draw();
@@ -235,6 +245,7 @@ export class MapView {
 
   /** Makes this the launch: the rates as numbers in rad/s, and the speed in m/s. */
   launchAt(x, up) {
+    if (!this.grid) return;
     const { rate } = this.toss.input;
     const isSpeed = this.grid.up === "speed";
     const rates = [x, rate[1], isSpeed ? rate[2] : up].map((part) => typed(part));

@@ -22,6 +22,7 @@ export class Player {
     byId("play").addEventListener("click", () => (this.isPlaying ? this.pause() : this.play()));
     byId("clock").addEventListener("input", ({ target }) => {
       this.pause();
+      if (!flight.answer) return;
       this.at((target.value / STEPS) * flight.answer.flight_time);
     });
   }
@@ -38,6 +39,14 @@ export class Player {
   pause() {
     this.isPlaying = false;
     this.label();
+  }
+
+  /** Shows that there is no flight. */
+  clear() {
+    this.pause();
+    byId("clock").value = 0;
+    byId("clock").removeAttribute("aria-valuetext");
+    byId("clock-text").textContent = "–";
   }
 
   label() {

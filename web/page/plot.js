@@ -32,6 +32,13 @@ export class Plot {
     this.chart.over.append(this.marker);
   }
 
+  /** Shows nothing. */
+  clear() {
+    this.chart?.destroy();
+    Object.assign(this, { chart: null, data: null });
+    this.into.replaceChildren();
+  }
+
   resize() {
     const width = this.into.clientWidth;
     if (this.chart && width > 40 && width !== this.chart.width) this.chart.setSize({ width, height: this.height });

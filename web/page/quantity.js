@@ -1,7 +1,7 @@
 // An input for a quantity: a slider, and a text with a unit. The text is what counts; the library reads it.
 import { ask } from "./library.js";
 import { make } from "./dom.js";
-import { niceAbove, typed } from "./format.js";
+import { niceAbove, typed, withPoint } from "./format.js";
 
 const STEPS = 1000;
 
@@ -36,7 +36,7 @@ export class QuantityInput {
   refuse(reason) {
     this.text.toggleAttribute("aria-invalid", Boolean(reason));
     if (reason) this.text.setAttribute("aria-invalid", "true");
-    this.error.textContent = reason ?? "";
+    this.error.textContent = reason ? withPoint(reason, this.read()) : "";
     this.error.hidden = !reason;
   }
 

@@ -1,5 +1,6 @@
 // The state of the page: the scene, as the texts that a person typed, and what is shown of it. The address holds it, in the
 // words of the command line's options.
+import { write } from "./address.js";
 import { PRESETS } from "./presets.js";
 
 /** A scene of which nothing was said. */
@@ -41,12 +42,12 @@ const listeners = [];
 /** Calls `listener` with what has changed, "scene" or "view", after each change. */
 export const onChange = (listener) => listeners.push(listener);
 
-/** Changes the scene or the view, writes it into the address, and tells everybody. */
+/** Changes the scene or the view, tells everybody, and writes it into the address. */
 export function change({ scene, view }, source = null) {
   if (scene) state.scene = { ...state.scene, ...scene };
   if (view) state.view = { ...state.view, ...view };
-  history.replaceState(null, "", `#${address()}`);
   for (const listener of listeners) listener(scene ? "scene" : "view", source);
+  write(address());
 }
 
 /** The scene as the library takes it: what does not apply or is blank is left out. */
@@ -77,10 +78,23 @@ export function command(further = []) {
 export function address() {
   const shown = Object.entries(state.view).filter(([name, value]) => value !== VIEW[name]);
   const pairs = [...Object.entries(question()), ...shown];
-  return pairs.map(([name, value]) => `${name}=${escaped(String(value))}`).join("&");
+  // A comma that was typed into a rate is no comma between two.
+  const text = (value) => (Array.isArray(value) ? value.map((part) => encodeURIComponent(part).replaceAll("%2F", "/")).join(",") : escaped(String(value)));
+  return pairs.map(([name, value]) => `${name}=${text(value)}`).join("&");
 }
 
 const escaped = (text) => encodeURIComponent(text).replaceAll("%2F", "/").replaceAll("%2C", ",");
+
+/** The values that a part of the view may have, where these are not numbers. */
+export const CHOICES = { map: ["rate_z", "speed"], shade: ["outcome", "chance"] };
+
+function decoded(name, text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    throw new Error(`the address has '${name}=${text}', in which a % does not begin an escaped letter`);
+  }
+}
 
 /** Reads an address. Gives the scene and the view, or throws an error that names what is wrong. */
 export function fromAddress(text) {
@@ -90,7 +104,15 @@ export function fromAddress(text) {
     if (name in given) throw new Error(`the address gives '${name}' twice`);
     if (name !== "preset" && !(name in BLANK) && !(name in VIEW)) throw new Error(`the address has '${name}', which is unknown`);
     if (["body", "by", "flight"].includes(name)) throw new Error(`the address has '${name}', which is unknown`);
-    given[name] = decodeURIComponent(value);
+    given[name] = decoded(name, value);
+    // Some programs escape the commas between the rates, too.
+    if (name === "rate") given[name] = (value.includes(",") ? value : given[name]).split(",").map((part) => decoded(name, part));
+    if (CHOICES[name] && !CHOICES[name].includes(given[name])) {
+      throw new Error(`the address has '${name}=${given[name]}': valid are ${CHOICES[name].join(", ")}`);
+    }
+    if (name === "pace" && !(Number(given[name]) > 0 && Number(given[name]) <= 1000)) {
+      throw new Error(`the address has 'pace=${given[name]}': valid is a number above 0 and at most 1000`);
+    }
   }
   if (given.preset) return ofPreset(given.preset);
   const view = { ...VIEW };
@@ -109,7 +131,7 @@ function sceneOf(given) {
   scene.body = one(["coin", "cylinder", "moments"], "coin");
   scene.flight = one(["speed", "time"], "speed");
   if ("turn" in given || "wobble" in given) scene.by = one(["rate", "turn"], "turn");
-  if (given.rate) scene.rate = given.rate.split(",");
+  if (given.rate) scene.rate = given.rate;
   if (scene.rate.length !== 3) throw new Error("the address has a rate that is not three numbers");
   return scene;
 }

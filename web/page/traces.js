@@ -16,6 +16,11 @@ export class Traces {
     };
   }
 
+  /** Shows that there is no flight. */
+  clear() {
+    for (const plot of Object.values(this.plots)) plot.clear();
+  }
+
   /** Draws the flight. */
   draw() {
     const { normal, face, momentum, faint } = colours();

@@ -2,9 +2,9 @@
 import { Instance } from "./instance.js";
 
 onmessage = async ({ data: { module, question } }) => {
-  const library = new Instance(module);
-  await library.start();
   try {
+    const library = new Instance(module);
+    await library.start();
     postMessage({ answer: library.ask(question) });
   } catch ({ kind, message, field }) {
     postMessage({ refusal: { kind, message, field } });

@@ -30,12 +30,14 @@ export const launchBrowser = () =>
 
 /**
  * Opens the page at `address`, the part behind the #, and waits for its first answer, or for the scene too. Whatever the
- * console says, and every request that is not for a file of the page, is kept in `page.faults`.
+ * console says, and every request that is not for a file of the page, is kept in `page.faults`. `before` runs in the page
+ * before its scripts.
  */
-export async function open(browser, address = "", { until = "answer", ...options } = {}) {
+export async function open(browser, address = "", { until = "answer", before = null, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce", ...options });
   context.setDefaultTimeout(120_000);
   const page = await context.newPage();
+  if (before) await page.addInitScript(before);
   page.faults = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.faults.push(message.text()));
   page.on("pageerror", (error) => page.faults.push(error.message));
@@ -82,5 +84,8 @@ export const drawn = (page) =>
 /** The text of an element. */
 export const text = (page, id) => page.locator(`#${id}`).innerText();
 
-/** The part of the address behind the #. */
-export const address = (page) => page.evaluate(() => location.hash.slice(1));
+/** The part of the address behind the #, once the page has written it. */
+export async function address(page) {
+  await page.waitForFunction(() => location.hash.slice(1) === window.tossAddress());
+  return page.evaluate(() => location.hash.slice(1));
+}

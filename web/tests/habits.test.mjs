@@ -41,10 +41,16 @@ test("an address that is wrong is named, and not used in part", async () => {
     ["rate=1,2,3&turn=4", "rate and turn"],
     ["speed=3&speed=4", "'speed' twice"],
     ["preset=none", "preset 'none'"],
+    ["speed=%zz", "'speed=%zz'"],
+    ["rate=1,2,3&map=none", "'map=none': valid are rate_z, speed"],
+    ["scheme=none", "'scheme=none': valid are dop853"],
+    ["pace=fast", "'pace=fast'"],
   ]) {
     const page = await open(browser, given);
     assert.ok((await text(page, "address-error")).includes(words), given);
     assert.equal((await answer(page)).outcome, "heads");
+    await page.click("[data-preset=tails]");
+    assert.ok(await page.locator("#address-error").isHidden());
     await close(page);
   }
 });
@@ -70,6 +76,189 @@ test("bad input is refused beside its field, in the library's words", async () =
   await page.selectOption("#coin", "=moments");
   await page.fill("#body", "1,2,9");
   assert.ok((await text(page, "body-error")).includes("no body has such moments"));
+  await close(page);
+});
+
+/** What is shown that depends on the scene, besides the answer. */
+const shown = (page) =>
+  page.evaluate(() => {
+    const text = (id) => document.getElementById(id).textContent;
+    const map = document.getElementById("map");
+    const blank = Object.assign(document.createElement("canvas"), { width: map.width, height: map.height });
+    return {
+      chance: [text("chance"), text("chance-note"), document.getElementById("chance").dataset.probability ?? ""],
+      precision: text("precision"),
+      candidates: document.querySelectorAll("#candidates tr").length,
+      failures: text("failures"),
+      charts: document.querySelectorAll(".plot canvas").length,
+      mapIsDrawn: map.toDataURL() !== blank.toDataURL(),
+      mapLines: text("map-lines"),
+      command: text("command"),
+      clock: text("clock-text"),
+      scene: getComputedStyle(document.querySelector("#scene canvas")).visibility,
+      rulerIsHidden: document.getElementById("ruler").hidden,
+    };
+  });
+
+const NOTHING = {
+  chance: ["–", "", ""], precision: "", candidates: 0, failures: "", charts: 0, mapIsDrawn: false, mapLines: "", command: "–", clock: "–",
+  scene: "hidden", rulerIsHidden: true,
+};
+
+/** Waits until everything is shown, also what is slow. */
+async function all(page) {
+  await page.locator("#integrators").scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.getElementById("chance").dataset.probability, null, { timeout: 120_000 });
+  await page.waitForFunction(() => document.querySelectorAll("#candidates tr").length > 5, null, { timeout: 120_000 });
+  await page.click("#find-precision");
+}
+
+test("where there is no answer, nothing of the last one is left, also not later", async () => {
+  const page = await open(browser, "preset=cheated", { until: "scene" });
+  for (const [id, typed] of [["rate-x", "x"], ["speed", "-1"], ["rate-z", "1e300"]]) {
+    await all(page);
+    const before = await shown(page);
+    assert.notEqual(before.chance[2], "");
+    assert.ok(before.mapIsDrawn && before.charts >= 4 && before.precision && before.command.includes("unfair-toss"));
+    const good = await page.inputValue(`#${id}`);
+    await page.fill(`#${id}`, typed);
+    assert.equal((await answer(page)).outcome, "refused");
+    assert.deepEqual(await shown(page), NOTHING);
+    await page.click("#play");
+    await page.locator("#clock").evaluate((clock) => clock.dispatchEvent(new Event("input", { bubbles: true })));
+    await page.waitForTimeout(700);
+    assert.deepEqual(await shown(page), NOTHING, `after ${id}`);
+    await page.fill(`#${id}`, good);
+    await page.locator(`#${id}`).blur();
+    assert.equal((await answer(page)).outcome, "heads");
+  }
+  await all(page);
+  await close(page);
+});
+
+test("no old probability, precision or error is shown beside another launch or setting", async () => {
+  const page = await open(browser, "preset=cheated");
+  await all(page);
+  // What is shown as soon as another one is typed, before anything else is computed.
+  const typed = (id, value, ids) =>
+    page.evaluate(([id, value, ids]) => {
+      const input = document.getElementById(id);
+      input.value = value;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      return ids.map((id) => document.getElementById(id).textContent);
+    }, [id, value, ids]);
+  assert.deepEqual(await typed("wanted", "90%", ["precision"]), [""]);
+  await page.click("#find-precision");
+  assert.deepEqual(await typed("spread", "3%", ["chance", "chance-note", "precision"]), ["…", "", ""]);
+  await all(page);
+  assert.deepEqual(await typed("rate-x", "1.5", ["chance", "chance-note", "precision", "candidates", "failures"]), ["–", "", "", "", ""]);
+  await all(page);
+  assert.deepEqual(await typed("tolerance", "1e-7", ["candidates", "failures"]), ["", ""]);
+  await page.waitForFunction(() => document.querySelectorAll("#candidates tr").length > 5, null, { timeout: 120_000 });
+  await typed("tolerance", "7", []);
+  await page.waitForFunction(() => !document.getElementById("integrators-error").hidden, null, { timeout: 120_000 });
+  assert.equal(await text(page, "candidates"), "");
+  await typed("spread", "x", []);
+  await page.waitForFunction(() => !document.getElementById("spread-error").hidden);
+  assert.deepEqual(await typed("spread", "x", ["chance", "chance-note"]), ["–", ""]);
+  await close(page);
+});
+
+test("a map that is dragged and the answer beside it are of the same launch in every frame", async () => {
+  const page = await open(browser, "preset=tails", { until: "scene" });
+  await page.locator("#map").scrollIntoViewIfNeeded();
+  const box = await page.locator("#map").boundingBox();
+  // The map is drawn where the charts are. A frame that begins between an answer and its charts would show old ones.
+  await page.evaluate(() => {
+    window.seen = [];
+    const charts = document.getElementById("plot-rates");
+    new MutationObserver(() => window.seen.push("answer")).observe(document.getElementById("cos-tilt"), { childList: true });
+    new MutationObserver(() => window.seen.push("charts")).observe(charts, { childList: true, subtree: true, characterData: true, attributes: true });
+    const frame = () => {
+      window.seen.push("frame");
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  });
+  await page.mouse.move(box.x + 100, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 200, box.y + 100, { steps: 10 });
+  await page.mouse.up();
+  await drawn(page);
+  const seen = (await page.evaluate(() => window.seen)).join(" ");
+  assert.ok(seen.includes("answer charts") && !seen.includes("answer frame"), seen);
+  await close(page);
+});
+
+test("the answer does not depend on the address bar, which browsers refuse to write too often", async () => {
+  const never = () => {
+    History.prototype.replaceState = () => {
+      throw new DOMException("Attempt to use history.replaceState() more than 100 times per 30 seconds", "SecurityError");
+    };
+  };
+  const page = await open(browser, "preset=cheated", { before: never });
+  const other = await open(browser, "rate=2,2,0.5&speed=3");
+  await page.click("[data-preset=tails]");
+  assert.deepEqual(await answer(page), await answer(other));
+  await page.fill("#speed", "x");
+  assert.equal((await answer(page)).outcome, "refused");
+  await page.fill("#speed", "3");
+  assert.deepEqual(await answer(page), await answer(other));
+  await close(other);
+  await close(page);
+});
+
+test("of many changes the address is written a few times, and the last one is", async () => {
+  const few = () => {
+    const write = History.prototype.replaceState;
+    const times = (window.writes = []);
+    History.prototype.replaceState = function (...given) {
+      times.push(performance.now());
+      if (times.filter((time) => time > performance.now() - 30_000).length > 100) throw new DOMException("too often", "SecurityError");
+      return write.apply(this, given);
+    };
+  };
+  const page = await open(browser, "preset=tails", { before: few });
+  await page.evaluate(() => {
+    for (let change = 0; change < 300; change++) document.getElementById("map").dispatchEvent(new KeyboardEvent("keydown", { key: change % 2 ? "ArrowUp" : "ArrowRight" }));
+  });
+  assert.ok((await address(page)).includes("rate="));
+  assert.ok((await page.evaluate(() => window.writes.length)) <= 4);
+  // An address that a person writes meanwhile is read, and not written over.
+  await page.evaluate(() => {
+    const key = () => document.getElementById("map").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp" }));
+    for (let change = 0; change < 5; change++) key();
+    location.hash = "preset=cheated";
+  });
+  await page.waitForFunction(() => document.querySelector("[data-preset=cheated]").getAttribute("aria-pressed") === "true");
+  assert.ok((await address(page)).startsWith("coin=paper&rate=1,1,2.5&speed=3"));
+  await close(page);
+});
+
+test("a decimal comma is refused with the point in its place, and the address keeps it", async () => {
+  const page = await open(browser, "preset=cheated");
+  await page.fill("#speed", "2,5m/s");
+  assert.match(await text(page, "speed-error"), /decimals take a point: 2\.5m\/s/);
+  await page.fill("#speed", "3");
+  await page.fill("#rate-y", "0,5");
+  assert.match(await text(page, "rate-y-error"), /decimals take a point: 0\.5/);
+  const again = await open(browser, await address(page));
+  assert.equal(await again.inputValue("#rate-y"), "0,5");
+  assert.match(await text(again, "rate-y-error"), /decimals take a point: 0\.5/);
+  assert.equal((await answer(again)).outcome, "refused");
+  await close(again);
+  await page.fill("#rate-y", "1");
+  await page.fill("#spread", "2,5%");
+  await page.waitForFunction(() => document.getElementById("spread-error").textContent.includes("decimals take a point: 2.5%"));
+  await page.fill("#wanted", "95,5%");
+  await page.click("#find-precision");
+  assert.match(await text(page, "precision"), /decimals take a point: 95\.5%/);
+  await page.locator("#integrators").scrollIntoViewIfNeeded();
+  await page.fill("#tolerance", "0,001");
+  await page.waitForFunction(() => document.getElementById("integrators-error").textContent.includes("decimals take a point: 0.001"), null, { timeout: 60_000 });
+  await page.selectOption("#coin", "=cylinder");
+  await page.fill("#body", "5,67g,12.13mm,1.75mm");
+  assert.match(await text(page, "body-error"), /commas separate the numbers, and decimals take a point/);
   await close(page);
 });
 

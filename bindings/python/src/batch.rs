@@ -1,6 +1,7 @@
 //! Many launches of one body, as columns of NumPy, on as many threads as are asked for.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use ::toss::{Attitude, Stage};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
@@ -8,16 +9,30 @@ use pyo3::prelude::*;
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
+use crate::given::{count, number, optional_number};
 use crate::launches::{Common, Counts, Launches};
 use crate::solver::backend_of;
-use crate::threads;
+use crate::threads::{self, A_CALL, A_PROOF, Stop};
 use crate::toss::{attitude_of, components_of};
+
+/// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
+const A_SLOW_CALL: usize = 1 << 6;
 
 /// What the launches of some columns have in common, and the threads that solve them.
 #[pyclass(frozen, module = "unfair_toss._native")]
 pub(crate) struct Batch {
-    launches: Common,
-    pool: Option<rayon::ThreadPool>,
+    launches: Arc<Common>,
+    pool: Option<Arc<rayon::ThreadPool>>,
+}
+
+/// Writes what is found of the launches in a range.
+type Solve<T> = fn(&Launches<'_>, Range<usize>, &mut [T]) -> Result<(), Failure>;
+
+/// What is asked of launches: `width` numbers for each, of at most `a_call` launches at a time by the kernels.
+struct Asked<T> {
+    width: usize,
+    a_call: usize,
+    solve: Solve<T>,
 }
 
 /// The columns of some launches, in Python's memory.
@@ -29,21 +44,23 @@ impl Batch {
     #[pyo3(signature = (body, *, tilt, attitude, gravity, timed, solver, threads))]
     fn new(
         body: &Bound<'_, PyAny>,
-        tilt: Option<f64>,
+        tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
-        gravity: f64,
+        gravity: &Bound<'_, PyAny>,
         timed: bool,
         solver: Option<&Bound<'_, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let (gravity, tilt) = (number("gravity", gravity)?, optional_number("tilt", tilt)?);
         dynamics::error::require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
         let attitude = attitude_of(tilt, attitude.map(components_of).transpose()?)?.unwrap_or(Attitude::IDENTITY);
-        let pool = if threads == Some(1) { None } else { Some(threads::pool(threads)?) };
+        let threads = threads.map(|threads| count("threads", threads)).transpose()?;
+        let pool = if threads == Some(1) { None } else { Some(Arc::new(threads::pool(threads)?)) };
         let solver = solver.map(backend_of).transpose()?;
         // With a gravity of 2 m/s², a speed is the time of flight.
         let gravity = if timed { 2.0 } else { gravity };
         let launches = Common { body: body_of(body)?.get().body, attitude, gravity, timed, solver };
-        Ok(Self { launches, pool })
+        Ok(Self { launches: Arc::new(launches), pool })
     }
 
     /// Whether the launches are solved by the kernels.
@@ -54,7 +71,8 @@ impl Batch {
 
     /// Writes cos θ at landing of the launches, whose first one has the index `first`.
     fn cos_tilts(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
-        self.write(py, &columns, out, 1, first, |range, out, launches| launches.cos_tilts(range, out))
+        let solve: Solve<f64> = |launches, range, out| launches.cos_tilts(range, out);
+        self.write(py, &columns, out, first, &Asked { width: 1, a_call: A_CALL, solve })
     }
 
     /// Writes 1 for heads, -1 for tails and 0 for undecided launches.
@@ -65,12 +83,14 @@ impl Batch {
         out: &Bound<'_, PyArray1<i8>>,
         first: u64,
     ) -> PyResult<()> {
-        self.write(py, &columns, out, 1, first, |range, out, launches| launches.outcomes(range, out))
+        let solve: Solve<i8> = |launches, range, out| launches.outcomes(range, out);
+        self.write(py, &columns, out, first, &Asked { width: 1, a_call: A_PROOF, solve })
     }
 
     /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
     fn attitudes(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
-        self.write(py, &columns, out, 4, first, |range, out, launches| launches.attitudes(range, out))
+        let solve: Solve<f64> = |launches, range, out| launches.attitudes(range, out);
+        self.write(py, &columns, out, first, &Asked { width: 4, a_call: A_CALL, solve })
     }
 
     /// Counts the outcomes.
@@ -78,7 +98,15 @@ impl Batch {
         let columns = borrowed(&columns)?;
         let launches = self.launches(&columns, first)?;
         let number = launches.speeds.len();
-        let counts = py.detach(|| threads::collect(self.pool.as_ref(), number, |range| launches.count(range)))?;
+        let counts = if self.is_vectorised() {
+            threads::collect(py, self.pool.as_deref(), number, |range| launches.count(range))?
+        } else {
+            let (own, pool) = (self.owned(&launches), self.pool.clone());
+            threads::aside(py, move |stop| {
+                let launches = own.borrowed(stop);
+                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| launches.count(range))
+            })?
+        };
         Ok(counts.into_iter().fold((0, 0, 0, Some([0; Stage::ALL.len()])), added))
     }
 }
@@ -104,22 +132,39 @@ fn no_column(error: impl ToString) -> PyErr {
 }
 
 impl Batch {
-    /// Writes what `solve` finds of the launches, `width` numbers for each, without Python's lock.
-    fn write<T: Element + Send>(
+    /// Writes what is asked of the launches, without Python's lock. What is not solved by the kernels may take long for a
+    /// single launch; that is found of a copy, which a signal can leave behind.
+    fn write<T: Element + Default + Copy + Send + 'static>(
         &self,
         py: Python<'_>,
         columns: &[Column<'_>; 4],
         out: &Bound<'_, PyArray1<T>>,
-        width: usize,
         first: u64,
-        solve: impl Fn(Range<usize>, &mut [T], &Launches<'_>) -> Result<(), Failure> + Sync,
+        &Asked { width, a_call, solve }: &Asked<T>,
     ) -> PyResult<()> {
         let columns = borrowed(columns)?;
         let launches = self.launches(&columns, first)?;
         let mut out = out.try_readwrite().map_err(in_use)?;
         let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, width)?;
-        let pool = self.pool.as_ref();
-        Ok(py.detach(|| threads::fill(pool, out, width, |range, out| solve(range, out, &launches)))?)
+        if self.is_vectorised() {
+            let solve = |range: Range<usize>, out: &mut [T]| solve(&launches, range, out);
+            return threads::fill(py, self.pool.as_deref(), a_call, out, width, solve);
+        }
+        let (own, pool, length) = (self.owned(&launches), self.pool.clone(), out.len());
+        let found = threads::aside(py, move |stop| {
+            let (launches, mut found) = (own.borrowed(stop), vec![T::default(); length]);
+            let solve = |range: Range<usize>, out: &mut [T]| solve(&launches, range, out);
+            threads::filled(pool.as_deref(), stop, A_SLOW_CALL, &mut found, width, solve)?;
+            Ok(found)
+        })?;
+        out.copy_from_slice(&found);
+        Ok(())
+    }
+
+    /// A copy of launches.
+    fn owned(&self, launches: &Launches<'_>) -> Owned {
+        let Launches { rates, speeds, first, .. } = launches;
+        Owned { of: self.launches.clone(), rates: rates.map(<[f64]>::to_vec), speeds: speeds.to_vec(), first: *first }
     }
 
     fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>; 4], first: u64) -> PyResult<Launches<'a>> {
@@ -128,6 +173,21 @@ impl Batch {
         if rates.iter().any(|column| column.len() != speeds.len()) {
             return Err(malformed("columns", "of different lengths", "as many rates of each kind as speeds"));
         }
-        Ok(Launches { of: &self.launches, rates, speeds, first })
+        Ok(Launches { of: &self.launches, rates, speeds, first, stop: None })
+    }
+}
+
+/// Launches whose columns are copies.
+struct Owned {
+    of: Arc<Common>,
+    rates: [Vec<f64>; 3],
+    speeds: Vec<f64>,
+    first: u64,
+}
+
+impl Owned {
+    fn borrowed<'a>(&'a self, stop: &'a Stop) -> Launches<'a> {
+        let rates = self.rates.each_ref().map(Vec::as_slice);
+        Launches { of: &self.of, rates, speeds: &self.speeds, first: self.first, stop: Some(stop) }
     }
 }

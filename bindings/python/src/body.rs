@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::Failure;
+use crate::given::{matrix, number, numbers, object, text};
 
 /// A rigid body, by its inertia about the centre of mass.
 ///
@@ -37,9 +38,8 @@ impl Body {
     /// name : str
     ///     Such as ``"us-quarter"`` or ``"racket"``; ``bodies()`` lists them.
     #[staticmethod]
-    pub(crate) fn named(name: &str) -> PyResult<Self> {
-        let body = named_body(name).map_err(Failure::from)?;
-        Ok(Self { body, origin: Origin::Named(name.to_owned()) })
+    fn named(name: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::of_name(text("name", name, "the name of a body")?, "name")
     }
 
     /// A homogeneous cylinder.
@@ -53,7 +53,9 @@ impl Body {
     /// thickness : float
     ///     In m, at least 0.
     #[staticmethod]
-    fn cylinder(mass: f64, radius: f64, thickness: f64) -> PyResult<Self> {
+    fn cylinder(mass: &Bound<'_, PyAny>, radius: &Bound<'_, PyAny>, thickness: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let mass = number("mass", mass)?;
+        let (radius, thickness) = (number("radius", radius)?, number("thickness", thickness)?);
         let coin = Coin::from_cylinder(mass, radius, thickness).map_err(Failure::from)?;
         Ok(Self { body: coin.into(), origin: Origin::Cylinder([mass, radius, thickness]) })
     }
@@ -65,9 +67,10 @@ impl Body {
     /// moments : sequence of 2 or 3 floats
     ///     I1, I3 of a coin, or I1, I2, I3, in kg m². None may exceed the sum of the other two.
     #[staticmethod]
-    fn from_moments(moments: Vec<f64>) -> PyResult<Self> {
-        let body = ::toss::Body::from_listed_moments(&moments);
-        Ok(Self { body: body.map_err(Failure::from)?, origin: Origin::Moments(moments) })
+    fn from_moments(moments: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let moments = numbers("moments", moments, "a sequence of 2 or 3 real numbers")?;
+        let body = ::toss::Body::from_listed_moments(&moments).map_err(|error| Failure::from(error).of("moments"));
+        Ok(Self { body: body?, origin: Origin::Moments(moments) })
     }
 
     /// A body with any inertia tensor.
@@ -77,8 +80,9 @@ impl Body {
     /// tensor : array_like of shape (3, 3)
     ///     Symmetric, in kg m², about the centre of mass; the element xy is -∫ x y dm.
     #[staticmethod]
-    fn from_tensor(tensor: [[f64; 3]; 3]) -> PyResult<Self> {
-        let body = ::toss::Body::from_tensor(tensor).map_err(Failure::from)?;
+    fn from_tensor(tensor: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let tensor = matrix("tensor", tensor, "3 rows of 3 real numbers")?;
+        let body = ::toss::Body::from_tensor(tensor).map_err(|error| Failure::from(error).of("tensor"))?;
         Ok(Self { body, origin: Origin::Tensor(tensor) })
     }
 
@@ -124,7 +128,8 @@ impl Body {
     }
 
     fn __hash__(&self) -> u64 {
-        self.body.principal_moments().iter().fold(0, |hash, moment| hash ^ moment.to_bits().rotate_left(7))
+        // A moment of -0 is one of 0.
+        self.body.principal_moments().iter().fold(0, |hash, moment| hash ^ (moment + 0.0).to_bits().rotate_left(7))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -149,10 +154,18 @@ impl<I: Iterator<Item = f64>> CollectTuple for I {}
 
 /// The body that an argument means: a name of the catalogue, or a [`Body`].
 pub(crate) fn body_of(argument: &Bound<'_, PyAny>) -> PyResult<Py<Body>> {
-    if let Ok(name) = argument.extract::<&str>() {
-        return Py::new(argument.py(), Body::named(name)?);
+    match argument.extract::<String>() {
+        Ok(name) => Py::new(argument.py(), Body::of_name(name, "body")?),
+        Err(_) => Ok(object::<Body>("body", argument, "the name of a body, or a Body")?.clone().unbind()),
     }
-    Ok(argument.cast::<Body>()?.clone().unbind())
+}
+
+impl Body {
+    /// The body of the catalogue that the argument `field` names.
+    pub(crate) fn of_name(name: String, field: &'static str) -> PyResult<Self> {
+        let body = named_body(&name).map_err(|error| Failure::from(error).of(field))?;
+        Ok(Self { body, origin: Origin::Named(name) })
+    }
 }
 
 /// The coin that a body is, for what is computed of coins alone.

@@ -9,6 +9,8 @@ pub(crate) struct Failure {
     pub(crate) error: Error,
     /// Counted from 0; `None` for what is no launch of many.
     pub(crate) index: Option<u64>,
+    /// The argument that is at fault, where that is not called as the field of the error.
+    argument: Option<&'static str>,
 }
 
 /// What an exception says beside its message.
@@ -20,7 +22,7 @@ struct Details {
 
 impl<E: Into<Error>> From<E> for Failure {
     fn from(error: E) -> Self {
-        Self { error: error.into(), index: None }
+        Self { error: error.into(), index: None, argument: None }
     }
 }
 
@@ -28,6 +30,11 @@ impl Failure {
     /// The same failure, of the launch with this index.
     pub(crate) fn at(self, index: u64) -> Self {
         Self { index: Some(index), ..self }
+    }
+
+    /// The same failure, of what the argument called `argument` gave.
+    pub(crate) fn of(self, argument: &'static str) -> Self {
+        Self { argument: Some(argument), ..self }
     }
 
     /// The index of the launch, also where the error itself has it.
@@ -47,6 +54,7 @@ impl Failure {
 
     fn exception(&self, py: Python<'_>) -> PyResult<PyErr> {
         let (class, Details { field, valid }) = class_of(&self.error);
+        let field = self.argument.or(field.map(argument));
         let kwargs = PyDict::new(py);
         kwargs.set_item("field", field)?;
         kwargs.set_item("index", self.launch())?;
@@ -60,6 +68,32 @@ impl Failure {
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
         Python::attach(|py| failure.exception(py).unwrap_or_else(|error| error))
+    }
+}
+
+/// The exception of a value that is not what the argument `field` takes, for element `index` if it takes several.
+pub(crate) fn refused(py: Python<'_>, message: &str, field: &str, index: Option<usize>, valid: &str) -> PyErr {
+    let exception = || {
+        let kwargs = PyDict::new(py);
+        kwargs.set_item("field", field)?;
+        kwargs.set_item("index", index)?;
+        kwargs.set_item("valid", valid)?;
+        let class = py.import("unfair_toss.errors")?.getattr("MalformedError")?;
+        Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
+    };
+    exception().unwrap_or_else(|error: PyErr| error)
+}
+
+/// The argument of Python that a field is given by, with its unit.
+fn argument(field: &'static str) -> &'static str {
+    match field {
+        "rate x [rad/s]" => "rate_x [rad/s]",
+        "rate y [rad/s]" => "rate_y [rad/s]",
+        "rate z [rad/s]" => "rate_z [rad/s]",
+        "coin" => "body",
+        "tolerance" => "rtol",
+        "scheme of this solver" => "scheme",
+        field => field,
     }
 }
 

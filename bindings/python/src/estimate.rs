@@ -1,13 +1,14 @@
 //! Estimates of probabilities, as plain values.
 
-use ::toss::sampling::{Counts, Estimate, Found};
+use ::toss::sampling::{self, Counts, Estimate, Found, Space};
 use ::toss::{Answer, Backend, Choice, How, InputError, Registry, Scene, Stage, Want};
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
-use crate::plans::Plan;
+use crate::plans::{Plan, accuracy, plan_of};
 use crate::solver::backend_of;
-use crate::space::Space;
+use crate::space::space_of;
+use crate::tally::threads_of;
 use crate::threads;
 
 /// Values of an estimate: the probability, its interval and what that means, the number of launches, the counts of heads,
@@ -33,28 +34,33 @@ pub(crate) fn values(found: &Estimate) -> Values {
 #[pyfunction]
 pub(crate) fn estimate_by_solver(
     py: Python<'_>,
-    space: &Space,
-    plan: &Plan,
+    #[pyo3(from_py_with = space_of)] space: Space,
+    #[pyo3(from_py_with = plan_of)] plan: sampling::Plan,
     solver: &Bound<'_, PyAny>,
-    threads: Option<usize>,
+    #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<Values> {
     let (backend, pool): (Backend, _) = (backend_of(solver)?, threads::pool(threads)?);
-    let (space, plan) = (space.space, plan.plan);
-    let found = py.detach(|| pool.install(|| backend.sampler().estimate(&space, plan)));
-    Ok(values(&found.map_err(Failure::from)?))
+    let found = threads::aside(py, move |stop| {
+        let progress = |_| stop.here();
+        Ok(pool.install(|| backend.sampler().on_progress(&progress).estimate(&space, plan))?)
+    });
+    Ok(values(&found?))
 }
 
 /// The estimate by the plan that is cheapest for an error, and that plan.
 #[pyfunction]
 pub(crate) fn estimate_by_accuracy(
     py: Python<'_>,
-    space: &Space,
-    accuracy: f64,
-    threads: Option<usize>,
+    #[pyo3(from_py_with = space_of)] space: Space,
+    #[pyo3(from_py_with = accuracy)] accuracy: f64,
+    #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<(Values, Plan)> {
-    let (scene, pool) = (Scene::new(Want::Probability(space.space), accuracy), threads::pool(threads)?);
-    let run = || pool.install(|| scene.choose_and_run(Registry::standard()));
-    match py.detach(run).map_err(Failure::from)? {
+    let (scene, pool) = (Scene::new(Want::Probability(space), accuracy), threads::pool(threads)?);
+    let found = threads::aside(py, move |stop| {
+        let progress = |_| stop.here();
+        Ok(pool.install(|| scene.choose_and_run_reporting(Registry::standard(), &progress))?)
+    });
+    match found? {
         (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => Ok((values(&found), plan.into())),
         _ => {
             let why = "the plan for this space is no sample";

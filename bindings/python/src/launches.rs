@@ -9,12 +9,13 @@ use ::toss::{
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
+use crate::threads::{A_PROOF, Stop};
 
 /// Launches whose attitudes are interleaved at a time, so that what is between stays in the cache.
 const BLOCK: usize = 512;
 
-/// The same for outcomes, which are a byte each: so many that the start of a batch does not count.
-const OUTCOMES_BLOCK: usize = 1 << 13;
+/// The same for outcomes: as many as a call proves.
+const OUTCOMES_BLOCK: usize = A_PROOF;
 
 /// Counts of outcomes: heads, tails, undecided, and by stage of the proof where they are proven.
 pub(crate) type Counts = (u64, u64, u64, Option<[u64; Stage::ALL.len()]>);
@@ -52,6 +53,8 @@ pub(crate) struct Launches<'a> {
     pub(crate) speeds: &'a [f64],
     /// The index of the first one.
     pub(crate) first: u64,
+    /// What ends the work on them between two launches that are solved one by one.
+    pub(crate) stop: Option<&'a Stop>,
 }
 
 impl Launches<'_> {
@@ -126,6 +129,7 @@ impl Launches<'_> {
     ) -> Result<(), Failure> {
         let solver = self.of.solver.as_ref().map_or(&ExactSolver as &dyn Solver, Backend::solver);
         for (place, index) in range.enumerate() {
+            self.stop.inspect(|stop| stop.here());
             let at = |failure: Failure| failure.at(self.first + index as u64);
             let toss = self.toss(index).map_err(at)?;
             solve(place, solver, &toss).map_err(|error| at(error.into()))?;

@@ -11,6 +11,7 @@ mod batch;
 mod body;
 mod errors;
 mod estimate;
+mod given;
 mod launches;
 mod planner;
 mod plans;
@@ -34,6 +35,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<space::Space>()?;
     module.add_class::<plans::Plan>()?;
     module.add_class::<tally::Tally>()?;
+    module.add_function(wrap_pyfunction!(given::array_of_numbers, module)?)?;
+    module.add_function(wrap_pyfunction!(given::whole_number, module)?)?;
     module.add_function(wrap_pyfunction!(body::bodies, module)?)?;
     module.add_function(wrap_pyfunction!(solver::solvers, module)?)?;
     module.add_function(wrap_pyfunction!(space::spaces, module)?)?;

@@ -1,11 +1,13 @@
 //! The planner: which model answers a question at the least cost.
 
 use ::toss::{Choice, ExactSolver, How, Scene, StepControl, Want};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use crate::errors::{Failure, malformed};
+use crate::errors::malformed;
+use crate::given::{count, refused_value, text};
+use crate::plans::accuracy;
 use crate::space::Space;
+use crate::threads;
 use crate::toss::Toss;
 
 /// Values of a choice: the model, the solver and its scheme, the method of a sample, the tolerance of an integrator, the
@@ -24,21 +26,26 @@ type Values = (
 /// The cheapest model for a question.
 #[pyfunction]
 pub(crate) fn plan(
-    want: &str,
+    py: Python<'_>,
+    want: &Bound<'_, PyAny>,
     of: &Bound<'_, PyAny>,
-    accuracy: f64,
-    points: Option<usize>,
-    solver: Option<&str>,
-    scheme: Option<&str>,
+    #[pyo3(from_py_with = accuracy)] accuracy: f64,
+    points: Option<&Bound<'_, PyAny>>,
+    solver: Option<&Bound<'_, PyAny>>,
+    scheme: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Values> {
-    let want = wanted(want, of, points)?;
+    let want = text("want", want, "outcome, tilt, attitude, trace or probability")?;
+    let solver = solver.map(|solver| text("solver", solver, "the name of a solver")).transpose()?;
+    let scheme = scheme.map(|scheme| text("scheme", scheme, "the name of a scheme")).transpose()?;
+    let want = wanted(&want, of, points)?;
     let mut scene = Scene::new(want, accuracy);
     match (solver, scheme) {
-        (Some(solver), scheme) => scene = scene.by(solver, scheme),
+        (Some(solver), scheme) => scene = scene.by(&solver, scheme.as_deref()),
         (None, Some(scheme)) => return Err(malformed("scheme", scheme, "a solver with it")),
         (None, None) => {}
     }
-    let decision = scene.plan().map_err(Failure::from)?;
+    let asked = scene.clone();
+    let decision = threads::aside(py, move |_| Ok(asked.plan()?))?;
     let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
     let passed_over = decision.passed_over.iter().map(|(model, why)| (model.to_string(), why.to_string())).collect();
     let costs = (*expected_error, *expected_cost_ns);
@@ -61,8 +68,14 @@ pub(crate) fn plan(
     })
 }
 
+/// What may be wanted.
+const WANTED: [&str; 5] = ["outcome", "tilt", "attitude", "trace", "probability"];
+
 /// What is wanted of a toss or a space.
-fn wanted(want: &str, of: &Bound<'_, PyAny>, points: Option<usize>) -> PyResult<Want> {
+fn wanted(want: &str, of: &Bound<'_, PyAny>, points: Option<&Bound<'_, PyAny>>) -> PyResult<Want> {
+    if !WANTED.contains(&want) {
+        return Err(malformed("want", want, "outcome, tilt, attitude, trace or probability"));
+    }
     if points.is_some() && want != "trace" {
         return Err(malformed("points", "given", "None: points are for a trace"));
     }
@@ -72,7 +85,8 @@ fn wanted(want: &str, of: &Bound<'_, PyAny>, points: Option<usize>) -> PyResult<
             _ => Err(malformed("want", want, "probability, for a space")),
         };
     }
-    let toss = of.cast::<Toss>().map_err(|_| PyTypeError::new_err("of: a Toss or a Space is expected"))?;
+    let toss = of.cast::<Toss>().map_err(|_| refused_value("of", of, "a Toss or a Space"))?;
+    let points = points.map(points_of).transpose()?;
     let toss = toss.get().toss;
     match want {
         "outcome" => Ok(Want::Outcome(toss)),
@@ -81,4 +95,9 @@ fn wanted(want: &str, of: &Bound<'_, PyAny>, points: Option<usize>) -> PyResult<
         "trace" => Ok(Want::Trace { toss, points: points.unwrap_or(100) }),
         _ => Err(malformed("want", want, "outcome, tilt, attitude or trace, for a toss")),
     }
+}
+
+/// The number of points of a trace that an argument is. One beyond all memory is refused as too many.
+pub(crate) fn points_of(value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    Ok(usize::try_from(count("points", value)?).unwrap_or(usize::MAX))
 }

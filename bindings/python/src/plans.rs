@@ -7,7 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
-use crate::space::Space;
+use crate::given::{count, number, object, text};
+use crate::space::{hash_of, space_of};
 
 /// Which launches of a space are tried. Make one by ``grid``, ``random``, ``sobol``, ``exact_speed`` or
 /// ``quadrature``.
@@ -41,7 +42,7 @@ impl Plan {
     ///     Seed of the random numbers.
     #[staticmethod]
     #[pyo3(signature = (points, *, seed=1))]
-    fn random(points: u64, seed: u64) -> PyResult<Self> {
+    fn random(#[pyo3(from_py_with = points)] points: u64, #[pyo3(from_py_with = seed)] seed: u64) -> PyResult<Self> {
         if points == 0 {
             return Err(malformed("points", points, "at least 1"));
         }
@@ -60,7 +61,11 @@ impl Plan {
     ///     Seed of the scrambles.
     #[staticmethod]
     #[pyo3(signature = (points, *, scrambles=SCRAMBLES, seed=1))]
-    fn sobol(points: u64, scrambles: u64, seed: u64) -> PyResult<Self> {
+    fn sobol(
+        #[pyo3(from_py_with = points)] points: u64,
+        #[pyo3(from_py_with = scrambles)] scrambles: u64,
+        #[pyo3(from_py_with = seed)] seed: u64,
+    ) -> PyResult<Self> {
         Ok(::toss::sampling::Plan::Sobol(scrambled(points, scrambles, seed)?).into())
     }
 
@@ -76,8 +81,12 @@ impl Plan {
     ///     Seed of the scrambles.
     #[staticmethod]
     #[pyo3(signature = (points=None, *, scrambles=SCRAMBLES, seed=1))]
-    fn exact_speed(points: Option<u64>, scrambles: u64, seed: u64) -> PyResult<Self> {
-        let rest = match points {
+    fn exact_speed(
+        points: Option<&Bound<'_, PyAny>>,
+        #[pyo3(from_py_with = scrambles)] scrambles: u64,
+        #[pyo3(from_py_with = seed)] seed: u64,
+    ) -> PyResult<Self> {
+        let rest = match points.map(self::points).transpose()? {
             Some(points) => Rest::Sobol(scrambled(points, scrambles, seed)?),
             None if scrambles == SCRAMBLES && seed == 1 => Rest::Grid,
             None => return Err(malformed("points", "None", "a number of points, which are scrambled; a grid is not")),
@@ -95,7 +104,7 @@ impl Plan {
     ///     The largest acceptable error estimate.
     #[staticmethod]
     #[pyo3(signature = (accuracy=1e-10))]
-    fn quadrature(accuracy: f64) -> PyResult<Self> {
+    fn quadrature(#[pyo3(from_py_with = accuracy)] accuracy: f64) -> PyResult<Self> {
         let valid = "finite and > 0";
         dynamics::error::require("accuracy", accuracy, valid, accuracy > 0.0).map_err(Failure::from)?;
         Ok(::toss::sampling::Plan::Quadrature { accuracy }.into())
@@ -113,8 +122,8 @@ impl Plan {
     /// ----------
     /// space : Space
     ///     The space.
-    fn points(&self, space: &Space) -> PyResult<u64> {
-        Ok(self.plan.points(&space.space).map_err(Failure::from)?)
+    fn points(&self, #[pyo3(from_py_with = space_of)] space: ::toss::sampling::Space) -> PyResult<u64> {
+        Ok(self.plan.points(&space).map_err(Failure::from)?)
     }
 
     /// The plan as JSON, as the parts of an estimate have it.
@@ -129,9 +138,9 @@ impl Plan {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(text: &str) -> PyResult<Self> {
-        let read = serde_json::from_str::<::toss::sampling::Plan>(text);
-        Ok(read.map_err(|error| malformed("plan", error, "a plan as JSON"))?.into())
+    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
+        let read = serde_json::from_str::<::toss::sampling::Plan>(&text);
+        Ok(read.map_err(|error| malformed("text", error, "a plan as JSON"))?.into())
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -139,7 +148,7 @@ impl Plan {
     }
 
     fn __hash__(&self) -> PyResult<u64> {
-        Ok(self.to_json()?.bytes().fold(0, |hash: u64, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte))))
+        Ok(hash_of(&self.to_json()?))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -154,4 +163,30 @@ fn scrambled(points: u64, scrambles: u64, seed: u64) -> Result<Scrambled, Failur
         return Err(InputError::Malformed { field: "points", value: points.to_string(), expected }.into());
     }
     Ok(Scrambled { points, scrambles, seed })
+}
+
+fn points(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    count("points", value)
+}
+
+fn scrambles(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    count("scrambles", value)
+}
+
+fn seed(value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    count("seed", value)
+}
+
+/// The accuracy that an argument is.
+pub(crate) fn accuracy(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    number("accuracy", value)
+}
+
+/// The plan that an argument is.
+pub(crate) fn plan_of(value: &Bound<'_, PyAny>) -> PyResult<::toss::sampling::Plan> {
+    Ok(object::<Plan>("plan", value, "a Plan")?.get().plan)
+}
+
+fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    text("text", value, "a plan as JSON")
 }

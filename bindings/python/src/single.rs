@@ -4,16 +4,23 @@ use std::f64::consts::TAU;
 
 use ::toss::sampling::{long_flight_cone, rate_ratio};
 use ::toss::{
-    Backend, InputError, Launch, Margin, Outcome, RigidMargin, RigidMotion, RigidToss, Solver, State, TimeOfFlight,
-    TracePoint, Work, certify_rigid, margin_rigid, rigid_speeds_of_heads, trace_every,
+    Backend, InputError, Launch, Margin, Outcome, Propagation, RigidMargin, RigidMotion, RigidToss, SolveError, Solver,
+    State, StepControl, Stepping, TimeOfFlight, TracePoint, Work, certify_rigid, margin_rigid, rigid_speeds_of_heads,
+    trace_every,
 };
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed};
+use crate::given::{number, optional_number};
+use crate::planner::points_of;
 use crate::solver::backend_of;
-use crate::toss::Toss;
+use crate::threads::{self, Stop};
+use crate::toss::toss_of;
+
+/// The phase (rad) and the number of equal steps up to which a landing is found so soon that no signal need be listened for.
+const SHORT: f64 = 1e4;
 
 /// The largest number of turns for which intervals are listed, with one interval each.
 const MOST_TURNS: f64 = 10_000.0;
@@ -30,9 +37,29 @@ type Landing = (
 
 /// The landing of a toss by a solver.
 #[pyfunction]
-pub(crate) fn land(py: Python<'_>, toss: &Toss, solver: &Bound<'_, PyAny>) -> PyResult<Landing> {
-    let (backend, toss) = (backend_of(solver)?, toss.toss);
-    Ok(py.detach(|| landing(&backend, &toss))?)
+pub(crate) fn land(
+    py: Python<'_>,
+    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    solver: &Bound<'_, PyAny>,
+) -> PyResult<Landing> {
+    let backend = backend_of(solver)?;
+    if is_short(&backend, &toss) {
+        return Ok(py.detach(|| landing(&backend, &toss))?);
+    }
+    threads::aside(py, move |_| landing(&backend, &toss))
+}
+
+/// Whether a landing is found in some milliseconds at most.
+fn is_short(backend: &Backend, toss: &RigidToss) -> bool {
+    let time = toss.launch.flight_time();
+    let steps = match backend.solver().stepping().map(|stepping| stepping.control()) {
+        None => return toss.symmetric().is_some(),
+        Some(StepControl::Tolerance(_)) => 0.0,
+        Some(StepControl::Step(step)) => time / step,
+    };
+    let moments = toss.body.principal_moments();
+    // A body precesses at a rate of at most its angular momentum over its smallest moment.
+    steps <= SHORT && toss.launch.rate().norm() * time * (moments[2] / moments[0]) <= SHORT
 }
 
 fn landing(backend: &Backend, toss: &RigidToss) -> Result<Landing, Failure> {
@@ -64,17 +91,20 @@ type Margins = ([Option<f64>; 4], [Option<f64>; 3], [f64; 3], [f64; 2]);
 
 /// The nearest values that land the other way.
 #[pyfunction]
-pub(crate) fn margins(py: Python<'_>, toss: &Toss) -> PyResult<Margins> {
-    let toss = toss.toss;
-    let RigidMargin { margin, time_range, .. } = py.detach(|| margin_rigid(&toss)).map_err(Failure::from)?;
+pub(crate) fn margins(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: RigidToss) -> PyResult<Margins> {
+    let RigidMargin { margin, time_range, .. } = threads::aside(py, move |_| Ok(margin_rigid(&toss)?))?;
     let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
     Ok(([time, speed, gravity, tilt], rate, rate_range, time_range))
 }
 
 /// The ranges of speed from `slowest` to that of the toss that land heads (m/s).
 #[pyfunction]
-pub(crate) fn intervals(py: Python<'_>, toss: &Toss, slowest: f64) -> PyResult<Vec<[f64; 2]>> {
-    let toss = toss.toss;
+pub(crate) fn intervals(
+    py: Python<'_>,
+    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    slowest: &Bound<'_, PyAny>,
+) -> PyResult<Vec<[f64; 2]>> {
+    let slowest = number("slowest", slowest)?;
     let (fastest, from) = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => (speed, TimeOfFlight::Ballistic { speed: slowest, gravity }),
         TimeOfFlight::BallisticTo { speed, gravity, drop } => {
@@ -83,22 +113,22 @@ pub(crate) fn intervals(py: Python<'_>, toss: &Toss, slowest: f64) -> PyResult<V
         _ => return Err(malformed("toss", "given by a time", "a toss with a speed, the fastest of the range")),
     };
     // The slowest throw has to reach the landing, too.
-    Launch::new(toss.launch.rate(), from).map_err(Failure::from)?;
+    Launch::new(toss.launch.rate(), from).map_err(|error| Failure::from(error).of("slowest [m/s]"))?;
     let valid = "below the speed of the toss";
     dynamics::error::require("slowest [m/s]", slowest, valid, slowest < fastest).map_err(Failure::from)?;
     let phase = RigidMotion::new(&toss).phase(toss.launch.time_of_flight()).map_err(Failure::from)?;
     let turns = phase / TAU;
     let valid = "at most 10000 turns; ask for a shorter range";
     dynamics::error::require("turns in flight", turns, valid, turns <= MOST_TURNS).map_err(Failure::from)?;
-    let found = py.detach(|| rigid_speeds_of_heads(&toss, slowest)).map_err(Failure::from)?;
+    let found = threads::aside(py, move |_| Ok(rigid_speeds_of_heads(&toss, slowest)?))?;
     Ok(found.unwrap_or_default())
 }
 
 /// k, Ω/ωz and ψ for which long flights from horizontal land heads with this probability.
 #[pyfunction]
-pub(crate) fn inverse(probability: f64, body: &Bound<'_, PyAny>) -> PyResult<(f64, f64, f64)> {
+pub(crate) fn inverse(probability: &Bound<'_, PyAny>, body: &Bound<'_, PyAny>) -> PyResult<(f64, f64, f64)> {
     let coin = coin_of(&body_of(body)?.get().body, "the limit of long flights is that of bodies with I1 = I2")?;
-    let k = coin.inertia_ratio();
+    let (k, probability) = (coin.inertia_ratio(), number("probability", probability)?);
     let cone = long_flight_cone(probability).map_err(Failure::from)?;
     Ok((k, rate_ratio(probability, k).map_err(Failure::from)?, cone))
 }
@@ -111,23 +141,55 @@ type Rows<'py> = Bound<'py, PyArray2<f64>>;
 #[pyo3(signature = (toss, points, dt, solver))]
 pub(crate) fn trace<'py>(
     py: Python<'py>,
-    toss: &Toss,
-    points: Option<usize>,
-    dt: Option<f64>,
+    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    points: Option<&Bound<'py, PyAny>>,
+    dt: Option<&Bound<'py, PyAny>>,
     solver: &Bound<'py, PyAny>,
 ) -> PyResult<Rows<'py>> {
     let backend = backend_of(solver)?;
-    let toss = toss.toss;
-    let flight = py.detach(|| match (points, dt) {
-        (Some(points), None) => ::toss::trace(backend.solver(), toss, points).map_err(Failure::from),
-        (None, Some(dt)) => trace_every(backend.solver(), toss, dt).map_err(Failure::from),
-        _ => {
-            let (field, expected) = ("points", "either points or dt");
-            Err(InputError::Malformed { field, value: "given with dt, or neither".to_owned(), expected }.into())
+    let (points, dt) = (points.map(points_of).transpose()?, optional_number("dt", dt)?);
+    let flight = threads::aside(py, move |stop| {
+        let solver = Stopping { solver: backend.solver(), stop };
+        match (points, dt) {
+            (Some(points), None) => Ok(::toss::trace(&solver, toss, points)?),
+            (None, Some(dt)) => Ok(trace_every(&solver, toss, dt)?),
+            _ => {
+                let (field, expected) = ("points", "either points or dt");
+                Err(InputError::Malformed { field, value: "given with dt, or neither".to_owned(), expected }.into())
+            }
         }
     })?;
     let rows: Vec<Vec<f64>> = flight.iter().map(row).collect();
     Ok(PyArray2::from_vec2(py, &rows)?)
+}
+
+/// A solver that ends when it is asked for a flight and its work is wanted no more.
+struct Stopping<'a> {
+    solver: &'a dyn Solver,
+    stop: &'a Stop,
+}
+
+impl Solver for Stopping<'_> {
+    fn name(&self) -> &str {
+        self.solver.name()
+    }
+
+    fn stepping(&self) -> Option<Stepping> {
+        self.solver.stepping()
+    }
+
+    fn propagate(&self, toss: &::toss::Toss) -> Result<Propagation, SolveError> {
+        self.propagate_rigid(&(*toss).into())
+    }
+
+    fn error_estimate(&self, toss: &::toss::Toss) -> Result<Option<f64>, SolveError> {
+        self.solver.error_estimate(toss)
+    }
+
+    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+        self.stop.here();
+        self.solver.propagate_rigid(toss)
+    }
 }
 
 /// The numbers of a point, without signs of 0, as the program prints them.
@@ -148,14 +210,14 @@ type Solution<'py> = (Rows<'py>, (u64, u64, u64), Option<f64>);
 #[pyfunction]
 pub(crate) fn solve<'py>(
     py: Python<'py>,
-    toss: &Toss,
+    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
     times: PyReadonlyArray1<'py, f64>,
     solver: &Bound<'py, PyAny>,
 ) -> PyResult<Solution<'py>> {
-    let (backend, toss) = (backend_of(solver)?, toss.toss);
-    let times = times.as_slice().map_err(|error| malformed("t_eval", error, "contiguous times"))?;
-    let (states, work, estimate) = py.detach(|| solved(&backend, &toss, times))?;
+    let backend = backend_of(solver)?;
+    let times = times.as_slice().map_err(|error| malformed("t_eval", error, "contiguous times"))?.to_vec();
     let out = PyArray2::zeros(py, [7, times.len()], false);
+    let (states, work, estimate) = threads::aside(py, move |stop| solved(&backend, &toss, &times, stop))?;
     {
         let mut out = out.try_readwrite().map_err(|error| malformed("y", error, "a new array"))?;
         let mut out = out.as_array_mut();
@@ -168,19 +230,25 @@ pub(crate) fn solve<'py>(
 }
 
 /// The states at `times`, the work, and the error estimate at landing.
-fn solved(backend: &Backend, toss: &RigidToss, times: &[f64]) -> Result<(Vec<State>, Work, Option<f64>), Failure> {
+fn solved(
+    backend: &Backend,
+    toss: &RigidToss,
+    times: &[f64],
+    stop: &Stop,
+) -> Result<(Vec<State>, Work, Option<f64>), Failure> {
     let solver = backend.solver();
     let (states, work) = match backend {
-        Backend::Exact(_) => (exactly(toss, times)?, Work::default()),
-        Backend::Solver(solver) => by_legs(solver.as_ref(), toss, times)?,
+        Backend::Exact(_) => (exactly(toss, times, stop)?, Work::default()),
+        Backend::Solver(solver) => by_legs(solver.as_ref(), toss, times, stop)?,
     };
     Ok((states, work, solver.error_estimate_rigid(toss)?))
 }
 
 /// The states of the exact motion. At the landing its time of flight counts as it was given, not as it was rounded.
-fn exactly(toss: &RigidToss, times: &[f64]) -> Result<Vec<State>, Failure> {
+fn exactly(toss: &RigidToss, times: &[f64], stop: &Stop) -> Result<Vec<State>, Failure> {
     let motion = RigidMotion::new(toss);
     let state = |time: &f64| {
+        stop.here();
         let landing = *time == toss.launch.flight_time();
         Ok(if landing { motion.state(toss.launch.time_of_flight()) } else { motion.state(*time) }?)
     };
@@ -188,11 +256,12 @@ fn exactly(toss: &RigidToss, times: &[f64]) -> Result<Vec<State>, Failure> {
 }
 
 /// The states by a solver that starts again from each of them.
-fn by_legs(solver: &dyn Solver, toss: &RigidToss, times: &[f64]) -> Result<(Vec<State>, Work), Failure> {
+fn by_legs(solver: &dyn Solver, toss: &RigidToss, times: &[f64], stop: &Stop) -> Result<(Vec<State>, Work), Failure> {
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let (mut last, mut work) = ((0.0, launch), Work::default());
     let mut states = Vec::with_capacity(times.len());
     for time in times {
+        stop.here();
         let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
         let leg = RigidToss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
         let done = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?;

@@ -3,8 +3,10 @@
 use ::toss::{Backend, Formulation, Registry, SolverConfig};
 use dynamics::StepControl;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::errors::{Failure, malformed};
+use crate::given::{object, optional_number, text};
 
 /// A solver with its settings.
 ///
@@ -33,28 +35,34 @@ impl Solver {
     #[new]
     #[pyo3(signature = (name, *, scheme=None, rtol=None, step=None, formulation=None))]
     fn new(
-        name: &str,
-        scheme: Option<&str>,
-        rtol: Option<f64>,
-        step: Option<f64>,
-        formulation: Option<&str>,
+        name: &Bound<'_, PyAny>,
+        scheme: Option<&Bound<'_, PyAny>>,
+        rtol: Option<&Bound<'_, PyAny>>,
+        step: Option<&Bound<'_, PyAny>>,
+        formulation: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let mut config = SolverConfig::new(name);
+        let mut config = SolverConfig::new(&text("name", name, "the name of a solver")?);
         if let Some(scheme) = scheme {
-            config = config.with_scheme(scheme);
+            config = config.with_scheme(&text("scheme", scheme, "the name of a scheme")?);
         }
         if let Some(formulation) = formulation {
+            let formulation = text("formulation", formulation, "the name of a formulation")?;
             config = config.with_formulation(formulation.parse().map_err(Failure::from)?);
         }
+        let (rtol, step) = (optional_number("rtol", rtol)?, optional_number("step", step)?);
         config = match (rtol, step) {
             (Some(_), Some(_)) => return Err(malformed("step", "given with rtol", "either rtol or step")),
             (Some(rtol), None) => config.with_tolerance(rtol).map_err(Failure::from)?,
             (None, Some(step)) => config.with_step(step).map_err(Failure::from)?,
             (None, None) => config,
         };
-        let solver = Self { config };
-        solver.backend()?;
-        Ok(solver)
+        // It is made now, so that what is wrong is said here, of the arguments that this has.
+        let made = Registry::standard().configured(&config).map(drop);
+        made.map_err(Failure::from).map_err(|failure| match failure.error.field() {
+            Some("solver") => failure.of("name"),
+            _ => failure,
+        })?;
+        Ok(Self { config })
     }
 
     /// The name.
@@ -110,7 +118,19 @@ impl Solver {
     }
 
     fn __hash__(&self) -> u64 {
-        self.config.name().bytes().fold(0, |hash, byte| hash * 31 + u64::from(byte))
+        self.config.name().bytes().fold(0, |hash: u64, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)))
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {
+        let keywords = PyDict::new(py);
+        keywords.set_item("scheme", self.config.scheme())?;
+        match self.config.control() {
+            Some(StepControl::Tolerance(tolerance)) => keywords.set_item("rtol", tolerance)?,
+            Some(StepControl::Step(step)) => keywords.set_item("step", step)?,
+            None => {}
+        }
+        keywords.set_item("formulation", self.formulation())?;
+        Ok(((self.config.name(),), keywords))
     }
 }
 
@@ -122,9 +142,9 @@ impl Solver {
 
 /// The solver that an argument means: a name, or a [`Solver`].
 pub(crate) fn backend_of(argument: &Bound<'_, PyAny>) -> PyResult<Backend> {
-    match argument.extract::<&str>() {
-        Ok(name) => Solver { config: SolverConfig::new(name) }.backend(),
-        Err(_) => argument.cast::<Solver>()?.get().backend(),
+    match argument.extract::<String>() {
+        Ok(name) => Solver { config: SolverConfig::new(&name) }.backend(),
+        Err(_) => object::<Solver>("solver", argument, "the name of a solver, or a Solver")?.get().backend(),
     }
 }
 

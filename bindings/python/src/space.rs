@@ -6,6 +6,7 @@ use pyo3::types::PyTuple;
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
+use crate::given::{axis, object, optional_number, text};
 
 /// A distribution of the launches of one coin: each coordinate is independent of the others, or tied to one.
 ///
@@ -45,14 +46,15 @@ impl Space {
         speed: &Bound<'_, PyAny>,
         gravity: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
-        drop: Option<f64>,
+        drop: Option<&Bound<'_, PyAny>>,
         body: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let axes = [Some(rate_x), Some(rate_y), Some(rate_z), Some(speed), gravity, tilt];
-        let given = Coordinate::ALL.into_iter().zip(axes).filter_map(|(of, axis)| Some((of, axis?)));
-        let texts = given.map(|(of, axis)| Ok((of, text_of(of, axis)?))).collect::<PyResult<Vec<_>>>()?;
+        let given = Coordinate::ALL.into_iter().zip(axes).filter_map(|(of, given)| Some((of, given?)));
+        let texts = given.map(|(of, given)| Ok((of, axis(of.name(), given)?))).collect::<PyResult<Vec<_>>>()?;
         let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
         let body = body.map_or(Ok(::toss::Coin::PAPER.into()), |body| Ok::<_, PyErr>(body_of(body)?.get().body))?;
+        let drop = optional_number("drop", drop)?;
         let space = ::toss::sampling::Space::parse(body, &texts).and_then(|space| space.with_drop(drop));
         Ok(Self { space: space.map_err(Failure::from)? })
     }
@@ -64,8 +66,9 @@ impl Space {
     /// name : str
     ///     Such as ``"paper-fig4"``; ``spaces()`` lists them.
     #[staticmethod]
-    fn named(name: &str) -> PyResult<Self> {
-        Ok(Self { space: named_space(name).map_err(Failure::from)? })
+    fn named(name: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let name = text("name", name, "the name of a space")?;
+        Ok(Self { space: named_space(&name).map_err(|error| Failure::from(error).of("name"))? })
     }
 
     /// The same space for another coin or body.
@@ -90,9 +93,9 @@ impl Space {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(text: &str) -> PyResult<Self> {
-        let read = serde_json::from_str(text);
-        Ok(Self { space: read.map_err(|error| malformed("space", error, "a space as JSON"))? })
+    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
+        let read = serde_json::from_str(&text);
+        Ok(Self { space: read.map_err(|error| malformed("text", error, "a space as JSON"))? })
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -100,7 +103,7 @@ impl Space {
     }
 
     fn __hash__(&self) -> PyResult<u64> {
-        Ok(self.to_json()?.bytes().fold(0, |hash: u64, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte))))
+        Ok(hash_of(&self.to_json()?))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -108,25 +111,23 @@ impl Space {
     }
 }
 
-/// The text that the library reads an axis from. Numbers are written so that they are read back to the bit.
-fn text_of(of: Coordinate, axis: &Bound<'_, PyAny>) -> PyResult<String> {
-    if let Ok(text) = axis.extract::<String>() {
-        return Ok(text);
-    }
-    if let Ok(value) = axis.extract::<f64>() {
-        return Ok(value.to_string());
-    }
-    if let Ok((lo, hi)) = axis.extract::<(f64, f64)>() {
-        return Ok(format!("{lo}:{hi}"));
-    }
-    if let Ok((lo, hi, points)) = axis.extract::<(f64, f64, u64)>() {
-        return Ok(format!("{lo}:{hi}:{points}"));
-    }
-    Err(malformed(of.field(), axis.repr()?, "a number, (lo, hi), (lo, hi, points) or a text"))
+/// The space that an argument is.
+pub(crate) fn space_of(value: &Bound<'_, PyAny>) -> PyResult<::toss::sampling::Space> {
+    Ok(object::<Space>("space", value, "a Space")?.get().space)
+}
+
+/// A hash of a value by its JSON. Equal values have the same JSON but for the sign of a 0.
+pub(crate) fn hash_of(json: &str) -> u64 {
+    let unsigned = json.replace("-0.0", "0.0");
+    unsigned.bytes().fold(0, |hash: u64, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)))
 }
 
 /// The names of the spaces that come with the package, each with its description.
 #[pyfunction]
 pub(crate) fn spaces() -> Vec<(&'static str, String)> {
     named_spaces().map(|(name, space)| (name, space.description)).collect()
+}
+
+fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    text("text", value, "a space as JSON")
 }

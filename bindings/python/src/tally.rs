@@ -1,13 +1,14 @@
 //! Partial results of an estimate.
 
-use ::toss::sampling::Sampler;
+use ::toss::sampling::{Plan as AnyPlan, Sampler, Space as AnySpace};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
 use crate::estimate::{Values, values};
-use crate::plans::Plan;
-use crate::space::Space;
+use crate::given::{count, text};
+use crate::plans::{Plan, plan_of};
+use crate::space::{Space, space_of};
 use crate::threads;
 
 /// The result of some launches of a plan, as ``tally`` returns it.
@@ -59,9 +60,9 @@ impl Tally {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(text: &str) -> PyResult<Self> {
-        let read = serde_json::from_str(text);
-        Ok(Self { tally: read.map_err(|error| malformed("tally", error, "a part of an estimate as JSON"))? })
+    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
+        let read = serde_json::from_str(&text);
+        Ok(Self { tally: read.map_err(|error| malformed("text", error, "a part of an estimate as JSON"))? })
     }
 
     /// The values of the estimate from a tally of all launches.
@@ -78,17 +79,30 @@ impl Tally {
     }
 }
 
+fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    text("text", value, "a part of an estimate as JSON")
+}
+
 /// The tally of the launches from number `start` up to `end`.
 #[pyfunction]
 pub(crate) fn tally(
     py: Python<'_>,
-    space: &Space,
-    plan: &Plan,
+    #[pyo3(from_py_with = space_of)] space: AnySpace,
+    #[pyo3(from_py_with = plan_of)] plan: AnyPlan,
     start: u64,
     end: u64,
-    threads: Option<usize>,
+    #[pyo3(from_py_with = threads_of)] threads: Option<u64>,
 ) -> PyResult<Tally> {
-    let (space, plan, pool) = (space.space, plan.plan, threads::pool(threads)?);
-    let found = py.detach(|| pool.install(|| Sampler::exact().tally(&space, plan, start..end)));
-    Ok(Tally { tally: found.map_err(Failure::from)? })
+    let pool = threads::pool(threads)?;
+    let tally = threads::aside(py, move |stop| {
+        let progress = |_| stop.here();
+        let sampler = Sampler::exact().on_progress(&progress);
+        Ok(pool.install(|| sampler.tally(&space, plan, start..end))?)
+    })?;
+    Ok(Tally { tally })
+}
+
+/// The number of threads that an argument is; `None` for all cores.
+pub(crate) fn threads_of(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
+    if value.is_none() { Ok(None) } else { count("threads", value).map(Some) }
 }

@@ -1,7 +1,17 @@
-//! Work on as many threads as are asked for. Each call has threads of its own, so that nothing is left behind that a
-//! process which forks could inherit.
+//! Work on as many threads as are asked for, while Ctrl-C is listened for. Each call has threads of its own, so that nothing
+//! is left behind that a process which forks could inherit.
+//!
+//! Python's main thread alone can hear a signal, and only if it asks. Work on its own columns is cut into short calls, and
+//! between them it asks. Other work is done by a thread beside it, while it asks from time to time. Such work owns what it
+//! works on, so that Ctrl-C leaves it to itself: it ends at the next of its blocks, and its result is dropped.
 
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -14,44 +24,190 @@ const MOST_THREADS: usize = 1024;
 /// Fewest launches for which a thread is worth its start.
 const SMALLEST_PART: usize = 1 << 10;
 
+/// Most launches of a call that proves outcomes: so few that it takes less than half a second, even if each of them lands on
+/// its edge and is decided with many digits.
+pub(crate) const A_PROOF: usize = 1 << 10;
+
+/// Most launches of a call that proves nothing, for each of which it takes about as long.
+pub(crate) const A_CALL: usize = 1 << 16;
+
+/// The time between two questions for signals.
+const A_WHILE: Duration = Duration::from_millis(50);
+
+/// Whether some work is wanted no more.
+#[derive(Clone, Default)]
+pub(crate) struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Ends the work here if it is wanted no more: unwinds to where it was begun, on all of its threads.
+    pub(crate) fn here(&self) {
+        if self.is_set() {
+            resume_unwind(Box::new("stopped"));
+        }
+    }
+}
+
 /// The pool of this many threads; of all cores for `None`.
-pub(crate) fn pool(threads: Option<usize>) -> PyResult<rayon::ThreadPool> {
-    let number = match threads {
+pub(crate) fn pool(threads: Option<u64>) -> PyResult<rayon::ThreadPool> {
+    let number = match threads.map(|number| (number, usize::try_from(number))) {
         None => 0,
-        Some(number @ 1..=MOST_THREADS) => number,
-        Some(number) => return Err(malformed("threads", number, "1 to 1024, or None for one per core")),
+        Some((_, Ok(number @ 1..=MOST_THREADS))) => number,
+        Some((number, _)) => return Err(malformed("threads", number, "1 to 1024, or None for one per core")),
     };
     let build = rayon::ThreadPoolBuilder::new().num_threads(number).build();
     build.map_err(|error| malformed("threads", error, "as many threads as the system can start"))
 }
 
-/// Calls `work` with the parts of `out` and the launches that they belong to, `width` numbers for each launch, on all
-/// threads of `pool`, or here without one. The error is that of the first launch that has one.
+/// The result of `work`, which a thread of its own does; or the exception of a signal.
+pub(crate) fn aside<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Stop) -> Result<R, Failure> + Send + 'static,
+) -> PyResult<R> {
+    let stop = Stop::default();
+    let (told, done) = mpsc::channel();
+    let of_work = stop.clone();
+    let start = thread::Builder::new().spawn(move || {
+        // Nobody may be there to take it.
+        drop(told.send(catch_unwind(AssertUnwindSafe(|| work(&of_work)))));
+    });
+    start.map_err(|error| malformed("threads", error, "a thread that the system can start"))?;
+    let answer = py.detach(move || listening(&stop, done))?;
+    Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
+}
+
+/// Runs the handlers of the signals that have come; the exception is that of one of them, such as `KeyboardInterrupt`.
+fn ask_for_signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
+/// What is received, or the exception of a signal, after which the work is to stop. It is called without Python's lock.
+fn listening<R>(stop: &Stop, done: Receiver<thread::Result<R>>) -> PyResult<thread::Result<R>> {
+    loop {
+        match done.recv_timeout(A_WHILE) {
+            Ok(answer) => return Ok(answer),
+            Err(RecvTimeoutError::Disconnected) => return Ok(Err(Box::new("the work has no answer"))),
+            Err(RecvTimeoutError::Timeout) => {
+                Python::attach(ask_for_signals).inspect_err(|_| stop.set())?;
+            }
+        }
+    }
+}
+
+/// The result of `work` on the threads of `pool`, or the exception of a signal. `work` borrows, and is waited for.
+fn in_pool<R: Send>(pool: &rayon::ThreadPool, work: impl FnOnce(&Stop) -> Result<R, Failure> + Send) -> PyResult<R> {
+    let stop = Stop::default();
+    let (told, done) = mpsc::channel();
+    let answer = pool.in_place_scope(|scope| {
+        let of_work = &stop;
+        scope.spawn(move |_| drop(told.send(catch_unwind(AssertUnwindSafe(|| work(of_work))))));
+        listening(&stop, done)
+    })?;
+    Ok(answer.unwrap_or_else(|panic| resume_unwind(panic))?)
+}
+
+/// The results of `work` for parts of `0..launches`, done here one after the other, while signals are listened for.
+fn here<R>(
+    launches: usize,
+    a_call: usize,
+    mut work: impl FnMut(Range<usize>) -> Result<R, Failure>,
+) -> PyResult<Vec<R>> {
+    let mut asked = Instant::now();
+    let starts = (0..launches).step_by(a_call);
+    let part = |start: usize| {
+        let done = work(start..launches.min(start + a_call))?;
+        if asked.elapsed() > A_WHILE {
+            Python::attach(ask_for_signals)?;
+            asked = Instant::now();
+        }
+        Ok(done)
+    };
+    starts.map(part).collect()
+}
+
+/// Calls `work` with the parts of `out` and the launches that they belong to, `width` numbers for each launch and at most
+/// `a_call` launches at a time, on all threads of `pool`, or here without one. The error is that of the first launch that has one, or of a signal.
 pub(crate) fn fill<T: Send>(
+    py: Python<'_>,
     pool: Option<&rayon::ThreadPool>,
+    a_call: usize,
+    out: &mut [T],
+    width: usize,
+    work: impl Fn(Range<usize>, &mut [T]) -> Result<(), Failure> + Sync,
+) -> PyResult<()> {
+    let launches = out.len() / width;
+    py.detach(|| match pool {
+        None => {
+            let part = |range: Range<usize>| work(range.clone(), &mut out[range.start * width..range.end * width]);
+            here(launches, a_call, part).map(drop)
+        }
+        Some(pool) => in_pool(pool, |stop| filled(Some(pool), stop, a_call, out, width, &work)),
+    })
+}
+
+/// As [`fill`], but collects the counts of proven outcomes that `work` returns for the parts of so many `launches`, in their order.
+pub(crate) fn collect<R: Send>(
+    py: Python<'_>,
+    pool: Option<&rayon::ThreadPool>,
+    launches: usize,
+    work: impl Fn(Range<usize>) -> Result<R, Failure> + Sync,
+) -> PyResult<Vec<R>> {
+    py.detach(|| match pool {
+        None => here(launches, A_PROOF, &work),
+        Some(pool) => in_pool(pool, |stop| collected(Some(pool), stop, A_PROOF, launches, &work)),
+    })
+}
+
+/// As [`fill`], until it is stopped. No signal is listened for.
+pub(crate) fn filled<T: Send>(
+    pool: Option<&rayon::ThreadPool>,
+    stop: &Stop,
+    a_call: usize,
     out: &mut [T],
     width: usize,
     work: impl Fn(Range<usize>, &mut [T]) -> Result<(), Failure> + Sync,
 ) -> Result<(), Failure> {
-    let launches = out.len() / width;
-    let Some(pool) = pool else { return work(0..launches, out) };
-    let size = launches.div_ceil(4 * pool.current_num_threads()).max(SMALLEST_PART);
+    let part = |start: usize, out: &mut [T]| -> Result<(), Failure> {
+        out.chunks_mut(a_call * width).enumerate().try_for_each(|(call, out)| {
+            stop.here();
+            let start = start + call * a_call;
+            work(start..start + out.len() / width, out)
+        })
+    };
+    let Some(pool) = pool else { return part(0, out) };
+    let size = part_of(pool, out.len() / width);
     let parts = out.par_chunks_mut(size * width).enumerate();
-    let done: Vec<_> =
-        pool.install(|| parts.map(|(part, out)| work(part * size..part * size + out.len() / width, out)).collect());
+    let done: Vec<_> = pool.install(|| parts.map(|(number, out)| part(number * size, out)).collect());
     done.into_iter().collect()
 }
 
-/// As [`fill`], but collects what `work` returns for each part of this many `launches`, in their order.
-pub(crate) fn collect<R: Send>(
+/// As [`collect`], in calls of at most so many launches, until it is stopped. No signal is listened for.
+pub(crate) fn collected<R: Send>(
     pool: Option<&rayon::ThreadPool>,
+    stop: &Stop,
+    a_call: usize,
     launches: usize,
     work: impl Fn(Range<usize>) -> Result<R, Failure> + Sync,
 ) -> Result<Vec<R>, Failure> {
-    let Some(pool) = pool else { return work(0..launches).map(|one| vec![one]) };
-    let size = launches.div_ceil(4 * pool.current_num_threads()).max(SMALLEST_PART);
-    let starts: Vec<usize> = (0..launches).step_by(size).collect();
-    let done: Vec<_> =
-        pool.install(|| starts.into_par_iter().map(|start| work(start..(start + size).min(launches))).collect());
+    let starts = (0..launches).step_by(a_call);
+    let part = |start: usize| {
+        stop.here();
+        work(start..(start + a_call).min(launches))
+    };
+    let Some(pool) = pool else { return starts.map(part).collect() };
+    let starts: Vec<usize> = starts.collect();
+    let done: Vec<_> = pool.install(|| starts.into_par_iter().map(part).collect());
     done.into_iter().collect()
+}
+
+/// The launches of a part, of which each thread has some.
+fn part_of(pool: &rayon::ThreadPool, launches: usize) -> usize {
+    launches.div_ceil(4 * pool.current_num_threads()).max(SMALLEST_PART)
 }

@@ -1,13 +1,13 @@
 //! A body and its launch.
 
-use ::toss::{Attitude, Launch, RigidToss, TimeOfFlight};
+use ::toss::{Attitude, InputError, Launch, RigidToss, TimeOfFlight};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::body::{Body, body_of};
 use crate::errors::{Failure, malformed};
+use crate::given::{object, optional_number, refused_value, vector};
 
 /// A body and its launch: all that a flight depends on.
 ///
@@ -61,20 +61,27 @@ impl Toss {
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         py: Python<'_>,
-        rate: [f64; 3],
-        speed: Option<f64>,
-        time: Option<f64>,
-        gravity: Option<f64>,
-        drop: Option<f64>,
-        tilt: Option<f64>,
+        rate: &Bound<'_, PyAny>,
+        speed: Option<&Bound<'_, PyAny>>,
+        time: Option<&Bound<'_, PyAny>>,
+        gravity: Option<&Bound<'_, PyAny>>,
+        drop: Option<&Bound<'_, PyAny>>,
+        tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
         body: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let attitude = attitude.map(components_of).transpose()?;
-        let given = Given { rate, speed, time, gravity, drop, tilt, attitude };
+        let given = Given {
+            rate: vector("rate", rate, "a sequence of 3 real numbers")?,
+            speed: optional_number("speed", speed)?,
+            time: optional_number("time", time)?,
+            gravity: optional_number("gravity", gravity)?,
+            drop: optional_number("drop", drop)?,
+            tilt: optional_number("tilt", tilt)?,
+            attitude: attitude.map(components_of).transpose()?,
+        };
         let body = match body {
             Some(body) => body_of(body)?,
-            None => Py::new(py, Body::named("paper")?)?,
+            None => Py::new(py, Body::of_name("paper".to_owned(), "body")?)?,
         };
         let toss = RigidToss { body: body.get().body, launch: given.launch()? };
         Ok(Self { toss, body, given })
@@ -122,10 +129,10 @@ impl Toss {
     }
 
     fn __hash__(&self) -> u64 {
-        self.given
-            .rate
-            .iter()
-            .fold(self.toss.launch.flight_time().to_bits(), |hash, rate| hash.rotate_left(9) ^ rate.to_bits())
+        // A rate of -0 is one of 0.
+        let bits = |number: f64| (number + 0.0).to_bits();
+        let time = bits(self.toss.launch.flight_time());
+        self.given.rate.iter().fold(time, |hash, rate| hash.rotate_left(9) ^ bits(*rate))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(([f64; 3],), Bound<'py, PyDict>)> {
@@ -157,6 +164,11 @@ impl Given {
             (None, Some(time), None) => TimeOfFlight::Given(time),
             (Some(speed), None, _) => TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop),
         };
+        // Each component of the rate has a field of its own.
+        if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
+            let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
+            return Err(Failure::from(fault).at(axis as u64).into());
+        }
         let launch = Launch::new(rate, time_of_flight).map_err(Failure::from)?;
         Ok(match attitude_of(tilt, attitude)? {
             Some(attitude) => launch.with_attitude(attitude),
@@ -180,11 +192,18 @@ pub(crate) fn attitude_of(tilt: Option<f64>, components: Option<[f64; 4]>) -> Py
 
 /// The components (w, x, y, z) of four numbers, or of one of SciPy's rotations.
 pub(crate) fn components_of(attitude: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
-    if attitude.hasattr("as_quat")? {
-        let scalar_first = PyDict::new(attitude.py());
-        scalar_first.set_item("scalar_first", true)?;
-        let components = attitude.call_method("as_quat", (), Some(&scalar_first))?;
-        return components.extract().map_err(|_| PyTypeError::new_err("attitude: a single rotation is expected"));
+    const EXPECTED: &str = "4 real numbers (w, x, y, z), or a single rotation of SciPy";
+    if !attitude.hasattr("as_quat").unwrap_or(false) {
+        return vector("attitude", attitude, EXPECTED);
     }
-    attitude.extract()
+    let scalar_first = PyDict::new(attitude.py());
+    scalar_first.set_item("scalar_first", true)?;
+    let components = attitude.call_method("as_quat", (), Some(&scalar_first));
+    let components = components.ok().and_then(|components| vector("attitude", &components, EXPECTED).ok());
+    components.ok_or_else(|| refused_value("attitude", attitude, EXPECTED))
+}
+
+/// The toss that an argument is.
+pub(crate) fn toss_of(value: &Bound<'_, PyAny>) -> PyResult<RigidToss> {
+    Ok(object::<Toss>("toss", value, "a Toss")?.get().toss)
 }

@@ -209,7 +209,7 @@ def test_the_first_impossible_launch_is_named(function, threads, bad, launches):
     for settings in ({}, {"tilt": 0.3}):
         with pytest.raises(errors.OutOfRangeError, match="launch 100001: rate z") as caught:
             function(*columns, threads=threads, **settings)
-        assert (caught.value.field, caught.value.index, caught.value.valid) == ("rate z [rad/s]", 100_001, "finite")
+        assert (caught.value.field, caught.value.index, caught.value.valid) == ("rate_z [rad/s]", 100_001, "finite")
     few = [column[100_000:100_002] for column in columns]
     with pytest.raises(errors.OutOfRangeError) as caught:
         function(*few, threads=threads, body=ut.Body.from_moments((1.0, 1.5, 2.0)))
@@ -235,7 +235,7 @@ def test_a_negative_speed_or_time_is_named_as_it_was_given():
         ({"attitude": (0, 0, 0, 0)}, "attitude (largest component)"),
         ({"threads": 0}, "threads"),
         ({"threads": 5000}, "threads"),
-        ({"body": "groat"}, "coin"),
+        ({"body": "groat"}, "body"),
         ({"solver": "magic"}, "solver"),
         ({"time": V}, "speed"),
     ],

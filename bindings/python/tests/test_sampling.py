@@ -74,11 +74,11 @@ def test_a_space_takes_numbers_tuples_and_texts():
     assert by_number == by_text == FIG4 and by_number != FIG4.with_body("us-quarter")
     assert ut.Space(rate_x="1rev/s", rate_y=0, rate_z=0, speed=1) != ut.Space(rate_x=1, rate_y=0, rate_z=0, speed=1)
     for changes, field in [
-        ({"rate_x": (5, 1)}, "rate x [rad/s]"),
+        ({"rate_x": (5, 1)}, "rate_x [rad/s]"),
         ({"speed": -1}, "speed [m/s]"),
-        ({"rate_z": [1, 2, 3, 4]}, "rate z [rad/s]"),
-        ({"rate_z": None}, "rate z [rad/s]"),
-        ({"rate_y": "sideways"}, "rate y [rad/s]"),
+        ({"rate_z": [1, 2, 3, 4]}, "rate_z"),
+        ({"rate_z": None}, "rate_z"),
+        ({"rate_y": "sideways"}, "rate_y [rad/s]"),
         ({"drop": -10.0}, "drop [m]"),
     ]:
         with pytest.raises(errors.InputError) as caught:

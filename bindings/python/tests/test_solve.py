@@ -45,10 +45,10 @@ def test_settings_have_an_effect_or_are_refused():
     assert ut.solve(TOSS, "quaternion", scheme="taylor").nfev != fine.nfev
     assert ut.solve(TOSS, ut.Solver("gamma", scheme="rk4", step=0.01)).work.accepted_steps == 150
     for solver, settings, field in [
-        ("exact", {"rtol": 1e-9}, "tolerance"),
-        ("quaternion", {"rtol": 2.0}, "tolerance"),
+        ("exact", {"rtol": 1e-9}, "rtol"),
+        ("quaternion", {"rtol": 2.0}, "rtol"),
         ("quaternion", {"rtol": 1e-9, "step": 0.1}, "step"),
-        ("quaternion", {"scheme": "heun"}, "scheme of this solver"),
+        ("quaternion", {"scheme": "heun"}, "scheme"),
         ("euler", {"formulation": "sideways"}, "formulation"),
         (ut.Solver("euler"), {"rtol": 1e-9}, "rtol"),
         ("magic", {}, "solver"),

@@ -18,7 +18,8 @@ pub(crate) trait Sum: Default + Send {
     fn merge(self, other: Self) -> Self;
 }
 
-/// A function that is called with the number of launches (or nodes of a map) done since it was last called.
+/// A function that is called with the number of launches (or nodes of a map) done since it was last called. It may unwind,
+/// as by [`std::panic::resume_unwind`], which ends the work on all threads.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
 
 /// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool if there are
@@ -51,7 +52,7 @@ pub(crate) fn fold<T: Sum>(
     };
     let blocks = 0..(range.end - range.start).div_ceil(LENGTH);
     #[cfg(feature = "rayon")]
-    return blocks.into_par_iter().map_init(|| Block::new(space), run).reduce(|| Ok(T::default()), merged);
+    return blocks.into_par_iter().panic_fuse().map_init(|| Block::new(space), run).reduce(|| Ok(T::default()), merged);
     #[cfg(not(feature = "rayon"))]
     {
         let mut block = Block::new(space);
@@ -84,6 +85,8 @@ fn index_of(error: &Error) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
     use dynamics::{Coin, Launch, RigidToss, SolveError, TimeOfFlight, Toss};
 
     use super::*;
@@ -100,6 +103,28 @@ mod tests {
         let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.0)).unwrap();
         let failure = |index| failed(index, Toss { coin: Coin::PAPER, launch });
         assert_eq!((first(failure(3), failure(7)), first(failure(7), failure(3))), (failure(3), failure(3)));
+    }
+
+    #[test]
+    fn a_progress_that_unwinds_ends_the_work() {
+        let space = named_space("tails").unwrap();
+        let launches = Launches::Random { cube: Cube::new(&space, space.free()), seed: 1 };
+        let tried = AtomicU64::new(0);
+        let add = |_: &Block| {
+            tried.fetch_add(1, Ordering::Relaxed);
+            Ok(Counts::default())
+        };
+        let progress = |_| {
+            if tried.load(Ordering::Relaxed) >= 5 {
+                resume_unwind(Box::new("enough"));
+            }
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
+        let work = || pool.install(|| fold(&space, &launches, 0..1 << 44, &progress, add));
+        let end = catch_unwind(AssertUnwindSafe(work)).unwrap_err();
+        assert_eq!(end.downcast_ref::<&str>(), Some(&"enough"));
+        // Each thread may have begun a block before it knew.
+        assert!((5..=9).contains(&tried.load(Ordering::Relaxed)), "{tried:?}");
     }
 
     #[test]

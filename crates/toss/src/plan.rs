@@ -7,6 +7,7 @@
 use dynamics::error::require;
 use dynamics::{Error, InputError, RigidToss, Toss};
 use exact::{RigidMotion, certify};
+use sampling::Progress;
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, Decision, How, Offer};
@@ -132,10 +133,22 @@ impl Scene {
     /// # Errors
     /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if no model reaches the accuracy.
     pub fn choose_and_run(&self, registry: &Registry) -> Result<(Choice, Answer), Error> {
+        self.choose_and_run_reporting(registry, &|_| {})
+    }
+
+    /// As [`Scene::choose_and_run`]. `progress` is called as by [`sampling::Sampler::on_progress`] while launches are sampled.
+    ///
+    /// # Errors
+    /// As [`Scene::choose_and_run`].
+    pub fn choose_and_run_reporting(
+        &self,
+        registry: &Registry,
+        progress: Progress<'_>,
+    ) -> Result<(Choice, Answer), Error> {
         let mut choice = self.plan_with(registry)?.choice;
         let mut failed = Vec::new();
         loop {
-            match choice.run(self) {
+            match choice.run_reporting(self, progress) {
                 Err(error) if is_out_of_reach(&error) => {
                     failed.push(choice.model);
                     let others = samples(self)?.into_iter().filter(|(other, _)| !failed.contains(&other.model));
@@ -210,6 +223,10 @@ impl Choice {
     /// # Errors
     /// The error of the solver; [`Error::Input`] for a scene that wants something else than the one planned.
     pub fn run(&self, scene: &Scene) -> Result<Answer, Error> {
+        self.run_reporting(scene, &|_| {})
+    }
+
+    fn run_reporting(&self, scene: &Scene, progress: Progress<'_>) -> Result<Answer, Error> {
         let expected = "one that was made for this scene";
         let other = || InputError::Malformed { field: "choice", value: self.model.name.to_owned(), expected };
         match (&self.how, &self.model.kind, &scene.want) {
@@ -219,7 +236,7 @@ impl Choice {
             (How::Integrator(_, stepping), _, want) if scene.by_proof().is_some() => proven(*stepping, want),
             (How::Integrator(entry, stepping), _, want) => integrated(entry, *stepping, want),
             (How::Sampling(plan), _, Want::Probability(space)) => {
-                Ok(Answer::Probability(Box::new(sampled(space, *plan, scene.accuracy)?)))
+                Ok(Answer::Probability(Box::new(sampled(space, *plan, scene.accuracy, progress)?)))
             }
             _ => Err(other().into()),
         }

@@ -4,7 +4,7 @@
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
-use sampling::{Estimate, Found, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Estimate, Found, Plan, Progress, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::fitted::{FITTED, SamplingFit};
@@ -85,15 +85,15 @@ fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> R
 }
 
 /// Runs `plan`, with twice the launches again and again as long as the half-width of the interval exceeds the accuracy.
-pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64) -> Result<Estimate, Error> {
-    let found = Sampler::exact().estimate(space, plan)?;
+pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64, progress: Progress<'_>) -> Result<Estimate, Error> {
+    let found = Sampler::exact().on_progress(progress).estimate(space, plan)?;
     let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
     match (found.half_width(), refined(plan, accuracy)) {
         (Some(reached), Some(more)) if reached > accuracy => {
             if found.points >= MOST_LAUNCHES || rounding_error > accuracy {
                 return Err(Error::NotReached { points: found.points, reached, accuracy });
             }
-            sampled(space, more, accuracy)
+            sampled(space, more, accuracy, progress)
         }
         _ => Ok(found),
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +34,7 @@ class Counts:
     tails: int
     undecided: int
     certified: bool
-    proven_by: dict[str, int] | None
+    proven_by: dict[str, int] | None = field(hash=False)
 
     @property
     def points(self) -> int:

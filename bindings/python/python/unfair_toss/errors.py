@@ -15,9 +15,10 @@ class TossError(Exception):
     Attributes
     ----------
     field : str or None
-        The input that is at fault, with its unit.
+        The argument that is at fault, with its unit.
     index : int or None
-        The index of the launch that is at fault, from 0; in the C order of the broadcast columns.
+        The index from 0 of what is at fault, in C order: of a launch of the broadcast columns, or of an element of an
+        argument that takes several.
     valid : str or None
         The valid range, or what was expected.
     """

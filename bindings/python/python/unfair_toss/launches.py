@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Batch, Body, Solver
+from ._native import Batch, Body, Solver, numbers
 from .errors import MalformedError
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ _COPIED_BLOCK = 1 << 16
 _LONG_BLOCK = 1 << 21
 """The same for several threads, whose start takes as long as thousands of launches."""
 
-_SLOW_BLOCK = 1 << 10
-"""The same for launches that are solved one by one, so that Ctrl-C is heard."""
+_SLOW_BLOCK = 1 << 14
+"""The same for each of at most 64 threads, for launches that are not solved by the kernels: so few that copies are small."""
 
 
 class Launches:
@@ -58,8 +58,8 @@ class Launches:
             raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
         if time is not None and gravity is not None:
             raise MalformedError("gravity has no effect with time", field="gravity", valid="None, or a speed")
-        last = _column("time", time) if time is not None else _column("speed", speed)
-        self.columns = tuple(_column(name, rate) for name, rate in zip(_NAMES, rates, strict=False)) + (last,)
+        last = column("time", time) if time is not None else column("speed", speed)
+        self.columns = tuple(column(name, rate) for name, rate in zip(_NAMES, rates, strict=False)) + (last,)
         try:
             self.shape = np.broadcast_shapes(*(column.shape for column in self.columns))
         except ValueError:
@@ -76,7 +76,7 @@ class Launches:
             threads=threads,
         )
         if not self.batch.is_vectorised:
-            self.block = self.copied_block = _SLOW_BLOCK * (threads or 64)
+            self.block = self.copied_block = _SLOW_BLOCK * min(threads or 64, 64)
         elif threads == 1:
             self.block, self.copied_block = _BLOCK, _COPIED_BLOCK
         else:
@@ -160,17 +160,45 @@ def _plain(column: npt.NDArray[np.generic], shape: tuple[int, ...]) -> npt.NDArr
     return None
 
 
-def _column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
-    """The column as an array of numbers, in whatever type and layout it comes."""
+def column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
+    """An argument as an array of numbers, in whatever type and layout it comes; by position, never by label."""
     expected = "real numbers"
+    to_numpy = None if isinstance(value, type) else getattr(value, "to_numpy", None)
+    if to_numpy is not None:
+        value = to_numpy()
     if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
-        raise MalformedError(f"{name} has masked elements", field=name, valid=expected)
+        index = int(np.flatnonzero(np.ma.getmaskarray(value))[0]) if value.ndim else None
+        raise MalformedError(f"{name} has masked elements", field=name, index=index, valid=expected)
     try:
-        array = np.asarray(value)
-        if array.dtype.kind == "O":
-            array = array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
+        is_plain = _is_plain(value)
+        array = np.asarray(value) if is_plain else np.asarray(value, dtype=object)
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise MalformedError(f"{name}: {error}", field=name, valid=expected) from None
+    if array.dtype.kind == "O":
+        # One by one, because NumPy reads texts and truth values among objects as numbers.
+        return numbers(name, list(array.flat) if array.ndim else array.item()).reshape(array.shape)
     if array.dtype.kind not in "iuf":
-        raise MalformedError(f"{name} has the type {array.dtype}, not real numbers", field=name, valid=expected)
+        index = 0 if array.ndim else None
+        message = f"{name} has the type {array.dtype}, not real numbers"
+        raise MalformedError(message, field=name, index=index, valid=expected)
     return array
+
+
+_PLAIN = {float, int, np.float64, np.float32, np.int64, np.int32}
+"""Types of numbers that NumPy reads as they are."""
+
+
+def _is_plain(value: object) -> bool:
+    """Whether NumPy reads a column as it is: an array, a number, or lists of these. Masks are refused inside of lists."""
+    if isinstance(value, list | tuple):
+        return set(map(type, value)) <= _PLAIN or all([_is_element(element) for element in value])
+    return isinstance(value, np.ndarray | np.generic) or type(value) in _PLAIN
+
+
+def _is_element(value: object) -> bool:
+    """The same of an element of a list, beside which it may get another type."""
+    if isinstance(value, np.ma.MaskedArray) and value.ndim and np.ma.is_masked(value):
+        raise ValueError("a list holds masked elements")
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind in "iuf" and not isinstance(value, np.ma.MaskedArray)
+    return _is_plain(value) and not isinstance(value, np.bool_ | np.timedelta64)

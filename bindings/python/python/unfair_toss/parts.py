@@ -9,8 +9,9 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future
 from pathlib import Path
 from typing import Any
 
-from ._native import Plan, Space, Tally
+from ._native import Plan, Space, Tally, count
 from .errors import InputError, MalformedError, PartError
+from .given import wrong
 from .tallies import tally
 
 _LAUNCHES = 10**9
@@ -44,13 +45,15 @@ class Parts:
     ) -> None:
         self.space, self.plan = space, plan
         self.points = plan.points(space)
-        self.shards = min(max(_FEWEST, -(-self.points // _LAUNCHES)), self.points) if shards is None else shards
+        fewest = min(max(_FEWEST, -(-self.points // _LAUNCHES)), self.points)
+        self.shards = fewest if shards is None else count("shards", shards)
         if not 1 <= self.shards <= self.points:
             message = f"shards = {shards}: valid are 1 to {self.points}"
             raise MalformedError(message, field="shards", valid=f"1 to {self.points}")
-        if retries < 0:
-            raise MalformedError(f"retries = {retries}: valid is 0 or more", field="retries", valid=">= 0")
-        self.folder = None if folder is None else Path(folder)
+        try:
+            self.folder = None if folder is None else Path(folder)
+        except TypeError:
+            raise wrong("folder", folder, "a path") from None
         self.threads = threads if executor is None or threads is not None else 1
         self.executor, self.retries, self.progress = executor, retries, progress
         self.done = 0

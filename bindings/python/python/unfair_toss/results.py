@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
+
+
+class _HoldsArrays:
+    """An answer that holds arrays. Two of the same class are equal if all their values are, of arrays each element. It has
+    no hash, because arrays can be changed."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+    __hash__: ClassVar[None] = None  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(bool(np.array_equal(one, two)) if isinstance(one, np.ndarray) else one == two for one, two in pairs)
 
 
 @dataclass(frozen=True)
@@ -29,8 +43,8 @@ class Work:
     rejected_steps: int
 
 
-@dataclass(frozen=True)
-class Landing:
+@dataclass(frozen=True, eq=False)
+class Landing(_HoldsArrays):
     """How a toss lands.
 
     Attributes
@@ -102,8 +116,8 @@ class Margins:
     time_range: tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Intervals:
+@dataclass(frozen=True, eq=False)
+class Intervals(_HoldsArrays):
     """The speeds that land heads.
 
     Attributes
@@ -118,8 +132,8 @@ class Intervals:
     probability: float
 
 
-@dataclass(frozen=True)
-class Trace:
+@dataclass(frozen=True, eq=False)
+class Trace(_HoldsArrays):
     """A flight at n times.
 
     Attributes
@@ -168,8 +182,8 @@ class Inverse:
     cone_angle: float
 
 
-@dataclass(frozen=True)
-class Solution:
+@dataclass(frozen=True, eq=False)
+class Solution(_HoldsArrays):
     """A flight as a solver found it.
 
     Attributes

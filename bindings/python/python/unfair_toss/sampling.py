@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._native import Plan, Solver, Space, Tally
+from ._native import Plan, Solver, Space, Tally, count
 from .columns import stages
 from .errors import MalformedError, PartError
+from .given import a_function, an, wrong
 from .tallies import tally
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class Estimate:
     tails: int | None
     undecided: int | None
     certified: bool
-    proven_by: dict[str, int] | None
+    proven_by: dict[str, int] | None = field(hash=False)
     plan: Plan
 
     @property
@@ -87,7 +88,16 @@ def merge(parts: Iterable[Tally]) -> Estimate:
     errors.PartError
         If a part is of another plan or space, if launches are missing, or if some are in two parts.
     """
-    ordered = sorted(parts, key=lambda part: part.range)
+    try:
+        each = iter(parts)
+    except TypeError:
+        raise wrong("parts", parts, "an iterable of Tally") from None
+    given = list(each)
+    for index, part in enumerate(given):
+        if not isinstance(part, Tally):
+            message = f"parts[{index}] is of type {type(part).__name__}: expected a Tally"
+            raise PartError(message, field="parts", index=index, valid="a Tally")
+    ordered = sorted(given, key=lambda part: part.range)
     if not ordered:
         raise PartError("no part was given", field="parts", valid="all parts of a plan")
     whole = ordered[0]
@@ -117,6 +127,7 @@ def estimate(whole: Tally) -> Estimate:
     errors.PartError
         If launches are missing.
     """
+    an(Tally, "whole", whole)
     try:
         return _estimate(whole._estimate(), whole.plan)
     except MalformedError as error:
@@ -175,11 +186,17 @@ def probability(
     errors.PartError
         For a part that is wrong.
     """
+    an(Space, "space", space)
+    a_function("progress", progress)
+    retries = count("retries", retries)
+    if executor is not None and not hasattr(executor, "submit") and not callable(executor):
+        raise wrong("executor", executor, "an executor, or what makes one")
     parted = executor is not None or shards is not None or folder is not None
     if plan is None:
         if parted or solver is not None:
             raise MalformedError("a plan is needed for parts and for a solver", field="plan", valid="a Plan")
         return _planned(space, 1e-4 if accuracy is None else accuracy, threads, progress)
+    an(Plan, "plan", plan)
     if accuracy is not None:
         raise MalformedError("accuracy has no effect with a plan", field="accuracy", valid="None, or no plan")
     if solver is not None:

@@ -94,7 +94,7 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     heads = np.array(_native.intervals(toss, slowest), dtype=np.float64).reshape(-1, 2)
     length = sum((fast - slow for slow, fast in heads.tolist()), 0.0)
     assert toss.speed is not None
-    return Intervals(heads, min(length / (toss.speed - slowest), 1.0))
+    return Intervals(heads, min(length / (toss.speed - float(slowest)), 1.0))
 
 
 def trace(
@@ -152,4 +152,5 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     errors.InputError
         For a probability outside its range, and for a body that is not symmetric.
     """
-    return Inverse(probability, *_native.inverse(probability, body))
+    found = _native.inverse(probability, body)
+    return Inverse(float(probability), *found)

@@ -7,7 +7,9 @@ import numpy.typing as npt
 
 from . import _native
 from ._native import Solver, Toss
-from .errors import MalformedError, OutOfRangeError
+from .errors import InputError, MalformedError, OutOfRangeError
+from .given import an, wrong
+from .launches import column
 from .results import Solution, Work
 
 
@@ -46,9 +48,17 @@ def solve(
     errors.SolveError
         If the solver cannot go on, or does not solve such a body.
     """
+    an(Toss, "toss", toss)
     settings = {"scheme": scheme, "rtol": rtol, "step": step, "formulation": formulation}
-    if isinstance(solver, str):
-        solver = Solver(solver, scheme=scheme, rtol=rtol, step=step, formulation=formulation)
+    if not isinstance(solver, Solver):
+        if not isinstance(solver, str):
+            raise wrong("solver", solver, "the name of a solver, or a Solver")
+        try:
+            solver = Solver(solver, scheme=scheme, rtol=rtol, step=step, formulation=formulation)
+        except InputError as error:
+            if error.field == "name":
+                error.field = "solver"
+            raise
     elif given := [name for name, value in settings.items() if value is not None]:
         raise MalformedError(f"{given[0]} is given with a Solver, which has settings", field=given[0], valid="None")
     times = _times(toss, t_eval)
@@ -60,12 +70,14 @@ def _times(toss: Toss, t_eval: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
     """The times, ascending from launch to landing."""
     if t_eval is None:
         return np.array([0.0, toss.flight_time])
-    try:
-        times = np.array(t_eval, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise MalformedError(f"t_eval: {error}", field="t_eval [s]", valid="ascending times") from None
+    times = np.array(column("t_eval [s]", t_eval), dtype=np.float64)
     valid = f"one dimension of ascending times from 0 to {toss.flight_time!r}"
-    within = times.ndim == 1 and bool(np.all((times >= 0.0) & (times <= toss.flight_time)))
-    if not within or bool(np.any(np.diff(times) < 0.0)):
-        raise OutOfRangeError(f"t_eval is outside its valid range: {valid}", field="t_eval [s]", valid=valid)
-    return times
+    index = None
+    if times.ndim == 1:
+        is_wrong = ~((times >= 0.0) & (times <= toss.flight_time))
+        is_wrong[1:] |= np.diff(times) < 0.0
+        if not is_wrong.any():
+            return times
+        index = int(np.flatnonzero(is_wrong)[0])
+    message = f"t_eval is outside its valid range: {valid}"
+    raise OutOfRangeError(message, field="t_eval [s]", index=index, valid=valid)

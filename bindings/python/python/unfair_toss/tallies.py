@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Iterable
 
 from . import _native
-from ._native import Plan, Space, Tally
+from ._native import Plan, Space, Tally, count
 from .errors import MalformedError
+from .given import a_function, an, wrong
 
 _SLICE = 1 << 28
-"""Launches between two looks for Ctrl-C and two reports of progress: some tenths of a second."""
+"""Launches between two reports of progress: some tenths of a second."""
 
 
 def tally(
@@ -46,7 +47,8 @@ def tally(
     errors.InputError
         For a range beyond the launches of the plan, and for a plan that does not fit the space.
     """
-    start, end = _ends(range, plan.points(space))
+    a_function("progress", progress)
+    start, end = _ends(range, an(Plan, "plan", plan).points(space))
     whole: Tally | None = None
     for first in _starts(start, end):
         part = _native.tally(space, plan, first, min(first + _SLICE, end), threads)
@@ -65,8 +67,10 @@ def _ends(given: tuple[int, int] | range | None, points: int) -> tuple[int, int]
         if given.step != 1:
             raise MalformedError(f"range = {given} has gaps", field="range", valid="a step of 1")
         given = (given.start, given.stop)
-    start, end = given
-    if not 0 <= start <= end <= points:
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise wrong("range", given, "a tuple of 2 ints, or a range")
+    start, end = (count("range", number) for number in given)
+    if not start <= end <= points:
         valid = f"an ascending range of the {points} launches of the plan"
         raise MalformedError(f"range = {start}..{end} can't be used: expected {valid}", field="range", valid=valid)
     return start, end

@@ -1,0 +1,201 @@
+//! Values as Python gives them: numbers, counts, texts, objects of our classes, and short vectors of numbers. A vector is
+//! read by position, never by label. What is no such value is refused with the name of the argument, and with the position
+//! in a vector: nothing is converted whose meaning would change by it, such as a mask, a truth value, a text, a complex
+//! number or a span of time.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::pyclass::PyClass;
+use pyo3::types::{PyBool, PyByteArray, PyBytes, PyComplex, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
+
+use crate::errors::refused;
+
+/// What is said to be valid where a number is wanted.
+const A_NUMBER: &str = "a real number";
+
+/// The most characters of a value in a message.
+const SHOWN: usize = 40;
+
+/// A value that an argument holds, by the name of the argument and its position if it is one of several.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    field: &'a str,
+    index: Option<usize>,
+}
+
+impl Place<'_> {
+    fn refused(self, value: &Bound<'_, PyAny>, expected: &str) -> PyErr {
+        let at = self.index.map_or_else(String::new, |index| format!("[{index}]"));
+        let message = format!("{}{at} = {} can't be used: expected {expected}", self.field, shown(value));
+        refused(value.py(), &message, self.field, self.index, expected)
+    }
+
+    fn number(self, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+        if let Ok(number) = value.cast_exact::<PyFloat>() {
+            return Ok(number.value());
+        }
+        let number = if is_real(value) { value.extract().ok() } else { None };
+        number.ok_or_else(|| self.refused(value, A_NUMBER))
+    }
+
+    fn count(self, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<u64> {
+        let count = if is_real(value) && !value.is_instance_of::<PyFloat>() { value.extract().ok() } else { None };
+        count.ok_or_else(|| self.refused(value, expected))
+    }
+}
+
+/// The real number that an argument is.
+pub(crate) fn number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    Place { field, index: None }.number(value)
+}
+
+/// The real number that an argument is, if it was given.
+pub(crate) fn optional_number(field: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
+    value.map(|value| number(field, value)).transpose()
+}
+
+/// The whole number, 0 or above, that an argument is.
+pub(crate) fn count(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    Place { field, index: None }.count(value, "a whole number from 0 to 2^64 - 1")
+}
+
+/// The text that an argument is.
+pub(crate) fn text(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<String> {
+    value.extract().map_err(|_| refused_value(field, value, expected))
+}
+
+/// The object of one of our classes that an argument is.
+pub(crate) fn object<'a, 'py, T: PyClass>(
+    field: &str,
+    value: &'a Bound<'py, PyAny>,
+    expected: &str,
+) -> PyResult<&'a Bound<'py, T>> {
+    value.cast::<T>().map_err(|_| refused_value(field, value, expected))
+}
+
+/// The exception of a value that `field` can't have.
+pub(crate) fn refused_value(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyErr {
+    Place { field, index: None }.refused(value, expected)
+}
+
+/// The `N` numbers of a sequence, by position.
+pub(crate) fn vector<const N: usize>(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<[f64; N]> {
+    let numbers = numbers(field, value, expected)?;
+    numbers.try_into().map_err(|_| refused_value(field, value, expected))
+}
+
+/// The numbers of a sequence, by position.
+pub(crate) fn numbers(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<Vec<f64>> {
+    let elements = elements(value).ok_or_else(|| refused_value(field, value, expected))?;
+    let number = |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.number(element);
+    elements.iter().enumerate().map(number).collect()
+}
+
+/// The three rows of three numbers of a matrix, by position. An element that is no number is counted through all rows.
+pub(crate) fn matrix(field: &str, value: &Bound<'_, PyAny>, expected: &str) -> PyResult<[[f64; 3]; 3]> {
+    let malformed = || refused_value(field, value, expected);
+    let mut matrix = [[0.0; 3]; 3];
+    let rows = elements(value).filter(|rows| rows.len() == 3).ok_or_else(malformed)?;
+    for (row, numbers) in rows.iter().enumerate() {
+        let numbers = elements(numbers).filter(|numbers| numbers.len() == 3).ok_or_else(malformed)?;
+        for (column, number) in numbers.iter().enumerate() {
+            matrix[row][column] = Place { field, index: Some(3 * row + column) }.number(number)?;
+        }
+    }
+    Ok(matrix)
+}
+
+/// The text from which an axis is read that is a text, a number, or a tuple of numbers: (lo, hi) or (lo, hi, points).
+pub(crate) fn axis(field: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    const FORMS: &str = "a number, (lo, hi), (lo, hi, points) or a text";
+    if let Ok(text) = value.extract() {
+        return Ok(text);
+    }
+    let at = |index| Place { field, index: Some(index) };
+    match elements(value).as_deref() {
+        // Numbers are written so that they are read back to the bit.
+        Some([lo, hi]) => Ok(format!("{}:{}", at(0).number(lo)?, at(1).number(hi)?)),
+        Some([lo, hi, points]) => {
+            let points = at(2).count(points, "a whole number of points")?;
+            Ok(format!("{}:{}:{points}", at(0).number(lo)?, at(1).number(hi)?))
+        }
+        None if is_real(value) => {
+            value.extract::<f64>().map(|value| value.to_string()).map_err(|_| refused_value(field, value, FORMS))
+        }
+        _ => Err(refused_value(field, value, FORMS)),
+    }
+}
+
+/// The numbers of a sequence of any length, or a single one, as an array, for the Python layer.
+#[pyfunction(name = "numbers")]
+pub(crate) fn array_of_numbers<'py>(
+    py: Python<'py>,
+    field: &str,
+    values: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let found = match elements(values) {
+        Some(_) => numbers(field, values, "real numbers")?,
+        None => vec![number(field, values)?],
+    };
+    Ok(PyArray1::from_vec(py, found))
+}
+
+/// The whole number, 0 or above, that an argument is, for the Python layer.
+#[pyfunction(name = "count")]
+pub(crate) fn whole_number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    count(field, value)
+}
+
+/// Whether a value is one real number, so far as its type tells.
+fn is_real(value: &Bound<'_, PyAny>) -> bool {
+    if value.is_instance_of::<PyBool>() || value.is_instance_of::<PyComplex>() {
+        return false;
+    }
+    if value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>() {
+        return true;
+    }
+    // A scalar of NumPy, or an array without dimensions, says what it is; 'i', 'u' and 'f' are real.
+    let kind = value.getattr("dtype").and_then(|dtype| dtype.getattr("kind")).and_then(|kind| kind.extract::<char>());
+    let is_masked = || value.getattr("mask").is_ok_and(|mask| mask.is_truthy().unwrap_or(true));
+    // What has a length is a text or holds several values, even if it could be converted.
+    kind.map_or(true, |kind| matches!(kind, 'i' | 'u' | 'f')) && value.len().is_err() && !is_masked()
+}
+
+/// The elements of a sequence by their positions; `None` of what has no order, of texts, and of single values.
+fn elements<'py>(value: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyAny>>> {
+    if let Ok(tuple) = value.cast::<PyTuple>() {
+        return Some(tuple.iter().collect());
+    }
+    if let Ok(list) = value.cast::<PyList>() {
+        return Some(list.iter().collect());
+    }
+    // Those of pandas are known by labels as well.
+    let values = value.call_method0("to_numpy").unwrap_or_else(|_| value.clone());
+    let is_text = values.is_instance_of::<PyString>()
+        || values.is_instance_of::<PyBytes>()
+        || values.is_instance_of::<PyByteArray>();
+    let sets = value.py().import("collections.abc").and_then(|module| module.getattr("Set"));
+    let has_no_order =
+        values.cast::<PyMapping>().is_ok() || sets.and_then(|sets| values.is_instance(&sets)).unwrap_or(true);
+    if is_text || has_no_order || values.len().is_err() {
+        return None;
+    }
+    values.try_iter().ok()?.collect::<PyResult<_>>().ok()
+}
+
+/// A value in a message: its type, and what it is unless that is long or holds other values.
+fn shown(value: &Bound<'_, PyAny>) -> String {
+    let class = value.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    if value.is_none() {
+        return class;
+    }
+    let is_text = value.is_instance_of::<PyString>() || value.is_instance_of::<PyBytes>();
+    match value.len() {
+        Ok(length) if !is_text => format!("{class} of {length}"),
+        // An integer of very many digits has no text.
+        _ => match value.repr() {
+            Ok(text) if text.len().is_ok_and(|length| length <= SHOWN) => text.to_string(),
+            _ => class,
+        },
+    }
+}
