@@ -182,7 +182,7 @@ impl Scene {
             Want::Trace { points, .. } => Aim::Trace(points.saturating_sub(1).max(1)),
             Want::Attitude(_) | Want::Probability(_) => Aim::Attitude,
         };
-        Ok(Flights { turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
+        Ok(Flights { toss: *toss, turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
     }
 
     fn closed_form(&self, model: &'static Model, of: Of) -> Offer {
