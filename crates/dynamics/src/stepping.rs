@@ -179,7 +179,10 @@ impl Stepping {
         let turned = 1.0 + phase;
         let (truncation, steps) = match self.control {
             StepControl::Tolerance(tolerance) => {
-                let shorter = self.scheme.order().map_or(1.0, |order| inverse_root(tightened(tolerance, phase / LONG_FLIGHT), order));
+                let shorter = self
+                    .scheme
+                    .order()
+                    .map_or(1.0, |order| inverse_root(tightened(tolerance, phase / LONG_FLIGHT), order));
                 (100.0 * tolerance, STEPS_IN_A_RADIAN * shorter * turned)
             }
             StepControl::Step(step) => {

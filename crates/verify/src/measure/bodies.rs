@@ -138,12 +138,7 @@ pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<Rigid
     launch(family, index, FLOWN.rate, |_| phase)
 }
 
-fn launch(
-    family: &Family,
-    index: u64,
-    sizes: [f64; 2],
-    phase: impl FnOnce(&mut Numbers) -> f64,
-) -> Option<RigidToss> {
+fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<RigidToss> {
     let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
     let (mut moments, mut rate) = (family.make)(&mut numbers);
     moments.rotate_left((index % 3) as usize);

@@ -36,14 +36,23 @@ pub(super) struct Flight {
     pub(super) by: Subject,
 }
 
-/// How many flights of coins each solver and scheme makes, and of each family of bodies; and the steps of the longest.
+/// How many flights of coins each solver and scheme makes, and of each family of bodies; and the most steps of nearly all
+/// of them.
 pub(super) fn numbers(effort: Effort) -> ([u64; 2], f64) {
     match effort {
         Effort::Quick => ([40, 3], 2e4),
-        Effort::Standard => ([150, 12], 1e5),
+        Effort::Standard => ([150, 12], 5e4),
         // 100 000 of the solvers and schemes of this workspace.
-        Effort::Deep => ([6000, 820], 3e5),
+        Effort::Deep => ([6000, 820], 1e5),
     }
+}
+
+/// One flight in a hundred takes up to so many steps, which is as many as the schemes of this workspace take.
+const MOST_STEPS: f64 = 9e5;
+
+/// The most steps of flight number `index`.
+fn most_steps(index: u64, of_most: f64) -> f64 {
+    if index % 100 == 99 { MOST_STEPS } else { of_most }
 }
 
 /// The random numbers for the flight `index` of a kind.
@@ -63,7 +72,7 @@ fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
     values[rng.random_range(0..N)]
 }
 
-/// Flight number `index` of a coin by a solver and its `scheme`, in about `most_steps` or fewer.
+/// Flight number `index` of a coin by a solver and its `scheme`, most of them in about so many `steps` or fewer.
 ///
 /// # Errors
 /// Never: every launch is valid.
@@ -71,11 +80,11 @@ pub(super) fn of_coin(
     entry: &SolverEntry,
     scheme: Scheme,
     index: u64,
-    most_steps: f64,
+    steps: f64,
 ) -> Result<(Case, Flight), InputError> {
     let mut rng = stream(0, index);
     let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps, &mut rng);
+    let phase = settings.phase(most_steps(index, steps), &mut rng);
     let case = coin(&mut rng, phase)?;
     let by = settings.subject(entry, case.toss.launch.turn_rate())?;
     Ok((case, Flight { toss: case.toss.into(), input: case.hex(), by }))
@@ -89,11 +98,11 @@ pub(super) fn of_body(
     entry: &SolverEntry,
     scheme: Scheme,
     [family, index]: [u64; 2],
-    most_steps: f64,
+    steps: f64,
 ) -> Result<Option<Flight>, InputError> {
     let mut rng = stream(1 + family, index);
     let settings = Settings::drawn(scheme, &mut rng);
-    let phase = settings.phase(most_steps, &mut rng);
+    let phase = settings.phase(most_steps(index, steps), &mut rng);
     let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
     let by = settings.subject(entry, toss.launch.turn_rate())?;
     let input = format!("{}: {:?}, {:?}", by.options(), toss.body.tensor(), toss.launch);

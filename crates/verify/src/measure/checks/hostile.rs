@@ -44,7 +44,8 @@ fn of_contestant(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> anyhow:
         hostile::of_body(entry, scheme, [family, index / FAMILIES.len() as u64], most_steps)
     };
     let bodies = bodies * FAMILIES.len() as u64;
-    let landed = |flight: Result<Option<Flight>, InputError>| flight.map(|flight| flight.and_then(|flight| land(&flight)));
+    let landed =
+        |flight: Result<Option<Flight>, InputError>| flight.map(|flight| flight.and_then(|flight| land(&flight)));
     let flown = (0..coins).into_par_iter().map(coin).chain((0..bodies).into_par_iter().map(body)).map(landed);
     let landings: Vec<Landing> = flown.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     let (name, _) = hostile::of_coin(entry, scheme, 0, most_steps).map(|(_, flight)| (flight.by.name, ()))?;
