@@ -2,9 +2,9 @@
 //! cheapest of these offers when a scene asks for an integrator, as a cross-check of the exact motion.
 //!
 //! The table of measured errors suggests the coarsest tolerance with an error within the accuracy. No table knows the
-//! error on every toss, so that the offer is tried: the integrator flies the toss at that tolerance and is compared with
-//! the exact motion. Where it is off by more, the table is asked for as much less. An integrator has the same bits each
-//! time, so that the answer of the plan is as accurate as the trial was.
+//! error on every toss, so that the cheapest offer is tried if the scene asks for an integrator: it flies the toss at that
+//! tolerance and is compared with the exact motion. Where it is off by more, the table is asked for as much less. An
+//! integrator has the same bits each time, so that the answer of the plan is as accurate as the trial was.
 //!
 //! There are two special cases. For an outcome it is the coarsest tolerance with an
 //! [error estimate](Stepping::error_estimate) within the accuracy. A trace is flown in n legs, and each leg passes its
@@ -51,7 +51,8 @@ pub(crate) enum Aim {
 }
 
 /// The offers of the integrator and the scheme that are asked for. Without a scheme these are all adaptive schemes of
-/// the integrator, and without an integrator all adaptive schemes of the registry.
+/// the integrator, of which the cheapest has been tried, and without an integrator all adaptive schemes of the registry by
+/// the table alone.
 ///
 /// # Errors
 /// [`InputError`] for an unknown name, for the exact solver, for a scheme that the integrator does not offer or that
@@ -76,6 +77,9 @@ pub(crate) fn integrators(
             }
         };
         offers.extend(schemes.into_iter().map(|scheme| flights.by(registry, entry, scheme)));
+    }
+    if by.is_some() {
+        flights.try_cheapest(registry, &mut offers);
     }
     match by {
         Some(by) if offers.iter().all(|(_, offer)| matches!(offer, Err(Reason::NotMeasured))) => Err(unmeasured(by)),
@@ -116,36 +120,53 @@ pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -
 }
 
 impl Flights {
-    /// The offer of a scheme of an integrator; none if it has not been measured.
+    /// The offer of a scheme of an integrator by the table; none if it has not been measured.
     fn by(&self, registry: &Registry, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
         let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
         let offer = match registry.fit(entry.name(), scheme.name()) {
             None => Err(Reason::NotMeasured),
-            Some((fitted, fit)) => self.tried(fitted, &Measured { entry, scheme, fit }),
+            Some((fitted, fit)) => self.fitted(fitted, &Measured { entry, scheme, fit }),
         };
         (candidate, offer)
     }
 
-    /// The offer by the table, with a tolerance at which the error on the toss itself is within the accuracy.
-    fn tried(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
+    /// Tries the cheapest of the offers, and so on until the cheapest one has been tried. The others would be dearer, whatever
+    /// their trial said.
+    fn try_cheapest(&self, registry: &Registry, offers: &mut [(Candidate, Offer)]) {
+        let mut tried = vec![false; offers.len()];
+        loop {
+            let cost =
+                |index: &usize| offers[*index].1.as_ref().map_or(f64::INFINITY, |choice| choice.expected_cost_ns);
+            let cheapest = (0..offers.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+            let Some(index) = cheapest.filter(|index| !tried[*index]) else { return };
+            if let Ok(choice) = &offers[index].1 {
+                offers[index].1 = self.tried(registry, choice);
+            }
+            tried[index] = true;
+        }
+    }
+
+    /// The `choice` by the table, with a tolerance at which the error on the toss itself is within the accuracy.
+    fn tried(&self, registry: &Registry, choice: &Choice) -> Offer {
+        let How::Integrator(entry, stepping) = &choice.how else { return Ok(choice.clone()) };
+        let scheme = stepping.scheme();
+        let Some((fitted, fit)) = registry.fit(entry.name(), scheme.name()) else { return Ok(choice.clone()) };
+        let mut choice = choice.clone();
         // How many times as large as in the table errors are on this toss, at least 1.
         let mut factor = 1.0_f64;
-        let mut met = None;
         loop {
-            let asked = Self { accuracy: self.accuracy / factor, ..*self };
-            let offer = asked.fitted(fitted, by);
-            let Ok(choice) = &offer else {
-                return met.map_or(offer, |expected_error| Err(Reason::TooRough { expected_error }));
-            };
             // An outcome is decided by the error estimate. What an integrator refuses has no error: it says why when it is
             // run.
-            let Some(error) = self.error(choice) else { return offer };
+            let Some(error) = self.error(&choice) else { return Ok(choice) };
             if error <= self.accuracy {
                 let expected_error = (factor * choice.expected_error).max(error);
-                return Ok(Choice { expected_error, ..choice.clone() });
+                return Ok(Choice { expected_error, ..choice });
             }
             factor = (2.0 * factor).max(2.0 * error / choice.expected_error);
-            met = Some(error);
+            let asked = Self { accuracy: self.accuracy / factor, ..*self };
+            choice = asked
+                .fitted(fitted, &Measured { entry, scheme, fit })
+                .map_err(|_| Reason::TooRough { expected_error: error })?;
         }
     }
 

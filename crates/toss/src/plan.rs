@@ -72,7 +72,8 @@ impl Scene {
     }
 
     /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
-    /// [`Registry::standard`] are among them, whether the scene asks for one or not.
+    /// [`Registry::standard`] are among them, whether the scene asks for one or not. Their offers follow from measured
+    /// errors alone; that of a [plan](Scene::plan) has been tried on the toss, too.
     ///
     /// # Errors
     /// As for [`Scene::plan`].

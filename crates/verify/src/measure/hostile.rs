@@ -183,13 +183,23 @@ pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError>
     Ok(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
 }
 
-/// A coin for a plan, which turns by up to 300 rad: rods that spin fast among them.
+/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad, of whose flights the planner's table
+/// knows few.
 ///
 /// # Errors
 /// Never: every launch is valid.
 pub(super) fn planned(index: u64) -> Result<(ChaCha8Rng, Case), InputError> {
     let mut rng = stream(100, index);
-    let phase = decades(&mut rng, -1.0, 2.5);
-    let case = coin(&mut rng, phase)?;
-    Ok((rng, case))
+    if rng.random() {
+        let phase = decades(&mut rng, -1.0, 2.5);
+        let case = coin(&mut rng, phase)?;
+        return Ok((rng, case));
+    }
+    let across = decades(&mut rng, -3.0, 0.0);
+    let rate = Vector3::from_fn(|_, _| rng.random_range(-across..across));
+    let rate = Vector3::new(rate.x, rate.y, one(&mut rng, [-1.0, 1.0])) * decades(&mut rng, -1.0, 2.0);
+    let time = TimeOfFlight::Given(decades(&mut rng, 0.0, 3.0) / rate.norm());
+    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
+    let toss = Toss { coin: Coin::from_moments(1.0, 0.0)?, launch: Launch::new(rate, time)?.with_tilt(tilt)? };
+    Ok((rng, Case { toss, tilt }))
 }
