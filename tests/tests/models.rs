@@ -4,7 +4,10 @@
 use blackbox::{config, tosses};
 use proptest::prelude::*;
 use sampling::Space;
-use toss::{Answer, Body, Choice, Coin, Error, How, MODELS, Model, Outcome, Registry, Scene, Stage, Toss, Want};
+use toss::{
+    Answer, Body, Choice, Coin, Error, ExactSolver, How, MODELS, Model, Outcome, Registry, Scene, Solver, Stage, Toss,
+    Want,
+};
 
 /// The answers of all models that serve a scene, each with a bound of its error: the expected error, or ten times the
 /// error estimate of an integrator, because the errors of integrators have a long tail.
@@ -120,6 +123,56 @@ fn an_integrator_decides_outcomes_down_to_the_accuracy() {
             };
             let estimate = stepping.error_estimate(&toss).unwrap();
             assert!((0.5..1.0 + 1e-9).contains(&(estimate / accuracy)), "{rate} {accuracy:e}: {estimate:e}");
+        }
+    }
+}
+
+/// The error of the attitude of a scene's answer (rad), and the error that its plan expected.
+fn attitude_error_as_planned(scene: &Scene, registry: &Registry) -> Result<[f64; 2], Error> {
+    let choice = scene.plan_with(registry)?.choice;
+    let (Answer::Attitude(state), Some(toss)) = (choice.run(scene)?, scene.want.toss()) else {
+        panic!("an attitude was asked for")
+    };
+    let exact = ExactSolver.propagate_rigid(toss)?.state.attitude;
+    Ok([exact.angle_to(&state.attitude), choice.expected_error])
+}
+
+/// A rod that spins fast, of whose flights the planner's table knows too few: by its tolerance this one is off by four
+/// times as much.
+#[test]
+fn a_plan_by_an_integrator_keeps_its_accuracy_on_the_toss_that_was_asked_about() {
+    let rod: Toss = toml::from_str(
+        "coin = { moments = [1.0, 0.0] }\n[launch]\n\
+         rate = [-4.424932971149648e-05, 0.07856801065167007, 16.588784552774946]\ntime = 52.043897878112475",
+    )
+    .unwrap();
+    for accuracy in [1e-5, 1e-7, 6.192153173781187e-9, 1e-9] {
+        let scene = Scene::new(Want::Attitude(rod.into()), accuracy).by("quaternion", Some("dop853"));
+        let [error, expected] = attitude_error_as_planned(&scene, Registry::standard()).unwrap();
+        assert!(error <= expected && expected <= accuracy * (1.0 + 1e-12), "{error:e} {expected:e} {accuracy:e}");
+    }
+}
+
+/// With a table whose errors are a millionth of what they should be, only the trial on the toss itself can help.
+#[test]
+fn no_wrong_table_makes_a_plan_miss_its_accuracy() {
+    let mut wrong = toss::fitted::FITTED.clone();
+    for fit in &mut wrong.integrators {
+        for error in fit.errors.iter_mut().chain(&mut fit.tilt_errors).flatten().flatten() {
+            *error *= 1e-6;
+        }
+    }
+    let registry = Registry::standard().measured(wrong);
+    let toss: Toss = toml::from_str("[launch]\nrate = [20.0, 3.0, 1.0]\nspeed = 3").unwrap();
+    for solver in ["gamma", "euler", "quaternion"] {
+        for scheme in ["dop853", "dopri5"] {
+            for accuracy in [1e-3, 1e-6, 1e-9] {
+                let scene = Scene::new(Want::Attitude(toss.into()), accuracy).by(solver, Some(scheme));
+                let [error, expected] = attitude_error_as_planned(&scene, &registry).unwrap();
+                assert!(error <= expected && expected <= accuracy * (1.0 + 1e-12), "{solver} {scheme} {accuracy:e}");
+            }
+            let out_of_reach = Scene::new(Want::Attitude(toss.into()), 1e-16).by(solver, Some(scheme));
+            assert_eq!(out_of_reach.plan_with(&registry).unwrap_err().field(), Some("accuracy"), "{solver} {scheme}");
         }
     }
 }

@@ -7,7 +7,10 @@ use blackbox::{attitude_error, config, lasting, name, phase, solvers, tilt_error
 use dynamics::Singularity;
 use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
 use proptest::prelude::*;
-use toss::{Attitude, Coin, ExactMotion, ExactSolver, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3};
+use toss::{
+    Attitude, Body, Coin, ExactMotion, ExactSolver, Launch, Outcome, Registry, RigidToss, Scheme, Settings, SolveError,
+    Solver, State, Stepping, TimeOfFlight, Toss, Vector3,
+};
 
 /// The state at landing, or `None` where the γ-ODE refuses a toss because the precession is too slow. Any other error
 /// fails the test.
@@ -259,5 +262,49 @@ fn errors_of_long_flights_stay_within_the_error_estimates() {
     for solver in solvers() {
         let difference = (solver.cos_tilt(&toss).unwrap() - exact).abs();
         assert!(difference <= tilt_error(solver.as_ref(), &toss), "{}: {difference:e}", name(solver.as_ref()));
+    }
+}
+
+/// A flight at the finest tolerances: solver, scheme, tolerance, moments, rate, tilt and time.
+type Finest = (&'static str, Scheme, f64, [f64; 3], [f64; 3], f64, f64);
+
+/// Here all errors are rounding. They are 2 to 40 times 100 × tolerance × (1 + φ); the first one lands on the other side.
+#[rustfmt::skip]
+const FINEST: [Finest; 9] = [
+    ("quaternion", Scheme::DOP853, 2.3e-16, [1.0, 1.0, 0.47739035379568384],
+     [-1.604681673871023, 0.6965716794093663, -1.6726716102919714], 0.0, 49458.071955706895),
+    ("euler", Scheme::DOP853, 2.3e-16, [1.0, 1.0, 0.0006941365125386398],
+     [-430.343150937898, -63.589061004923224, -413.79002706964354], 0.0, 55.226659404904154),
+    ("gamma", Scheme::DOP853, 2.3e-16, [1.0, 1.0, 0.0],
+     [-0.04669190319022872, -0.043818368448402104, -0.04958564623187387], 0.2144588579836225, 37215.90025925859),
+    ("quaternion", Scheme::DOP853, 2.3e-16, [1.0, 1.0, 0.9999999999999704],
+     [-0.004570113280230255, 0.0017673587279699865, 0.00037587129295562325], 2.4811002347109974, 387579.8038843713),
+    ("quaternion", Scheme::DOP853, 2.3e-16, [1.0, 1.0, 2.0],
+     [-0.4199945712938581, -0.0021188527995391593, 1.6273870764005736e-13], 0.0, 7431.597008930459),
+    ("quaternion", Scheme::DOPRI5, 2.3e-16, [1.0, 1.0, 0.9999999999995688],
+     [103.28660472304846, 212.74373721768686, -85.5228565231568], 1.0128156187957753, 0.4411518112228724),
+    ("quaternion", Scheme::DOPRI5, 2.3e-16, [1.0, 1.0, 2.0],
+     [-0.014758305912062852, 8.192465541340255e-6, -2.2244551921647235e-13], 0.0, 5178.747742360275),
+    ("quaternion", Scheme::DOP853, 2.2092530539638186e-15, [1.0000000000000204, 0.9999999999999966, 1.0],
+     [0.0007738112311568948, 0.0001983705734279974, -0.00027627079032349564], 2.7810829015849916, 40866777.6014738),
+    ("quaternion", Scheme::TAYLOR, 2.3e-16, [0.7, 0.700000000008753, 0.13332628129099616],
+     [-6.297305021940055, -1.7268460566056947, -6.329040667855497], 0.0, 26224.527859621005),
+];
+
+#[test]
+fn error_estimates_at_the_finest_tolerances_know_rounding() {
+    for (solver, scheme, tolerance, moments, rate, tilt, time) in FINEST {
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
+        let toss = RigidToss { body: Body::from_moments(moments).unwrap(), launch };
+        let settings = Settings { stepping: Stepping::adaptive(scheme, tolerance).unwrap(), ..Settings::default() };
+        let by = Registry::standard().named(solver).unwrap().solver(&settings).unwrap();
+        let cos_tilt = by.cos_tilt_rigid(&toss).unwrap();
+        let error = (cos_tilt - ExactSolver.cos_tilt_rigid(&toss).unwrap()).abs();
+        let estimate = by.error_estimate_rigid(&toss).unwrap().unwrap();
+        assert!(error <= 0.1 * estimate, "{solver}/{scheme}: {error:e}, {estimate:e}");
+        // An estimate that says nothing would hold, too.
+        assert!(estimate < 1e-3, "{solver}/{scheme}: {estimate:e}");
+        let (said, truth) = (by.outcome_at_rigid(&toss, cos_tilt).unwrap(), ExactSolver.outcome_rigid(&toss).unwrap());
+        assert!(said == truth || said == Outcome::Undecided, "{solver}/{scheme}: {said:?}, not {truth:?}");
     }
 }

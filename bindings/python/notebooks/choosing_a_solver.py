@@ -3,7 +3,8 @@
 #
 # An integrator's tolerance bounds the error of a step, not of a flight. What a flight's error is has to be measured, against
 # something that is right. Here SciPy's integrators fly the problems of the verification suite of this project, beside its
-# own, and are judged by the same rule: an error of cos θ of 100 × tolerance × (1 + φ) is allowed at the phase φ.
+# own, and are judged by the same rule: an error of cos θ of 100 × tolerance × (1 + φ) is allowed at the phase φ. (Rounding is
+# allowed, too, but matters only in longer flights or at finer tolerances.)
 
 # %%
 import tomllib

@@ -9,6 +9,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{InputError, SolveError, require};
+use crate::flight::LONG_FLIGHT;
 use crate::launch::Toss;
 use crate::phase::RoughPhases;
 use crate::quantity::Dimension;
@@ -18,6 +19,11 @@ use crate::scheme::Scheme;
 
 /// The largest number of steps of a flight. It is limited because integrators hold all steps in memory.
 pub const STEP_LIMIT: u32 = 1_000_000;
+
+/// The steps of an adaptive scheme in a turn of 1 rad, times tolerance^(1/order), which makes them alike for all schemes.
+/// Measured: up to 0.15 for DOP853 and 0.24 for DOPRI5, at tolerances from 1e-6 to ε; more in moments near a singular
+/// point. Series have no order: their steps are about as long at any tolerance.
+const STEPS_IN_A_RADIAN: f64 = 0.25;
 
 /// What sets the size of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,14 +139,18 @@ impl Stepping {
         Self { control, ..self }
     }
 
-    /// Estimate of the error of cos θ at the landing of `toss`. For a flight with the [phase](RoughPhases::largest) φ
-    /// (rad) it is
+    /// Estimate of the error of cos θ at the landing of `toss`, (τ + 4 ε (1 + n)) × (1 + φ) for a flight with the
+    /// [phase](RoughPhases::largest) φ (rad) in n steps.
     ///
-    /// - 100 × tolerance × (1 + φ) with a tolerance;
-    /// - ((|ω| h)^order + 4 ε (1 + n)) × (1 + φ) with n fixed steps of h (s). The first term is the truncation error of
-    ///   a regular motion. The second one allows for rounding: each step rounds angles of up to φ, and body rates whose
-    ///   error grows with the phase; the largest factor that was measured is 1, where 4 stands. Nothing is measured
-    ///   during a flight, so that the error near a singular point may be larger.
+    /// The first term is truncation. With a tolerance τ is 100 × tolerance. With fixed steps of h (s) it is
+    /// (|ω| h)^order, that of a regular motion; nothing is measured during such a flight, so that the error near a
+    /// singular point may be larger.
+    ///
+    /// The second term is rounding: each step rounds angles of up to φ, and body rates whose error grows with the phase.
+    /// If all steps round alike the error is ¾ ε n φ: a third each from a rate and from two angles that grow by φ and
+    /// are rounded by ½ ε φ on average. The largest factor that was measured is 1, where 4 stands. The number of fixed
+    /// steps is known. With a tolerance it is taken as ¼ (1 + φ) × tolerance^(-1/order), with the
+    /// [tightened](crate::Flight::tightened) tolerance and the root rounded up to a power of two.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
@@ -167,16 +177,21 @@ impl Stepping {
     /// The estimate for a flight of `time` (s) that turns by `phase` (rad), at most at the rate `turn_rate` (rad/s).
     fn estimate(&self, phase: f64, turn_rate: f64, time: f64) -> f64 {
         let turned = 1.0 + phase;
-        match self.control {
-            StepControl::Tolerance(tolerance) => 100.0 * tolerance * turned,
+        let (truncation, steps) = match self.control {
+            StepControl::Tolerance(tolerance) => {
+                let shorter = self
+                    .scheme
+                    .order()
+                    .map_or(1.0, |order| inverse_root(tightened(tolerance, phase / LONG_FLIGHT), order));
+                (100.0 * tolerance, STEPS_IN_A_RADIAN * shorter * turned)
+            }
             StepControl::Step(step) => {
                 // Schemes without an order take no fixed steps, so that the default is never used.
                 let order = self.scheme.order().unwrap_or(0);
-                let truncation = (turn_rate * step).powf(f64::from(order));
-                let steps = time / step;
-                (truncation + 4.0 * f64::EPSILON * (1.0 + steps)) * turned
+                ((turn_rate * step).powf(f64::from(order)), time / step)
             }
-        }
+        };
+        (truncation + 4.0 * f64::EPSILON * (1.0 + steps)) * turned
     }
 }
 
@@ -214,6 +229,16 @@ impl FromStr for Stepping {
         };
         Self::new(scheme.parse()?, Some(control))
     }
+}
+
+/// The least power of two that is at least tolerance^(-1/order): how many times as short steps at this tolerance are as at
+/// a tolerance of 1. It is a power of two, so that it has the same bits on every machine.
+fn inverse_root(tolerance: f64, order: u32) -> f64 {
+    let mut root = 1.0_f64;
+    while (0..order).fold(tolerance, |power, _| power * root) < 1.0 {
+        root *= 2.0;
+    }
+    root
 }
 
 /// The number of equal steps of at most `step` that make up `duration`, at least 1.

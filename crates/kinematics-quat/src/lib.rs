@@ -154,14 +154,12 @@ impl Solver for QuaternionSolver {
         Some(self.stepping)
     }
 
-    /// That of the [stepping](Stepping::error_estimate); by Taylor series (tolerance + ε (1 + φ)) × (1 + φ) if it is
-    /// less, with the phase φ (rad). Series keep all omitted terms together below the tolerance, so that the rest is
-    /// rounding.
+    /// That of the [stepping](Stepping::error_estimate); by Taylor series (tolerance + ε (1 + φ)) × (1 + φ), with the
+    /// phase φ (rad). Series keep all omitted terms together below the tolerance, and take less than a step in a radian, so
+    /// that rounding is less, too.
     fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        let estimate = self.stepping.error_estimate(toss)?;
-        let Some(Taylor { tolerance, .. }) = self.taylor else { return Ok(Some(estimate)) };
-        let turned = 1.0 + RoughPhases::new(toss).largest()?;
-        Ok(Some(estimate.min((tolerance + f64::EPSILON * turned) * turned)))
+        let Some(Taylor { tolerance, .. }) = self.taylor else { return self.stepping.error_estimate(toss).map(Some) };
+        Ok(Some(of_series(tolerance, RoughPhases::new(toss).largest()?)))
     }
 
     fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
@@ -195,17 +193,15 @@ impl Solver for QuaternionSolver {
     }
 
     /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
-    /// [growth](RigidPhase::growth) of a disturbance, if it is less.
+    /// [growth](RigidPhase::growth) of a disturbance.
     fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
         if let Some(toss) = toss.symmetric() {
             return self.error_estimate(&toss);
         }
-        let estimate = self.stepping.error_estimate_rigid(toss)?;
-        let Some(Taylor { tolerance, .. }) = self.taylor else { return Ok(estimate) };
+        let Some(Taylor { tolerance, .. }) = self.taylor else { return self.stepping.error_estimate_rigid(toss) };
         let RigidPhase { angle, growth } = RigidPhase::new(toss)?;
-        let of_series = growth * (tolerance + f64::EPSILON * (1.0 + angle)) * (1.0 + angle);
         // From 1 on an estimate says nothing about a cosine.
-        Ok(Some(estimate.unwrap_or(1.0).min(of_series)).filter(|estimate| *estimate < 1.0))
+        Ok(Some(growth * of_series(tolerance, angle)).filter(|estimate| *estimate < 1.0))
     }
 
     /// With Taylor series, computes as many flights at once as a register has lanes.
@@ -225,6 +221,11 @@ impl Solver for QuaternionSolver {
         }
         Ok(())
     }
+}
+
+/// The error estimate of a flight by Taylor series that turns by `phase` (rad).
+fn of_series(tolerance: f64, phase: f64) -> f64 {
+    (tolerance + f64::EPSILON * (1.0 + phase)) * (1.0 + phase)
 }
 
 /// The end state of an integrated flight.

@@ -1,12 +1,18 @@
 //! Finds the tolerance and the cost of every integrator and scheme for the flights of a scene. The planner takes the
 //! cheapest of these offers when a scene asks for an integrator, as a cross-check of the exact motion.
 //!
-//! The tolerance is the coarsest whose tabulated error is within the accuracy. There are two special cases. For an
-//! outcome it is the tolerance at which the error estimate, 100 × tolerance × (1 + phase), equals the accuracy. A trace
-//! is flown in n legs, and each leg passes its errors of the attitude and of the rate on to the next, so each leg may
-//! err by accuracy/(2 n).
+//! The table of measured errors suggests the coarsest tolerance with an error within the accuracy. No table knows the
+//! error on every toss, so that the cheapest offer is tried if the scene asks for an integrator: it flies the toss at that
+//! tolerance and is compared with the exact motion. Where it is off by more, the table is asked for as much less. An
+//! integrator has the same bits each time, so that the answer of the plan is as accurate as the trial was.
+//!
+//! There are two special cases. For an outcome it is the coarsest tolerance with an
+//! [error estimate](Stepping::error_estimate) within the accuracy. A trace is flown in n legs, and each leg passes its
+//! errors of the attitude and of the rate on to the next, so each leg may err by accuracy/(2 n).
 
-use dynamics::{Error, InputError, Scheme, Settings, SolverEntry, Stepping};
+use dynamics::{Error, InputError, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight, Toss};
+use exact::motion::COS_TILT_ERROR;
+use exact::{ExactMotion, ExactSolver};
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, How, Offer};
@@ -21,6 +27,8 @@ use crate::trace::trace;
 /// The flights that an integrator makes for a scene, one after the other.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Flights {
+    /// The toss that is flown.
+    pub(crate) toss: Toss,
     /// How far they turn, all together.
     pub(crate) turn: Turn,
     /// What is computed from them.
@@ -43,7 +51,8 @@ pub(crate) enum Aim {
 }
 
 /// The offers of the integrator and the scheme that are asked for. Without a scheme these are all adaptive schemes of
-/// the integrator, and without an integrator all adaptive schemes of the registry.
+/// the integrator, of which the cheapest has been tried, and without an integrator all adaptive schemes of the registry by
+/// the table alone.
 ///
 /// # Errors
 /// [`InputError`] for an unknown name, for the exact solver, for a scheme that the integrator does not offer or that
@@ -68,6 +77,9 @@ pub(crate) fn integrators(
             }
         };
         offers.extend(schemes.into_iter().map(|scheme| flights.by(registry, entry, scheme)));
+    }
+    if by.is_some() {
+        flights.try_cheapest(registry, &mut offers);
     }
     match by {
         Some(by) if offers.iter().all(|(_, offer)| matches!(offer, Err(Reason::NotMeasured))) => Err(unmeasured(by)),
@@ -108,7 +120,7 @@ pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -
 }
 
 impl Flights {
-    /// The offer of a scheme of an integrator; none if it has not been measured.
+    /// The offer of a scheme of an integrator by the table; none if it has not been measured.
     fn by(&self, registry: &Registry, entry: &SolverEntry, scheme: Scheme) -> (Candidate, Offer) {
         let candidate = Candidate { model: model(), integrator: Some((entry.name().to_owned(), scheme)) };
         let offer = match registry.fit(entry.name(), scheme.name()) {
@@ -118,6 +130,79 @@ impl Flights {
         (candidate, offer)
     }
 
+    /// Tries the cheapest of the offers, and so on until the cheapest one has been tried. The others would be dearer, whatever
+    /// their trial said.
+    fn try_cheapest(&self, registry: &Registry, offers: &mut [(Candidate, Offer)]) {
+        let mut tried = vec![false; offers.len()];
+        loop {
+            let cost =
+                |index: &usize| offers[*index].1.as_ref().map_or(f64::INFINITY, |choice| choice.expected_cost_ns);
+            let cheapest = (0..offers.len()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+            let Some(index) = cheapest.filter(|index| !tried[*index]) else { return };
+            if let Ok(choice) = &offers[index].1 {
+                offers[index].1 = self.tried(registry, choice);
+            }
+            tried[index] = true;
+        }
+    }
+
+    /// The `choice` by the table, with a tolerance at which the error on the toss itself is within the accuracy.
+    fn tried(&self, registry: &Registry, choice: &Choice) -> Offer {
+        let How::Integrator(entry, stepping) = &choice.how else { return Ok(choice.clone()) };
+        let scheme = stepping.scheme();
+        let Some((fitted, fit)) = registry.fit(entry.name(), scheme.name()) else { return Ok(choice.clone()) };
+        let mut choice = choice.clone();
+        // How many times as large as in the table errors are on this toss, at least 1.
+        let mut factor = 1.0_f64;
+        loop {
+            // An outcome is decided by the error estimate. What an integrator refuses has no error: it says why when it is
+            // run.
+            let Some(error) = self.error(&choice) else { return Ok(choice) };
+            if error <= self.accuracy {
+                let expected_error = (factor * choice.expected_error).max(error);
+                return Ok(Choice { expected_error, ..choice });
+            }
+            factor = (2.0 * factor).max(2.0 * error / choice.expected_error);
+            let asked = Self { accuracy: self.accuracy / factor, ..*self };
+            choice = asked
+                .fitted(fitted, &Measured { entry, scheme, fit })
+                .map_err(|_| Reason::TooRough { expected_error: error })?;
+        }
+    }
+
+    /// The error of `choice` on the toss against the exact motion, with what that may be off by itself: of cos θ or of
+    /// the attitude (rad), the largest one of a trace. `None` for an outcome, and where the integrator returns an error.
+    fn error(&self, choice: &Choice) -> Option<f64> {
+        let How::Integrator(entry, stepping) = &choice.how else { return None };
+        let solver = entry.solver(&Settings { stepping: *stepping, ..Settings::default() }).ok()?;
+        match self.aim {
+            Aim::Outcome => None,
+            Aim::Tilt => {
+                let exact = ExactSolver.cos_tilt(&self.toss).ok()?;
+                Some((solver.cos_tilt(&self.toss).ok()? - exact).abs() + COS_TILT_ERROR)
+            }
+            Aim::Attitude => {
+                let exact = ExactMotion::new(&self.toss).state(self.toss.launch.time_of_flight()).ok()?;
+                let found = solver.propagate(&self.toss).ok()?.state.attitude;
+                Some(exact.attitude.angle_to(&found) + Self::rounding("attitude"))
+            }
+            Aim::Trace(legs) => {
+                let motion = ExactMotion::new(&self.toss);
+                trace(solver.as_ref(), self.toss, legs + 1).ok()?.iter().try_fold(0.0, |largest: f64, point| {
+                    let exact = motion.state(TimeOfFlight::Given(point.time)).ok()?;
+                    Some(largest.max(exact.attitude.angle_to(&point.attitude) + Self::rounding("trace")))
+                })
+            }
+        }
+    }
+
+    /// The largest error of an attitude of the exact motion (rad), as measured for this closed form, and of the angle to
+    /// it.
+    fn rounding(model: &str) -> f64 {
+        FITTED.closed(model).map_or(0.0, |fit| fit.error) + 4.0 * f64::EPSILON
+    }
+
+    /// The offer by the table alone.
     fn fitted(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
         match self.aim {
             Aim::Outcome => self.decided(fitted, by),
@@ -127,14 +212,22 @@ impl Flights {
         }
     }
 
-    /// The offer for an outcome. Its tolerance makes the [error estimate](Stepping::error_estimate) equal to the
-    /// accuracy, so that a decided outcome is right if the estimate is.
+    /// The offer for an outcome. Its tolerance makes the [error estimate](Stepping::error_estimate) about the accuracy
+    /// and no more, so that a decided outcome is right if the estimate is.
     fn decided(&self, fitted: &Fitted, by: &Measured<'_>) -> Offer {
-        let tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
-        let estimate = |tolerance: f64| 100.0 * tolerance * (1.0 + self.turn.phase);
-        let too_rough = |_| Reason::TooRough { expected_error: estimate(f64::EPSILON) };
-        let stepping = Stepping::adaptive(by.scheme, tolerance).map_err(too_rough)?;
-        Ok(by.choice(stepping, 0.0, fitted.cost_ns(by.fit, &self.turn, tolerance)))
+        // Truncation alone; the estimate adds rounding, which is small where a tolerance is not near ε.
+        let mut tolerance = (self.accuracy / (100.0 * (1.0 + self.turn.phase))).min(Self::ROUGHEST);
+        let mut smallest = f64::INFINITY;
+        while let Ok(stepping) = Stepping::adaptive(by.scheme, tolerance) {
+            let estimate = stepping.error_estimate(&self.toss).unwrap_or(f64::INFINITY);
+            if estimate <= self.accuracy {
+                return Ok(by.choice(stepping, 0.0, fitted.cost_ns(by.fit, &self.turn, tolerance)));
+            }
+            smallest = smallest.min(estimate);
+            tolerance *= 0.9;
+        }
+        let finest = || Stepping::adaptive(by.scheme, f64::EPSILON).ok()?.error_estimate(&self.toss).ok();
+        Err(Reason::TooRough { expected_error: smallest.min(finest().unwrap_or(f64::INFINITY)) })
     }
 
     /// The coarsest tolerance of the table; no coarser one is used.
@@ -155,7 +248,7 @@ impl Flights {
         let legs = legs as f64;
         let handed_on = 2.0 * legs;
         let turn = Turn { phase: self.turn.phase / legs, ..self.turn };
-        let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on };
+        let leg = Self { turn, aim: Aim::Attitude, accuracy: self.accuracy / handed_on, ..*self };
         // What a trace adds to the cost of a landing, for each point; there is one more point than legs.
         let cost_of = |model: &str| FITTED.closed(model).map_or(0.0, |fit| fit.cost_ns);
         let tracing_ns = cost_of("trace") - cost_of("attitude");

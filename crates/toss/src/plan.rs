@@ -73,7 +73,8 @@ impl Scene {
     }
 
     /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
-    /// [`Registry::standard`] are among them, whether the scene asks for one or not.
+    /// [`Registry::standard`] are among them, whether the scene asks for one or not. Their offers follow from measured
+    /// errors alone; that of a [plan](Scene::plan) has been tried on the toss, too.
     ///
     /// # Errors
     /// As for [`Scene::plan`].
@@ -195,7 +196,7 @@ impl Scene {
             Want::Trace { points, .. } => Aim::Trace(points.saturating_sub(1).max(1)),
             Want::Attitude(_) | Want::Probability(_) => Aim::Attitude,
         };
-        Ok(Flights { turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
+        Ok(Flights { toss: *toss, turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
     }
 
     fn closed_form(&self, model: &'static Model, of: Of) -> Offer {

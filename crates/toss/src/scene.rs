@@ -52,7 +52,7 @@ pub enum Want {
 }
 
 /// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy: by measured
-/// errors, or, of one that proves, by the bound of the flight itself.
+/// errors and a trial on the toss itself, or, of one that proves, by the bound of the flight itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct Integrator {

@@ -129,18 +129,27 @@ fn vector(numbers: &mut Numbers) -> [f64; 3] {
 /// Tosses of a family. n is any one of the three axes.
 pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Iterator<Item = RigidToss> {
     (0..number).filter_map(move |index| {
-        let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
-        let (mut moments, mut rate) = (family.make)(&mut numbers);
-        moments.rotate_left((index % 3) as usize);
-        rate.rotate_left((index % 3) as usize);
-        let rate = Vector3::from(rate) * 10f64.powf(numbers.between(within.rate[0], within.rate[1]));
-        let time = 10f64.powf(numbers.between(within.phase[0], within.phase[1])) / rate.norm();
-        let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
-        let tilt = if index % 2 == 0 { 0.0 } else { numbers.between(-3.0, 3.0) };
-        // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
-        let toss = RigidToss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
-        RigidReference::solves(&toss).then_some(toss)
+        launch(family, index, within.rate, |numbers| 10f64.powf(numbers.between(within.phase[0], within.phase[1])))
     })
+}
+
+/// Toss number `index` of a family, of any size of rates, which turns by about `phase` (rad); `None` if there is none.
+pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<RigidToss> {
+    launch(family, index, FLOWN.rate, |_| phase)
+}
+
+fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<RigidToss> {
+    let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
+    let (mut moments, mut rate) = (family.make)(&mut numbers);
+    moments.rotate_left((index % 3) as usize);
+    rate.rotate_left((index % 3) as usize);
+    let rate = Vector3::from(rate) * 10f64.powf(numbers.between(sizes[0], sizes[1]));
+    let time = phase(&mut numbers) / rate.norm();
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
+    let tilt = if index % 2 == 0 { 0.0 } else { numbers.between(-3.0, 3.0) };
+    // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
+    let toss = RigidToss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
+    RigidReference::solves(&toss).then_some(toss)
 }
 
 /// What a subject did with one toss of a body.

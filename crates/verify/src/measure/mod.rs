@@ -8,7 +8,7 @@
 //! | claims and how they are measured | [`check`], [`checks`], [`measurement`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
 //! | the forms in which a time of flight is given | [`throws`] |
-//! | flights: random, adversarial, long, and near the places where methods fail | [`survey`], `random_flights`, [`adversary`], [`search`], [`long_flights`], [`atlas`]; of any body [`bodies`], `rigid_errors` |
+//! | flights: random, adversarial, long, both at the finest tolerances, and near the places where methods fail | [`survey`], `random_flights`, [`adversary`], [`search`], [`long_flights`], `hostile`, [`atlas`]; of any body [`bodies`], `rigid_errors` |
 //! | error by step and by work; drift of conserved quantities | [`convergence`], [`work_precision`], [`drift`] |
 //! | the planner's table, and its accuracy and cost | [`planner`] |
 //! | probabilities of the named spaces | [`tables`] |
@@ -25,6 +25,7 @@ pub mod convergence;
 pub mod drift;
 pub mod effort;
 mod hard_cases;
+mod hostile;
 pub mod long_flights;
 pub mod measurement;
 pub mod planner;

@@ -14,6 +14,7 @@ mod detest;
 mod enclosed;
 mod figures;
 mod first_return;
+mod hostile;
 mod integrated;
 mod integrated_bodies;
 mod integrated_steps;
@@ -88,6 +89,7 @@ pub const CHECKS: &[Check] = &[
     adversarial::REFUSED,
     long_flights::ERROR,
     long_flights::DRIFT,
+    hostile::WITHIN_ESTIMATE,
     sensitivity::DERIVATIVES,
     work_precision::WITHIN_ESTIMATE,
     order::ORDER,
@@ -96,6 +98,7 @@ pub const CHECKS: &[Check] = &[
     planner::EXPECTS,
     planner::TIGHT,
     planner::COST_RATIO,
+    hostile::PLANS,
     paper::CHEATED_IN_FLIGHT,
     paper::CHEATED_FOREVER,
     paper::TAILS_IN_FLIGHT,

@@ -1,0 +1,205 @@
+//! Long flights at fine tolerances, of the coins and bodies and at the rates at which rounding adds up: there it is all of
+//! the error of an integrator, and errors of the steps need not cancel. Random launches hardly ever are of this kind.
+//!
+//! Rounding adds up where every step rounds alike: the rate of a coin whose moments are nearly equal, or of one that turns
+//! about a line in its face, changes by less than its last digit in a step. Rods, discs and bodies with nearly equal
+//! moments are here too, and rates with components of different sizes.
+
+use dynamics::RigidToss;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use toss::{Coin, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3};
+
+use super::bodies::{FAMILIES, flown_for};
+use super::case::Case;
+use super::effort::Effort;
+use super::subject::Subject;
+
+const SEED: u64 = 20_270_115;
+
+/// The finest tolerance that takes part: 2^-52, rounded up.
+const FINEST: f64 = 2.3e-16;
+
+/// Steps of schemes without a tolerance, in units of 1/|ω|.
+const STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
+
+/// The longest flight (rad).
+const LONGEST: f64 = 1e6;
+
+/// A flight of any body, and who flies it.
+pub(super) struct Flight {
+    /// The toss.
+    pub(super) toss: RigidToss,
+    /// The toss in words that can be copied.
+    pub(super) input: String,
+    /// The solver with its settings.
+    pub(super) by: Subject,
+}
+
+/// How many flights of coins each solver and scheme makes, and of each family of bodies; and the most steps of nearly all
+/// of them.
+pub(super) fn numbers(effort: Effort) -> ([u64; 2], f64) {
+    match effort {
+        Effort::Quick => ([40, 3], 2e4),
+        Effort::Standard => ([150, 12], 5e4),
+        // 100 000 of the solvers and schemes of this workspace.
+        Effort::Deep => ([6000, 820], 1e5),
+    }
+}
+
+/// One flight in a hundred takes up to so many steps, which is as many as the schemes of this workspace take.
+const MOST_STEPS: f64 = 9e5;
+
+/// The most steps of flight number `index`.
+fn most_steps(index: u64, of_most: f64) -> f64 {
+    if index % 100 == 99 { MOST_STEPS } else { of_most }
+}
+
+/// The random numbers for the flight `index` of a kind.
+fn stream(kind: u64, index: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED + kind);
+    rng.set_stream(index);
+    rng
+}
+
+/// 10 to a power that is uniform between `low` and `high`.
+fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..high))
+}
+
+/// One of `values`, each equally likely.
+fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
+    values[rng.random_range(0..N)]
+}
+
+/// Flight number `index` of a coin by a solver and its `scheme`, most of them in about so many `steps` or fewer.
+///
+/// # Errors
+/// Never: every launch is valid.
+pub(super) fn of_coin(
+    entry: &SolverEntry,
+    scheme: Scheme,
+    index: u64,
+    steps: f64,
+) -> Result<(Case, Flight), InputError> {
+    let mut rng = stream(0, index);
+    let settings = Settings::drawn(scheme, &mut rng);
+    let phase = settings.phase(most_steps(index, steps), &mut rng);
+    let case = coin(&mut rng, phase)?;
+    let by = settings.subject(entry, case.toss.launch.turn_rate())?;
+    Ok((case, Flight { toss: case.toss.into(), input: case.hex(), by }))
+}
+
+/// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
+///
+/// # Errors
+/// Never.
+pub(super) fn of_body(
+    entry: &SolverEntry,
+    scheme: Scheme,
+    [family, index]: [u64; 2],
+    steps: f64,
+) -> Result<Option<Flight>, InputError> {
+    let mut rng = stream(1 + family, index);
+    let settings = Settings::drawn(scheme, &mut rng);
+    let phase = settings.phase(most_steps(index, steps), &mut rng);
+    let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
+    let by = settings.subject(entry, toss.launch.turn_rate())?;
+    let input = format!("{}: {:?}, {:?}", by.options(), toss.body.tensor(), toss.launch);
+    Ok(Some(Flight { toss, input, by }))
+}
+
+/// A scheme with its tolerance, or with its step in units of 1/|ω|.
+struct Settings {
+    scheme: Scheme,
+    size: f64,
+}
+
+impl Settings {
+    /// Half of all flights with a tolerance take the finest.
+    fn drawn(scheme: Scheme, rng: &mut ChaCha8Rng) -> Self {
+        let size = match scheme.is_adaptive() {
+            true if rng.random() => FINEST,
+            true => decades(rng, -15.6, -6.0),
+            false => one(rng, STEPS),
+        };
+        Self { scheme, size }
+    }
+
+    /// A phase (rad) from 10 to what these steps reach in `most_steps`, more often a long one.
+    fn phase(&self, most_steps: f64, rng: &mut ChaCha8Rng) -> f64 {
+        let in_a_radian = match (self.scheme.is_adaptive(), self.scheme.order()) {
+            (false, _) => 1.0 / self.size,
+            (true, Some(order)) => 0.25 * self.size.powf(-1.0 / f64::from(order)),
+            (true, None) => 1.0,
+        };
+        let longest = (most_steps / in_a_radian).clamp(11.0, LONGEST);
+        let part = 1.0 - rng.random_range(0.0..1.0_f64).powi(3);
+        10.0 * (longest / 10.0).powf(part)
+    }
+
+    fn subject(&self, entry: &SolverEntry, turn_rate: f64) -> Result<Subject, InputError> {
+        let stepping = match self.scheme.is_adaptive() {
+            true => Stepping::adaptive(self.scheme, self.size),
+            false => Stepping::fixed(self.scheme, self.size / turn_rate),
+        };
+        Ok(Subject::new(entry, Some(stepping?), Formulation::default()))
+    }
+}
+
+/// A coin that turns by about `phase` (rad).
+///
+/// # Errors
+/// Never: every launch is valid.
+pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError> {
+    let sign = one(rng, [-1.0, 1.0]);
+    let k = match rng.random_range(0..6) {
+        0 => 0.0,
+        1 | 2 => 1.0 + sign * decades(rng, -15.7, -12.0),
+        3 => 2.0 - one(rng, [0.0, 1.0]) * decades(rng, -16.0, 0.0),
+        4 => decades(rng, -16.0, 0.0),
+        _ => rng.random_range(0.0..2.0),
+    };
+    let mut rate = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0));
+    let small = decades(rng, -8.0, 0.0);
+    match rng.random_range(0..6) {
+        0 => rate = Vector3::new(small * rate.x, small * rate.y, rate.z),
+        1 => rate.z *= small,
+        2 => {
+            // About one axis, with the last digits of its rate as far from a power of two as they get, or close to one.
+            let (axis, digits) = (rng.random_range(0..3), one(rng, [1.0, 1.000_000_1, 1.5, 1.999_999]));
+            rate *= decades(rng, -16.0, 0.0);
+            rate[axis] = sign * digits;
+        }
+        _ => {}
+    }
+    // At rest a coin turns by nothing in any time.
+    if rate.norm() == 0.0 {
+        rate.x = 1.0;
+    }
+    let rate = rate * decades(rng, -3.0, 3.0);
+    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
+    let launch = Launch::new(rate, TimeOfFlight::Given(phase / rate.norm()))?.with_tilt(tilt)?;
+    Ok(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
+}
+
+/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad, of whose flights the planner's table
+/// knows few.
+///
+/// # Errors
+/// Never: every launch is valid.
+pub(super) fn planned(index: u64) -> Result<(ChaCha8Rng, Case), InputError> {
+    let mut rng = stream(100, index);
+    if rng.random() {
+        let phase = decades(&mut rng, -1.0, 2.5);
+        let case = coin(&mut rng, phase)?;
+        return Ok((rng, case));
+    }
+    let across = decades(&mut rng, -3.0, 0.0);
+    let rate = Vector3::from_fn(|_, _| rng.random_range(-across..across));
+    let rate = Vector3::new(rate.x, rate.y, one(&mut rng, [-1.0, 1.0])) * decades(&mut rng, -1.0, 2.0);
+    let time = TimeOfFlight::Given(decades(&mut rng, 0.0, 3.0) / rate.norm());
+    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
+    let toss = Toss { coin: Coin::from_moments(1.0, 0.0)?, launch: Launch::new(rate, time)?.with_tilt(tilt)? };
+    Ok((rng, Case { toss, tilt }))
+}
