@@ -106,6 +106,11 @@ impl Motion {
         Ok(Self { terms, heads: terms.heads(), phases: [from, to], fastest })
     }
 
+    /// The time of flight of the fastest launch (s).
+    pub(crate) fn longest_time(&self) -> f64 {
+        self.fastest.launch.flight_time()
+    }
+
     /// The share of heads over the speeds of `space`.
     pub(crate) fn share(&self, space: &Space) -> Result<Share, (Box<Toss>, SolveError)> {
         let Self { heads, phases: [from, to], fastest, .. } = self;
