@@ -211,55 +211,38 @@ fn planned(space: Space, accuracy: f64) -> &'static str {
 }
 
 #[test]
-fn quadrature_is_planned_where_it_is_cheaper_than_sobol_points() {
+fn quadrature_is_never_planned() {
     let fig4 = sampling::named_space("paper-fig4").unwrap();
-    for (space, rough, fine) in [(fig4, 1e-2, 1e-5), (box_of_four(), 1e-3, 1e-8)] {
-        assert_eq!([planned(space, rough), planned(space, fine)], ["share-sobol", "share-quadrature"]);
+    for (space, accuracy, chosen) in
+        [(fig4, 1e-2, "share-sobol"), (fig4, 1e-8, "share-sobol"), (box_of_four(), 1e-5, "share-sobol")]
+    {
+        let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
+        assert_eq!(decision.choice.model.name, chosen);
+        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
+        assert_eq!(reason.unwrap().1.to_string(), "estimates its error, and has to be chosen by hand");
     }
-    // With the finest accuracy a plan offers no sample at all.
-    assert_eq!(planned(box_of_four(), 1e-11), "share-quadrature");
+    let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap());
+    let decision = Scene::new(Want::Probability(body), 1e-2).plan().unwrap();
+    let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
+    assert_eq!(reason.unwrap().1.to_string(), "is for coins, with I1 = I2");
 }
 
+/// Spaces that show tails in a narrow part of themselves alone, between all nodes of a rule: for a spin near 0, or for some
+/// gravities. Their probabilities are those of the closed form, integrated with 50 digits between its kinks.
 #[test]
-fn a_planned_quadrature_has_at_most_the_error_that_was_expected() {
-    let fig4 = sampling::named_space("paper-fig4").unwrap();
-    // Numbers of validation/reference, and of quadrature to 1e-13.
+fn a_plan_finds_the_narrow_part_of_a_space_that_lands_tails() {
+    let quarter = toss::dynamics::catalogue::named_coin("us-quarter").unwrap();
+    let spin = Space::builder(quarter).rate_x(5.0).rate_y(0.0).rate_z(-75.0..=82.0).speed(3.0..=5.0);
+    let gravity = Space::builder(Coin::PAPER).rate_x(34.534_110_732_396_435).rate_y(0.0).rate_z(68.827_547_700_763_86);
+    let gravity = gravity.speed(Axis::normal(4.0, 1e-3)).gravity(9.0..=10.0);
     for (space, accuracy, probability) in
-        [(fig4, 1e-6, 0.661_452_104_190_6), (fig4, 1e-10, 0.661_452_104_190_6), (box_of_four(), 1e-7, 0.580_665_055_2)]
+        [(spin.build().unwrap(), 1e-5, 0.986_527_176_1), (gravity.build().unwrap(), 1e-4, 0.944_802_114)]
     {
         let scene = Scene::new(Want::Probability(space), accuracy);
-        let (choice, answer) = scene.choose_and_run(Registry::standard()).unwrap();
-        let Answer::Probability(found) = answer else { panic!("a probability was asked for") };
-        assert_eq!(choice.model.name, "share-quadrature");
-        assert!(choice.expected_error <= accuracy, "{choice:?}");
-        assert!((found.probability - probability).abs() <= choice.expected_error, "{found:?} {choice:?}");
-        assert!(found.half_width().unwrap() <= accuracy);
-        assert_eq!(scene.solve().unwrap().answer, Answer::Probability(found));
+        let Answer::Probability(found) = scene.solve().unwrap().answer else { panic!("a probability was asked for") };
+        assert!(found.interval.unwrap().contains(probability), "{found:?}, not {probability}");
+        assert!(found.half_width().unwrap() <= accuracy, "{found:?}");
     }
-}
-
-#[test]
-fn quadrature_is_passed_over_where_no_rule_serves() {
-    let fig4 = sampling::named_space("paper-fig4").unwrap();
-    let fixed = || Space::builder(Coin::PAPER).rate_x(20.0).rate_y(5.0).rate_z(3.0);
-    for (space, why) in [
-        (fig4.with_drop(Some(0.5)).unwrap(), "needs a landing at the height of the launch"),
-        (fixed().rate_x(1.0..=9.0).speed(3.0).build().unwrap(), "needs a range of speeds"),
-        (fixed().speed(3.0..=4.0).build().unwrap(), "the speed alone is free"),
-        (fixed().rate_x(19.999_999_999_9..=20.0).speed(3.0..=4.0).build().unwrap(), "needs wider ranges"),
-        (fixed().rate_x(1.0..=1e12).speed(3.0..=4.0).build().unwrap(), "the share of heads has too many kinks"),
-        (box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap()), "is for coins, with I1 = I2"),
-    ] {
-        let scene = Scene::new(Want::Probability(space), 1e-2);
-        let decision = scene.plan().unwrap();
-        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
-        assert_eq!(reason.unwrap().1.to_string(), why);
-        assert_ne!(decision.choice.model.name, "share-quadrature");
-    }
-    let four = Space::builder(Coin::PAPER).rate_x(1.0..=9.0).rate_y(1.0..=9.0).rate_z(1.0..=9.0).tilt(0.1);
-    let why = "more than two coordinates beside the speed are free";
-    let four = Scene::new(Want::Probability(four.speed(3.0..=5.0).build().unwrap()), 1e-4);
-    assert!(four.plan().unwrap().passed_over.iter().any(|(_, reason)| reason.to_string() == why));
 }
 
 #[test]
@@ -268,7 +251,7 @@ fn a_model_whose_rounding_exceeds_the_accuracy_gives_way_to_one_that_serves() {
     let far = Space::builder(Coin::PAPER).rate_x(20.0).rate_y(5.0).rate_z(3.0).tilt(0.0..=1.0);
     let scene = Scene::new(Want::Probability(far.speed(1e14..=1.000_000_000_000_1e14).build().unwrap()), 1e-3);
     let planned = scene.plan().unwrap().choice;
-    assert_eq!(planned.model.name, "share-quadrature");
+    assert_eq!(planned.model.name, "share-sobol");
     assert!(matches!(planned.run(&scene), Err(Error::NotReached { .. })));
     let solution = scene.solve().unwrap();
     let Answer::Probability(found) = solution.answer else { panic!("a probability was asked for") };

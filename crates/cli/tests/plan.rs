@@ -25,7 +25,7 @@ fn a_plan_names_its_model_and_those_that_it_passed_over() {
         (&format!("{thrown} --want tilt --drop 0.4"), "tilt"),
         ("--space cheated --want probability --accuracy 1e-6", "share"),
         ("--space paper-fig4 --want probability --accuracy 1e-2", "share-sobol"),
-        ("--space paper-fig4 --want probability --accuracy 1e-9", "share-quadrature"),
+        ("--space paper-fig4 --want probability --accuracy 1e-7", "share-sobol"),
     ] {
         let answer = json(&format!("plan {options}"), 0);
         assert_eq!(model(&answer), expected, "{options}: {answer}");
@@ -64,7 +64,7 @@ fn a_scene_is_read_from_a_file() {
     let text =
         r#"{"accuracy": 1e-3, "want": {"probability": {"rate_x": "0:9", "rate_y": "x", "rate_z": 5, "speed": "3:5"}}}"#;
     std::fs::write(&json_path, text).unwrap();
-    assert_eq!(json(&format!("plan --scene {}", json_path.display()), 0)["model"], "share-quadrature");
+    assert_eq!(json(&format!("plan --scene {}", json_path.display()), 0)["model"], "share-sobol");
     std::fs::write(&path, format!("accuracy = 1e-9\n[want.tilt]\n{}", toss.replace(" }", ", drag = 1 }"))).unwrap();
     let error = json(&format!("plan --scene {}", path.display()), 2);
     assert!(error["error"]["message"].as_str().unwrap().contains("drag is outside the model"), "{error}");

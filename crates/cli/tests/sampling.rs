@@ -23,7 +23,7 @@ fn probabilities_are_counts_that_do_not_depend_on_threads() {
     assert_near(&answer["probability"], heads as f64 / 20_000.0, 0.0);
     let [lo, hi] = [0, 1].map(|end| answer["interval"][end].as_f64().unwrap());
     assert!(lo < 0.66 && 0.66 < hi && hi - lo < 0.014);
-    assert_eq!((&answer["interval_kind"], &answer["seed"]), (&Value::from("wilson 95 %"), &Value::from(7)));
+    assert_eq!((&answer["interval_kind"], &answer["seed"]), (&Value::from("clopper-pearson 95 %"), &Value::from(7)));
 
     let grid = json("probability --space cheated --method grid --solver quaternion", 0);
     assert_eq!((&grid["heads"], &grid["points"], &grid["interval"]), (&500.into(), &500.into(), &Value::Null));

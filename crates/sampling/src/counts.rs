@@ -59,6 +59,12 @@ impl Counts {
         self.heads() as f64 / self.points() as f64
     }
 
+    /// The same fraction if all undecided launches land heads.
+    #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
+    pub(crate) fn largest_probability(&self) -> f64 {
+        (self.heads() + self.undecided()) as f64 / self.points() as f64
+    }
+
     /// Whether every outcome is proven, and there is at least one.
     pub fn are_certified(&self) -> bool {
         self.proven.total() > 0 && self.proven.without_proof() == 0 && self.estimated == Estimated::default()

@@ -203,8 +203,9 @@ impl Serialize for Interval {
 enum KindData {
     Grid,
     OneScramble,
-    Wilson,
+    ClopperPearson,
     Scrambles(u64),
+    Resolution(u64),
     Unanimous,
     Rounding,
     Quadrature,
@@ -215,8 +216,9 @@ impl From<IntervalKind> for KindData {
         match kind {
             IntervalKind::Grid => Self::Grid,
             IntervalKind::OneScramble => Self::OneScramble,
-            IntervalKind::Wilson => Self::Wilson,
+            IntervalKind::ClopperPearson => Self::ClopperPearson,
             IntervalKind::Scrambles(number) => Self::Scrambles(number),
+            IntervalKind::Resolution(number) => Self::Resolution(number),
             IntervalKind::Unanimous => Self::Unanimous,
             IntervalKind::Rounding => Self::Rounding,
             IntervalKind::Quadrature => Self::Quadrature,
@@ -229,8 +231,9 @@ impl From<KindData> for IntervalKind {
         match kind {
             KindData::Grid => Self::Grid,
             KindData::OneScramble => Self::OneScramble,
-            KindData::Wilson => Self::Wilson,
+            KindData::ClopperPearson => Self::ClopperPearson,
             KindData::Scrambles(number) => Self::Scrambles(number),
+            KindData::Resolution(number) => Self::Resolution(number),
             KindData::Unanimous => Self::Unanimous,
             KindData::Rounding => Self::Rounding,
             KindData::Quadrature => Self::Quadrature,

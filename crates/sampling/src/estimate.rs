@@ -4,8 +4,8 @@
 //! | plan | launches | interval |
 //! |---|---|---|
 //! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has a discretisation error |
-//! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Wilson's |
-//! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles |
+//! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Clopper and Pearson's |
+//! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles, and their resolution |
 //! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles; a rounding error if only the speed varies |
 //! | [`Plan::Quadrature`](crate::Plan::Quadrature) | shares at the nodes of a rule | the error estimate of the rule |
 //!
@@ -15,7 +15,7 @@ use std::fmt;
 
 use crate::counts::Counts;
 use crate::exact_speed::Share;
-use crate::interval::{Interval, from_scrambles, wilson};
+use crate::interval::{Interval, clopper_pearson, from_scrambled_points};
 
 /// Confidence level of the intervals.
 pub const LEVEL: f64 = 0.95;
@@ -27,12 +27,15 @@ pub enum IntervalKind {
     Grid,
     /// There is no interval, because the points are from a single scramble.
     OneScramble,
-    /// Wilson's interval for independent launches.
-    Wilson,
+    /// Clopper and Pearson's interval for independent launches.
+    ClopperPearson,
     /// Student's interval from the means of this many independent scrambles.
     Scrambles(u64),
-    /// Wilson's interval, as if the points were independent. All points of all scrambles have the same outcome, so the
-    /// spread of the scrambles is 0 and gives no error.
+    /// Student's interval from the means of this many independent scrambles, extended as far as their points
+    /// [resolve](crate::interval#scrambles-that-agree): the scrambles agree too well for their spread to tell the error.
+    Resolution(u64),
+    /// Clopper and Pearson's interval, as if the points were independent. All points of all scrambles have the same outcome,
+    /// so the spread of the scrambles is 0 and gives no error.
     Unanimous,
     /// A bound on the rounding error, because nothing was sampled.
     Rounding,
@@ -45,9 +48,10 @@ impl fmt::Display for IntervalKind {
         match self {
             Self::Grid => f.write_str("none: a grid has a discretisation error, not a confidence interval"),
             Self::OneScramble => f.write_str("none: one scramble gives no error estimate"),
-            Self::Wilson => f.write_str("wilson 95 %"),
+            Self::ClopperPearson => f.write_str("clopper-pearson 95 %"),
             Self::Scrambles(number) => write!(f, "student 95 % of {number} scrambles"),
-            Self::Unanimous => f.write_str("wilson 95 %, all points agree"),
+            Self::Resolution(number) => write!(f, "95 % of {number} scrambles, as far as their points resolve"),
+            Self::Unanimous => f.write_str("clopper-pearson 95 %, all points agree"),
             Self::Rounding => f.write_str("rounding error"),
             Self::Quadrature => f.write_str("error estimate of the quadrature"),
         }
@@ -104,23 +108,25 @@ impl Estimate {
     }
 
     pub(crate) fn of_independent_counts(counts: Counts) -> Self {
-        Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Wilson)
+        Self::of_counts(counts, Some(of_independent(counts)), IntervalKind::ClopperPearson)
     }
 
     pub(crate) fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
         let counts: Counts = scrambles.iter().copied().sum();
         if counts.heads() == counts.points() || counts.heads() == 0 {
-            return Self::of_counts(counts, Some(wilson_of(counts)), IntervalKind::Unanimous);
+            return Self::of_counts(counts, Some(of_independent(counts)), IntervalKind::Unanimous);
         }
-        let means: Vec<f64> = scrambles.iter().map(Counts::probability).collect();
-        #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
-        let undecided = counts.undecided() as f64 / counts.points() as f64;
-        match from_scrambles(&means, LEVEL) {
-            None => Self::of_counts(counts, None, IntervalKind::OneScramble),
-            Some(Interval { lo, hi }) => {
-                let interval = Interval { lo, hi: (hi + undecided).min(1.0) };
-                Self::of_counts(counts, Some(interval), IntervalKind::Scrambles(means.len() as u64))
+        // The undecided launches may all land tails, or all heads.
+        let from = |probability: fn(&Counts) -> f64| {
+            let means: Vec<f64> = scrambles.iter().map(probability).collect();
+            from_scrambled_points(&means, 0.0, counts.points(), LEVEL)
+        };
+        match (from(Counts::probability), from(Counts::largest_probability)) {
+            (Some((low, low_is_wider)), Some((high, high_is_wider))) => {
+                let kind = of_scrambles(scrambles.len(), low_is_wider || high_is_wider);
+                Self::of_counts(counts, Some(Interval { lo: low.lo, hi: high.hi }), kind)
             }
+            _ => Self::of_counts(counts, None, IntervalKind::OneScramble),
         }
     }
 
@@ -152,26 +158,32 @@ impl Estimate {
         let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
         let means: Vec<f64> = scrambles.iter().map(|share| share.probability).collect();
         if means.iter().all(|mean| *mean == 0.0) || means.iter().all(|mean| *mean == 1.0) {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 or 1")]
-            let interval = wilson(share.probability as u64 * points, points, LEVEL).widened(share.error);
+            let heads = if share.probability == 0.0 { 0 } else { points };
+            let interval = clopper_pearson(heads, points, LEVEL).widened(share.error);
             return Self::of_share(share, points, Some(interval), IntervalKind::Unanimous);
         }
-        match from_scrambles(&means, LEVEL) {
+        let largest_error = scrambles.iter().map(|share| share.error).fold(0.0, f64::max);
+        match from_scrambled_points(&means, largest_error, points, LEVEL) {
             None => Self::of_share(share, points, None, IntervalKind::OneScramble),
-            Some(interval) => {
-                let kind = IntervalKind::Scrambles(means.len() as u64);
+            Some((interval, is_wider)) => {
+                let kind = of_scrambles(means.len(), is_wider);
                 Self::of_share(share, points, Some(interval.widened(share.error)), kind)
             }
         }
     }
 }
 
-/// Wilson's interval, widened so that it holds whatever the outcome of the undecided launches is.
-fn wilson_of(counts: Counts) -> Interval {
+/// The kind of an interval from this many scrambles, which may be wider than Student's.
+fn of_scrambles(number: usize, is_wider: bool) -> IntervalKind {
+    if is_wider { IntervalKind::Resolution(number as u64) } else { IntervalKind::Scrambles(number as u64) }
+}
+
+/// Clopper and Pearson's interval, widened so that it holds whatever the outcome of the undecided launches is.
+fn of_independent(counts: Counts) -> Interval {
     let points = counts.points();
     Interval {
-        lo: wilson(counts.heads(), points, LEVEL).lo,
-        hi: wilson(counts.heads() + counts.undecided(), points, LEVEL).hi,
+        lo: clopper_pearson(counts.heads(), points, LEVEL).lo,
+        hi: clopper_pearson(counts.heads() + counts.undecided(), points, LEVEL).hi,
     }
 }
 
@@ -186,7 +198,10 @@ mod tests {
         assert!(interval.lo < 0.5 && interval.hi > 0.7);
         let scrambles = [Counts::estimated(5, 3, 2); 8];
         let interval = Estimate::of_scrambled_counts(&scrambles).interval.unwrap();
-        assert!((interval.lo - 0.5).abs() < 1e-15 && (interval.hi - 0.7).abs() < 1e-15, "{interval:?}");
+        // The scrambles agree, on 0.5 and on 0.7 if the undecided launches are heads, as 0 of 80 do on 0.
+        let reach = clopper_pearson(0, 80, LEVEL).hi;
+        let [lo, hi] = [interval.lo - (0.5 - reach), interval.hi - (0.7 + reach)];
+        assert!(lo.abs() < 1e-12 && hi.abs() < 1e-12, "{interval:?}");
         assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
     }
 

@@ -20,13 +20,39 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use dynamics::phase::require_phase;
 use dynamics::{Coin, Outcome, SolveError, Toss};
 use exact::{HeadsPhases, TiltTerms, certify};
+use numerics::UNIT_ROUNDOFF;
 
 use crate::axis::{Distribution, NORMAL_REACH};
 use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};
 
-/// Relative error of a phase (6u by [`exact::tilt_terms::PHASE_ERROR`]), with a margin for the rounding of a few terms.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Error of the distance of a phase φ ≥ 0, at an end of a uniform distribution, from an edge of the heads, in units of 2 + φ.
+///
+/// With u the [unit roundoff](UNIT_ROUNDOFF), and without the errors of crest and half-width, which are known:
+///
+/// ```text
+/// φ = |L| T                  6u φ            PHASE_ERROR: 4u from |L|, u from T, u from the product
+/// φ - crest                  u φ + 3.2u      |crest| ≤ π
+/// TAU n                      1.4u φ + 8.5u   0.35u from TAU, u from the product; TAU n ≤ φ + 2π
+/// their difference           2u              half a unit of the last place of π: crest n is the nearest
+/// its distance to an edge    2u              the same
+/// all together               8.4u φ + 15.7u  less than 9u (2 + φ)
+/// ```
+///
+/// The measure of heads has this error, less 2u, from each of its two ends, and 2u φ + 13.5u from its own three operations.
+/// Its quotient by the range of phases has the errors of T and of the products, 4u φ, once more. All together, 22.8u φ + 41u is
+/// less than three times 9u (2 + φ). What |L|, the range and the quotient add is relative to the share, and 7u at most.
+const ROUNDING: f64 = 9.0 * UNIT_ROUNDOFF;
+
+/// The same for an edge under a normal distribution of phases, in units of 2 + φ with the largest φ within its reach.
+///
+/// ```text
+/// mean phase                 8.5u φ          PHASE_ERROR, 1.5u for the ends of the reach, u for their mean
+/// crest + TAU n ± width      3.4u φ + 12u
+/// standard deviation         0.6u φ          15u φ in 16.6 deviations, as |z| times the density is 0.6 of the highest density
+/// all together               12.5u φ + 12u   less than 13u (2 + φ)
+/// ```
+const NORMAL_ROUNDING: f64 = 13.0 * UNIT_ROUNDOFF;
 
 /// A probability with a bound on its rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +62,9 @@ pub struct Share {
     /// Bound on the rounding error, from 0 to 1. It is an estimate, not a proof.
     pub error: f64,
 }
+
+/// Nothing is known of this share.
+const UNKNOWN: Share = Share { probability: 0.5, error: 0.5 };
 
 impl Share {
     pub(crate) fn new(probability: f64, error: f64) -> Self {
@@ -47,7 +76,7 @@ impl Share {
         Ok(match certify(toss)?.outcome() {
             Outcome::Heads => Self::new(1.0, 0.0),
             Outcome::Tails => Self::new(0.0, 0.0),
-            Outcome::Undecided => Self::new(0.5, 0.5),
+            Outcome::Undecided => UNKNOWN,
         })
     }
 }
@@ -77,15 +106,24 @@ impl Motion {
         Ok(Self { terms, heads: terms.heads(), phases: [from, to], fastest })
     }
 
+    /// The time of flight of the fastest launch (s).
+    pub(crate) fn longest_time(&self) -> f64 {
+        self.fastest.launch.flight_time()
+    }
+
     /// The share of heads over the speeds of `space`.
     pub(crate) fn share(&self, space: &Space) -> Result<Share, (Box<Toss>, SolveError)> {
         let Self { heads, phases: [from, to], fastest, .. } = self;
-        if from == to {
+        // There is but one launch, or none turns.
+        if space.axis(Coordinate::Speed).value().is_some() || *to == 0.0 {
             return Share::of_one(fastest).map_err(|error| (Box::new(*fastest), error));
         }
         // The coin shows heads always or never.
         if heads.half_width_error == 0.0 {
             return Ok(Share::new(if heads.half_width > 0.0 { 1.0 } else { 0.0 }, 0.0));
+        }
+        if from == to {
+            return Ok(share_of_one_phase(heads, *to));
         }
         Ok(match space.axis(Coordinate::Speed).distribution() {
             Distribution::Uniform { .. } => uniform_share(heads, *from, *to),
@@ -102,12 +140,19 @@ pub(crate) fn share(space: &Space, coin: Coin, values: &Values) -> Result<Share,
     Motion::new(space, coin, values)?.share(space)
 }
 
+/// The share of speeds that differ, and whose phases all round to `phase` (rad). Next to an edge of the heads it is unknown.
+fn share_of_one_phase(heads: &HeadsPhases, phase: f64) -> Share {
+    let Place { interval, to_edge, .. } = Place::of(heads, phase);
+    // Each phase is within one error of the rounded one, and this within one of the edge.
+    let edge_error = heads.half_width_error + heads.crest_error + 2.0 * NORMAL_ROUNDING * (2.0 + phase);
+    if to_edge > edge_error { Share::new(if interval % 2.0 == 0.0 { 1.0 } else { 0.0 }, 0.0) } else { UNKNOWN }
+}
+
 /// The fraction of the phases from `from` to `to` > `from` (rad) that show heads.
 fn uniform_share(heads: &HeadsPhases, from: f64, to: f64) -> Share {
     let (begin, end) = (Place::of(heads, from), Place::of(heads, to));
     let turns = end.turn - begin.turn;
-    // Rounding errors of the phase at an end, and of its distance from an edge of the heads.
-    let end_error = ROUNDING * (1.0 + to);
+    let end_error = ROUNDING * (2.0 + to);
     let edge_error = heads.half_width_error + heads.crest_error + end_error;
     if begin.interval == end.interval && begin.to_edge.min(end.to_edge) > edge_error {
         return Share::new(if begin.interval % 2.0 == 0.0 { 1.0 } else { 0.0 }, 0.0);
@@ -156,7 +201,7 @@ fn normal_share(heads: &HeadsPhases, mean: f64, sd: f64) -> Share {
         turn += 1.0;
     }
     let highest_density = 0.4 / sd;
-    let edge = heads.half_width_error + heads.crest_error + ROUNDING * (1.0 + mean.abs() + NORMAL_REACH * sd);
+    let edge = heads.half_width_error + heads.crest_error + NORMAL_ROUNDING * (2.0 + mean.abs() + NORMAL_REACH * sd);
     Share::new(probability, 2.0 * (last - first + 1.0) * (edge * highest_density + ROUNDING))
 }
 

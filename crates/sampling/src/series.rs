@@ -8,7 +8,7 @@ use dynamics::error::require;
 use crate::counts::Counts;
 use crate::estimate::LEVEL;
 use crate::grid::Grid;
-use crate::interval::wilson;
+use crate::interval::clopper_pearson;
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
@@ -52,7 +52,7 @@ impl Sampler<'_> {
         let grid = self.running_grid(space, steps)?;
         let random = self.running_random(space, space.grid_points()?, seed, steps)?;
         let step = |(grid, random): (&Counts, &Counts)| {
-            let interval = wilson(random.heads(), random.points(), LEVEL);
+            let interval = clopper_pearson(random.heads(), random.points(), LEVEL);
             RunningStep {
                 launches: grid.points(),
                 grid: grid.probability(),
@@ -195,7 +195,7 @@ mod tests {
         let random = Sampler::exact().running_random(&space, 90, 5, 9).unwrap();
         assert_eq!(steps.len(), 9);
         for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
-            let Interval { lo, hi } = wilson(random.heads(), random.points(), 0.95);
+            let Interval { lo, hi } = clopper_pearson(random.heads(), random.points(), 0.95);
             let columns = [grid.points() as f64, grid.probability(), random.probability(), lo, hi];
             assert_eq!(step.columns(), columns);
         }

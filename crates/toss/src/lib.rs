@@ -241,7 +241,6 @@ mod reason;
 mod registry;
 mod rounding;
 #[cfg(feature = "planner")]
-mod rule;
 #[cfg(feature = "planner")]
 mod samples;
 #[cfg(feature = "planner")]

@@ -69,7 +69,7 @@ pub(crate) enum Kind {
         /// Makes the plan from the number of launches and the seed.
         plan: fn(u64, u64) -> Plan,
     },
-    /// Quadrature over a space, to the accuracy wanted. `rule.rs` has the spaces that it serves.
+    /// Quadrature over a space. A plan never chooses it, because its error is an estimate.
     Quadrature,
 }
 

@@ -26,10 +26,8 @@ pub enum Reason {
     SpeedIsFixed,
     /// Other coordinates than the speed are free, and the model handles the speed only.
     MoreIsFree,
-    /// The number of coordinates, or their ranges, are none that quadrature takes.
-    NoRule(&'static str),
-    /// The probability is too rough for quadrature.
-    TooManyKinks,
+    /// The model's error is an estimate from its own nodes, which cannot tell what lies between them.
+    EstimatesItsError,
     /// The model has no error estimate.
     TellsNoError,
     /// The coins land below or above their launch.
@@ -48,8 +46,7 @@ impl fmt::Display for Reason {
             Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),
             Self::SpeedIsFixed => f.write_str("needs a range of speeds"),
             Self::MoreIsFree => f.write_str("more than the speed is free"),
-            Self::NoRule(why) => f.write_str(why),
-            Self::TooManyKinks => f.write_str("the share of heads has too many kinks"),
+            Self::EstimatesItsError => f.write_str("estimates its error, and has to be chosen by hand"),
             Self::TellsNoError => f.write_str("has no error estimate"),
             Self::OnlyCoins => f.write_str("is for coins, with I1 = I2"),
             Self::HasDrop => f.write_str("needs a landing at the height of the launch"),

@@ -10,7 +10,6 @@ use crate::choice::{Candidate, Choice, How, Offer};
 use crate::fitted::{FITTED, SamplingFit};
 use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
-use crate::rule;
 use crate::scene::{Scene, Want};
 
 /// The seed of all planned samples. Any other number would serve as well.
@@ -38,7 +37,7 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
             Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
         }
         Kind::Quadrature if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
-        Kind::Quadrature => Some((model.into(), rule::offer(model, space, scene.accuracy))),
+        Kind::Quadrature => Some((model.into(), Err(Reason::EstimatesItsError))),
         _ => None,
     };
     Ok(MODELS.iter().filter_map(offer).collect())

@@ -104,7 +104,7 @@ fn estimates_are_read_back_but_their_proofs_are_not() {
 
 #[test]
 fn estimates_that_contradict_themselves_are_refused_with_the_field_at_fault() {
-    let valid = "probability = 0.25\npoints = 4\ninterval_kind = 'wilson'\ninterval = { lo = 0.1, hi = 0.6 }\n\
+    let valid = "probability = 0.25\npoints = 4\ninterval_kind = 'clopper-pearson'\ninterval = { lo = 0.1, hi = 0.6 }\n\
                  counts = { heads = 1, tails = 2, undecided = 1 }";
     assert!(read::<Estimate>(valid).is_ok());
     for (from, to, message) in [
@@ -114,8 +114,8 @@ fn estimates_that_contradict_themselves_are_refused_with_the_field_at_fault() {
         ("undecided = 1", "undecided = 9223372036854775807", "points = '4' can't be used"),
         ("hi = 0.6", "hi = 1.5", "hi = 1.5 is outside its valid range: from 0 to 1"),
         ("lo = 0.1", "lo = 0.7", "lo = 0.7 is outside its valid range: from 0 to hi"),
-        ("'wilson'", "'grid'", "interval = 'Some(Interval { lo: 0.1, hi: 0.6 })' can't be used"),
-        ("'wilson'", "'guess'", "unknown variant `guess`"),
+        ("'clopper-pearson'", "'grid'", "interval = 'Some(Interval { lo: 0.1, hi: 0.6 })' can't be used"),
+        ("'clopper-pearson'", "'guess'", "unknown variant `guess`"),
         ("points = 4", "points = 4\nrounding_error = 0.1", "counts is missing: expected either counts or"),
         ("points = 4", "points = 4\nheads = 1", "unknown field `heads`"),
     ] {

@@ -155,7 +155,7 @@ impl<S: Simd> Heads<S> {
         let (zero, one, two) = (number(0.0), number(1.0), number(2.0));
         let (begin, end) = (self.place(from), self.place(to));
         let turns = end.turn - begin.turn;
-        let end_error = number(ROUNDING) * (one + to);
+        let end_error = number(ROUNDING) * (two + to);
         let edge_error = self.half_width_error + self.crest_error + end_error;
         let range = to - from;
         let inverse = one / zero.less_than(range).choose(range, one);

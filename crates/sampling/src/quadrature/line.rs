@@ -1,11 +1,14 @@
 //! This file integrates over one coordinate. It divides the line where the integrand has a kink, and then wherever the
 //! estimated error is largest, until the sum of these errors is within the tolerance.
 //!
-//! Kinks are found by marks: continuous functions of the position, at the whole values of which the integrand has a kink.
+//! Kinks are found by marks: continuous functions of the position, at the whole values of which the integrand has a kink. A
+//! line is halved until each part is plain, which means that none of its marks can pass a whole value, because they change
+//! too slowly; or until the part is so short that it can hide nothing but the kink at which its ends differ. A part that is
+//! not plain without such a kink counts as an error of its whole length.
 
 use dynamics::Error;
 
-use super::kronrod::{self, NODES, Node, Span};
+use super::kronrod::{self, NODES, Span};
 
 /// Functions of the position, at the whole values of which the integrand has a kink. Every third one is at 0 where the
 /// integrand behaves like a square root.
@@ -28,7 +31,8 @@ pub(super) struct Point {
     pub(super) errors: [f64; 2],
     /// Number of shares that it took.
     pub(super) shares: u64,
-    pub(super) marks: Marks,
+    /// The probability density at the position, the value's largest size.
+    pub(super) density: f64,
 }
 
 /// What is integrated over a line.
@@ -38,6 +42,13 @@ pub(super) trait Integrand {
 
     /// The marks at a position.
     fn marks(&self, position: f64) -> Result<Marks, Error>;
+
+    /// Whether no mark can pass a whole value between two positions.
+    fn is_plain(&self, from: f64, to: f64) -> Result<bool, Error>;
+
+    /// The part, from 0 to 1, of the launches between two positions that may show another face than at all nodes, which
+    /// show one face alone.
+    fn unproven(&self, from: f64, to: f64) -> Result<f64, Error>;
 }
 
 /// An integral over a line.
@@ -57,27 +68,31 @@ pub(super) struct Integral {
 pub(super) struct Limits {
     /// The largest sum of the estimated errors.
     pub(super) tolerance: f64,
-    /// Whether the line is divided at all kinks before anything is integrated.
-    pub(super) divides_at_kinks: bool,
     /// The largest number of panels.
     pub(super) most_panels: usize,
     /// No panel is divided after this number of shares.
     pub(super) most_shares: u64,
 }
 
-/// Number of parts of a line between which kinks are looked for.
-const PARTS: usize = 24;
+/// A part of a line with a kink is halved to this length, as part of the line. Three kinks in it would have to be that
+/// close, and their pair would matter less than its length.
+const SHORT: f64 = 1.0 / 4096.0;
 
-/// The largest number of kinks at which a line is divided from the start; with more, each of them is small.
-const MOST_KINKS: f64 = 400.0;
+/// A part without a kink that is not plain is halved to this length, as part of the line.
+const SHORTEST: f64 = 1.0 / (1 << 30) as f64;
+
+/// The largest number of parts that are looked at.
+const MOST_PARTS: usize = 1 << 14;
 
 /// The length, as part of the line, within which a kink is located. The error of a panel that ends beside a kink falls
 /// with the square of the distance.
 const LOCATED: f64 = 1e-9;
 
+/// A mean share within this of 0 or 1 is taken for that of launches that all show one face.
+const ONE_FACE: f64 = 1e-12;
+
 struct Panel {
     span: Span,
-    nodes: [Node; NODES],
     points: [Point; NODES],
     found: kronrod::Found,
     /// Mean errors of the values.
@@ -100,13 +115,16 @@ pub(super) fn integrate(on: &dyn Integrand, parts: &Parts, limits: Limits) -> Re
     // Positions are told apart only if they differ by more than their rounding.
     let rounding = 4.0 * f64::EPSILON * first.abs().max(last.abs());
     let line = Line { on, located: (LOCATED * (last - first)).max(rounding) };
-    let mut panels = line.panels(parts, limits)?;
+    let (mut panels, unproven) = line.panels(parts)?;
+    let densest = |panel: &Panel| panel.points.iter().map(|point| point.density).fold(0.0, f64::max);
+    let unproven = unproven * panels.iter().map(densest).fold(0.0, f64::max);
     let mut shares: u64 = panels.iter().map(Panel::shares).sum();
     let error = |panels: &[Panel]| panels.iter().map(|panel| panel.found.error).sum::<f64>();
     while panels.len() < limits.most_panels && shares < limits.most_shares && error(&panels) > limits.tolerance {
         let open = panels.iter().enumerate().filter(|(_, panel)| !panel.is_final);
         let Some((worst, _)) = open.max_by(|(_, a), (_, b)| a.found.error.total_cmp(&b.found.error)) else { break };
-        let [first, second] = line.halves(&panels[worst])?;
+        let span = panels[worst].span;
+        let [first, second] = span.parts(span.middle(), false);
         let [first, second] = [line.panel(first)?, line.panel(second)?];
         shares += first.shares() + second.shares();
         panels[worst] = first;
@@ -115,7 +133,7 @@ pub(super) fn integrate(on: &dyn Integrand, parts: &Parts, limits: Limits) -> Re
     let total = |part: fn(&Panel) -> f64| panels.iter().map(part).sum();
     Ok(Integral {
         value: total(|panel| panel.found.value),
-        rule_error: total(|panel| panel.found.error + panel.errors[0]),
+        rule_error: total(|panel| panel.found.error + panel.errors[0]) + unproven,
         rounding_error: total(|panel| panel.errors[1]),
         shares,
     })
@@ -144,57 +162,57 @@ fn changed(one: &Marks, two: &Marks) -> Option<usize> {
     of_kind(true).find(differs).or_else(|| of_kind(false).find(differs))
 }
 
-/// The number of whole values that a mark passes between two positions.
-fn passed(index: usize, one: &Marks, two: &Marks) -> f64 {
-    (one[index].floor() - two[index].floor()).abs()
-}
-
 impl Line<'_> {
-    /// The panels from which the division starts.
-    fn panels(&self, parts: &Parts, limits: Limits) -> Result<Vec<Panel>, Error> {
-        let mut spans = Vec::new();
+    /// The panels from which the division starts, and the length of the parts that may have other kinks.
+    fn panels(&self, parts: &Parts) -> Result<(Vec<Panel>, f64), Error> {
+        let (mut spans, mut unproven) = (Vec::new(), 0.0);
         for pair in parts.ends.windows(2) {
             let whole = Span { ends: [pair[0], pair[1]], is_root: [parts.are_roots; 2] };
-            if limits.divides_at_kinks { self.divide(whole, &mut spans)? } else { spans.push(whole) }
+            self.divide(whole, &mut spans, &mut unproven)?;
         }
-        spans.into_iter().map(|span| self.panel(span)).collect()
+        let panels = spans.into_iter().map(|span| self.panel(span)).collect::<Result<_, Error>>()?;
+        Ok((panels, unproven))
     }
 
     fn panel(&self, span: Span) -> Result<Panel, Error> {
         let nodes = span.nodes();
         let points = self.on.points(nodes.map(|node| node.at))?;
         let found = kronrod::found(&span, &nodes, &points.map(|point| point.value));
-        let errors = [0, 1].map(|of| kronrod::sum(&nodes, &points.map(|point| point.errors[of])));
+        // Equal samples prove nothing.
+        let is_one_face = |face: f64| {
+            points.iter().all(|point| (point.value - face * point.density).abs() <= ONE_FACE * point.density)
+        };
+        let mut errors = [0, 1].map(|of| kronrod::sum(&nodes, &points.map(|point| point.errors[of])));
+        if is_one_face(0.0) || is_one_face(1.0) {
+            let weight = kronrod::sum(&nodes, &points.map(|point| point.density));
+            errors[0] += self.on.unproven(span.ends[0], span.ends[1])? * weight;
+        }
         let is_short = span.ends[1] - span.ends[0] <= 4.0 * self.located;
-        Ok(Panel { span, nodes, points, found, errors, is_final: is_short || found.error <= errors[0] + errors[1] })
+        let is_final = is_short || found.error <= errors[0] + errors[1];
+        Ok(Panel { span, points, found, errors, is_final })
     }
 
-    /// The two parts of a panel: on either side of the kink between two nodes that is nearest to the middle, or its halves.
-    fn halves(&self, panel: &Panel) -> Result<[Span; 2], Error> {
-        let marks = |at: usize| &panel.points[at].marks;
-        let is_change = |at: &usize| {
-            changed(marks(*at), marks(at + 1)).is_some_and(|of| passed(of, marks(*at), marks(at + 1)) == 1.0)
-        };
-        let from_middle = |at: &usize| (2 * at + 2).abs_diff(NODES);
-        let Some(at) = (0..NODES - 1).filter(is_change).min_by_key(from_middle) else {
-            return Ok(panel.span.parts(panel.span.middle(), false));
-        };
-        let marked = |index: usize| (panel.nodes[index].at, panel.points[index].marks);
-        let (kink, is_root, _) = self.kink(marked(at), marked(at + 1))?;
-        Ok(panel.span.parts(kink, is_root))
-    }
-
-    /// Divides a span at its kinks.
-    fn divide(&self, whole: Span, spans: &mut Vec<Span>) -> Result<(), Error> {
-        let [from, to] = whole.ends;
-        #[expect(clippy::cast_precision_loss, reason = "dozens")]
-        let position = |part: usize| from + (to - from) * (part as f64 / PARTS as f64);
-        let marked = |part| Ok((position(part), self.on.marks(position(part))?));
-        let marked = (0..=PARTS).map(marked).collect::<Result<Vec<Marked>, Error>>()?;
-        let passed = |pair: &[Marked]| (0..MARKS).map(|index| passed(index, &pair[0].1, &pair[1].1)).sum::<f64>();
-        let mut kinks = Vec::new();
-        if marked.windows(2).map(passed).sum::<f64>() <= MOST_KINKS {
-            marked.windows(2).try_for_each(|pair| self.find_kinks(pair[0], pair[1], &mut kinks))?;
+    /// Divides a span at its kinks, and adds the length of its parts that may have others to `unproven`.
+    fn divide(&self, whole: Span, spans: &mut Vec<Span>, unproven: &mut f64) -> Result<(), Error> {
+        let marked = |at: f64| Ok::<Marked, Error>((at, self.on.marks(at)?));
+        let [from, to] = whole.ends.map(marked);
+        let (mut kinks, mut parts) = (Vec::new(), vec![(from?, to?)]);
+        let length = whole.ends[1] - whole.ends[0];
+        let mut left = MOST_PARTS;
+        while let Some((from, to)) = parts.pop() {
+            left = left.saturating_sub(1);
+            let part = to.0 - from.0;
+            let has_kink = changed(&from.1, &to.1).is_some();
+            let shortest = (length * if has_kink { SHORT } else { SHORTEST }).max(self.located);
+            if part > shortest && left > 0 && !self.on.is_plain(from.0, to.0)? {
+                let middle = marked(0.5 * (from.0 + to.0))?;
+                parts.extend([(middle, to), (from, middle)]);
+            } else if has_kink {
+                self.find_kinks(from, to, &mut kinks)?;
+                *unproven += if left > 0 { 0.0 } else { part };
+            } else if part <= shortest || left == 0 {
+                *unproven += part;
+            }
         }
         let mut rest = whole;
         for (at, is_root) in kinks {

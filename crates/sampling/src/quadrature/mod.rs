@@ -28,6 +28,9 @@ use roughness::ordered;
 /// The largest number of coordinates beside the speed, if ωx and ωy of launches from horizontal count as one.
 const MOST_COORDINATES: usize = 2;
 
+/// Rounding error of a mean: that of the densities, weights and sums.
+const SUM_ERROR: f64 = 64.0 * f64::EPSILON;
+
 /// Whether quadrature serves for `space`.
 ///
 /// # Errors
@@ -85,9 +88,10 @@ pub(crate) fn estimate(space: &Space, accuracy: f64) -> Result<Estimate, Error> 
     let coin = space.coin().ok_or(ONLY_COINS)?;
     let rest = ordered(space, coin, rest_of(space))?.into_iter().map(|(_, rest)| rest).collect();
     let found = Nest::new(space, coin, rest, accuracy).mean()?;
-    let reached = found.rule_error + found.rounding_error;
+    let rounding_error = found.rounding_error + SUM_ERROR;
+    let reached = found.rule_error + rounding_error;
     if found.value.is_finite() && reached <= accuracy {
-        return Ok(Estimate::of_quadrature(found.value, [found.rule_error, found.rounding_error], found.shares));
+        return Ok(Estimate::of_quadrature(found.value, [found.rule_error, rounding_error], found.shares));
     }
     // Nothing that is not a number gets into a result: 1 says that nothing is known.
     let reached = if reached.is_finite() { reached } else { 1.0 };

@@ -10,6 +10,7 @@ mod certified;
 mod claims;
 mod coins;
 mod counting;
+mod coverage;
 mod detest;
 mod enclosed;
 mod figures;
@@ -118,6 +119,6 @@ pub const CHECKS: &[Check] = &[
     quadrature::FIGURES,
     quadrature::ESTIMATES,
     methods::ERRORS,
-    methods::COVERAGE,
+    coverage::COVERAGE,
     methods::EXACT_COVERAGE,
 ];
