@@ -146,7 +146,7 @@ fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut 
     let rate = Vector3::from(rate) * 10f64.powf(numbers.between(sizes[0], sizes[1]));
     let time = phase(&mut numbers) / rate.norm();
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
-    let tilt = if index % 2 == 0 { 0.0 } else { numbers.between(-3.0, 3.0) };
+    let tilt = if index.is_multiple_of(2) { 0.0 } else { numbers.between(-3.0, 3.0) };
     // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
     let toss = RigidToss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
     RigidReference::solves(&toss).then_some(toss)
