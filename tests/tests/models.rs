@@ -3,7 +3,7 @@
 
 use blackbox::{config, tosses};
 use proptest::prelude::*;
-use sampling::Space;
+use sampling::{Axis, Space};
 use toss::{
     Answer, Body, Choice, Coin, Error, ExactSolver, How, MODELS, Model, Outcome, Registry, Scene, Solver, Stage, Toss,
     Want,
@@ -231,7 +231,7 @@ fn quadrature_is_never_planned() {
 /// gravities. Their probabilities are those of the closed form, integrated with 50 digits between its kinks.
 #[test]
 fn a_plan_finds_the_narrow_part_of_a_space_that_lands_tails() {
-    let quarter = toss::dynamics::catalogue::named_coin("us-quarter").unwrap();
+    let quarter = dynamics::catalogue::named_coin("us-quarter").unwrap();
     let spin = Space::builder(quarter).rate_x(5.0).rate_y(0.0).rate_z(-75.0..=82.0).speed(3.0..=5.0);
     let gravity = Space::builder(Coin::PAPER).rate_x(34.534_110_732_396_435).rate_y(0.0).rate_z(68.827_547_700_763_86);
     let gravity = gravity.speed(Axis::normal(4.0, 1e-3)).gravity(9.0..=10.0);
