@@ -206,10 +206,6 @@ fn box_of_four() -> Space {
     boxed.speed(3.0..=5.0).build().expect("valid ranges")
 }
 
-fn planned(space: Space, accuracy: f64) -> &'static str {
-    Scene::new(Want::Probability(space), accuracy).plan().expect("a plan").choice.model.name
-}
-
 #[test]
 fn quadrature_is_never_planned() {
     let fig4 = sampling::named_space("paper-fig4").unwrap();
