@@ -195,7 +195,7 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
     let toss = toss(0.5);
     let repeats = answering("echo $id,$w,$x,$y,$z");
     let solver = made(&entry(&repeats));
-    let by_tolerance = Stepping::DEFAULT.error_estimate(&toss).unwrap();
+    let by_tolerance = Stepping::adaptive(OWN, 1e-10).unwrap().error_estimate(&toss).unwrap();
     assert_eq!(solver.error_estimate(&toss), Ok(Some(by_tolerance)));
     assert!(entry(&repeats).integrates());
     let own = made(&entry(&answering("echo $id,$w,$x,$y,$z,error=$tolerance,calls=7")));

@@ -35,21 +35,36 @@ pub(crate) fn file(source: &mut Source, name: &str, scene_wanted: bool) -> (Stri
 /// The only part of ten launches, whose fields may be changed and whose text may be damaged.
 fn part(source: &mut Source) -> Vec<u8> {
     let mut content = json!({
-        "schema": 1,
+        "schema": 2,
+        "streams": 1,
         "version": env!("CARGO_PKG_VERSION"),
         "space": { "coin": "paper", "rate_x": "0:50", "rate_y": "x", "rate_z": 30, "speed": "3:5" },
         "plan": { "method": "random", "points": 10, "seed": source.below(9) },
         "range": [0, 10],
         "counts": [{ "heads": 7, "tails": 2, "undecided": 1 }],
+        "digest": "",
     });
     while !source.careful && source.chance(40) {
         change(source, &mut content);
     }
-    let mut bytes = content.to_string().replace("\"@", "").replace("@\"", "").into_bytes();
+    let mut text = content.to_string().replace("\"@", "").replace("@\"", "");
+    if source.careful || source.chance(80) {
+        text = with_digest(&text);
+    }
+    let mut bytes = text.into_bytes();
     if !source.careful && source.chance(30) {
         damage(source, &mut bytes);
     }
     bytes
+}
+
+/// The part with its digest, which the refusal of another one states.
+fn with_digest(text: &str) -> String {
+    let refusal =
+        serde_json::from_str::<sampling::Tally>(text).map_or_else(|error| error.to_string(), |_| String::new());
+    let digest = refusal.split_once(", and ").and_then(|(_, rest)| rest.split_once(" of the contents"));
+    digest
+        .map_or(text.to_owned(), |(digest, _)| text.replacen("\"digest\":\"\"", &format!("\"digest\":\"{digest}\""), 1))
 }
 
 fn space(source: &mut Source) -> Value {

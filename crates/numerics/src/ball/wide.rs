@@ -337,9 +337,10 @@ mod tests {
                 for (number, (wide, near)) in pairs.into_iter().enumerate() {
                     assert!(wide.midpoint == *near.midpoint(), "{number}");
                     let [found, expected] = [wide.error(), near.radius()];
-                    // e^r - 1 is bounded by r + r².
+                    // e^r - 1 is bounded by r + r², for r = 0.12 by 5.4 % more; the others are the same formulas.
+                    let most = if number == 4 { 1.06 } else { 1.001 };
                     assert!(
-                        found >= 0.999_999 * expected - 1e-300 && found <= 1.05 * expected,
+                        found >= 0.999_999 * expected - 1e-300 && found <= most * expected,
                         "{number}: {found:e} {expected:e}"
                     );
                 }
