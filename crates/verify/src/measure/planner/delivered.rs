@@ -47,11 +47,16 @@ impl Truth {
 
     fn trace_error(&self, points: &[TracePoint]) -> Result<f64, InputError> {
         let mut largest = 0.0_f64;
+        let launch = self.toss.launch;
         for point in points {
-            let launch = self.toss.launch;
-            let until = Launch::new(launch.rate(), TimeOfFlight::Given(point.time))?.with_attitude(launch.attitude());
-            let exact = Reference::new(&Toss { launch: until, ..self.toss });
-            largest = largest.max(exact.attitude_error(&point.attitude));
+            // The last point is the landing, whose time is not rounded to f64.
+            let error = if point.time == launch.flight_time() {
+                self.landing.attitude_error(&point.attitude)
+            } else {
+                let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
+                Reference::new(&Toss { launch: until, ..self.toss }).attitude_error(&point.attitude)
+            };
+            largest = largest.max(error);
         }
         Ok(largest)
     }
