@@ -1,5 +1,5 @@
 //! This file computes cos θ and the state at landing in f64 with compensated phases. It is three times as fast as
-//! [`ExactMotion`](crate::ExactMotion), and nearly as accurate at any phase.
+//! [`ExactMotion`], and nearly as accurate at any phase.
 //!
 //! In plain f64 the phases ωL T and q T are off by a few roundings, and the error of cos θ grows with them. Here the
 //! rounding error of each operation is carried along to first order. For products and sums it is computed exactly; for

@@ -63,7 +63,7 @@ impl Rounding {
     /// all.
     ///
     /// The landed coin is the launched one, turned by Φ = (ωx, ωy, k ωz) T and then by -q T with q = (k - 1) ωz about n. Three
-    /// factors, each with a relative error of [`RELATIVE`], change Φ by up to 3.1 of it and q T by as much of q T and of
+    /// factors, each with a relative error of 4 ε, change Φ by up to 3.1 of it and q T by as much of q T and of
     /// k ωz T, which |Φ| bounds.
     ///
     /// # Errors
