@@ -83,8 +83,8 @@ impl Extent {
     fn of(effort: Effort) -> Self {
         const POINTS: [u64; 4] = [64, 1000, 4096, 65_536];
         match effort {
-            Effort::Quick => Self { spaces: 1, seeds: 25, points: &POINTS[..3], truth: 1 << 19 },
-            Effort::Standard => Self { spaces: 4, seeds: 25, points: &POINTS, truth: 1 << 20 },
+            Effort::Quick => Self { spaces: 1, seeds: 25, points: &POINTS[..3], truth: 1 << 17 },
+            Effort::Standard => Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 },
             Effort::Deep => Self { spaces: 20, seeds: 100, points: &POINTS, truth: 1 << 23 },
         }
     }
