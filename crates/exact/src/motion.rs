@@ -56,15 +56,15 @@ impl ExactMotion {
     pub fn new(toss: &Toss) -> Self {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
         let k = toss.coin.exact_inertia_ratio();
-        let (scaled, exponent) = scaled_rate(toss);
+        let (scaled, scale) = scaled_rate(toss);
         let (direction, precession_rate) = unit_momentum(scaled, k);
         let [s_x, s_y, s_z] = direction;
         Self {
             launch: State { attitude, rate },
-            exponent,
+            exponent: mantissa_and_exponent(scale).1,
             momentum_direction: Vector3::new(s_x.hi(), s_y.hi(), s_z.hi()),
             precession_rate,
-            spin_rate: (k - 1.0.into()) * scaled[2],
+            spin_rate: spin(k - 1.0.into(), scaled[2]),
             tilt: terms(attitude.exact_vertical(), direction, s_x * s_x + s_y * s_y),
         }
     }
@@ -190,20 +190,24 @@ pub(crate) fn momentum_direction(toss: &Toss) -> [DoubleDouble; 3] {
     unit_momentum(scaled_rate(toss).0, toss.coin.exact_inertia_ratio()).0
 }
 
-/// The rate of a toss (BF) as it was given, in a unit near its largest component: 2 to the power of the second number
-/// (rad/s).
-fn scaled_rate(toss: &Toss) -> ([DoubleDouble; 3], i32) {
-    let (_, exponent) = mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax()));
-    (toss.launch.exact_rate().map(|part| part.times_power_of_two(-exponent)), exponent)
+/// The rate of a toss (BF) as it was given, in a unit near its largest component: the second number (rad/s), a power of two.
+fn scaled_rate(toss: &Toss) -> ([DoubleDouble; 3], f64) {
+    let scale = power_of_two_scale(toss.launch.rate().amax());
+    (toss.launch.exact_rate().map(|part| part.in_unit(scale)), scale)
+}
+
+/// The product of a `ratio` with the rate z. A rate that was given in rad/s is an f64, whose product takes fewer steps.
+fn spin(ratio: DoubleDouble, z: DoubleDouble) -> DoubleDouble {
+    if z.lo() == 0.0 { ratio * z.hi() } else { ratio * z }
 }
 
 /// ŝ and ωL for a rate (BF) in a unit that is near its largest component.
 fn unit_momentum([x, y, z]: [DoubleDouble; 3], k: DoubleDouble) -> ([DoubleDouble; 3], DoubleDouble) {
-    let spin = k * z;
+    let spin = spin(k, z);
     // S has a unit of its own: next to the spin of a rod it may be so small that its square underflows.
     let unit = power_of_two_scale(x.hi().abs().max(y.hi().abs()).max(spin.hi().abs()));
     let (_, unit_exponent) = mantissa_and_exponent(unit);
-    let momentum = [x, y, spin].map(|part| part.times_power_of_two(-unit_exponent));
+    let momentum = [x, y, spin].map(|part| part.in_unit(unit));
     let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
     let direction =
         if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };

@@ -125,6 +125,13 @@ impl DoubleDouble {
         (sin.hi, cos.hi)
     }
 
+    /// The number divided by `unit`, a power of two. The result is exact as long as no digit leaves the range of f64.
+    #[inline]
+    #[must_use]
+    pub fn in_unit(self, unit: f64) -> Self {
+        Self { hi: self.hi / unit, lo: self.lo / unit }
+    }
+
     /// The number times 2^`exponent`. The result is exact as long as no digit leaves the range of f64.
     #[inline]
     #[must_use]

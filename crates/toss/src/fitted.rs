@@ -13,7 +13,6 @@ mod parse;
 use std::sync::LazyLock;
 
 use dynamics::{RoughPhases, SolveError, Toss};
-use sampling::quadrature::Roughness;
 use serde::{Deserialize, Serialize};
 
 /// The table that this library was built with.
@@ -42,9 +41,6 @@ pub struct Fitted {
     /// The models that sample a space; none in a table of integrators from elsewhere.
     #[serde(default)]
     pub sampling: Vec<SamplingFit>,
-    /// Quadrature, an entry for each kind of space; none in a table of integrators from elsewhere.
-    #[serde(default)]
-    pub quadrature: Vec<QuadratureFit>,
 }
 
 /// A model in closed form.
@@ -91,31 +87,6 @@ pub struct SamplingFit {
     pub error: f64,
     /// The exponent with which the error falls as N grows.
     pub power: f64,
-}
-
-/// Quadrature over spaces of one kind. To an accuracy ε it takes `shares` × parts × ε^-`power` shares, where the parts are those of
-/// the space's [`Roughness`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct QuadratureFit {
-    /// The number of coordinates beside the speed.
-    pub coordinates: usize,
-    /// Whether the share behaves like a square root somewhere within the space.
-    pub has_root: bool,
-    /// Cost of a share (ns).
-    pub share_ns: f64,
-    /// Mean number of shares by part, to an accuracy of 1.
-    pub shares: f64,
-    /// The exponent with which the number of shares grows as the accuracy falls.
-    pub power: f64,
-    /// The smallest accuracy that was reached in all spaces.
-    pub finest: f64,
-}
-
-impl QuadratureFit {
-    /// The expected number of shares in a space with so many `parts`.
-    pub fn shares(&self, parts: f64, accuracy: f64) -> f64 {
-        self.shares * parts * accuracy.powf(-self.power)
-    }
 }
 
 /// How far a flight turns, and how: the place of a toss in the tables of the integrators.
@@ -165,11 +136,6 @@ impl Fitted {
     /// The entry of the sampling model called `model`, if it has been measured.
     pub fn sampling(&self, model: &str) -> Option<&SamplingFit> {
         self.sampling.iter().find(|fit| fit.model == model)
-    }
-
-    /// The entry of quadrature over spaces as rough as this, if it has been measured.
-    pub fn quadrature(&self, of: &Roughness) -> Option<&QuadratureFit> {
-        self.quadrature.iter().find(|fit| fit.coordinates == of.coordinates && fit.has_root == of.has_root)
     }
 
     /// The coarsest tolerance at which the error of `fit` over `turn` is within `accuracy`, interpolated in phase and

@@ -10,8 +10,8 @@
 mod kronrod;
 mod line;
 mod nest;
+mod order;
 mod rest;
-mod roughness;
 
 use dynamics::error::require;
 use dynamics::{Error, InputError};
@@ -21,9 +21,8 @@ use crate::estimate::Estimate;
 use crate::plan::ONLY_COINS;
 use crate::space::Space;
 use nest::Nest;
+use order::ordered;
 use rest::rest_of;
-pub use roughness::Roughness;
-use roughness::ordered;
 
 /// The largest number of coordinates beside the speed, if ωx and ωy of launches from horizontal count as one.
 const MOST_COORDINATES: usize = 2;
@@ -72,21 +71,12 @@ pub fn coordinates(space: &Space) -> usize {
     rest_of(space).len()
 }
 
-/// How rough the share of heads is over `space`, from which follows about how many shares quadrature takes.
-///
-/// # Errors
-/// That of [`require_smooth`], and [`Error::Launch`] for a phase above 2^53 rad.
-pub fn roughness(space: &Space) -> Result<Roughness, Error> {
-    require_smooth(space)?;
-    roughness::roughness(space, space.coin().ok_or(ONLY_COINS)?, rest_of(space))
-}
-
 /// Estimates P(heads) of `space` to `accuracy`.
 pub(crate) fn estimate(space: &Space, accuracy: f64) -> Result<Estimate, Error> {
     require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)?;
     require_smooth(space)?;
     let coin = space.coin().ok_or(ONLY_COINS)?;
-    let rest = ordered(space, coin, rest_of(space))?.into_iter().map(|(_, rest)| rest).collect();
+    let rest = ordered(space, coin, rest_of(space))?;
     let found = Nest::new(space, coin, rest, accuracy).mean()?;
     let rounding_error = found.rounding_error + SUM_ERROR;
     let reached = found.rule_error + rounding_error;

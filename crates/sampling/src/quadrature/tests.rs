@@ -113,24 +113,6 @@ fn rates_across_the_normal_count_as_one_for_uniform_launches_from_horizontal() {
 }
 
 #[test]
-fn roughness_is_read_from_the_corners_of_a_space() {
-    // Without a spin the phase is |ω| T with T = 2·5/9.81 s for the fastest launch, and ψ is 90°.
-    let turning = roughness(&space(["10:50", "0", "0", "3:5", "9.81", "0"])).unwrap();
-    let half_turns = 40.0 * 10.0 / 9.81 / std::f64::consts::PI;
-    assert!((turning.parts / (1.0 + half_turns) - 1.0).abs() < 1e-12, "{turning:?}");
-    assert_eq!((turning.coordinates, turning.has_root), (1, false));
-    // In Fig. 4's space and in the box of four coordinates, rotations with little wobble show heads always.
-    let fig4 = roughness(&space(["0:50", "x", "30", "3:5", "9.81", "0"])).unwrap();
-    assert_eq!((fig4.coordinates, fig4.has_root), (1, true));
-    let boxed = roughness(&space(["1:60", "1:60", "1:60", "3:5", "9.81", "0"])).unwrap();
-    assert_eq!((boxed.coordinates, boxed.has_root), (2, true));
-    assert!(boxed.parts > 4.0 * fig4.parts, "{boxed:?} {fig4:?}");
-    let alone = roughness(&space(["20", "5", "3", "3:5", "9.81", "0.4"])).unwrap();
-    assert_eq!(alone, Roughness { coordinates: 0, parts: 1.0, has_root: false });
-    assert!(roughness(&space(["0:50", "x", "30", "3", "9.81", "0"])).is_err());
-}
-
-#[test]
 fn a_space_in_which_nothing_but_the_speed_varies_takes_one_share() {
     let alone = space(["20", "5", "3", "3:5", "9.81", "0.4"]);
     let found = by(&alone, 1e-9).unwrap();

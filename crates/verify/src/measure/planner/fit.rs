@@ -6,7 +6,6 @@ use toss::fitted::{FITTED, Fitted};
 use toss::{Registry, Scheme, SolverEntry};
 
 use super::fit_integrators::{PHASES, SPINS, integrator, tosses_by_turn};
-use super::fit_quadrature::quadrature;
 use super::fit_sampling::sampling;
 use super::{fit_bodies, fit_closed};
 
@@ -32,7 +31,6 @@ pub fn fit(measured: String) -> anyhow::Result<Fitted> {
         tolerances,
         integrators,
         sampling: sampling()?,
-        quadrature: quadrature()?,
     })
 }
 
@@ -44,7 +42,7 @@ pub fn fit_spaces(measured: &str) -> anyhow::Result<Fitted> {
     let before = FITTED.clone();
     let date = before.measured.split("; ").next().unwrap_or_default();
     let measured = format!("{date}; models of a space {measured}");
-    Ok(Fitted { measured, sampling: sampling()?, quadrature: quadrature()?, ..before })
+    Ok(Fitted { measured, sampling: sampling()?, ..before })
 }
 
 /// Measures the integrators of `registry` that are not of this workspace, for the planner of somebody who has them.
@@ -78,7 +76,6 @@ pub fn fit_others(registry: &Registry, measured: String) -> anyhow::Result<Fitte
         tolerances: tolerances.clone(),
         integrators: integrators.collect::<anyhow::Result<_>>()?,
         sampling: Vec::new(),
-        quadrature: Vec::new(),
     })
 }
 

@@ -12,7 +12,6 @@ pub mod fit;
 mod fit_bodies;
 mod fit_closed;
 mod fit_integrators;
-mod fit_quadrature;
 mod fit_sampling;
 pub mod scenes;
 pub mod summary;
