@@ -20,7 +20,7 @@ use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
 use numerics::{Ball, DoubleDouble, Dual, Elementary};
 
-use super::certified::in_wide_balls;
+use super::certified::in_digits;
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
 use super::regime::{Regime, along};
@@ -131,14 +131,14 @@ fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
         let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
         are_right(&found, 0.0).then(|| in_f64(&found))
     };
-    let in_digits = |digits: usize| {
-        let (time, vertical) = in_wide_balls(toss, digits);
+    let in_balls = |digits: usize| {
+        let (time, vertical) = in_digits(toss, digits);
         let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
         let none_above = if digits == DIGITS[1] { NO_SLOPE } else { 0.0 };
         are_right(&found, none_above).then(|| in_f64(&found))
     };
     let close = if components_are_close(&rate) { in_double_double() } else { None };
-    let found = close.or_else(|| DIGITS.into_iter().find_map(in_digits));
+    let found = close.or_else(|| DIGITS.into_iter().find_map(in_balls));
     if is_tensor { found.or_else(|| without_bound(0.0)) } else { found }
 }
 

@@ -9,9 +9,9 @@ use std::cell::OnceCell;
 
 use dynamics::{Outcome, RigidToss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
-use numerics::{Ball, Big, DoubleDouble, Elementary};
+use numerics::{Ball, DoubleDouble, Elementary, WideBall};
 
-use super::certified::rounded;
+use super::certified::{rounded, time_in_digits, vertical_in_digits};
 use super::cos_tilt;
 use super::curve::Curve;
 
@@ -19,7 +19,7 @@ use super::curve::Curve;
 pub(super) const RESOLUTION: f64 = 2.5e-13;
 
 /// Digits of the stages after f64 and double-double.
-const DIGITS: [usize; 3] = [256, 448, 832];
+const DIGITS: [usize; 3] = [256, 448, 960];
 
 /// The work of an evaluation in each stage, roughly in units of 2 µs.
 const WORK: [u32; 2 + DIGITS.len()] = [1, 8, 200, 400, 1000];
@@ -40,21 +40,21 @@ pub(super) enum Input {
 pub(super) struct Line<'a> {
     toss: &'a RigidToss,
     input: Input,
-    rough: Stage<f64>,
-    fine: Stage<DoubleDouble>,
+    rough: Stage<Ball<f64>>,
+    fine: Stage<Ball<DoubleDouble>>,
     /// Those of more digits, made when they are needed.
-    many: [OnceCell<Stage<Big>>; DIGITS.len()],
+    many: [OnceCell<Stage<WideBall>>; DIGITS.len()],
 }
 
-/// What a line is evaluated with in one kind of number.
-struct Stage<N> {
+/// What a line is evaluated with in one kind of ball.
+struct Stage<B> {
     /// The vertical seen from the body at launch.
-    vertical: [Ball<N>; 3],
+    vertical: [B; 3],
     /// The time of flight is `mantissa` 2^`exponent` s.
-    mantissa: Ball<N>,
+    mantissa: B,
     exponent: i32,
     /// The motion, where the input does not change it.
-    fixed: Option<Curve<Ball<N>>>,
+    fixed: Option<Curve<B>>,
 }
 
 impl<'a> Line<'a> {
@@ -126,8 +126,8 @@ impl<'a> Line<'a> {
     }
 }
 
-impl<N: Elementary> Stage<N> {
-    fn new(toss: &RigidToss, input: Input, vertical: [Ball<N>; 3], mantissa: Ball<N>, exponent: i32) -> Self {
+impl<B: Elementary> Stage<B> {
+    fn new(toss: &RigidToss, input: Input, vertical: [B; 3], mantissa: B, exponent: i32) -> Self {
         let mut stage = Self { vertical, mantissa, exponent, fixed: None };
         if input == Input::Time {
             stage.fixed = stage.curve(toss, input, 0.0, 0.0);
@@ -137,17 +137,16 @@ impl<N: Elementary> Stage<N> {
 
     /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven.
     fn sign(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> f64 {
-        self.height(toss, input, [change, radius]).filter(Ball::has_sign).map_or(0.0, |height| height.sign())
+        self.height(toss, input, [change, radius]).filter(B::has_known_sign).map_or(0.0, |height| height.sign())
     }
 
     /// The motion for a ball of changes.
-    fn curve(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> Option<Curve<Ball<N>>> {
-        let like = self.mantissa.midpoint();
+    fn curve(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> Option<Curve<B>> {
         let exponent = unit_exponent(toss, input, change);
-        let number = |value: f64| Ball::new(like.like(value), 0.0).times_power_of_two(-exponent);
+        let number = |value: f64| self.mantissa.like(value).times_power_of_two(-exponent);
         // A rate that was not given in rad/s has a second part, and an error of 16 u²; a tiny one has lost digits.
         let mut rates = toss.launch.exact_rate().map(|part| match [part.hi(), part.lo()] {
-            [0.0, _] => Ball::new(like.like(0.0), 0.0),
+            [0.0, _] => self.mantissa.like(0.0),
             [leading, 0.0] => number(leading),
             [leading, rest] => {
                 let relative = 2f64.powi(if leading.abs() < 1e-250 { -50 } else { -101 });
@@ -163,11 +162,11 @@ impl<N: Elementary> Stage<N> {
     }
 
     /// cos θ for all changes within `radius` of `change`.
-    fn height(&self, toss: &RigidToss, input: Input, [change, radius]: [f64; 2]) -> Option<Ball<N>> {
+    fn height(&self, toss: &RigidToss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
         let exponent = unit_exponent(toss, input, change);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let turn = if input == Input::Time {
-            let change = Ball::new(time.midpoint().like(change), radius).times_power_of_two(exponent);
+            let change = time.like(change).widened(radius).times_power_of_two(exponent);
             self.fixed.as_ref()?.turn(&(time + change))
         } else {
             self.curve(toss, input, change, radius)?.turn(&time)
@@ -176,18 +175,9 @@ impl<N: Elementary> Stage<N> {
     }
 }
 
-impl Stage<Big> {
+impl Stage<WideBall> {
     fn in_digits(toss: &RigidToss, input: Input, digits: usize) -> Self {
-        let round = |value: Big| value.with_precision(digits).value();
-        // Both are right to some roundings.
-        let relative = (Big::ONE >> (digits - 16).cast_signed()).to_f64().value();
-        let exponent = mantissa_and_exponent(toss.launch.flight_time()).1;
-        let time = round(toss.launch.time_of_flight().in_digits(digits)).times_power_of_two(-exponent);
-        let mantissa = Ball::new(time, 2.0 * relative);
-        let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
-        let norm = round(norm);
-        let vertical = vertical.map(|part| Ball::new(round(part) / &norm, relative));
-        Self::new(toss, input, vertical, mantissa, exponent)
+        Self::new(toss, input, vertical_in_digits(toss, digits), time_in_digits(toss, digits), 0)
     }
 }
 
