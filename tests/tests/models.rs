@@ -207,19 +207,19 @@ fn box_of_four() -> Space {
 }
 
 #[test]
-fn quadrature_is_never_planned() {
+fn enclosure_is_never_planned() {
     let fig4 = sampling::named_space("paper-fig4").unwrap();
     for (space, accuracy, chosen) in
         [(fig4, 1e-2, "share-sobol"), (fig4, 1e-8, "share-sobol"), (box_of_four(), 1e-5, "share-sobol")]
     {
         let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
         assert_eq!(decision.choice.model.name, chosen);
-        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
+        let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
         assert_eq!(reason.unwrap().1.to_string(), "estimates its error, and has to be chosen by hand");
     }
     let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap());
     let decision = Scene::new(Want::Probability(body), 1e-2).plan().unwrap();
-    let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-quadrature");
+    let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
     assert_eq!(reason.unwrap().1.to_string(), "is for coins, with I1 = I2");
 }
 

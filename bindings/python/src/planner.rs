@@ -60,7 +60,7 @@ pub(crate) fn plan(
             (model.name, entry.name().to_owned(), scheme, None, tolerance, None, costs, passed_over)
         }
         (How::Sampling(plan), Want::Probability(space)) => {
-            // A quadrature chooses its shares as it goes, and has no number of them before.
+            // An enclosure has no number of cells before.
             let points = plan.points(space).ok();
             (model.name, exact, None, Some(plan.method().name()), None, points, costs, passed_over)
         }

@@ -11,7 +11,7 @@ use crate::given::{count, number, object, text};
 use crate::space::{hash_of, space_of};
 
 /// Which launches of a space are tried. Make one by ``grid``, ``random``, ``sobol``, ``exact_speed`` or
-/// ``quadrature``.
+/// ``enclosure``.
 #[pyclass(frozen, eq, module = "unfair_toss")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Plan {
@@ -94,23 +94,23 @@ impl Plan {
         Ok(::toss::sampling::Plan::ExactSpeed(rest).into())
     }
 
-    /// All speeds at once in closed form, at the nodes of a rule over one or two other coordinates.
+    /// All launches, by bounds over whole cells of up to three coordinates beside the speed: both ends of the interval are proven.
     ///
-    /// Its shares are chosen as it goes, so that it has no parts.
+    /// It has no parts. The number of points of its estimate is that of the cells.
     ///
     /// Parameters
     /// ----------
     /// accuracy : float
-    ///     The largest acceptable error estimate.
+    ///     The largest half-width of the interval.
     #[staticmethod]
-    #[pyo3(signature = (accuracy=1e-10))]
-    fn quadrature(#[pyo3(from_py_with = accuracy)] accuracy: f64) -> PyResult<Self> {
+    #[pyo3(signature = (accuracy=1e-6))]
+    fn enclosure(#[pyo3(from_py_with = accuracy)] accuracy: f64) -> PyResult<Self> {
         let valid = "finite and > 0";
         dynamics::error::require("accuracy", accuracy, valid, accuracy > 0.0).map_err(Failure::from)?;
-        Ok(::toss::sampling::Plan::Quadrature { accuracy }.into())
+        Ok(::toss::sampling::Plan::Enclosure { accuracy }.into())
     }
 
-    /// The method: ``"grid"``, ``"random"``, ``"sobol"``, ``"exact-speed"`` or ``"quadrature"``.
+    /// The method: ``"grid"``, ``"random"``, ``"sobol"``, ``"exact-speed"`` or ``"enclosure"``.
     #[getter]
     fn method(&self) -> &'static str {
         self.plan.method().name()

@@ -93,7 +93,7 @@ CALLS = {
     "Plan.random": (ut.Plan.random, {"points": 10, "seed": 1}),
     "Plan.sobol": (ut.Plan.sobol, {"points": 16, "scrambles": 4, "seed": 1}),
     "Plan.exact_speed": (ut.Plan.exact_speed, {"points": 16, "scrambles": 4, "seed": 1}),
-    "Plan.quadrature": (ut.Plan.quadrature, {"accuracy": 1e-6}),
+    "Plan.enclosure": (ut.Plan.enclosure, {"accuracy": 1e-6}),
     "Plan.points": (PLAN.points, {"space": SPACE}),
     "Plan.from_json": (ut.Plan.from_json, {"text": PLAN.to_json()}),
     "Tally.from_json": (ut.Tally.from_json, {"text": TALLY.to_json()}),

@@ -32,7 +32,7 @@ CALLS = {
     "all speeds at 2^30 points": "ut.probability(FIG4.with_body('us-quarter'), ut.Plan.exact_speed(1 << 34))",
     "parts": "ut.probability(OF_BOOK, ut.Plan.random(10**11), shards=2)",
     "an accuracy of a body": "ut.probability(OF_BOOK, accuracy=1e-6)",
-    "a quadrature": "again(lambda: ut.probability(WIDE, ut.Plan.quadrature(1e-13)))",
+    "an enclosure": "again(lambda: ut.probability(WIDE, ut.Plan.enclosure(1e-13)))",
     "launches by an integrator": "ut.probability(FIG4, ut.Plan.random(10**10), solver=ut.Solver('gamma'))",
     "a plan": "again(lambda: ut.plan('probability', FIG4, 1e-5))",
     "a landing by many steps": "again(lambda: ut.toss(ut.Toss((1, 1, 2), time=1.0), ut.Solver('quaternion', step=1e-6)))",

@@ -57,15 +57,15 @@ def test_an_accuracy_chooses_the_plan_of_the_command_line(ask):
     assert found.half_width < 1e-5
 
 
-def test_a_quadrature_has_an_error_estimate_and_no_parts(ask):
-    expected = ask("probability", "--space", "paper-fig4", "--method", "quadrature", "--accuracy", "1e-9")
-    found = ut.probability(FIG4, ut.Plan.quadrature(1e-9))
+def test_a_enclosure_has_an_error_estimate_and_no_parts(ask):
+    expected = ask("probability", "--space", "paper-fig4", "--method", "enclosure", "--accuracy", "1e-9")
+    found = ut.probability(FIG4, ut.Plan.enclosure(1e-9))
     assert (found.probability, found.interval_kind) == (expected["probability"], expected["interval_kind"])
     for refused in ({"shards": 2}, {"progress": print}):
         with pytest.raises(errors.OutsideModelError):
-            ut.probability(FIG4, ut.Plan.quadrature(), **refused)
+            ut.probability(FIG4, ut.Plan.enclosure(), **refused)
     with pytest.raises(errors.OutOfRangeError):
-        ut.Plan.quadrature(0.0)
+        ut.Plan.enclosure(0.0)
 
 
 def test_a_space_takes_numbers_tuples_and_texts():

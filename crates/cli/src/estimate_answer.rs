@@ -14,11 +14,13 @@ pub(crate) struct Answer {
     counts: Option<CountsAnswer>,
     points: u64,
     probability: f64,
-    /// For exact-speed and quadrature: half the width of the interval.
+    /// For exact-speed and enclosure: half the width of the interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_bound: Option<f64>,
     interval: Option<[f64; 2]>,
     interval_kind: String,
+    /// Whether both ends of the interval are proven.
+    proven: bool,
     pub(crate) certified: bool,
     /// The number of outcomes that each stage of the proof decided.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,6 +86,7 @@ impl Answer {
             error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
             interval_kind: found.interval_kind.to_string(),
+            proven: found.interval_kind == IntervalKind::Proven,
             certified: proven.is_some(),
             proven_by: proven.map(ProvenBy::from),
             integrated_by: None,
@@ -118,8 +121,8 @@ pub(crate) fn text(found: &Estimate, solver: &str) -> String {
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
             (probability.to_string(), format!("± {error:.1e} ({kind})"))
         }
-        (Some(_), Some(error)) if *kind == IntervalKind::Quadrature => {
-            (format!("{probability:.0$}", digits_for(error)), format!("± {error:.1e} ({kind})"))
+        (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
+            (format!("{probability:.0$}", digits_for(error)), format!("{lo} to {hi} ({kind})"))
         }
         (Some(Interval { lo, hi }), Some(error)) => {
             let digits = digits_for(error);
@@ -131,6 +134,7 @@ pub(crate) fn text(found: &Estimate, solver: &str) -> String {
         Found::Counts(counts) => {
             format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
         }
+        Found::Shares { .. } if *kind == IntervalKind::Proven => format!("all, in {} cells", found.points),
         Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
     };
     let mut lines = vec![
@@ -161,14 +165,14 @@ pub(crate) fn name_of(plan: Plan) -> &'static str {
         Plan::Random { .. } => "random",
         Plan::Sobol(_) => "sobol",
         Plan::ExactSpeed(_) => "exact-speed",
-        Plan::Quadrature { .. } => "quadrature",
+        Plan::Enclosure { .. } => "enclosure",
     }
 }
 
 /// The seed of `plan`; `None` if nothing in it is random.
 fn seed_of(plan: Plan) -> Option<u64> {
     match plan {
-        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => None,
+        Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Enclosure { .. } => None,
         Plan::Random { seed, .. } => Some(seed),
         Plan::Sobol(Scrambled { seed, .. }) | Plan::ExactSpeed(Rest::Sobol(Scrambled { seed, .. })) => Some(seed),
     }

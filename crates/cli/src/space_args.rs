@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use clap::Args;
+use sampling::enclosure::usual_accuracy;
 use sampling::{
     AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces,
 };
@@ -158,17 +159,17 @@ pub(crate) enum MethodArg {
     Sobol,
     /// Integrates over the speed in closed form; the other coordinates by their grid or by Sobol points
     ExactSpeed,
-    /// Integrates over the speed in closed form and over one or two other coordinates by quadrature; from horizontal, uniform
-    /// rates x and y count as one
-    Quadrature,
+    /// Proves both ends of an interval: over the speed in closed form, over up to three other coordinates by bounds for whole
+    /// cells; from horizontal, uniform rates x and y count as one
+    Enclosure,
 }
 
-/// The numbers of launches that are used if no `--points` is given, and the accuracy of quadrature.
+/// The numbers of launches that are used if no `--points` is given, and the accuracy of an enclosure, if one is given.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Defaults {
     pub(crate) random: u64,
     pub(crate) sobol: u64,
-    pub(crate) accuracy: f64,
+    pub(crate) accuracy: Option<f64>,
 }
 
 impl Defaults {
@@ -178,9 +179,6 @@ impl Defaults {
         Self { random: self.random.min(MOST), sobol: self.sobol.min(MOST), ..self }
     }
 }
-
-/// The accuracy of quadrature if none is given.
-pub(crate) const DEFAULT_QUADRATURE: f64 = 1e-10;
 
 impl PlanArgs {
     /// Refuses a number or a seed of launches without a method that they are for.
@@ -203,7 +201,9 @@ impl PlanArgs {
             MethodArg::Grid => Plan::Grid,
             MethodArg::Random => Plan::Random { points: self.points.unwrap_or(default.random), seed },
             MethodArg::Sobol => Plan::Sobol(scrambled()),
-            MethodArg::Quadrature => Plan::Quadrature { accuracy: default.accuracy },
+            MethodArg::Enclosure => {
+                Plan::Enclosure { accuracy: default.accuracy.unwrap_or_else(|| usual_accuracy(space)) }
+            }
             MethodArg::ExactSpeed => {
                 let grid = Plan::ExactSpeed(Rest::Grid);
                 let only_the_speed_is_free = space.free().all(|of| of == Coordinate::Speed);
@@ -222,7 +222,7 @@ impl PlanArgs {
             Plan::ExactSpeed(Rest::Grid) if space.free().all(|of| of == Coordinate::Speed) => {
                 "exact-speed needs no sample where at most the speed is free"
             }
-            Plan::Quadrature { .. } => "quadrature takes as many shares as its accuracy needs, at places of its own",
+            Plan::Enclosure { .. } => "enclosure is of all launches, by as many cells as its accuracy needs",
             Plan::Grid | Plan::ExactSpeed(Rest::Grid) => "a grid takes its points from the axes, LO:HI:POINTS",
         };
         match (self.points, self.seed) {
@@ -238,7 +238,7 @@ pub(crate) fn lays_grid(plan: Plan, of: Coordinate) -> bool {
     match plan {
         Plan::Grid => true,
         Plan::ExactSpeed(Rest::Grid) => of != Coordinate::Speed,
-        Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) | Plan::Quadrature { .. } => false,
+        Plan::Random { .. } | Plan::Sobol(_) | Plan::ExactSpeed(Rest::Sobol(_)) | Plan::Enclosure { .. } => false,
     }
 }
 

@@ -92,7 +92,7 @@ fn a_trace_by_steps_of_time_ends_at_the_landing() {
 
 #[test]
 fn a_probability_without_a_method_is_as_accurate_as_was_asked_for() {
-    // The box's probability, known from quadrature.
+    // The box's probability, known from enclosure.
     let known = 0.580_665_055_2;
     let space = "probability --rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --speed 3:5";
     for accuracy in [1e-2, 1e-3, 1e-4, 1e-5] {

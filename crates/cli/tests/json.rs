@@ -50,7 +50,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--space tails --method grid --solver quaternion --prove",
             "--space tails --method exact-speed",
             "--space paper-fig4 --method exact-speed",
-            "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method quadrature --accuracy 1e-6",
+            "--rate-x 1:9 --rate-y x --rate-z 3 --speed 3:4 --method enclosure --accuracy 1e-6",
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--space tails --method random --points 9 --seed 18446744073709551615",
             "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",

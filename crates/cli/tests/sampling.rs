@@ -34,20 +34,20 @@ fn probabilities_are_counts_that_do_not_depend_on_threads() {
 }
 
 #[test]
-fn quadrature_reports_a_probability_within_the_accuracy() {
+fn enclosure_reports_a_probability_within_the_accuracy() {
     let found =
-        json("probability --rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method quadrature --accuracy 1e-9", 0);
+        json("probability --rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method enclosure --accuracy 1e-9", 0);
     assert!((found["probability"].as_f64().unwrap() - 0.661_452_104_190_6).abs() < 1e-9, "{found}");
     assert!(found["error_bound"].as_f64().unwrap() <= 1e-9 && found["points"].as_u64().unwrap() < 1000, "{found}");
-    assert_eq!((&found["method"], &found["seed"]), (&"quadrature".into(), &serde_json::Value::Null));
+    assert_eq!((&found["method"], &found["seed"]), (&"enclosure".into(), &serde_json::Value::Null));
     for (line, parts) in [
-        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3", ["speed [m/s]", "quadrature needs a range"]),
-        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3:5 --drop 1", ["drop [m]", "quadrature"]),
+        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3", ["speed [m/s]", "enclosure needs a range"]),
+        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3:5 --drop 1", ["drop [m]", "enclosure"]),
         ("--rate-x 0:9 --rate-y 0:9 --rate-z 0:9 --tilt 0.1 --speed 3:5", ["method", "at most two coordinates"]),
         ("--space tails --shard 1/2 --out part.json", ["method", "cannot be numbered"]),
-        ("--space tails --solver gamma", ["solver = 'gamma'", "quadrature"]),
+        ("--space tails --solver gamma", ["solver = 'gamma'", "enclosure"]),
     ] {
-        let text = stderr(&run(&format!("probability {line} --method quadrature")));
+        let text = stderr(&run(&format!("probability {line} --method enclosure")));
         assert!(parts.iter().all(|part| text.contains(part)), "{line}: {text}");
     }
 }
@@ -160,7 +160,7 @@ fn errors_are_measured_from_an_accurate_reference_and_smaller_by_exact_speed() {
     let lines = lines["series"].as_array().unwrap();
     assert_eq!(lines.len(), 5 * 3);
     for line in lines {
-        // The probability over this box, from quadrature.
+        // The probability over this box, from enclosure.
         assert_near(&line["reference"], 0.580_665_055_2, line["reference_error"].as_f64().unwrap());
         assert!(line["rms_error"].as_f64() > Some(0.0), "{line}");
     }

@@ -146,7 +146,30 @@ impl<N: Elementary> Div for Ball<N> {
     }
 }
 
-impl<N: Elementary> Number for Ball<N> {}
+impl<N: Elementary> Number for Ball<N> {
+    /// All roundings of a sum are added up once: n products and n - 1 sums, of which none is above the sum of the sizes.
+    #[inline]
+    fn sums_of_products<const T: usize>(one: &[Self; T], other: &[Self; T], pairs: &[[u8; 2]], ends: &[usize]) -> [Self; T] {
+        let sizes = one.each_ref().map(Self::size);
+        let other_sizes = other.each_ref().map(|ball| [ball.size(), ball.size() + ball.radius]);
+        let mut start = 0;
+        std::array::from_fn(|target| {
+            let pairs = &pairs[std::mem::replace(&mut start, ends[target])..ends[target]];
+            let mut midpoint = one[0].midpoint.like(0.0);
+            let (mut error, mut size) = (0.0, 0.0);
+            for [i, j] in pairs {
+                let (i, j) = (usize::from(*i), usize::from(*j));
+                midpoint = midpoint + one[i].midpoint.clone() * other[j].midpoint.clone();
+                error += sizes[i] * other[j].radius + one[i].radius * other_sizes[j][1];
+                size += sizes[i] * other_sizes[j][0];
+            }
+            #[expect(clippy::cast_precision_loss, reason = "a series has few terms")]
+            let operations = 2.0 * pairs.len() as f64;
+            // The sums of errors and sizes have three roundings for each pair.
+            Self::rounded(midpoint, (error + TINY) * (1.0 + 2.0 * operations * f64::EPSILON), operations * size)
+        })
+    }
+}
 
 impl<N: Elementary> Elementary for Ball<N> {
     fn like(&self, value: f64) -> Self {

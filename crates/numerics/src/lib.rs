@@ -23,8 +23,10 @@ pub mod double_double;
 pub mod dual;
 pub mod elementary;
 pub mod elliptic;
+pub mod jet;
 pub mod lanes;
 pub mod number;
+pub mod positive_part;
 pub mod quantity;
 pub mod scale;
 
@@ -34,6 +36,7 @@ pub use big::Big;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use elementary::Elementary;
+pub use jet::Jet;
 pub use number::Number;
 pub use quantity::{Quantity, Unit};
 

@@ -17,6 +17,19 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     fn times_plus(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
+
+    /// The sums Σ one[i] other[j] over the pairs (i, j) that belong to each of `N` results: `ends[k]` is where those of number k
+    /// end, and each has at least one.
+    #[inline(always)]
+    #[must_use]
+    fn sums_of_products<const N: usize>(one: &[Self; N], other: &[Self; N], pairs: &[[u8; 2]], ends: &[usize]) -> [Self; N] {
+        let product = |[i, j]: &[u8; 2]| one[usize::from(*i)].clone() * other[usize::from(*j)].clone();
+        let mut start = 0;
+        std::array::from_fn(|target| {
+            let pairs = &pairs[std::mem::replace(&mut start, ends[target])..ends[target]];
+            pairs[1..].iter().map(product).fold(product(&pairs[0]), Self::add)
+        })
+    }
 }
 
 impl Number for f64 {}

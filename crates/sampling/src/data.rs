@@ -7,7 +7,7 @@
 //! scrambles = 8           # this and the seed are the defaults
 //! seed = 1
 //! ```
-//! Quadrature has an `accuracy` instead of these numbers.
+//! An enclosure has an `accuracy` instead of these numbers. The interval that it proves is written as proven and read as claimed.
 
 use dynamics::InputError;
 use dynamics::error::require;
@@ -98,17 +98,17 @@ impl PlanData {
         unused.map_or(Ok(()), |(field, value)| Err(InputError::Malformed { field, value, expected }))
     }
 
-    /// The accuracy of a quadrature.
+    /// The accuracy of an enclosure.
     fn accuracy(&self) -> Result<f64, InputError> {
         let accuracy = self.accuracy.ok_or(InputError::Missing { field: "accuracy", expected: "the largest error" })?;
         require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)
     }
 
-    /// Refuses an accuracy if the method is not quadrature, which alone has a use for it.
+    /// Refuses an accuracy if the method is not enclosure, which alone has a use for it.
     fn require_method_of_accuracy(&self) -> Result<(), InputError> {
-        let expected = "none with this method: only quadrature has an accuracy";
+        let expected = "none with this method: only enclosure has an accuracy";
         let refused = |value: f64| InputError::Malformed { field: "accuracy", value: value.to_string(), expected };
-        self.accuracy.filter(|_| self.method != Method::Quadrature).map_or(Ok(()), |value| Err(refused(value)))
+        self.accuracy.filter(|_| self.method != Method::Enclosure).map_or(Ok(()), |value| Err(refused(value)))
     }
 
     fn points(&self) -> Result<u64, InputError> {
@@ -136,9 +136,9 @@ impl TryFrom<PlanData> for Plan {
         let [points, scrambles, seed] = [("points", data.points), ("scrambles", data.scrambles), ("seed", data.seed)];
         data.require_method_of_accuracy()?;
         match (data.method, data.points) {
-            (Method::Quadrature, _) => {
+            (Method::Enclosure, _) => {
                 data.require_none(&[points, scrambles, seed])?;
-                Ok(Self::Quadrature { accuracy: data.accuracy()? })
+                Ok(Self::Enclosure { accuracy: data.accuracy()? })
             }
             (Method::Grid, _) => data.require_none(&[points, scrambles, seed]).map(|()| Self::Grid),
             (Method::Random, _) => {
@@ -161,14 +161,14 @@ impl<'de> Deserialize<'de> for Plan {
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let (points, scrambles, seed) = match *self {
-            Self::Grid | Self::ExactSpeed(Rest::Grid) | Self::Quadrature { .. } => (None, None, None),
+            Self::Grid | Self::ExactSpeed(Rest::Grid) | Self::Enclosure { .. } => (None, None, None),
             Self::Random { points, seed } => (Some(points), None, Some(seed)),
             Self::Sobol(Scrambled { points, scrambles, seed })
             | Self::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles, seed })) => {
                 (Some(points), Some(scrambles), Some(seed))
             }
         };
-        let accuracy = if let Self::Quadrature { accuracy } = *self { Some(accuracy) } else { None };
+        let accuracy = if let Self::Enclosure { accuracy } = *self { Some(accuracy) } else { None };
         PlanData { method: self.method(), points, scrambles, seed, accuracy }.serialize(to)
     }
 }
@@ -208,7 +208,8 @@ enum KindData {
     Resolution(u64),
     Unanimous,
     Rounding,
-    Quadrature,
+    Proven,
+    Claimed,
 }
 
 impl From<IntervalKind> for KindData {
@@ -221,7 +222,8 @@ impl From<IntervalKind> for KindData {
             IntervalKind::Resolution(number) => Self::Resolution(number),
             IntervalKind::Unanimous => Self::Unanimous,
             IntervalKind::Rounding => Self::Rounding,
-            IntervalKind::Quadrature => Self::Quadrature,
+            IntervalKind::Proven => Self::Proven,
+            IntervalKind::Claimed => Self::Claimed,
         }
     }
 }
@@ -236,7 +238,7 @@ impl From<KindData> for IntervalKind {
             KindData::Resolution(number) => Self::Resolution(number),
             KindData::Unanimous => Self::Unanimous,
             KindData::Rounding => Self::Rounding,
-            KindData::Quadrature => Self::Quadrature,
+            KindData::Proven | KindData::Claimed => Self::Claimed,
         }
     }
 }

@@ -7,7 +7,7 @@
 //! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Clopper and Pearson's |
 //! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles, and their resolution |
 //! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles; a rounding error if only the speed varies |
-//! | [`Plan::Quadrature`](crate::Plan::Quadrature) | shares at the nodes of a rule | the error estimate of the rule |
+//! | [`Plan::Enclosure`](crate::Plan::Enclosure) | all of them | proven: both ends are bounds |
 //!
 //! A and B are the paper's names of the methods.
 
@@ -39,8 +39,10 @@ pub enum IntervalKind {
     Unanimous,
     /// A bound on the rounding error, because nothing was sampled.
     Rounding,
-    /// The error estimate of the quadrature, which sampled nothing.
-    Quadrature,
+    /// A proof: the probability lies between both ends.
+    Proven,
+    /// An interval that a file says was proven. A file proves nothing.
+    Claimed,
 }
 
 impl fmt::Display for IntervalKind {
@@ -53,7 +55,8 @@ impl fmt::Display for IntervalKind {
             Self::Resolution(number) => write!(f, "95 % of {number} scrambles, as far as their points resolve"),
             Self::Unanimous => f.write_str("clopper-pearson 95 %, all points agree"),
             Self::Rounding => f.write_str("rounding error"),
-            Self::Quadrature => f.write_str("error estimate of the quadrature"),
+            Self::Proven => f.write_str("proven"),
+            Self::Claimed => f.write_str("proven, as a file says"),
         }
     }
 }
@@ -68,7 +71,8 @@ pub struct Estimate {
     pub interval: Option<Interval>,
     /// Meaning of the interval.
     pub interval_kind: IntervalKind,
-    /// Number of launches; if the speed was integrated in closed form, each of them stands for all speeds.
+    /// Number of launches; if the speed was integrated in closed form, each of them stands for all speeds. Of an enclosure, the number
+    /// of its cells.
     pub points: u64,
     /// The result that the estimate is made from.
     pub found: Found,
@@ -145,11 +149,10 @@ impl Estimate {
         Self::of_share(share, points, Some(interval), IntervalKind::Rounding)
     }
 
-    /// The estimate from the mean of `points` shares by quadrature, with the errors of the rule and of rounding.
-    pub(crate) fn of_quadrature(mean: f64, [rule, rounding]: [f64; 2], points: u64) -> Self {
-        let share = Share::new(mean, rounding);
-        let interval = Interval { lo: share.probability, hi: share.probability }.widened(rule + rounding);
-        Self::of_share(share, points, Some(interval), IntervalKind::Quadrature)
+    /// The estimate from an enclosure by so many cells.
+    pub(crate) fn of_enclosure(interval: Interval, cells: u64) -> Self {
+        let share = Share::new(0.5 * (interval.lo + interval.hi), 0.0);
+        Self::of_share(share, cells, Some(interval), IntervalKind::Proven)
     }
 
     pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {

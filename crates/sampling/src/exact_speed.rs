@@ -83,7 +83,6 @@ impl Share {
 
 /// The motion of all launches that differ in their speed alone.
 pub(crate) struct Motion {
-    pub(crate) terms: TiltTerms,
     pub(crate) heads: HeadsPhases,
     /// The phases at landing of the slowest and of the fastest launch (rad).
     pub(crate) phases: [f64; 2],
@@ -103,12 +102,7 @@ impl Motion {
         let [to, spin] = terms.phases(fastest.launch.flight_time());
         let [from, _] = terms.phases(slowest.launch.flight_time());
         require_phase(to.max(spin)).map_err(|error| (Box::new(fastest), error))?;
-        Ok(Self { terms, heads: terms.heads(), phases: [from, to], fastest })
-    }
-
-    /// The time of flight of the fastest launch (s).
-    pub(crate) fn longest_time(&self) -> f64 {
-        self.fastest.launch.flight_time()
+        Ok(Self { heads: terms.heads(), phases: [from, to], fastest })
     }
 
     /// The share of heads over the speeds of `space`.

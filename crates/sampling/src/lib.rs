@@ -22,6 +22,7 @@ pub mod counts;
 #[cfg(feature = "serde")]
 mod data;
 pub mod drawn;
+pub mod enclosure;
 pub mod estimate;
 pub mod exact_speed;
 mod fold;
@@ -32,7 +33,6 @@ pub mod long_flight;
 pub mod long_flight_share;
 pub mod map;
 pub mod plan;
-pub mod quadrature;
 pub mod random;
 pub mod sampler;
 mod sequences;

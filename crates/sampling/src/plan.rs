@@ -25,17 +25,17 @@ pub enum Method {
     Sobol,
     /// All speeds in closed form.
     ExactSpeed,
-    /// Quadrature over one or two coordinates beside the speed.
-    Quadrature,
+    /// Bounds over cells of up to three coordinates beside the speed, which prove both ends.
+    Enclosure,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] = [Self::Grid, Self::Random, Self::Sobol, Self::ExactSpeed, Self::Quadrature];
+    pub const ALL: [Self; 5] = [Self::Grid, Self::Random, Self::Sobol, Self::ExactSpeed, Self::Enclosure];
 
     /// The name in files and options, such as `exact-speed`.
     pub fn name(self) -> &'static str {
-        ["grid", "random", "sobol", "exact-speed", "quadrature"][self as usize]
+        ["grid", "random", "sobol", "exact-speed", "enclosure"][self as usize]
     }
 }
 
@@ -71,10 +71,10 @@ pub enum Plan {
     Sobol(Scrambled),
     /// All speeds in closed form, by the exact motion; the other coordinates as in [`Rest`].
     ExactSpeed(Rest),
-    /// All speeds in closed form, and [quadrature](crate::quadrature) over one or two other coordinates, with as many shares as
-    /// the accuracy takes.
-    Quadrature {
-        /// The largest acceptable error estimate, > 0.
+    /// All speeds in closed form, and an [enclosure](crate::enclosure) of the mean over up to three other coordinates, with as many
+    /// cells as the accuracy takes. Both ends of its interval are proven.
+    Enclosure {
+        /// The largest half-width of the interval, > 0.
         accuracy: f64,
     },
 }
@@ -86,17 +86,17 @@ const NO_DROP: InputError = InputError::OutsideModel {
           methods take a drop",
 };
 
-/// Why [`Plan::ExactSpeed`] and [`Plan::Quadrature`] are refused for a body with I1 ≠ I2.
+/// Why [`Plan::ExactSpeed`] and [`Plan::Enclosure`] are refused for a body with I1 ≠ I2.
 pub(crate) const ONLY_COINS: InputError = InputError::OutsideModel {
     field: "method",
-    why: "exact-speed and quadrature integrate over the speed in closed form, which there is not for a body with I1 ≠ I2; grid, random and \
+    why: "exact-speed and enclosure integrate over the speed in closed form, which there is not for a body with I1 ≠ I2; grid, random and \
           sobol take it",
 };
 
-/// Why the launches of [`Plan::Quadrature`] have no numbers.
+/// Why the launches of [`Plan::Enclosure`] have no numbers.
 const UNNUMBERED: InputError = InputError::OutsideModel {
     field: "method",
-    why: "quadrature chooses its shares as it goes, so that they cannot be numbered, listed or divided into parts; other \
+    why: "an enclosure is of all launches, so that there are none to number, list or divide into parts; other \
           methods can",
 };
 
@@ -148,7 +148,7 @@ impl Plan {
             Self::Random { .. } => Method::Random,
             Self::Sobol(_) => Method::Sobol,
             Self::ExactSpeed(_) => Method::ExactSpeed,
-            Self::Quadrature { .. } => Method::Quadrature,
+            Self::Enclosure { .. } => Method::Enclosure,
         }
     }
 
@@ -156,7 +156,7 @@ impl Plan {
     /// it is 1 if nothing but the speed varies.
     ///
     /// # Errors
-    /// [`InputError`] if the plan does not fit the space, and for [`Plan::Quadrature`], whose number of shares is only known
+    /// [`InputError`] if the plan does not fit the space, and for [`Plan::Enclosure`], whose number of cells is only known
     /// afterwards.
     pub fn points(&self, space: &Space) -> Result<u64, InputError> {
         match *self {
@@ -173,7 +173,7 @@ impl Plan {
                 scrambled.points_each().map(|_| scrambled.points)
             }
             Plan::ExactSpeed(_) => space.grid_points_without_speed(),
-            Plan::Quadrature { .. } => Err(UNNUMBERED),
+            Plan::Enclosure { .. } => Err(UNNUMBERED),
         }
     }
 }

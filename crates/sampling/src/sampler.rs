@@ -7,7 +7,7 @@ use crate::counts::Decider;
 use crate::estimate::Estimate;
 use crate::fold::Progress;
 use crate::plan::Plan;
-use crate::quadrature;
+use crate::enclosure;
 use crate::space::Space;
 
 /// Estimates probabilities of heads over many launches, on the threads of the current pool of rayon; without the feature
@@ -65,16 +65,16 @@ impl<'a> Sampler<'a> {
     ///
     /// # Errors
     /// [`Error`] of a launch that fails; if several fail, always of the first. [`InputError`] if the plan does not fit
-    /// the space, and for [`Plan::ExactSpeed`] and [`Plan::Quadrature`] with a solver, because they use the exact motion.
-    /// [`Error::NotReached`] if quadrature does not reach its accuracy.
+    /// the space, and for [`Plan::ExactSpeed`] and [`Plan::Enclosure`] with a solver, because they use the exact motion.
+    /// [`Error::NotReached`] if an enclosure does not reach its accuracy.
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
-        if let (Plan::ExactSpeed(_) | Plan::Quadrature { .. }, Decider::Solver(solver)) = (plan, &self.decider) {
-            let expected = "no solver for exact-speed and quadrature, which use the exact motion";
+        if let (Plan::ExactSpeed(_) | Plan::Enclosure { .. }, Decider::Solver(solver)) = (plan, &self.decider) {
+            let expected = "no solver for exact-speed and enclosure, which use the exact motion";
             let value = solver.name().to_owned();
             return Err(InputError::Malformed { field: "solver", value, expected }.into());
         }
-        if let Plan::Quadrature { accuracy } = plan {
-            return quadrature::estimate(space, accuracy).inspect(|found| (self.progress)(found.points));
+        if let Plan::Enclosure { accuracy } = plan {
+            return enclosure::estimate(space, accuracy, enclosure::MOST_CELLS, self.progress);
         }
         let points = plan.points(space)?;
         Ok(self.sums(space, plan, &(0..points))?.estimate(space, plan)?)

@@ -36,8 +36,8 @@ impl Sequences {
             Plan::ExactSpeed(Rest::Sobol(scrambled)) if cube_of_the_rest(space).dimensions() > 0 => {
                 Kind::Scrambles { cube: cube_of_the_rest(space), scrambled }
             }
-            // A plan by quadrature has no number of points, and was refused above.
-            Plan::ExactSpeed(_) | Plan::Quadrature { .. } => Kind::One(Launches::Grid(Grid::without_speed(space)?)),
+            // A plan by enclosure has no number of points, and was refused above.
+            Plan::ExactSpeed(_) | Plan::Enclosure { .. } => Kind::One(Launches::Grid(Grid::without_speed(space)?)),
         };
         let each = match &kind {
             Kind::One(_) => points,

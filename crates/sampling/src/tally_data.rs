@@ -63,7 +63,7 @@ impl TallyData {
             | Plan::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles, seed })) => {
                 [points, scrambles, seed].into_iter().for_each(|number| add(number));
             }
-            Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Quadrature { .. } => {}
+            Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Enclosure { .. } => {}
         }
         space.body().inertia().iter().for_each(|element| add(element));
         Coordinate::ALL.into_iter().for_each(|of| add(&space.axis_or_tie(of)));

@@ -69,8 +69,8 @@ pub(crate) enum Kind {
         /// Makes the plan from the number of launches and the seed.
         plan: fn(u64, u64) -> Plan,
     },
-    /// Quadrature over a space. A plan never chooses it, because its error is an estimate.
-    Quadrature,
+    /// The enclosure of the probability of a space. A plan never chooses it, because its cost is not known before.
+    Enclosure,
 }
 
 const fn closed_form(
@@ -154,11 +154,11 @@ pub static MODELS: [Model; 18] = [
         |_, _| Plan::ExactSpeed(Rest::Grid),
     ),
     Model {
-        name: "share-quadrature",
-        assumes: "that the speed and one or two other coordinates are free",
-        gives: "probability, with an error estimate",
+        name: "share-enclosure",
+        assumes: "at most three free coordinates beside the speed",
+        gives: "probability, proven",
         of: Of::Coins,
-        kind: Kind::Quadrature,
+        kind: Kind::Enclosure,
     },
     sample(
         "share-sobol",

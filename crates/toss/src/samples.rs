@@ -36,8 +36,8 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
             let refused = only_coins.or_else(|| refuses(space)).map(Err);
             Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
         }
-        Kind::Quadrature if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
-        Kind::Quadrature => Some((model.into(), Err(Reason::EstimatesItsError))),
+        Kind::Enclosure if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
+        Kind::Enclosure => Some((model.into(), Err(Reason::UnknownCost))),
         _ => None,
     };
     Ok(MODELS.iter().filter_map(offer).collect())
@@ -98,14 +98,14 @@ pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64, progress: Progre
     }
 }
 
-/// The plan with twice the launches, or with this accuracy for quadrature; `None` for a plan that cannot be refined.
+/// The plan with twice the launches, or with this accuracy for enclosure; `None` for a plan that cannot be refined.
 fn refined(plan: Plan, accuracy: f64) -> Option<Plan> {
     let twice = |scrambled: Scrambled| Scrambled { points: 2 * scrambled.points, ..scrambled };
     match plan {
         Plan::Random { points, seed } => Some(Plan::Random { points: 2 * points, seed }),
         Plan::Sobol(scrambled) => Some(Plan::Sobol(twice(scrambled))),
         Plan::ExactSpeed(Rest::Sobol(scrambled)) => Some(Plan::ExactSpeed(Rest::Sobol(twice(scrambled)))),
-        Plan::Quadrature { .. } => Some(Plan::Quadrature { accuracy }),
+        Plan::Enclosure { .. } => Some(Plan::Enclosure { accuracy }),
         Plan::Grid | Plan::ExactSpeed(Rest::Grid) => None,
     }
 }

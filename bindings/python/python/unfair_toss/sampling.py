@@ -203,7 +203,7 @@ def probability(
         if parted or progress is not None:
             raise MalformedError("a solver has no parts and no progress", field="solver", valid="None, for parts")
         return _estimate(_native.estimate_by_solver(space, plan, solver, threads), plan)
-    if plan.method == "quadrature" and not parted and progress is None:
+    if plan.method == "enclosure" and not parted and progress is None:
         return _estimate(_native.estimate_by_solver(space, plan, "exact", threads), plan)
     if not parted:
         return estimate(tally(space, plan, threads=threads, progress=progress))

@@ -10,11 +10,11 @@ use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
 use crate::space_args::{
-    DEFAULT_QUADRATURE, Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few,
+    Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few,
 };
 
-/// The numbers of launches at each node, and the accuracy of quadrature there.
-const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: DEFAULT_QUADRATURE };
+/// The numbers of launches at each node.
+const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: None };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -65,10 +65,10 @@ fn first_node(space: &Space, axes: [Coordinate; 2]) -> Result<Space, InputError>
     axes.into_iter().try_fold(*space, |space, of| space.with_axis(of, space.axis(of).bounds()[0]))
 }
 
-/// The number of launches of a plan. That of quadrature is not known before, and counts as it usually is.
+/// The number of launches of a plan. That of the cells of an enclosure is not known before, and counts as it usually is.
 fn launches_of(plan: Plan, space: &Space) -> Result<u64, InputError> {
     const USUAL: u64 = 1 << 18;
-    if let Plan::Quadrature { .. } = plan { Ok(USUAL) } else { plan.points(space) }
+    if let Plan::Enclosure { .. } = plan { Ok(USUAL) } else { plan.points(space) }
 }
 
 /// Formats the map as CSV with one line per node.

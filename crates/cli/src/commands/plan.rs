@@ -209,7 +209,7 @@ impl Answer {
             (How::Sampling(plan), Want::Probability(space)) => {
                 answer.method = Some(name_of(*plan));
                 answer.points = match plan {
-                    sampling::Plan::Quadrature { .. } => None,
+                    sampling::Plan::Enclosure { .. } => None,
                     plan => Some(plan.points(space)?),
                 };
             }

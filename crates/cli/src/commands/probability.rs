@@ -10,14 +10,14 @@ use crate::output::{self, Format, Input};
 use crate::quantity;
 use crate::shard_args::ShardArgs;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{DEFAULT_QUADRATURE, Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
+use crate::space_args::{Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
 
 /// Largest error if neither a method nor an accuracy is given.
 const DEFAULT_ACCURACY: f64 = 1e-4;
 /// The same for bodies with I1 ≠ I2, which have no closed form of the share over a speed.
 const DEFAULT_ACCURACY_OF_BODIES: f64 = 1e-3;
 
-const DEFAULTS: Defaults = Defaults { random: 250_000, sobol: 1 << 18, accuracy: DEFAULT_QUADRATURE };
+const DEFAULTS: Defaults = Defaults { random: 250_000, sobol: 1 << 18, accuracy: None };
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -27,7 +27,8 @@ pub(crate) struct Args {
     #[arg(long, value_enum)]
     method: Option<MethodArg>,
     /// Largest acceptable error of the probability, if no method is given [default: 1e-4, and 1e-3 for a body with
-    /// I1 ≠ I2], or of quadrature [default: 1e-10]
+    /// I1 ≠ I2], or of enclosure [default: 1e-10, 1e-6
+    /// or 1e-3 with one, two or three coordinates beside the speed]
     #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = quantity::fraction)]
     accuracy: Option<f64>,
     #[command(flatten)]
@@ -101,21 +102,20 @@ impl Args {
 
     /// The plan of a method.
     fn plan_of(&self, method: MethodArg, space: &Space) -> Result<Plan, Failure> {
-        if self.accuracy.is_some() && method != MethodArg::Quadrature {
+        if self.accuracy.is_some() && method != MethodArg::Enclosure {
             let message =
-                "--accuracy can't be used with this --method: it is for quadrature, or chooses the method itself";
+                "--accuracy can't be used with this --method: it is for enclosure, or chooses the method itself";
             return Err(Failure::usage("accuracy", message));
         }
-        let accuracy = self.accuracy.unwrap_or(DEFAULTS.accuracy);
-        let plan = self.plan.plan(method, space, Defaults { accuracy, ..DEFAULTS })?;
+        let plan = self.plan.plan(method, space, Defaults { accuracy: self.accuracy, ..DEFAULTS })?;
         self.space.require_grid_where_points_are(space, |of| lays_grid(plan, of))?;
         Ok(plan)
     }
 
     fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
         let plan = self.plan_of(method, space)?;
-        if let Plan::Quadrature { .. } = plan {
-            // Its number of shares is not known before, so that there is no progress to show.
+        if let Plan::Enclosure { .. } = plan {
+            // Its number of cells is not known before.
             return Ok((plan, self.threads.run(|| backend.sampler().estimate(space, plan))??));
         }
         let launches = (plan.points(space)?, "launches");

@@ -153,13 +153,13 @@ fn keep_short(source: &mut Source, command: &Command, arguments: &mut Vec<Vec<Os
         arguments.retain(|option| !gives(option, "--margin"));
     }
     let has = |name: &str| arguments.iter().any(|option| gives(option, name));
-    let is_quadrature = |text: &OsString| text.to_string_lossy().ends_with("quadrature");
-    let takes_quadrature = arguments.iter().any(|option| gives(option, "--method") && option.iter().any(is_quadrature));
+    let is_enclosure = |text: &OsString| text.to_string_lossy().ends_with("enclosure");
+    let takes_enclosure = arguments.iter().any(|option| gives(option, "--method") && option.iter().any(is_enclosure));
     let (others, replacement): (&[&str], [&str; 2]) = match command.get_name() {
         // An integrator takes from 20 ms for each of these flights, which are long, and there are 25 for a point.
         "limit" if has("--solver") => (&["--points", "--formulation", "--scheme", "--tolerance"], ["--points", "1"]),
-        // A plan and quadrature take as many launches as the accuracy needs.
-        "probability" if !has("--method") || takes_quadrature => {
+        // A plan and enclosure take as many launches as the accuracy needs.
+        "probability" if !has("--method") || takes_enclosure => {
             let accuracy = *source.pick(&["1e-2", "1e-3", "0", "nan", "2"]);
             (&["--accuracy"], ["--accuracy", accuracy])
         }
@@ -185,7 +185,7 @@ fn leave_out_idle(command: &Command, arguments: &mut Vec<Vec<OsString>>) {
             "--points",
             plans || has("--method", &["grid"]) || has("--want", &["outcome", "tilt", "attitude", "probability"]),
         ),
-        ("--accuracy", command.get_name() == "probability" && !plans && !has("--method", &["quadrature"])),
+        ("--accuracy", command.get_name() == "probability" && !plans && !has("--method", &["enclosure"])),
         ("--seed", plans || has("--method", &["grid"])),
         ("--solver", plans),
         ("--space", has("--want", &["outcome", "tilt", "attitude", "trace"])),

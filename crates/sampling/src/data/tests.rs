@@ -18,7 +18,7 @@ fn plans_are_read_back_and_have_defaults() {
         Plan::Sobol(scrambled),
         Plan::ExactSpeed(Rest::Grid),
         Plan::ExactSpeed(Rest::Sobol(scrambled)),
-        Plan::Quadrature { accuracy: 1e-9 },
+        Plan::Enclosure { accuracy: 1e-9 },
     ] {
         assert_eq!(read::<Plan>(&toml::to_string(&plan).unwrap()), Ok(plan));
         assert_eq!(plan.method().to_string().parse(), Ok(plan.method()));
@@ -43,16 +43,16 @@ fn plans_are_read_back_and_have_defaults() {
 #[test]
 fn plans_that_no_sampler_carries_out_are_refused_with_the_field_at_fault() {
     for (text, message) in [
-        ("method = 'magic'", "method = 'magic' is unknown; known: grid, random, sobol, exact-speed, quadrature"),
+        ("method = 'magic'", "method = 'magic' is unknown; known: grid, random, sobol, exact-speed, enclosure"),
         ("method = 'random'", "points is missing"),
         ("method = 'random'\npoints = 0", "points = 0.0 is outside its valid range: at least 1"),
         ("method = 'random'\npoints = 8\nscrambles = 8", "scrambles = '8' can't be used: expected none"),
         ("method = 'grid'\npoints = 8", "points = '8' can't be used: expected none"),
         ("method = 'grid'\nseed = 8", "seed = '8' can't be used"),
         ("method = 'exact-speed'\nseed = 8", "seed = '8' can't be used"),
-        ("method = 'quadrature'", "accuracy"),
-        ("method = 'quadrature'\naccuracy = 0", "accuracy"),
-        ("method = 'quadrature'\naccuracy = 1e-9\npoints = 8", "points = '8' can't be used"),
+        ("method = 'enclosure'", "accuracy"),
+        ("method = 'enclosure'\naccuracy = 0", "accuracy"),
+        ("method = 'enclosure'\naccuracy = 1e-9\npoints = 8", "points = '8' can't be used"),
         ("method = 'grid'\naccuracy = 1e-9", "accuracy = '0.000000001' can't be used"),
         ("method = 'random'\npoints = 8\nseed = -1", "expected a seed: a whole number from 0 to 2^64 - 1"),
         ("method = 'random'\npoints = 8\nseed = '1.5'", "seed = '1.5' can't be used: expected a whole number"),

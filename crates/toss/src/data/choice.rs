@@ -38,7 +38,7 @@ impl ChoiceData {
                 Ok(How::Integrator(entry.clone(), stepping))
             }
             (Kind::Sample { .. }, None, None, Some(plan)) => Ok(How::Sampling(plan)),
-            (Kind::Quadrature, None, None, Some(plan @ sampling::Plan::Quadrature { .. })) => Ok(How::Sampling(plan)),
+            (Kind::Enclosure, None, None, Some(plan @ sampling::Plan::Enclosure { .. })) => Ok(How::Sampling(plan)),
             _ => Err(InputError::Malformed {
                 field: "model",
                 value: self.model.clone(),

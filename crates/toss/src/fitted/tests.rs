@@ -8,9 +8,9 @@ fn the_table_has_an_entry_for_every_model_and_for_our_integrators() {
     let fitted = &*FITTED;
     for model in &MODELS {
         match model.name {
-            // Integrators are tabulated by scheme (below). A grid has no error estimate and quadrature is never planned, so they
+            // Integrators are tabulated by scheme (below). A grid has no error estimate and an enclosure is never planned, so they
             // have no entry.
-            "integrator" | "grid" | "share-quadrature" => {}
+            "integrator" | "grid" | "share-enclosure" => {}
             name if model.is_closed_form() || name == "share" => {
                 assert!(fitted.closed(name).unwrap().cost_ns > 0.0);
             }

@@ -10,7 +10,7 @@ use crate::spaces::box_of_launches;
 
 const LAUNCH: &str = "launch of a space, made, proven and counted";
 
-const QUADRATURE: &str = "P(heads) by quadrature, a whole estimate";
+const ENCLOSURE: &str = "P(heads) by enclosure, a whole estimate";
 
 /// Estimates by each method over the space of the paper's Fig. 4 and over the box of launches, on one thread and on all.
 pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
@@ -41,18 +41,18 @@ pub(super) fn contests<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
     Ok(contests)
 }
 
-/// Estimates by quadrature, whose number of shares nobody chooses, so that their times are those of whole estimates.
+/// Estimates by enclosure, whose number of shares nobody chooses, so that their times are those of whole estimates.
 fn rules<'a>() -> anyhow::Result<Vec<Contest<'a>>> {
     let pool = || ThreadPoolBuilder::new().num_threads(1).build().context("cannot start the threads");
     let cases = [("Fig. 4", named_space("paper-fig4")?, 1e-10), ("box", box_of_launches()?, 1e-3)];
     let contest = |(name, space, accuracy): (&str, Space, f64)| {
-        let (pool, plan) = (pool()?, Plan::Quadrature { accuracy });
+        let (pool, plan) = (pool()?, Plan::Enclosure { accuracy });
         let run = move || {
             let found = pool.install(|| Sampler::exact().estimate(&space, plan));
             std::hint::black_box(found.expect("an accuracy within reach"));
         };
         let name = format!("{name}, to {accuracy:e}, threads: 1");
-        Ok(Contest { group: QUADRATURE, name, error: None, tosses: 1, run: Box::new(run) })
+        Ok(Contest { group: ENCLOSURE, name, error: None, tosses: 1, run: Box::new(run) })
     };
     cases.into_iter().map(contest).collect()
 }

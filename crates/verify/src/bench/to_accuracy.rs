@@ -1,7 +1,7 @@
 //! This file compares the methods by the time that they take to an accuracy. A launch of one method is worth many of another, so
 //! that times of launches alone do not say which method is best.
 //!
-//! Errors are measured against quadrature to 1e-9: root mean squares over some seeds, for grids over some numbers of points. Most
+//! Errors are measured against enclosure to 1e-9: root mean squares over some seeds, for grids over some numbers of points. Most
 //! methods would take too long to the accuracy itself. Their numbers of launches are extrapolated from estimates with fewer
 //! launches, by a power law whose exponent is known: ½ for independent launches, and (d + 1)/2d for even points in d
 //! dimensions that are heads or tails on either side of a surface. That of exact-speed is fitted.
@@ -83,19 +83,19 @@ impl ToAccuracy {
     /// Measures the times of all methods to `accuracy`, over Fig. 4's space and the box of four coordinates.
     ///
     /// # Errors
-    /// If quadrature does not reach the accuracy.
+    /// If enclosure does not reach the accuracy.
     pub fn measure(accuracy: f64) -> anyhow::Result<Self> {
         let pool = ThreadPoolBuilder::new().num_threads(1).build().context("cannot start a thread")?;
         let mut rows = Vec::new();
         for (name, space) in [("Fig. 4", named_space("paper-fig4")?), ("box", box_of_launches()?)] {
-            let truth = timed(&pool, &space, Plan::Quadrature { accuracy: accuracy.min(1e-9) })?.0.probability;
+            let truth = timed(&pool, &space, Plan::Enclosure { accuracy: accuracy.min(1e-9) })?.0.probability;
             for method in &METHODS {
                 rows.push(method.row(name, &space, truth, accuracy, &pool)?);
             }
-            let (found, nanoseconds) = timed(&pool, &space, Plan::Quadrature { accuracy })?;
+            let (found, nanoseconds) = timed(&pool, &space, Plan::Enclosure { accuracy })?;
             #[expect(clippy::cast_precision_loss, reason = "millions")]
             let launches = found.points as f64;
-            rows.push(Row { space: name, method: "quadrature", launches, nanoseconds, power: None });
+            rows.push(Row { space: name, method: "enclosure", launches, nanoseconds, power: None });
         }
         Ok(Self { host: Host::here(), accuracy, rows })
     }

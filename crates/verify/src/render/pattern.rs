@@ -25,7 +25,7 @@ const FAMILIES: [(&str, &str); 16] = [
     ("plan-", "planner"),
     ("probability-figures", "published figures"),
     ("probability-", "sampling"),
-    ("quadrature-", "sampling"),
+    ("enclosure", "sampling"),
     ("sampling-", "sampling"),
     ("sensitivity", "derivatives"),
 ];

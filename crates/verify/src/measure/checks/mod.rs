@@ -31,7 +31,7 @@ mod order;
 mod paper;
 mod planner;
 mod probability;
-mod quadrature;
+mod enclosure;
 mod random;
 mod rigid;
 mod sensitivity;
@@ -116,8 +116,8 @@ pub const CHECKS: &[Check] = &[
     figures::SHARE_BOUNDS,
     figures::ISOTROPIC,
     figures::FIGURES,
-    quadrature::FIGURES,
-    quadrature::ESTIMATES,
+    enclosure::FIGURES,
+    enclosure::OVERLAP,
     methods::ERRORS,
     coverage::COVERAGE,
     methods::EXACT_COVERAGE,

@@ -52,7 +52,7 @@ fn place(ns: f64) -> i32 {
 fn bar(root: &Panel<'_>, y: i32, cost: &Cost) -> chart::Drawn {
     let colour = match cost.model {
         "integrator" => VERMILION,
-        "share" | "share-quadrature" | "share-sobol" | "sobol" | "random" => GREEN,
+        "share" | "share-enclosure" | "share-sobol" | "sobol" | "random" => GREEN,
         _ => BLUE,
     };
     let [low, median, high] = [cost.low, cost.median, cost.high].map(place);

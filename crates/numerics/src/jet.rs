@@ -1,0 +1,358 @@
+//! Truncated Taylor series in one to three variables. A formula evaluated in them gives its own partial derivatives; over
+//! [balls](crate::Ball) that contain a whole box, it bounds the derivatives within the box, and so the remainder of the
+//! series about its middle.
+//!
+//! A function is composed by Horner's rule with its own Taylor coefficients, which follow from recurrences (A. Griewank and
+//! A. Walther, Evaluating Derivatives, 2nd ed. 2008, chapter 13).
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::big::Big;
+use crate::double_double::DoubleDouble;
+use crate::elementary::Elementary;
+use crate::number::Number;
+
+/// The largest number of variables.
+pub const MOST_VARIABLES: usize = 3;
+
+/// The largest number of terms, of series of order 4 in three variables.
+const MOST_TERMS: usize = 35;
+
+/// The largest number of products of terms that are kept in a product of series.
+const MOST_PRODUCTS: usize = 210;
+
+/// The exponents of the variables in one term.
+pub type Exponents = [u8; MOST_VARIABLES];
+
+/// The number of variables and the order of a series with this many terms. No two of them have as many.
+const fn shape(terms: usize) -> (usize, usize) {
+    match terms {
+        3 => (1, 2),
+        5 => (1, 4),
+        6 => (2, 2),
+        15 => (2, 4),
+        10 => (3, 2),
+        35 => (3, 4),
+        _ => panic!("a series has one to three variables, and the order 2 or 4"),
+    }
+}
+
+/// The exponents of all terms, by ascending degree: first the constant, then the variables.
+const fn exponents(terms: usize) -> [Exponents; MOST_TERMS] {
+    let (variables, order) = shape(terms);
+    let mut all = [[0; MOST_VARIABLES]; MOST_TERMS];
+    let (mut next, mut of_degree) = (0, 0);
+    while of_degree <= order {
+        let mut first = of_degree + 1;
+        while first > 0 {
+            first -= 1;
+            let mut second = of_degree - first + 1;
+            while second > 0 {
+                second -= 1;
+                let third = of_degree - first - second;
+                if (variables > 1 || second == 0) && (variables > 2 || third == 0) {
+                    all[next] = [first as u8, second as u8, third as u8];
+                    next += 1;
+                }
+            }
+        }
+        of_degree += 1;
+    }
+    assert!(next == terms);
+    all
+}
+
+/// For each term of a product of two series the pairs of their terms that it is made of, one after another.
+struct Products {
+    pairs: [[u8; 2]; MOST_PRODUCTS],
+    /// Where the pairs of each term end.
+    ends: [usize; MOST_TERMS],
+}
+
+const fn products(terms: usize) -> Products {
+    let all = exponents(terms);
+    let mut found = Products { pairs: [[0; 2]; MOST_PRODUCTS], ends: [0; MOST_TERMS] };
+    let (mut next, mut target) = (0, 0);
+    while target < terms {
+        let mut one = 0;
+        while one < terms {
+            let mut other = 0;
+            while other < terms {
+                let (a, b, sum) = (all[one], all[other], all[target]);
+                if a[0] + b[0] == sum[0] && a[1] + b[1] == sum[1] && a[2] + b[2] == sum[2] {
+                    found.pairs[next] = [one as u8, other as u8];
+                    next += 1;
+                }
+                other += 1;
+            }
+            one += 1;
+        }
+        found.ends[target] = next;
+        target += 1;
+    }
+    found
+}
+
+/// A Taylor series with `TERMS` terms: 3, 6 or 10 of order 2 in one, two or three variables; 5, 15 or 35 of order 4.
+///
+/// Decisions are made by the constant term: [`Elementary::to_f64`] and the like ignore the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jet<N, const TERMS: usize> {
+    terms: [N; TERMS],
+}
+
+impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
+    /// The number of variables.
+    pub const VARIABLES: usize = shape(TERMS).0;
+    /// The degree of the last terms.
+    pub const ORDER: usize = shape(TERMS).1;
+    const EXPONENTS: [Exponents; MOST_TERMS] = exponents(TERMS);
+    const PRODUCTS: Products = products(TERMS);
+
+    /// A number that depends on no variable.
+    pub fn constant(value: N) -> Self {
+        let mut terms: [N; TERMS] = std::array::from_fn(|_| value.like(0.0));
+        terms[0] = value;
+        Self { terms }
+    }
+
+    /// The number `value` + `slope` × variable number `index` < [`Self::VARIABLES`].
+    pub fn variable(value: N, slope: N, index: usize) -> Self {
+        debug_assert!(index < Self::VARIABLES);
+        let mut jet = Self::constant(value);
+        jet.terms[1 + index] = slope;
+        jet
+    }
+
+    /// The terms with the exponents of their variables: first the constant, then the variables in their order.
+    pub fn terms(&self) -> impl Iterator<Item = (&Exponents, &N)> {
+        Self::EXPONENTS.iter().zip(&self.terms)
+    }
+
+    /// The constant term.
+    pub fn value(&self) -> &N {
+        &self.terms[0]
+    }
+
+    /// The coefficients of the variables.
+    pub fn slopes(&self) -> &[N] {
+        &self.terms[1..=Self::VARIABLES]
+    }
+
+    /// The same series with another constant term.
+    #[must_use]
+    pub fn with_constant(mut self, value: N) -> Self {
+        self.terms[0] = value;
+        self
+    }
+
+    /// Whether it depends on no variable.
+    fn is_constant(&self) -> bool {
+        self.terms[1..].iter().all(|term| term.sign() == 0.0 && term.error() == 0.0)
+    }
+
+    /// Every term times `factor`.
+    #[must_use]
+    pub fn scaled(self, factor: &N) -> Self {
+        // What is exactly 0 stays so, whatever the factor is.
+        let is_zero = |term: &N| term.sign() == 0.0 && term.error() == 0.0;
+        Self { terms: self.terms.map(|term| if is_zero(&term) { term } else { term * factor.clone() }) }
+    }
+
+    /// The function of this number with these Taylor coefficients, as many as the order and one, at the constant term.
+    #[must_use]
+    pub fn composed(&self, coefficients: &[N; 5]) -> Self {
+        // A constant keeps no derivative of the function, which may be infinite.
+        if self.is_constant() {
+            return Self::constant(coefficients[0].clone());
+        }
+        let mut variable_part = self.clone();
+        variable_part.terms[0] = self.terms[0].like(0.0);
+        let mut sum = variable_part.clone().scaled(&coefficients[Self::ORDER]);
+        for coefficient in coefficients[1..Self::ORDER].iter().rev() {
+            sum.terms[0] = coefficient.clone();
+            sum = sum * variable_part.clone();
+        }
+        sum.terms[0] = coefficients[0].clone();
+        sum
+    }
+
+    /// The coefficients from the first one and a rule for the next of each.
+    fn coefficients(first: N, next: impl Fn(&N, f64) -> N) -> [N; 5] {
+        let mut last = first.clone();
+        std::array::from_fn(|index| {
+            if index > 0 {
+                #[expect(clippy::cast_precision_loss, reason = "at most 4")]
+                let next = next(&last, index as f64);
+                last = next;
+            }
+            if index == 0 { first.clone() } else { last.clone() }
+        })
+    }
+
+    /// 1 over this number.
+    #[must_use]
+    pub fn reciprocal(&self) -> Self {
+        let inverse = self.terms[0].like(1.0) / self.terms[0].clone();
+        self.composed(&Self::coefficients(inverse.clone(), |last, _| -(last.clone() * inverse.clone())))
+    }
+
+    /// The arctangent without its value at the constant term, which is left 0.
+    fn arctangent_without_value(&self) -> Self {
+        let at = &self.terms[0];
+        let (zero, one) = (at.like(0.0), at.like(1.0));
+        let inverse = one.clone() / (one + at.clone() * at.clone());
+        let mut coefficients = std::array::from_fn(|_| zero.clone());
+        coefficients[1] = inverse.clone();
+        // (1 + x²) k c_k = -2x (k - 1) c_{k-1} - (k - 2) c_{k-2}
+        for k in 2..=Self::ORDER {
+            #[expect(clippy::cast_precision_loss, reason = "at most 4")]
+            let [k_f64, one_less, two_less] = [k, k - 1, k - 2].map(|k| at.like(k as f64));
+            let sum = (at.clone() + at.clone()) * one_less * coefficients[k - 1].clone()
+                + two_less * coefficients[k - 2].clone();
+            coefficients[k] = -(sum * inverse.clone()) / k_f64;
+        }
+        self.composed(&coefficients)
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Add for Jet<N, TERMS> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let mut others = other.terms.into_iter();
+        Self { terms: self.terms.map(|term| others.next().map_or_else(|| term.clone(), |other| term.clone() + other)) }
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Neg for Jet<N, TERMS> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { terms: self.terms.map(N::neg) }
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Sub for Jet<N, TERMS> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Mul for Jet<N, TERMS> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        if other.is_constant() {
+            return self.scaled(&other.terms[0]);
+        }
+        if self.is_constant() {
+            return other.scaled(&self.terms[0]);
+        }
+        let Products { pairs, ends } = &Self::PRODUCTS;
+        Self { terms: N::sums_of_products(&self.terms, &other.terms, pairs, ends) }
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Div for Jet<N, TERMS> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        self * other.reciprocal()
+    }
+}
+
+impl<N: Elementary, const TERMS: usize> Number for Jet<N, TERMS> {}
+
+impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
+    fn like(&self, value: f64) -> Self {
+        Self::constant(self.terms[0].like(value))
+    }
+
+    fn like_big(&self, value: &Big) -> Self {
+        Self::constant(self.terms[0].like_big(value))
+    }
+
+    fn with_value(&self, value: &Big) -> Self {
+        let mut jet = self.clone();
+        jet.terms[0] = self.terms[0].with_value(value);
+        jet
+    }
+
+    fn to_f64(&self) -> f64 {
+        self.terms[0].to_f64()
+    }
+
+    fn to_double_double(&self) -> DoubleDouble {
+        self.terms[0].to_double_double()
+    }
+
+    fn to_big(&self) -> Big {
+        self.terms[0].to_big()
+    }
+
+    fn digits(&self) -> i32 {
+        self.terms[0].digits()
+    }
+
+    fn sign(&self) -> f64 {
+        self.terms[0].sign()
+    }
+
+    fn error(&self) -> f64 {
+        self.terms[0].error()
+    }
+
+    fn has_known_sign(&self) -> bool {
+        self.terms[0].has_known_sign()
+    }
+
+    fn is_in_range(&self) -> bool {
+        self.terms.iter().all(N::is_in_range)
+    }
+
+    fn sqrt(&self) -> Self {
+        let root = self.terms[0].sqrt();
+        let inverse = self.terms[0].like(1.0) / self.terms[0].clone();
+        let next = |last: &N, k: f64| last.clone() * inverse.clone() * last.like(1.5 - k) / last.like(k);
+        self.composed(&Self::coefficients(root, next))
+    }
+
+    fn exp(&self) -> Self {
+        self.composed(&Self::coefficients(self.terms[0].exp(), |last, k| last.clone() / last.like(k)))
+    }
+
+    fn sine_and_cosine(&self) -> [Self; 2] {
+        let [sin, cos] = self.terms[0].sine_and_cosine();
+        let cycle = |of: [&N; 2]| {
+            let [value, slope] = of.map(N::clone);
+            let number = |part: &N, divisor: f64| part.clone() / part.like(divisor);
+            [value.clone(), slope.clone(), -number(&value, 2.0), -number(&slope, 6.0), number(&value, 24.0)]
+        };
+        let fall = -sin.clone();
+        [self.composed(&cycle([&sin, &cos])), self.composed(&cycle([&cos, &fall]))]
+    }
+
+    /// The angle is continuous over all numbers that a ball contains, also across the cut at ±π.
+    fn atan2(&self, x: &Self) -> Self {
+        let value = self.terms[0].atan2(&x.terms[0]);
+        let is_flat = self.to_f64().abs() <= x.to_f64().abs();
+        let mut angle = if is_flat {
+            (self.clone() / x.clone()).arctangent_without_value()
+        } else {
+            -(x.clone() / self.clone()).arctangent_without_value()
+        };
+        angle.terms[0] = value;
+        angle
+    }
+
+    fn pi(&self) -> Self {
+        Self::constant(self.terms[0].pi())
+    }
+
+    fn times_power_of_two(&self, exponent: i32) -> Self {
+        Self { terms: self.terms.each_ref().map(|term| term.times_power_of_two(exponent)) }
+    }
+
+    fn widened(mut self, error: f64) -> Self {
+        self.terms[0] = self.terms[0].clone().widened(error);
+        self
+    }
+}

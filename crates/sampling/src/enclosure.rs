@@ -1,0 +1,264 @@
+//! This module encloses P(heads): it computes two numbers between which the probability is proven to lie.
+//!
+//! The share of heads over all speeds is known in closed form, so that a probability is the mean of a function of one to
+//! three other coordinates. Their box is divided into cells. Over a cell the function is replaced by one whose mean is known,
+//! and the difference is bounded by derivatives over the whole cell. Everything is computed in balls, so that all roundings are
+//! bounded, too. `docs/proofs/probability.md` has the theorem.
+//!
+//! A cell is halved while its bounds differ by more than a threshold; then the threshold is lowered, until the sum of all
+//! cells is as narrow as was asked for. Neither the cells nor their sum depend on the number of threads.
+
+mod cell;
+mod directions;
+mod roots;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use dynamics::error::require;
+use dynamics::{Coin, Error, InputError};
+use numerics::{Ball, DoubleDouble, Elementary};
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
+
+use crate::axis::Distribution;
+use crate::coordinate::Coordinate;
+use crate::estimate::Estimate;
+use crate::fold::Progress;
+use crate::interval::Interval;
+use crate::space::Space;
+use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
+use directions::{Direction, directions_of};
+
+/// The number of cells after which a computation stops, unless another is given.
+pub const MOST_CELLS: u64 = 1 << 24;
+
+/// The number of cells that are made before they are divided among the threads.
+const FIRST_CELLS: usize = 256;
+
+/// 2^53 rad.
+const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
+
+/// What a normal distribution has beyond its reach of 8.3 standard deviations, on both sides: 1.04e-16.
+const BEYOND_REACH: f64 = 1.1e-16;
+
+/// An enclosure, and how many cells it took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Enclosure {
+    pub(crate) interval: Interval,
+    pub(crate) cells: u64,
+}
+
+/// Why a space without a closed form over the speeds is refused.
+fn refused(field: &'static str, why: &'static str) -> InputError {
+    InputError::OutsideModel { field, why }
+}
+
+/// Whether P(heads) of `space` can be enclosed.
+///
+/// # Errors
+/// [`InputError::OutsideModel`] if it cannot: for a body with I1 ≠ I2, a drop, a normal distribution of speeds, more than three
+/// coordinates beside the speed, and a space in which nothing varies.
+pub fn require_enclosable(space: &Space) -> Result<(), InputError> {
+    if space.coin().is_none() {
+        let why = "enclosure needs the closed form over all speeds, which there is not for a body with I1 ≠ I2; grid, random and sobol take it";
+        return Err(refused("method", why));
+    }
+    if space.drop().is_some() {
+        let why = "enclosure needs a landing at the height of the launch; grid, random and sobol take a drop";
+        return Err(refused("drop [m]", why));
+    }
+    if matches!(space.axis(Coordinate::Speed).distribution(), Distribution::Normal { .. }) {
+        let why = "enclosure takes a range of speeds or a single one; exact-speed takes a normal distribution";
+        return Err(refused(Coordinate::Speed.field(), why));
+    }
+    if space.free().next().is_none() {
+        let why = "nothing varies in this space, so that there is no probability: a single toss is proven by its outcome";
+        return Err(refused("space", why));
+    }
+    if largest_phase(space) > LARGEST_PHASE {
+        let why = "enclosure takes flights whose phase is below 2^53 rad: shorten the flight or turn more slowly";
+        return Err(refused(Coordinate::Speed.field(), why));
+    }
+    if directions_of(space).0.len() > MOST_DIRECTIONS {
+        let why = "enclosure takes at most three coordinates beside the speed (of launches from horizontal, uniform rates x and y count as \
+                   one); exact-speed takes more";
+        return Err(refused("method", why));
+    }
+    Ok(())
+}
+
+/// A bound of the phases at landing (rad), but for some roundings.
+fn largest_phase(space: &Space) -> f64 {
+    let most = |of: Coordinate| space.axis(of).bounds().into_iter().fold(0.0_f64, |most, end| most.max(end.abs()));
+    let size = most(Coordinate::RateX).hypot(most(Coordinate::RateY)).hypot(2.0 * most(Coordinate::RateZ));
+    let [weakest, _] = space.axis(Coordinate::Gravity).bounds();
+    if size == 0.0 { 0.0 } else { size * (2.0 * most(Coordinate::Speed) / weakest) }
+}
+
+/// The number of coordinates that an enclosure divides into cells in `space`, the speed not included.
+pub fn coordinates(space: &Space) -> usize {
+    directions_of(space).0.len()
+}
+
+/// An accuracy that an enclosure of `space` reaches within seconds, unless its phases are large.
+pub fn usual_accuracy(space: &Space) -> f64 {
+    match coordinates(space) {
+        0 | 1 => 1e-10,
+        2 => 1e-6,
+        _ => 1e-3,
+    }
+}
+
+/// Encloses P(heads) of `space` to ± `accuracy`, with at most `most_cells` cells.
+///
+/// # Errors
+/// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` that is not positive; [`Error::NotReached`] with the
+/// accuracy that was reached.
+pub(crate) fn estimate(space: &Space, accuracy: f64, most_cells: u64, progress: Progress<'_>) -> Result<Estimate, Error> {
+    require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)?;
+    require_enclosable(space)?;
+    let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
+    let found = enclosed(space, coin, accuracy, most_cells, progress);
+    let reached = 0.5 * (found.interval.hi - found.interval.lo);
+    if reached > accuracy {
+        return Err(Error::NotReached { points: found.cells, reached, accuracy });
+    }
+    Ok(Estimate::of_enclosure(found.interval, found.cells))
+}
+
+/// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.
+pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64, progress: Progress<'_>) -> Enclosure {
+    let (directions, roundings) = directions_of(space);
+    let is_across = directions.iter().flatten().any(Direction::is_across);
+    let is_normal = |of: Coordinate| matches!(space.axis(of).distribution(), Distribution::Normal { .. });
+    let beyond = BEYOND_REACH * space.free().filter(|of| is_normal(*of)).count() as f64;
+    let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress };
+    let mut best = Enclosure { interval: Interval { lo: 0.0, hi: 1.0 }, cells: 0 };
+    // A first threshold from which few cells result, and lower ones as the last width asks for.
+    let mut threshold = 0.05 * accuracy.powf(0.8).max(accuracy);
+    let power = [1.5, 1.5, 1.35, 1.7][directions.len()];
+    loop {
+        let Some((sum, cells)) = work.pass(threshold, most_cells) else { return best };
+        let sum = sum.widened(roundings + beyond);
+        let interval = ends(&sum);
+        let width = |of: &Interval| of.hi - of.lo;
+        let (before, now) = (width(&best.interval), width(&interval));
+        if now < before || best.cells == 0 {
+            best = Enclosure { interval, cells };
+        }
+        // A pass that hardly narrows the enclosure is stopped by roundings.
+        if now <= 2.0 * accuracy || (now > 0.9 * before && best.cells > 1) {
+            return best;
+        }
+        threshold *= (0.8 * (2.0 * accuracy / now).powf(power)).clamp(1e-5, 0.5);
+    }
+}
+
+/// The enclosure of a number from 0 to 1 as two f64.
+fn ends(sum: &Ball<DoubleDouble>) -> Interval {
+    let (middle, radius) = (sum.midpoint(), sum.radius() + sum.midpoint().lo().abs());
+    if !(radius <= 1.0) {
+        return Interval { lo: 0.0, hi: 1.0 };
+    }
+    let [lo, hi] = [(middle.hi() - radius).next_down(), (middle.hi() + radius).next_up()];
+    Interval { lo: lo.clamp(0.0, 1.0), hi: hi.clamp(0.0, 1.0) }
+}
+
+/// The first cells: one for each choice of a part of every direction.
+fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
+    let mut chosen = vec![[None; MOST_DIRECTIONS]];
+    for (index, parts) in directions.iter().enumerate() {
+        let with = |part| move |mut cell: [Option<_>; MOST_DIRECTIONS]| { cell[index] = Some(part); cell };
+        chosen = parts.iter().flat_map(|part| chosen.iter().copied().map(with(part))).collect();
+    }
+    chosen.into_iter().map(Cell::whole).collect()
+}
+
+struct Work<'a> {
+    problem: Problem<'a>,
+    roots: Vec<Cell<'a>>,
+    progress: Progress<'a>,
+}
+
+impl<'a> Work<'a> {
+    /// The sum over cells that are halved until the bounds of each, times its volume, differ by at most `threshold`; `None` if that
+    /// takes more than `most_cells`.
+    fn pass(&self, threshold: f64, most_cells: u64) -> Option<(Ball<DoubleDouble>, u64)> {
+        let cells = AtomicU64::new(0);
+        let mut sum = Ball::new(DoubleDouble::ZERO, 0.0);
+        // Level by level until there are enough cells to divide, then each to its end.
+        let mut waiting: Vec<Cell<'a>> = self.roots.clone();
+        while !waiting.is_empty() && waiting.len() < FIRST_CELLS {
+            let mut next = Vec::new();
+            for cell in waiting {
+                cells.fetch_add(1, Ordering::Relaxed);
+                match self.bounds_or_halves(&cell, threshold) {
+                    Ok(part) => sum = sum + part,
+                    Err(halves) => next.extend(halves),
+                }
+            }
+            waiting = next;
+        }
+        let of_first = |cell: &Cell<'a>| -> Option<Ball<DoubleDouble>> {
+            let mut sum = Ball::new(DoubleDouble::ZERO, 0.0);
+            let (mut waiting, mut done) = (vec![cell.clone()], 0);
+            while let Some(cell) = waiting.pop() {
+                done += 1;
+                match self.bounds_or_halves(&cell, threshold) {
+                    Ok(part) => sum = sum + part,
+                    Err(halves) => waiting.extend(halves),
+                }
+                if done == 1024 || waiting.is_empty() {
+                    (self.progress)(done);
+                    if cells.fetch_add(done, Ordering::Relaxed) + done > most_cells {
+                        return None;
+                    }
+                    done = 0;
+                }
+            }
+            Some(sum)
+        };
+        #[cfg(feature = "rayon")]
+        let sums: Vec<_> = waiting.par_iter().map(of_first).collect();
+        #[cfg(not(feature = "rayon"))]
+        let sums: Vec<_> = waiting.iter().map(of_first).collect();
+        for part in sums {
+            sum = sum + part?;
+        }
+        Some((sum, cells.into_inner()))
+    }
+
+    /// The mean over a cell times its volume, or the two halves that are to be looked at instead.
+    fn bounds_or_halves(&self, cell: &Cell<'a>, threshold: f64) -> Result<Ball<DoubleDouble>, [Cell<'a>; 2]> {
+        let volume = (-f64::from(cell.halvings())).exp2();
+        let enough = threshold / volume;
+        let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), enough);
+        if !(found.width() <= enough)
+            && let Some(halves) = halves(cell, &found)
+        {
+            return Err(halves);
+        }
+        let middle = 0.5 * (found.lo + found.hi);
+        let radius = (0.5 * (found.hi - found.lo)).next_up() + f64::EPSILON * middle.abs();
+        Ok(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume))
+    }
+}
+
+/// The bounds of a cell with this number of directions, by series of order 2 and, over one or two, of order 4.
+fn bounds_in<'a>(problem: &Problem<'a>, cell: &Cell<'a>, directions: usize, enough: f64) -> Bounds {
+    match directions {
+        0 | 1 => problem.bounds::<3, 5>(cell, enough),
+        2 => problem.bounds::<6, 15>(cell, enough),
+        _ => problem.bounds::<10, 10>(cell, enough),
+    }
+}
+
+/// The halves of a cell in the direction that adds most to its width.
+fn halves<'a>(cell: &Cell<'a>, found: &Bounds) -> Option<[Cell<'a>; 2]> {
+    let mut order: Vec<usize> = (0..cell.directions.iter().flatten().count()).collect();
+    order.sort_by(|one, other| found.by[*other].total_cmp(&found.by[*one]));
+    order.into_iter().find_map(|index| cell.halves(index))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,722 @@
+//! This file encloses the mean share of heads over one cell, as `docs/proofs/probability.md` derives it.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use numerics::positive_part::{self, Power};
+use numerics::{Ball, Elementary, Jet};
+
+use super::directions::{Direction, as_given};
+use super::roots::squared_angle_of_root;
+use crate::coordinate::Coordinate;
+use crate::space::Space;
+
+/// The largest number of coordinates that a cell has.
+pub(super) const MOST_DIRECTIONS: usize = 3;
+
+/// What the cells of a space have in common.
+pub(super) struct Problem<'a> {
+    space: &'a Space,
+    ratio: Ball<f64>,
+    /// Exponent of the unit of rates (rad/s), a power of two.
+    exponent: i32,
+    is_across: bool,
+}
+
+/// A box of parameters s from 0 to 1, each a dyadic interval.
+#[derive(Debug, Clone)]
+pub(super) struct Cell<'a> {
+    pub(super) directions: [Option<&'a Direction>; MOST_DIRECTIONS],
+    /// The interval in each direction: from `place` 2^-`level` to (`place` + 1) 2^-`level`.
+    place: [u64; MOST_DIRECTIONS],
+    level: [u32; MOST_DIRECTIONS],
+}
+
+/// The finest level of an interval, whose middle is still an f64.
+const FINEST: u32 = 51;
+
+impl<'a> Cell<'a> {
+    pub(super) fn whole(directions: [Option<&'a Direction>; MOST_DIRECTIONS]) -> Self {
+        Self { directions, place: [0; MOST_DIRECTIONS], level: [0; MOST_DIRECTIONS] }
+    }
+
+    /// The volume is 2^-`halvings`.
+    pub(super) fn halvings(&self) -> u32 {
+        self.level.iter().sum()
+    }
+
+    /// Both halves in direction number `index`; `None` if the middle is no f64.
+    pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
+        (self.level[index] < FINEST).then(|| {
+            [0, 1].map(|half| {
+                let mut cell = self.clone();
+                cell.level[index] += 1;
+                cell.place[index] = 2 * cell.place[index] + half;
+                cell
+            })
+        })
+    }
+
+    /// The ends of the interval in direction number `index`.
+    #[cfg(test)]
+    #[expect(clippy::cast_precision_loss, reason = "below 2^52")]
+    pub(super) fn interval(&self, index: usize) -> [f64; 2] {
+        [0, 1].map(|end| (self.place[index] + end) as f64 * (-f64::from(self.level[index])).exp2())
+    }
+
+    /// The parameter in direction number `index`, about the middle: with t from -1 to 1 as the variable of the series. Its constant
+    /// term is the middle, or for a `whole` cell a ball that contains the interval.
+    fn parameter<const T: usize>(&self, index: usize, whole: bool) -> Jet<Ball<f64>, T> {
+        let half = 0.5 * (-f64::from(self.level[index])).exp2();
+        #[expect(clippy::cast_precision_loss, reason = "below 2^52")]
+        let middle = (2.0 * self.place[index] as f64 + 1.0) * half;
+        Jet::variable(Ball::new(middle, if whole { half } else { 0.0 }), Ball::new(half, 0.0), index)
+    }
+}
+
+/// Bounds of a mean over a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    /// How much each direction adds to the width, roughly.
+    pub(super) by: [f64; MOST_DIRECTIONS],
+}
+
+impl Bounds {
+    /// The width, infinite if nothing is known.
+    pub(super) fn width(&self) -> f64 {
+        let width = self.hi - self.lo;
+        if width.is_nan() { f64::INFINITY } else { width }
+    }
+
+    fn of_ball(ball: &Ball<f64>, by: [f64; MOST_DIRECTIONS]) -> Self {
+        Self { lo: lower(ball), hi: upper(ball), by }
+    }
+
+    /// The sum with a multiple `sign` = ±1 of other bounds.
+    fn plus(self, sign: f64, other: Self) -> Self {
+        let [lo, hi] = if sign > 0.0 { [other.lo, other.hi] } else { [-other.hi, -other.lo] };
+        let by = std::array::from_fn(|index| self.by[index] + other.by[index]);
+        Self { lo: (self.lo + lo).next_down(), hi: (self.hi + hi).next_up(), by }
+    }
+}
+
+fn lower(ball: &Ball<f64>) -> f64 {
+    (ball.midpoint() - ball.radius()).next_down()
+}
+
+fn upper(ball: &Ball<f64>) -> f64 {
+    (ball.midpoint() + ball.radius()).next_up()
+}
+
+fn exactly(value: f64) -> Ball<f64> {
+    Ball::new(value, 0.0)
+}
+
+/// The largest absolute value in a ball; infinite if nothing is known.
+fn magnitude(ball: &Ball<f64>) -> f64 {
+    let size = (ball.midpoint().abs() + ball.radius()).next_up();
+    if size.is_nan() { f64::INFINITY } else { size }
+}
+
+/// A function about the middle of a cell, and over the whole of it.
+#[derive(Clone, Copy)]
+struct Function<const T: usize> {
+    middle: Jet<Ball<f64>, T>,
+    whole: Jet<Ball<f64>, T>,
+}
+
+impl<const T: usize> Function<T> {
+    fn map(self, apply: impl Fn(Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T>) -> Self {
+        Self { middle: apply(self.middle), whole: apply(self.whole) }
+    }
+
+    fn with(self, other: Self, apply: impl Fn(Jet<Ball<f64>, T>, Jet<Ball<f64>, T>) -> Jet<Ball<f64>, T>) -> Self {
+        Self { middle: apply(self.middle, other.middle), whole: apply(self.whole, other.whole) }
+    }
+
+    fn times(self, other: Self) -> Self {
+        self.with(other, |one, other| one * other)
+    }
+
+    fn plus(self, other: Self) -> Self {
+        self.with(other, |one, other| one + other)
+    }
+
+    fn minus(self, other: Self) -> Self {
+        self.with(other, |one, other| one - other)
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        self.map(|jet| jet.scaled(&exactly(factor)))
+    }
+
+    /// The same function, whose values over the cell are bounded by the mean value theorem where that is narrower.
+    fn narrowed(mut self) -> Self {
+        let value = self.middle.value();
+        let reach = self.whole.slopes().iter().map(magnitude).fold(value.radius(), |sum, slope| (sum + slope).next_up());
+        if reach < self.whole.value().radius() {
+            self.whole = self.whole.with_constant(Ball::new(*value.midpoint(), reach));
+        }
+        self
+    }
+
+    /// The values over the cell.
+    fn values(&self) -> &Ball<f64> {
+        self.whole.value()
+    }
+
+    /// The sign over the whole cell.
+    fn sign(&self) -> Option<f64> {
+        self.values().has_known_sign().then(|| self.values().sign())
+    }
+
+    /// The largest absolute values of the slopes.
+    fn variation(&self) -> [f64; MOST_DIRECTIONS] {
+        let mut by = [0.0; MOST_DIRECTIONS];
+        for (by, slope) in by.iter_mut().zip(self.whole.slopes()) {
+            *by = magnitude(slope);
+        }
+        by
+    }
+
+    /// Bounds of the mean over the cell: the terms of even degree about the middle have means, and the last terms are
+    /// known over the whole cell as far as their balls tell.
+    fn mean(&self) -> Bounds {
+        mean(&self.middle, &self.whole)
+    }
+
+    /// Bounds of the mean of the positive part to `power`.
+    fn mean_of_positive_part(&self, power: Power) -> Bounds {
+        let (value, slopes) = (self.middle.value(), self.middle.slopes());
+        let (mut by, mut off) = ([0.0; MOST_DIRECTIONS], value.radius());
+        for slope in slopes {
+            off = (off + slope.radius()).next_up();
+        }
+        for (exponents, term) in self.whole.terms().filter(|(exponents, _)| exponents.iter().sum::<u8>() == 2) {
+            // The mean of |t_i t_j|, or its largest value.
+            let moment = if power == Power::One { moment(exponents) } else { 1.0 };
+            let part = magnitude(term) * moment;
+            off = (off + part.next_up()).next_up();
+            for (by, exponent) in by.iter_mut().zip(exponents) {
+                *by += 0.5 * part * f64::from(*exponent);
+            }
+        }
+        let mut middles = [0.0; MOST_DIRECTIONS];
+        for (middle, slope) in middles.iter_mut().zip(slopes) {
+            *middle = *slope.midpoint();
+        }
+        if !(off.is_finite() && value.midpoint().is_finite()) {
+            return Bounds { lo: 0.0, hi: f64::INFINITY, by: self.variation() };
+        }
+        let [lo, hi] = positive_part::mean(*value.midpoint(), &middles[..slopes.len()], off, power);
+        Bounds { lo, hi, by }
+    }
+}
+
+/// The mean of |t^exponents| over the box from -1 to 1.
+fn moment(exponents: &[u8; 3]) -> f64 {
+    exponents.iter().map(|exponent| 1.0 / (1.0 + f64::from(*exponent))).product()
+}
+
+/// Bounds of the mean of a function from its series about the middle, of order 2, and one over the whole cell.
+fn mean<const T: usize, const F: usize>(middle: &Jet<Ball<f64>, T>, whole: &Jet<Ball<f64>, F>) -> Bounds {
+    let order = Jet::<Ball<f64>, F>::ORDER;
+    let degree = |exponents: &[u8; 3]| exponents.iter().map(|exponent| usize::from(*exponent)).sum::<usize>();
+    let is_even = |exponents: &[u8; 3]| exponents.iter().all(|exponent| exponent % 2 == 0);
+    let mut sum = *middle.value();
+    for (exponents, term) in middle.terms().filter(|(exponents, _)| degree(exponents) == 2 && order > 2) {
+        if is_even(exponents) {
+            sum = sum + *term * Ball::new(moment(exponents), f64::EPSILON);
+        }
+    }
+    let mut by = [0.0; MOST_DIRECTIONS];
+    for (exponents, term) in whole.terms().filter(|(exponents, _)| degree(exponents) == order) {
+        let moment = moment(exponents);
+        if is_even(exponents) {
+            sum = sum + exactly(*term.midpoint()) * Ball::new(moment, f64::EPSILON);
+        }
+        let part = term.radius() * moment * (1.0 + 4.0 * f64::EPSILON);
+        sum = sum.widened(part);
+        for (by, exponent) in by.iter_mut().zip(exponents) {
+            *by += part * f64::from(*exponent) / f64::from(u32::try_from(order).unwrap_or(4));
+        }
+    }
+    Bounds::of_ball(&sum, by)
+}
+
+/// The launches of a cell, as functions of it: rates in their unit, and the times of flight in its inverse.
+struct Launches<J> {
+    momentum: [J; 3],
+    /// Sine and cosine of the tilt.
+    tilt: [J; 2],
+    times: [J; 2],
+    weight: Option<J>,
+}
+
+/// Where a landing is among the phases of heads, over a whole cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    /// Between both edges of an interval of heads.
+    Inside,
+    /// Beyond the edge of this sign.
+    Outside(f64),
+    /// About the edge of this sign.
+    Edge(f64),
+}
+
+/// What the numerator of the share is over a cell: α a + `landings` less what is beyond the edges.
+#[derive(Clone, Copy)]
+struct Numerator {
+    /// α.
+    half_widths: f64,
+    /// Which landings are inside, the first with the sign -1.
+    inside: [bool; 2],
+}
+
+/// The means over one cell.
+struct Means<'a, 'b, const T: usize> {
+    problem: &'b Problem<'a>,
+    cell: &'b Cell<'a>,
+    weight: Option<Function<T>>,
+    motion: Motion<Function<T>>,
+}
+
+/// The motion of the launches.
+#[derive(Clone, Copy)]
+struct Motion<J> {
+    /// |L|².
+    squared: J,
+    /// The phases of the first and of the last landing.
+    phases: [J; 2],
+    /// Their difference.
+    span: J,
+    /// P - s², which is positive where cos θ changes its sign.
+    room: J,
+    /// A |L|² = s q.
+    mean: J,
+    /// B |L|² and C |L|².
+    cosine: J,
+    sine: J,
+    /// cos θ at launch.
+    cos_tilt: J,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(space: &'a Space, coin: dynamics::Coin, is_across: bool) -> Self {
+        let ratio = coin.exact_inertia_ratio();
+        let ratio = Ball::new(ratio.hi(), 2.0 * ratio.lo().abs() + 1e-30);
+        let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(|of| space.axis(of).bounds());
+        let largest = rates.iter().flatten().fold(0.0_f64, |largest, end| largest.max(end.abs()));
+        let exponent = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(largest)).1;
+        Self { space, ratio, exponent, is_across }
+    }
+
+    fn launches<const T: usize>(&self, cell: &Cell<'_>, whole: bool) -> Launches<Jet<Ball<f64>, T>> {
+        let mut values = Coordinate::ALL.map(|of| Jet::constant(as_given(self.space.axis(of).bounds()[0])));
+        if self.is_across {
+            values[Coordinate::RateY as usize] = Jet::constant(exactly(0.0));
+        }
+        let mut weight: Option<Jet<Ball<f64>, T>> = None;
+        for (index, direction) in cell.directions.iter().flatten().enumerate() {
+            let (value, density) = direction.at(cell.parameter(index, whole));
+            values[direction.of as usize] = value;
+            weight = match (weight, density) {
+                (Some(weight), Some(density)) => Some(weight * density),
+                (one, other) => one.or(other),
+            };
+        }
+        let value = |of: Coordinate| values[self.space.place(of) as usize];
+        let rate = |of: Coordinate| value(of).times_power_of_two(-self.exponent);
+        let momentum = [rate(Coordinate::RateX), rate(Coordinate::RateY), rate(Coordinate::RateZ).scaled(&self.ratio)];
+        let twice = value(Coordinate::Gravity).reciprocal().times_power_of_two(1 + self.exponent);
+        let times = self.space.axis(Coordinate::Speed).bounds().map(|speed| twice.scaled(&as_given(speed)));
+        let tilt = if self.is_horizontal() {
+            [0.0, 1.0].map(|value| Jet::constant(exactly(value)))
+        } else {
+            value(Coordinate::Tilt).sine_and_cosine()
+        };
+        Launches { momentum, tilt, times, weight }
+    }
+
+    fn motion<const T: usize>(&self, launches: &Launches<Jet<Ball<f64>, T>>) -> Motion<Jet<Ball<f64>, T>> {
+        let ([x, y, q], [sin, cos]) = (launches.momentum, launches.tilt);
+        let across = x * x + y * y;
+        let squared = across + q * q;
+        let size = squared.sqrt();
+        let level = y * sin;
+        let vertical = level + q * cos;
+        let [first, last] = launches.times;
+        Motion {
+            squared,
+            phases: [size * first, size * last],
+            span: size * (last - first),
+            room: across - vertical * vertical,
+            mean: vertical * q,
+            cosine: across * cos - level * q,
+            sine: -(x * sin * size),
+            cos_tilt: cos,
+        }
+    }
+
+    /// Whether all launches are from horizontal.
+    fn is_horizontal(&self) -> bool {
+        self.space.axis(Coordinate::Tilt).value() == Some(0.0)
+    }
+
+    fn has_one_speed(&self) -> bool {
+        self.space.axis(Coordinate::Speed).value().is_some()
+    }
+
+    /// Bounds of the mean share over `cell`, times the density. If they are wider than `enough`, series of `F` terms are tried
+    /// where the share is smooth.
+    pub(super) fn bounds<const T: usize, const F: usize>(&self, cell: &Cell<'a>, enough: f64) -> Bounds {
+        let (middle, whole) = (self.launches::<T>(cell, false), self.launches::<T>(cell, true));
+        let weight = middle.weight.zip(whole.weight).map(|(middle, whole)| Function { middle, whole }.narrowed());
+        let motion = both(self.motion(&middle), self.motion(&whole));
+        Means { problem: self, cell, weight, motion }.bounds::<F>(enough)
+    }
+}
+
+/// A motion about the middle, and one over the whole of a cell.
+fn both<const T: usize>(
+    middle: Motion<Jet<Ball<f64>, T>>,
+    whole: Motion<Jet<Ball<f64>, T>>,
+) -> Motion<Function<T>> {
+    let pair = |middle, whole| Function { middle, whole }.narrowed();
+    Motion {
+        squared: pair(middle.squared, whole.squared),
+        phases: [pair(middle.phases[0], whole.phases[0]), pair(middle.phases[1], whole.phases[1])],
+        span: pair(middle.span, whole.span),
+        room: pair(middle.room, whole.room),
+        mean: pair(middle.mean, whole.mean),
+        cosine: pair(middle.cosine, whole.cosine),
+        sine: pair(middle.sine, whole.sine),
+        cos_tilt: pair(middle.cos_tilt, whole.cos_tilt),
+    }
+}
+
+impl<const T: usize> Means<'_, '_, T> {
+    fn bounds<const F: usize>(&self, enough: f64) -> Bounds {
+        if let Some(face) = self.face_of_all() {
+            return self.of_one_face(face);
+        }
+        if self.problem.has_one_speed() {
+            return self.of_one_speed();
+        }
+        match self.motion.room.sign() {
+            Some(sign) if sign < 0.0 => match self.motion.mean.sign() {
+                Some(face) => self.of_one_face(face),
+                None => self.of_unknown_half_width([0.0, PI]),
+            },
+            Some(sign) if sign > 0.0 => {
+                let found = self.with_edges::<F>(enough);
+                let narrower = (found.width() > enough).then(|| self.grazing());
+                narrower.flatten().filter(|other| other.width() < found.width()).unwrap_or(found)
+            }
+            _ => self.grazing().unwrap_or_else(|| self.of_unknown_half_width([0.0, PI])),
+        }
+    }
+
+    /// The face that all launches show at every landing because the coin has hardly turned: its normal turns by no more than the
+    /// phase.
+    fn face_of_all(&self) -> Option<f64> {
+        let most = upper(self.motion.phases[1].values());
+        if !(most < FRAC_PI_2) {
+            return None;
+        }
+        let cos_tilt = self.motion.cos_tilt.values();
+        let needed = exactly(most).sine_and_cosine()[0];
+        (cos_tilt.has_sign() && (cos_tilt.magnitude() - needed).has_sign() && (cos_tilt.magnitude() - needed).sign() > 0.0)
+            .then(|| cos_tilt.sign())
+    }
+
+    /// The mean of the density.
+    fn weight(&self) -> Bounds {
+        self.weight.map_or(Bounds { lo: 1.0, hi: 1.0, by: [0.0; MOST_DIRECTIONS] }, |weight| {
+            let found = weight.mean();
+            Bounds { lo: found.lo.max(0.0), ..found }
+        })
+    }
+
+    fn of_one_face(&self, face: f64) -> Bounds {
+        if face > 0.0 { self.weight() } else { Bounds { lo: 0.0, hi: 0.0, by: [0.0; MOST_DIRECTIONS] } }
+    }
+
+    /// Bounds from those of the share everywhere in the cell.
+    fn of_shares(&self, [lo, hi]: [f64; 2], by: [f64; MOST_DIRECTIONS]) -> Bounds {
+        let weight = self.weight();
+        let lo = if lo > 0.0 { (lo.min(1.0) * weight.lo).next_down() } else { 0.0 };
+        let hi = if hi < 1.0 { (hi.max(0.0) * weight.hi).next_up() } else { weight.hi };
+        let by = if by.iter().all(|by| by.is_finite()) {
+            by
+        } else {
+            std::array::from_fn(|index| if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 })
+        };
+        Bounds { lo, hi, by }
+    }
+
+    /// A single landing: the outcome is the sign of cos θ.
+    fn of_one_speed(&self) -> Bounds {
+        let Motion { phases: [_, phase], mean, cosine, sine, .. } = self.motion;
+        let height = Function { middle: height(phase.middle, [mean.middle, cosine.middle, sine.middle]), whole: height(phase.whole, [mean.whole, cosine.whole, sine.whole]) }.narrowed();
+        if let Some(face) = height.sign() {
+            return self.of_one_face(face);
+        }
+        let found = height.mean_of_positive_part(Power::Zero);
+        match &self.weight {
+            None => self.of_shares([found.lo, found.hi], found.by),
+            // The density times a share is between the smallest and the largest density times it.
+            Some(weight) => {
+                let all = weight.values();
+                let by = std::array::from_fn(|index| found.by[index] * magnitude(all) + weight.variation()[index]);
+                Bounds { lo: (lower(all).max(0.0) * found.lo).next_down(), hi: (magnitude(all) * found.hi.min(1.0)).next_up(), by }
+            }
+        }
+    }
+
+    fn crest(&self) -> Function<T> {
+        if self.problem.is_horizontal() {
+            return Function { middle: Jet::constant(exactly(0.0)), whole: Jet::constant(exactly(0.0)) };
+        }
+        self.motion.sine.with(self.motion.cosine, |sine, cosine| sine.atan2(&cosine)).narrowed()
+    }
+
+    /// a, the half-width of the intervals of heads.
+    fn half_width(&self) -> Function<T> {
+        let Motion { squared, room, mean, .. } = self.motion;
+        squared.times(room).map(|product| product.sqrt()).with(mean, |sine, mean| sine.atan2(&-mean)).narrowed()
+    }
+
+    /// The cell has edges of heads, and each landing is near one of them at most.
+    fn with_edges<const F: usize>(&self, enough: f64) -> Bounds {
+        let (crest, half_width) = (self.crest(), self.half_width());
+        let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
+        let turns = from_crest.each_ref().map(|phase| (phase.middle.to_f64() / TAU).round());
+        let landings: [Function<T>; 2] = std::array::from_fn(|end| {
+            let turned = self.turned(turns[end]);
+            from_crest[end].map(|jet| jet - turned)
+        });
+        let places = landings.map(|landing| place(landing, half_width));
+        let [Some(first), Some(last)] = places else {
+            return self.of_half_width(half_width, from_crest);
+        };
+        let side = |place: Place| match place {
+            Place::Inside => 0.0,
+            Place::Outside(sign) | Place::Edge(sign) => sign,
+        };
+        let apart = turns[1] - turns[0];
+        let numerator = Numerator {
+            half_widths: 2.0 * apart + side(last) - side(first),
+            inside: [first, last].map(|place| place == Place::Inside),
+        };
+        let inverse = self.motion.span.map(|span| span.reciprocal());
+        let per_phase = self.weight.map_or(inverse, |weight| inverse.times(weight));
+        let mut beyond_edges = Bounds { lo: 0.0, hi: 0.0, by: [0.0; MOST_DIRECTIONS] };
+        for (sign, place, landing) in [(1.0, first, landings[0]), (-1.0, last, landings[1])] {
+            let Place::Edge(side) = place else { continue };
+            let beyond = half_width.minus(landing.scaled(side)).times(per_phase);
+            beyond_edges = beyond_edges.plus(sign * side, beyond.mean_of_positive_part(Power::One));
+        }
+        // More terms serve if they can make the cell narrow enough.
+        let enough = if beyond_edges.width() < enough { enough - beyond_edges.width() } else { f64::INFINITY };
+        self.smooth::<F>(numerator, apart, [half_width, landings[0], landings[1]], inverse, enough).plus(1.0, beyond_edges)
+    }
+
+    /// 2π `turns`, as a number.
+    fn turned(&self, turns: f64) -> Jet<Ball<f64>, T> {
+        let pi = exactly(0.0).pi();
+        Jet::constant((pi + pi) * exactly(turns))
+    }
+
+    /// The mean of what is smooth.
+    fn smooth<const F: usize>(
+        &self,
+        numerator: Numerator,
+        apart: f64,
+        [half_width, first, last]: [Function<T>; 3],
+        inverse: Function<T>,
+        enough: f64,
+    ) -> Bounds {
+        let Numerator { half_widths, inside } = numerator;
+        let nothing = Bounds { lo: 0.0, hi: 0.0, by: [0.0; MOST_DIRECTIONS] };
+        let share = match inside {
+            [false, false] if half_widths == 0.0 => return nothing,
+            [true, true] if apart == 0.0 => return self.weight(),
+            // All phases but the tails between.
+            [true, true] => {
+                let tails = half_width.map(|jet| jet - Jet::constant(exactly(0.0).pi()));
+                let share = tails.scaled(half_widths).times(inverse);
+                share.map(|jet| jet + Jet::constant(exactly(1.0)))
+            }
+            [is_first, is_last] => {
+                let mut sum = half_width.scaled(half_widths);
+                if is_first {
+                    sum = sum.minus(first);
+                }
+                if is_last {
+                    sum = sum.plus(last);
+                }
+                sum.times(inverse)
+            }
+        };
+        let share = self.weight.map_or(share, |weight| share.times(weight));
+        let found = share.mean();
+        // Two more orders win a factor of 1000 at most.
+        if found.width() <= enough || found.width() > 500.0 * enough || F == T {
+            return found;
+        }
+        let fine = self.fine_share::<F>(numerator, apart, &[half_width, first, last]);
+        let finer = mean(&share.middle, &fine);
+        if finer.width() < found.width() { finer } else { found }
+    }
+
+    /// The same share over the whole cell, in a series of more terms.
+    fn fine_share<const F: usize>(&self, numerator: Numerator, apart: f64, [half_width, first, last]: &[Function<T>; 3]) -> Jet<Ball<f64>, F> {
+        let launches = self.problem.launches::<F>(self.cell, true);
+        let motion = self.problem.motion(&launches);
+        // What was found to be narrower holds here, too. A multiple of 2π makes no difference to the terms but the first.
+        let narrowed = |jet: Jet<Ball<f64>, F>, function: &Function<T>| jet.with_constant(*function.values());
+        let root = (narrowed(motion.squared, &self.motion.squared) * narrowed(motion.room, &self.motion.room)).sqrt();
+        let width = narrowed(root.atan2(&-narrowed(motion.mean, &self.motion.mean)), half_width);
+        let inverse = narrowed(motion.span, &self.motion.span).reciprocal();
+        let crest = if self.problem.is_horizontal() { Jet::constant(exactly(0.0)) } else {
+            narrowed(motion.sine, &self.motion.sine).atan2(&narrowed(motion.cosine, &self.motion.cosine))
+        };
+        let share = if numerator.inside == [true, true] {
+            (width - Jet::constant(exactly(0.0).pi())).scaled(&exactly(2.0 * apart)) * inverse + Jet::constant(exactly(1.0))
+        } else {
+            let mut sum = width.scaled(&exactly(numerator.half_widths));
+            if numerator.inside[0] {
+                sum = sum - narrowed(motion.phases[0] - crest, first);
+            }
+            if numerator.inside[1] {
+                sum = sum + narrowed(motion.phases[1] - crest, last);
+            }
+            sum * inverse
+        };
+        launches.weight.map_or(share, |weight| share * weight)
+    }
+
+    /// Bounds of any cell with a half-width: that of heads between two phases grows with it.
+    fn of_half_width(&self, half_width: Function<T>, from_crest: [Function<T>; 2]) -> Bounds {
+        let widths = [lower(half_width.values()).max(0.0), upper(half_width.values()).min(PI.next_up())];
+        let [first, last] = from_crest.map(|phase| [lower(phase.values()), upper(phase.values())]);
+        let smallest = heads_between(first[1], last[0], widths[0])[0];
+        let largest = heads_between(first[0], last[1], widths[1])[1];
+        let span = self.motion.span.values();
+        let by = std::array::from_fn(|index| {
+            from_crest[0].variation()[index] + from_crest[1].variation()[index] + half_width.variation()[index]
+        });
+        if !(span.has_sign() && smallest.is_finite() && largest.is_finite()) {
+            return self.of_shares([0.0, 1.0], by);
+        }
+        self.of_shares([(smallest / upper(span)).next_down(), (largest / lower(span)).next_up()], by)
+    }
+
+    /// The same where no more is known of the half-width than its range.
+    fn of_unknown_half_width(&self, [lo, hi]: [f64; 2]) -> Bounds {
+        let middle = Jet::constant(Ball::new(0.5 * (lo + hi), (0.5 * (hi - lo)).next_up()));
+        let crest = self.crest();
+        let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
+        let mut found = self.of_half_width(Function { middle, whole: middle }, from_crest);
+        let scale = magnitude(self.motion.squared.middle.value());
+        for (by, room) in found.by.iter_mut().zip(self.motion.room.variation()) {
+            *by += room / scale;
+        }
+        if found.by.iter().any(|by| !by.is_finite()) { self.of_shares([found.lo, found.hi], [f64::INFINITY; 3]) } else { found }
+    }
+
+    /// The motion may graze cos θ = 0 in the cell: the intervals of one face, tails or heads, are narrow and vanish. `None` if
+    /// they are not narrow.
+    fn grazing(&self) -> Option<Bounds> {
+        let Motion { squared, room, mean, span, .. } = self.motion;
+        let face = mean.sign()?;
+        // The narrow intervals are those of the face that the mean has not.
+        let largest = magnitude(squared.values()) * upper(room.values());
+        if !(largest <= magnitude(mean.values()).powi(2)) {
+            return None;
+        }
+        let ratio = squared.times(room).with(mean, |product, mean| product / (mean * mean)).narrowed();
+        let (least, most) = (lower(ratio.values()), upper(ratio.values()));
+        if !(most <= 0.25 && least >= -0.25) {
+            return None;
+        }
+        let widths = [least, most].map(|ratio| ratio.max(0.0).sqrt().atan());
+        let (narrowest, widest) = ((widths[0] * (1.0 - 4.0 * f64::EPSILON)).max(0.0), widths[1] * (1.0 + 4.0 * f64::EPSILON));
+        let crest = self.crest();
+        let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
+        let crude = || {
+            let heads = if face > 0.0 { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };
+            self.of_unknown_half_width(heads)
+        };
+        // Phases from the nearest middle of a narrow interval.
+        let to_middle = if face > 0.0 { exactly(0.0).pi() } else { exactly(0.0) };
+        let mut passed = [0.0; 2];
+        for (passed, phase) in passed.iter_mut().zip(&from_crest) {
+            let phase = phase.map(|jet| jet - Jet::constant(to_middle));
+            let turns = (phase.middle.to_f64() / TAU).round();
+            let turned = self.turned(turns);
+            let distance = phase.map(|jet| jet - turned).narrowed();
+            let (values, size) = (distance.values(), distance.values().magnitude());
+            let is_clear = values.has_sign()
+                && lower(&size) > widest
+                && upper(&size) < (TAU - widest).next_down();
+            if !is_clear {
+                return Some(crude());
+            }
+            *passed = turns + if values.sign() > 0.0 { 1.0 } else { 0.0 };
+        }
+        let number = passed[1] - passed[0];
+        if number == 0.0 {
+            return Some(self.of_one_face(face));
+        }
+        let factor = span.map(|span| span.reciprocal()).scaled(2.0 * number);
+        let factor = self.weight.map_or(factor, |weight| factor.times(weight));
+        let squared = ratio.map(|ratio| squared_angle_of_root(&ratio)).times(factor.times(factor));
+        let narrow = squared.mean_of_positive_part(Power::Half);
+        let found = if face < 0.0 { narrow } else { self.weight().plus(-1.0, narrow) };
+        Some(found)
+    }
+}
+
+/// |L|² cos θ at a phase.
+fn height<const T: usize>(phase: Jet<Ball<f64>, T>, [mean, cosine, sine]: [Jet<Ball<f64>, T>; 3]) -> Jet<Ball<f64>, T> {
+    let [sin, cos] = phase.sine_and_cosine();
+    mean + cosine * cos + sine * sin
+}
+
+/// Where a phase from the crest is, over the whole cell; `None` if it is near more than one edge.
+fn place<const T: usize>(landing: Function<T>, half_width: Function<T>) -> Option<Place> {
+    let is_positive = |function: Function<T>| function.narrowed().sign() == Some(1.0);
+    let whole_turn = Jet::constant(exactly(0.0).pi() + exactly(0.0).pi());
+    // To the upper and the lower edge, and to those of the intervals before and after.
+    let [up, down] = [half_width.minus(landing), half_width.plus(landing)];
+    let [after_last, before_next] = [up, down].map(|edge| edge.map(|jet| whole_turn - jet));
+    let (is_below_upper, is_above_lower) = (is_positive(up), is_positive(down));
+    match (is_below_upper, is_above_lower) {
+        (true, true) => Some(Place::Inside),
+        (false, true) if is_positive(before_next) => {
+            let is_beyond = up.narrowed().sign() == Some(-1.0);
+            Some(if is_beyond { Place::Outside(1.0) } else { Place::Edge(1.0) })
+        }
+        (true, false) if is_positive(after_last) => {
+            let is_beyond = down.narrowed().sign() == Some(-1.0);
+            Some(if is_beyond { Place::Outside(-1.0) } else { Place::Edge(-1.0) })
+        }
+        _ => None,
+    }
+}
+
+/// Bounds of the measure of heads between two phases from a crest.
+fn heads_between(from: f64, to: f64, half_width: f64) -> [f64; 2] {
+    let before = |phase: f64| {
+        let turns = (phase / TAU).round();
+        2.0 * half_width * turns + (phase - TAU * turns).clamp(-half_width, half_width)
+    };
+    let (first, last) = (before(from), before(to));
+    // Each of some ten operations, and 2π, is right to u of the largest number.
+    let error = 16.0 * f64::EPSILON * (TAU + from.abs() + to.abs());
+    let measure = last - first;
+    [measure - error, measure + error]
+}

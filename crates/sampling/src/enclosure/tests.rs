@@ -1,0 +1,197 @@
+use dynamics::Coin;
+use numerics::Jet;
+
+use super::cell::MOST_DIRECTIONS;
+use super::*;
+use crate::exact_speed;
+use crate::plan::{Plan, Rest, Scrambled};
+use crate::sampler::Sampler;
+
+fn fraction(index: u32, square: f64) -> f64 {
+    (f64::from(index) * square.sqrt()).fract()
+}
+
+/// Spaces with one to three coordinates beside the speed: from horizontal and tilted, with ψ = 45° inside and without, narrow and wide, with
+/// ties, normal axes, and gravities.
+fn spaces() -> impl Iterator<Item = Space> {
+    (1..=120).map(|index| {
+        let part = |square: f64| fraction(index, square);
+        let wide = |square: f64, other: f64| {
+            let lo = 60.0 * part(square) - 20.0;
+            lo..=lo + [30.0, 3.0, 0.02][index as usize % 3] * (0.1 + part(other))
+        };
+        let space = Space::builder(Coin::from_moments(1.0, 2.0 * part(37.0)).unwrap());
+        let low = if index % 7 == 0 { 0.0 } else { 1.0 + part(41.0) };
+        let space = space.speed(low..=low + 0.1 + 3.0 * part(43.0));
+        let space = match index % 10 {
+            0 => space.rate_x(0.0).rate_y(wide(2.0, 3.0)).rate_z(30.0 * part(5.0)),
+            1 => space.rate_x(3.0).rate_y(wide(2.0, 3.0)).rate_z(wide(5.0, 7.0)),
+            2 => space.rate_x(wide(2.0, 3.0)).tie_rate_y_to_x().rate_z(20.0 * part(5.0)),
+            3 => space.rate_x(wide(2.0, 3.0)).rate_y(wide(11.0, 13.0)).rate_z(wide(5.0, 7.0)),
+            4 => space.rate_x(4.0).rate_y(wide(2.0, 3.0)).rate_z(7.0).tilt(part(5.0)..=part(5.0) + 0.5),
+            5 => space.rate_x(wide(2.0, 3.0)).rate_y(11.0).rate_z(wide(5.0, 7.0)).tilt(2.0 * part(11.0)),
+            6 => space.rate_x(0.0).rate_y(crate::Axis::normal(20.0 * part(2.0), 0.1 + part(3.0))).rate_z(9.0),
+            7 => space.rate_x(1.0).rate_y(wide(2.0, 3.0)).rate_z(5.0).gravity(9.0..=9.0 + part(5.0)),
+            8 => space.rate_x(wide(2.0, 3.0)).rate_y(wide(11.0, 13.0)).rate_z(wide(5.0, 7.0)).tilt(1.0),
+            _ => space.rate_x(wide(2.0, 3.0)).rate_y(-3.0).rate_z(crate::Axis::normal(8.0, 2.0)).tilt(0.4),
+        };
+        space.build().unwrap()
+    })
+}
+
+/// The mean of the share times the density over a cell, by the midpoint rule with so many points in each direction.
+fn mean_of_shares(space: &Space, cell: &Cell<'_>, points: u32) -> f64 {
+    let directions: Vec<&Direction> = cell.directions.iter().flatten().copied().collect();
+    let all = u64::from(points).pow(directions.len() as u32);
+    let mut sum = 0.0;
+    for number in 0..all {
+        let (mut values, mut weight, mut rest) = (space.fixed_values(), 1.0, number);
+        if directions.iter().any(|direction| direction.is_across()) {
+            values[Coordinate::RateY as usize] = 0.0;
+        }
+        for (index, direction) in directions.iter().enumerate() {
+            let [lo, hi] = cell.interval(index);
+            let part = (f64::from((rest % u64::from(points)) as u32) + 0.5) / f64::from(points);
+            rest /= u64::from(points);
+            let s = Jet::<_, 3>::constant(Ball::new(lo + part * (hi - lo), 0.0));
+            let (value, density) = direction.at(s);
+            values[direction.of as usize] = value.to_f64();
+            weight *= density.map_or(1.0, |density| density.to_f64());
+        }
+        sum += weight * exact_speed::share(space, space.coin().unwrap(), &values).unwrap().probability;
+    }
+    sum / all as f64
+}
+
+/// Each direction of a space is divided again and again, at places of its own.
+fn cells(directions: &[Vec<Direction>], index: u32) -> Vec<Cell<'_>> {
+    let mut cells = Vec::new();
+    for mut cell in roots(directions) {
+        for depth in 0..9_u32 {
+            let axis = (depth + index) as usize % directions.len();
+            let half = usize::from(fraction(index + 31 * depth, 17.0) > 0.5);
+            cell = cell.halves(axis).unwrap()[half].clone();
+            if depth % 2 == index % 2 {
+                cells.push(cell.clone());
+            }
+        }
+    }
+    cells
+}
+
+/// The bounds of cells of all kinds and sizes contain the means. Most are so narrow that a remainder that were too small by some
+/// parts would be seen.
+#[test]
+fn the_bounds_of_a_cell_contain_its_mean() {
+    let (mut told, mut kinds) = (0, [0; MOST_DIRECTIONS]);
+    for (index, space) in (0..).zip(spaces()) {
+        let (directions, _) = directions_of(&space);
+        let problem = Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
+        let points = [512, 48, 12][directions.len() - 1];
+        for cell in cells(&directions, index) {
+            let found = bounds_in(&problem, &cell, directions.len(), 0.0);
+            let [rough, fine] = [points / 2, points].map(|points| mean_of_shares(&space, &cell, points));
+            let slack = 2.0 * (rough - fine).abs() + 1e-12;
+            assert!(
+                found.lo - slack <= fine && fine <= found.hi + slack,
+                "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
+            );
+            told += u32::from(slack < 0.2 * found.width() && found.width() < 0.1);
+            kinds[directions.len() - 1] += 1;
+        }
+    }
+    assert!(told > 200 && kinds.iter().all(|cells| *cells > 40), "{told} {kinds:?}");
+}
+
+/// The halves of a cell, whose bounds are narrower, allow a number that the cell allows, too.
+#[test]
+fn the_bounds_of_a_cell_meet_those_of_its_halves() {
+    for (index, space) in (0..).zip(spaces()) {
+        let (directions, _) = directions_of(&space);
+        let problem = Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
+        for cell in cells(&directions, index) {
+            let of = |cell: &Cell<'_>| bounds_in(&problem, cell, directions.len(), 0.0);
+            let (whole, [one, other]) = (of(&cell), cell.halves(0).unwrap().map(|half| of(&half)));
+            let (lo, hi) = (0.5 * (one.lo + other.lo), 0.5 * (one.hi + other.hi));
+            assert!(lo <= whole.hi + 1e-15 && whole.lo <= hi + 1e-15, "{index}: {whole:?} {one:?} {other:?}");
+        }
+    }
+}
+
+/// Shares at Sobol points differ from the proven intervals by no more than their own intervals and those.
+#[test]
+fn sampled_probabilities_meet_the_proven_ones() {
+    let (mut outside, mut total) = (0, 0);
+    for space in spaces() {
+        let accuracy = [1e-8, 1e-5, 5e-3][coordinates(&space) - 1];
+        let found = estimate(&space, accuracy, MOST_CELLS, &|_| {}).unwrap();
+        let proven = found.interval.unwrap();
+        assert!(proven.hi - proven.lo <= 2.0 * accuracy && found.interval_kind == crate::IntervalKind::Proven);
+        let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 13, 1)));
+        let sampled = Sampler::exact().estimate(&space, plan).unwrap();
+        let interval = sampled.interval.unwrap();
+        // An interval at 95 % may miss, and then not by much.
+        let width = interval.hi - interval.lo;
+        outside += u32::from(interval.lo > proven.hi || interval.hi < proven.lo);
+        assert!(interval.lo - 2.0 * width <= proven.hi && proven.lo <= interval.hi + 2.0 * width, "{space:?} {proven:?} {sampled:?}");
+        total += 1;
+    }
+    assert!(total == 120 && outside < 12, "{outside}");
+}
+
+/// With a single speed, the share of heads is counted launch by launch.
+#[test]
+fn single_speeds_are_enclosed() {
+    for index in 1..20 {
+        let part = |square: f64| fraction(index, square);
+        let rate = 10.0 * part(2.0)..=30.0 + 10.0 * part(3.0);
+        let space = Space::builder(Coin::PAPER).rate_x(1.0).rate_y(rate).rate_z(20.0 * part(5.0)).speed(2.0 + part(7.0));
+        let space = space.tilt(if index % 2 == 0 { 0.0 } else { 0.5 }).build().unwrap();
+        let proven = estimate(&space, 1e-7, MOST_CELLS, &|_| {}).unwrap().interval.unwrap();
+        let grid = space.with_axis(Coordinate::RateY, space.axis(Coordinate::RateY).with_points(200_001)).unwrap();
+        let counted = Sampler::exact().estimate(&grid, Plan::Grid).unwrap().probability;
+        // Each of some twenty edges lies between two points.
+        assert!(proven.lo - 1e-4 < counted && counted < proven.hi + 1e-4, "{space:?}: {counted} {proven:?}");
+        assert!(proven.hi - proven.lo <= 2e-7);
+    }
+}
+
+/// The same for any number of threads, and with fewer cells than are needed the best that they gave.
+#[test]
+fn a_computation_stops_at_its_number_of_cells() {
+    let space = Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
+    let coin = space.coin().unwrap();
+    let all = enclosed(&space, coin, 1e-5, MOST_CELLS, &|_| {});
+    let few = enclosed(&space, coin, 1e-5, all.cells - 1, &|_| {});
+    assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
+    let error = estimate(&space, 1e-5, all.cells - 1, &|_| {}).unwrap_err();
+    assert!(matches!(error, Error::NotReached { reached, points, .. } if reached > 1e-5 && points == few.cells), "{error}");
+    #[cfg(feature = "rayon")]
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| enclosed(&space, coin, 1e-5, MOST_CELLS, &|_| {})), all);
+    }
+}
+
+#[test]
+fn what_cannot_be_enclosed_is_refused_with_a_reason() {
+    let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1.0..=2.0).rate_z(3.0).speed(3.0..=5.0);
+    let refused = |space: Space, why: &str| {
+        let error = estimate(&space, 1e-6, MOST_CELLS, &|_| {}).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+    };
+    refused(space().rate_y(1.0).speed(3.0).build().unwrap(), "nothing varies");
+    refused(space().speed(crate::Axis::normal(4.0, 0.1)).build().unwrap(), "range of speeds");
+    refused(space().build().unwrap().with_drop(Some(0.1)).unwrap(), "height of the launch");
+    refused(space().rate_y(1e17..=2e17).build().unwrap(), "2^53");
+    let five = space().rate_x(1.0..=2.0).rate_z(1.0..=2.0).gravity(9.0..=10.0).tilt(0.0..=1.0).build().unwrap();
+    refused(five, "at most three coordinates");
+    let body = dynamics::Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+    refused(space().build().unwrap().with_body(body), "I1 ≠ I2");
+    for accuracy in [0.0, -1.0, f64::NAN] {
+        let error = estimate(&space().build().unwrap(), accuracy, MOST_CELLS, &|_| {}).unwrap_err().to_string();
+        assert!(error.contains("accuracy"), "{error}");
+    }
+    let error = estimate(&space().build().unwrap(), 1e-17, MOST_CELLS, &|_| {}).unwrap_err();
+    assert!(matches!(error, Error::NotReached { .. }), "{error}");
+}
