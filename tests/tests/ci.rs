@@ -100,7 +100,10 @@ fn what_no_row_names_affects_every_part() {
 fn what_cannot_be_affected_does_not_run() {
     let always: BTreeSet<String> = ALWAYS.map(str::to_owned).into();
     assert_eq!(affected(&[]), always);
-    assert_eq!(affected(&["docs/guide/toss.md", "crates/dynamics/tests/bodies.rs", "CHANGELOG.md", ".ci/passed"]), always);
+    assert_eq!(
+        affected(&["docs/guide/toss.md", "crates/dynamics/tests/bodies.rs", "CHANGELOG.md", ".ci/passed"]),
+        always
+    );
     let with = |part: &str| always.iter().cloned().chain([part.to_owned()]).collect::<BTreeSet<_>>();
     assert_eq!(affected(&["web/page/main.js"]), with("web"));
     assert_eq!(affected(&["bindings/python/src/lib.rs", "docs/json.md"]), with("python"));

@@ -149,7 +149,12 @@ impl<N: Elementary> Div for Ball<N> {
 impl<N: Elementary> Number for Ball<N> {
     /// All roundings of a sum are added up once: n products and n - 1 sums, of which none is above the sum of the sizes.
     #[inline]
-    fn sums_of_products<const T: usize>(one: &[Self; T], other: &[Self; T], pairs: &[[u8; 2]], ends: &[usize]) -> [Self; T] {
+    fn sums_of_products<const T: usize>(
+        one: &[Self; T],
+        other: &[Self; T],
+        pairs: &[[u8; 2]],
+        ends: &[usize],
+    ) -> [Self; T] {
         let sizes = one.each_ref().map(Self::size);
         let other_sizes = other.each_ref().map(|ball| [ball.size(), ball.size() + ball.radius]);
         let mut start = 0;

@@ -356,3 +356,100 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ball::Ball;
+
+    /// All operations and functions, of three numbers.
+    fn formula<N: Elementary>([x, y, z]: [N; 3]) -> N {
+        let [sin, cos] = (x.clone() * y.clone() + z.clone()).sine_and_cosine();
+        let root = (x.clone() * x.clone() + y.clone().exp() + x.like(0.5)).sqrt();
+        let [flat, steep] = [(sin.clone(), root.clone()), (root.clone() + x.like(3.0), cos - x.like(0.25))]
+            .map(|(height, along)| height.atan2(&along));
+        (flat * steep - z.clone() / (root + x.like(1.0))).times_power_of_two(1) + -y * x.pi() * z
+    }
+
+    /// Polynomials in the step, fitted by differences in double-double, have the coefficients of the series along a line.
+    fn check<const TERMS: usize>(at: [f64; 3]) {
+        let variables = Jet::<DoubleDouble, TERMS>::VARIABLES;
+        let number = DoubleDouble::from;
+        let found = formula(std::array::from_fn(|index| {
+            if index < variables {
+                Jet::<_, TERMS>::variable(number(at[index]), number(1.0), index)
+            } else {
+                Jet::constant(number(at[index]))
+            }
+        }));
+        assert_eq!(found.terms().count(), TERMS);
+        const STEP: f64 = 0.000_976_562_5; // 2^-10
+        for direction in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, -2.0, 0.0], [0.5, 1.0, -1.0], [-1.0, 0.5, 0.25]] {
+            let value = |steps: f64| {
+                let moved = std::array::from_fn(|index| {
+                    let moves = if index < variables { direction[index] } else { 0.0 };
+                    number(at[index] + moves * steps * STEP)
+                });
+                formula(moved)
+            };
+            let series = |steps: f64| {
+                found.terms().fold(number(0.0), |sum, (exponents, term)| {
+                    let power: f64 = exponents
+                        .iter()
+                        .zip(direction)
+                        .map(|(exponent, part)| (part * steps * STEP).powi((*exponent).into()))
+                        .product();
+                    sum + *term * number(power)
+                })
+            };
+            // What is left is the next term, which falls with the power of the step.
+            let order = i32::try_from(Jet::<DoubleDouble, TERMS>::ORDER).unwrap();
+            for steps in [-1.0, 1.0, 2.0] {
+                let off = (value(steps) - series(steps)).hi().abs();
+                let allowed = 2e3 * (steps.abs() * STEP).powi(order + 1);
+                assert!(off <= allowed, "{TERMS} {at:?} {direction:?} {steps}: {off:e} > {allowed:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_series_is_that_of_the_formula_in_any_direction() {
+        for at in [[0.3, -0.4, 0.7], [-1.1, 0.2, -0.5], [0.9, 0.8, 1.3]] {
+            check::<3>(at);
+            check::<5>(at);
+            check::<6>(at);
+            check::<15>(at);
+            check::<10>(at);
+            check::<35>(at);
+        }
+    }
+
+    /// Series over a box have the derivatives at all its points.
+    #[test]
+    fn series_of_balls_contain_those_of_their_points() {
+        let middle = [0.3, -0.4, 0.7];
+        let over = formula(std::array::from_fn(|index| {
+            Jet::<_, 10>::variable(Ball::new(middle[index], 0.01), Ball::new(1.0, 0.0), index)
+        }));
+        for corner in 0..27 {
+            let place = [corner % 3, corner / 3 % 3, corner / 9].map(|place| f64::from(place) - 1.0);
+            let at = formula(std::array::from_fn(|index| {
+                let value = middle[index] + 0.0099 * place[index];
+                Jet::<_, 10>::variable(DoubleDouble::from(value), DoubleDouble::from(1.0), index)
+            }));
+            for ((exponents, ball), (_, term)) in over.terms().zip(at.terms()) {
+                assert!((ball.midpoint() - term.hi()).abs() <= ball.radius(), "{exponents:?}: {ball:?} {term:?}");
+                assert!(ball.radius() < 1.0, "{exponents:?}: {ball:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_constant_keeps_no_infinite_derivative_and_a_constant_term_is_the_number() {
+        assert_eq!(Jet::<f64, 6>::constant(0.0).sqrt(), Jet::constant(0.0));
+        let jet = Jet::<f64, 3>::variable(4.0, 2.0, 0);
+        assert_eq!((*jet.value(), jet.slopes(), jet.to_f64()), (4.0, &[2.0][..], 4.0));
+        assert_eq!(*jet.with_constant(1.0).value(), 1.0);
+        assert_eq!(jet.reciprocal().slopes(), [-0.125]);
+    }
+}

@@ -22,7 +22,12 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
     /// end, and each has at least one.
     #[inline(always)]
     #[must_use]
-    fn sums_of_products<const N: usize>(one: &[Self; N], other: &[Self; N], pairs: &[[u8; 2]], ends: &[usize]) -> [Self; N] {
+    fn sums_of_products<const N: usize>(
+        one: &[Self; N],
+        other: &[Self; N],
+        pairs: &[[u8; 2]],
+        ends: &[usize],
+    ) -> [Self; N] {
         let product = |[i, j]: &[u8; 2]| one[usize::from(*i)].clone() * other[usize::from(*j)].clone();
         let mut start = 0;
         std::array::from_fn(|target| {

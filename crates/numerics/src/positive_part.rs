@@ -101,3 +101,81 @@ fn positive(number: Ball<DoubleDouble>, more: usize, power: Power) -> Ball<Doubl
     };
     (0..more).fold(first, |product, _| product * part)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the midpoint rule.
+    fn counted(constant: f64, slopes: [f64; 3], power: Power) -> f64 {
+        const POINTS: i32 = 100;
+        let at = |index: i32| (2.0 * f64::from(index) + 1.0) / f64::from(POINTS) - 1.0;
+        let mut sum = 0.0;
+        for number in 0..POINTS.pow(3) {
+            let point = [number % POINTS, number / POINTS % POINTS, number / POINTS / POINTS].map(at);
+            let value = constant + slopes.iter().zip(point).map(|(slope, t)| slope * t).sum::<f64>();
+            sum += match power {
+                Power::Zero => f64::from(value > 0.0),
+                Power::Half => value.max(0.0).sqrt(),
+                Power::One => value.max(0.0),
+            };
+        }
+        sum / f64::from(POINTS.pow(3))
+    }
+
+    #[test]
+    fn means_are_those_over_many_points() {
+        for (constant, slopes) in [
+            (0.1, [1.0, 0.5, -0.25]),
+            (-0.7, [0.3, -0.9, 0.2]),
+            (5.0, [1.0, 1.0, 1.0]),
+            (-5.0, [1.0, 1.0, 1.0]),
+            (0.0, [2.0, 0.0, 0.0]),
+            (0.3, [0.0, 1e-9, -1.0]),
+            (-0.2, [0.0, 0.0, 0.0]),
+            (0.2, [0.0, 0.0, 0.0]),
+        ] {
+            for (power, error) in [(Power::Zero, 0.011), (Power::Half, 1e-3), (Power::One, 1e-3)] {
+                let [lo, hi] = mean(constant, &slopes, 0.0, power);
+                let expected = counted(constant, slopes, power);
+                assert!(lo <= hi && hi - lo < 1e-8 * (1.0 + hi), "{constant} {slopes:?} {power:?}: {lo} {hi}");
+                assert!((lo - expected).abs() < error, "{constant} {slopes:?} {power:?}: {lo}, not {expected}");
+            }
+        }
+    }
+
+    /// In closed form: of t over -1 to 1, and of a sum of two.
+    #[test]
+    fn means_are_exact() {
+        for (constant, slopes, power, expected) in [
+            (0.0, &[1.0][..], Power::One, 0.25),
+            (0.0, &[1.0], Power::Half, 1.0 / 3.0),
+            (0.5, &[-1.0], Power::Zero, 0.75),
+            (0.0, &[1.0, 1.0], Power::One, 1.0 / 3.0),
+            (2.0, &[1.0, 0.5], Power::One, 2.0),
+        ] {
+            let [lo, hi] = mean(constant, slopes, 0.0, power);
+            assert!(lo <= expected && expected <= hi && hi - lo < 1e-14, "{constant} {slopes:?} {power:?}: {lo} {hi}");
+        }
+    }
+
+    /// A function that is off by so much everywhere is within.
+    #[test]
+    fn what_is_off_the_linear_function_widens_the_mean() {
+        let slopes = [0.4, 0.3, 0.2];
+        for power in [Power::Zero, Power::Half, Power::One] {
+            let [lo, hi] = mean(0.1, &slopes, 0.05, power);
+            for shift in [-0.05, 0.0, 0.05] {
+                let [least, most] = mean(0.1 + shift, &slopes, 0.0, power);
+                assert!(lo <= most && least <= hi, "{power:?} {shift}");
+            }
+            assert!(hi - lo < 0.3);
+        }
+        let [lo, hi] = mean(0.0, &[], 0.0, Power::Zero);
+        assert!(lo == 0.0 && hi < 1e-300);
+        assert_eq!(mean(f64::MAX, &[f64::MAX], 0.0, Power::One), [0.0, f64::INFINITY]);
+        // A slope that is left out moves the function.
+        let [lo, hi] = mean(0.0, &[1.0, 1e-8], 0.0, Power::One);
+        assert!(hi - lo >= 1e-8 && hi - lo < 4e-8);
+    }
+}

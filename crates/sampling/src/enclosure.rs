@@ -72,7 +72,8 @@ pub fn require_enclosable(space: &Space) -> Result<(), InputError> {
         return Err(refused(Coordinate::Speed.field(), why));
     }
     if space.free().next().is_none() {
-        let why = "nothing varies in this space, so that there is no probability: a single toss is proven by its outcome";
+        let why =
+            "nothing varies in this space, so that there is no probability: a single toss is proven by its outcome";
         return Err(refused("space", why));
     }
     if largest_phase(space) > LARGEST_PHASE {
@@ -114,7 +115,12 @@ pub fn usual_accuracy(space: &Space) -> f64 {
 /// # Errors
 /// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` that is not positive; [`Error::NotReached`] with the
 /// accuracy that was reached.
-pub(crate) fn estimate(space: &Space, accuracy: f64, most_cells: u64, progress: Progress<'_>) -> Result<Estimate, Error> {
+pub(crate) fn estimate(
+    space: &Space,
+    accuracy: f64,
+    most_cells: u64,
+    progress: Progress<'_>,
+) -> Result<Estimate, Error> {
     require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)?;
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
@@ -168,7 +174,12 @@ fn ends(sum: &Ball<DoubleDouble>) -> Interval {
 fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
     let mut chosen = vec![[None; MOST_DIRECTIONS]];
     for (index, parts) in directions.iter().enumerate() {
-        let with = |part| move |mut cell: [Option<_>; MOST_DIRECTIONS]| { cell[index] = Some(part); cell };
+        let with = |part| {
+            move |mut cell: [Option<_>; MOST_DIRECTIONS]| {
+                cell[index] = Some(part);
+                cell
+            }
+        };
         chosen = parts.iter().flat_map(|part| chosen.iter().copied().map(with(part))).collect();
     }
     chosen.into_iter().map(Cell::whole).collect()

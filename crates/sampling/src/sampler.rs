@@ -4,10 +4,10 @@
 use dynamics::{Checked, Error, InputError, Solver};
 
 use crate::counts::Decider;
+use crate::enclosure;
 use crate::estimate::Estimate;
 use crate::fold::Progress;
 use crate::plan::Plan;
-use crate::enclosure;
 use crate::space::Space;
 
 /// Estimates probabilities of heads over many launches, on the threads of the current pool of rayon; without the feature

@@ -9,9 +9,7 @@ use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::solver_args::SolverArgs;
-use crate::space_args::{
-    Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few,
-};
+use crate::space_args::{Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
 /// The numbers of launches at each node.
 const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: None };

@@ -154,7 +154,8 @@ impl<const T: usize> Function<T> {
     /// The same function, whose values over the cell are bounded by the mean value theorem where that is narrower.
     fn narrowed(mut self) -> Self {
         let value = self.middle.value();
-        let reach = self.whole.slopes().iter().map(magnitude).fold(value.radius(), |sum, slope| (sum + slope).next_up());
+        let reach =
+            self.whole.slopes().iter().map(magnitude).fold(value.radius(), |sum, slope| (sum + slope).next_up());
         if reach < self.whole.value().radius() {
             self.whole = self.whole.with_constant(Ball::new(*value.midpoint(), reach));
         }
@@ -379,10 +380,7 @@ impl<'a> Problem<'a> {
 }
 
 /// A motion about the middle, and one over the whole of a cell.
-fn both<const T: usize>(
-    middle: Motion<Jet<Ball<f64>, T>>,
-    whole: Motion<Jet<Ball<f64>, T>>,
-) -> Motion<Function<T>> {
+fn both<const T: usize>(middle: Motion<Jet<Ball<f64>, T>>, whole: Motion<Jet<Ball<f64>, T>>) -> Motion<Function<T>> {
     let pair = |middle, whole| Function { middle, whole }.narrowed();
     Motion {
         squared: pair(middle.squared, whole.squared),
@@ -427,7 +425,9 @@ impl<const T: usize> Means<'_, '_, T> {
         }
         let cos_tilt = self.motion.cos_tilt.values();
         let needed = exactly(most).sine_and_cosine()[0];
-        (cos_tilt.has_sign() && (cos_tilt.magnitude() - needed).has_sign() && (cos_tilt.magnitude() - needed).sign() > 0.0)
+        (cos_tilt.has_sign()
+            && (cos_tilt.magnitude() - needed).has_sign()
+            && (cos_tilt.magnitude() - needed).sign() > 0.0)
             .then(|| cos_tilt.sign())
     }
 
@@ -451,7 +451,9 @@ impl<const T: usize> Means<'_, '_, T> {
         let by = if by.iter().all(|by| by.is_finite()) {
             by
         } else {
-            std::array::from_fn(|index| if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 })
+            std::array::from_fn(|index| {
+                if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 }
+            })
         };
         Bounds { lo, hi, by }
     }
@@ -459,7 +461,11 @@ impl<const T: usize> Means<'_, '_, T> {
     /// A single landing: the outcome is the sign of cos θ.
     fn of_one_speed(&self) -> Bounds {
         let Motion { phases: [_, phase], mean, cosine, sine, .. } = self.motion;
-        let height = Function { middle: height(phase.middle, [mean.middle, cosine.middle, sine.middle]), whole: height(phase.whole, [mean.whole, cosine.whole, sine.whole]) }.narrowed();
+        let height = Function {
+            middle: height(phase.middle, [mean.middle, cosine.middle, sine.middle]),
+            whole: height(phase.whole, [mean.whole, cosine.whole, sine.whole]),
+        }
+        .narrowed();
         if let Some(face) = height.sign() {
             return self.of_one_face(face);
         }
@@ -470,7 +476,11 @@ impl<const T: usize> Means<'_, '_, T> {
             Some(weight) => {
                 let all = weight.values();
                 let by = std::array::from_fn(|index| found.by[index] * magnitude(all) + weight.variation()[index]);
-                Bounds { lo: (lower(all).max(0.0) * found.lo).next_down(), hi: (magnitude(all) * found.hi.min(1.0)).next_up(), by }
+                Bounds {
+                    lo: (lower(all).max(0.0) * found.lo).next_down(),
+                    hi: (magnitude(all) * found.hi.min(1.0)).next_up(),
+                    by,
+                }
             }
         }
     }
@@ -520,7 +530,8 @@ impl<const T: usize> Means<'_, '_, T> {
         }
         // More terms serve if they can make the cell narrow enough.
         let enough = if beyond_edges.width() < enough { enough - beyond_edges.width() } else { f64::INFINITY };
-        self.smooth::<F>(numerator, apart, [half_width, landings[0], landings[1]], inverse, enough).plus(1.0, beyond_edges)
+        self.smooth::<F>(numerator, apart, [half_width, landings[0], landings[1]], inverse, enough)
+            .plus(1.0, beyond_edges)
     }
 
     /// 2π `turns`, as a number.
@@ -572,7 +583,12 @@ impl<const T: usize> Means<'_, '_, T> {
     }
 
     /// The same share over the whole cell, in a series of more terms.
-    fn fine_share<const F: usize>(&self, numerator: Numerator, apart: f64, [half_width, first, last]: &[Function<T>; 3]) -> Jet<Ball<f64>, F> {
+    fn fine_share<const F: usize>(
+        &self,
+        numerator: Numerator,
+        apart: f64,
+        [half_width, first, last]: &[Function<T>; 3],
+    ) -> Jet<Ball<f64>, F> {
         let launches = self.problem.launches::<F>(self.cell, true);
         let motion = self.problem.motion(&launches);
         // What was found to be narrower holds here, too. A multiple of 2π makes no difference to the terms but the first.
@@ -580,11 +596,14 @@ impl<const T: usize> Means<'_, '_, T> {
         let root = (narrowed(motion.squared, &self.motion.squared) * narrowed(motion.room, &self.motion.room)).sqrt();
         let width = narrowed(root.atan2(&-narrowed(motion.mean, &self.motion.mean)), half_width);
         let inverse = narrowed(motion.span, &self.motion.span).reciprocal();
-        let crest = if self.problem.is_horizontal() { Jet::constant(exactly(0.0)) } else {
+        let crest = if self.problem.is_horizontal() {
+            Jet::constant(exactly(0.0))
+        } else {
             narrowed(motion.sine, &self.motion.sine).atan2(&narrowed(motion.cosine, &self.motion.cosine))
         };
         let share = if numerator.inside == [true, true] {
-            (width - Jet::constant(exactly(0.0).pi())).scaled(&exactly(2.0 * apart)) * inverse + Jet::constant(exactly(1.0))
+            (width - Jet::constant(exactly(0.0).pi())).scaled(&exactly(2.0 * apart)) * inverse
+                + Jet::constant(exactly(1.0))
         } else {
             let mut sum = width.scaled(&exactly(numerator.half_widths));
             if numerator.inside[0] {
@@ -624,7 +643,11 @@ impl<const T: usize> Means<'_, '_, T> {
         for (by, room) in found.by.iter_mut().zip(self.motion.room.variation()) {
             *by += room / scale;
         }
-        if found.by.iter().any(|by| !by.is_finite()) { self.of_shares([found.lo, found.hi], [f64::INFINITY; 3]) } else { found }
+        if found.by.iter().any(|by| !by.is_finite()) {
+            self.of_shares([found.lo, found.hi], [f64::INFINITY; 3])
+        } else {
+            found
+        }
     }
 
     /// The motion may graze cos θ = 0 in the cell: the intervals of one face, tails or heads, are narrow and vanish. `None` if
@@ -643,11 +666,13 @@ impl<const T: usize> Means<'_, '_, T> {
             return None;
         }
         let widths = [least, most].map(|ratio| ratio.max(0.0).sqrt().atan());
-        let (narrowest, widest) = ((widths[0] * (1.0 - 4.0 * f64::EPSILON)).max(0.0), widths[1] * (1.0 + 4.0 * f64::EPSILON));
+        let (narrowest, widest) =
+            ((widths[0] * (1.0 - 4.0 * f64::EPSILON)).max(0.0), widths[1] * (1.0 + 4.0 * f64::EPSILON));
         let crest = self.crest();
         let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
         let crude = || {
-            let heads = if face > 0.0 { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };
+            let heads =
+                if face > 0.0 { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };
             self.of_unknown_half_width(heads)
         };
         // Phases from the nearest middle of a narrow interval.
@@ -659,9 +684,7 @@ impl<const T: usize> Means<'_, '_, T> {
             let turned = self.turned(turns);
             let distance = phase.map(|jet| jet - turned).narrowed();
             let (values, size) = (distance.values(), distance.values().magnitude());
-            let is_clear = values.has_sign()
-                && lower(&size) > widest
-                && upper(&size) < (TAU - widest).next_down();
+            let is_clear = values.has_sign() && lower(&size) > widest && upper(&size) < (TAU - widest).next_down();
             if !is_clear {
                 return Some(crude());
             }
@@ -719,4 +742,67 @@ fn heads_between(from: f64, to: f64, half_width: f64) -> [f64; 2] {
     let error = 16.0 * f64::EPSILON * (TAU + from.abs() + to.abs());
     let measure = last - first;
     [measure - error, measure + error]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn monomial<const T: usize>(exponents: [i32; 2], factor: Ball<f64>) -> Jet<Ball<f64>, T> {
+        let [one, other] = [0, 1].map(|index| Jet::variable(exactly(0.0), exactly(1.0), index));
+        let power = |variable: Jet<Ball<f64>, T>, exponent| {
+            (0..exponent).fold(Jet::constant(exactly(1.0)), |all, _| all * variable)
+        };
+        (power(one, exponents[0]) * power(other, exponents[1])).scaled(&factor)
+    }
+
+    /// A coefficient of a last term may have the sign of the term everywhere, so that its mean is that of the absolute value.
+    #[test]
+    fn a_last_term_of_any_sign_is_within_the_mean_of_its_absolute_value() {
+        fn reaches<const F: usize>(exponents: [i32; 2], expected: f64) {
+            let unknown = monomial::<F>(exponents, Ball::new(0.0, 1.0));
+            let found = mean(&Jet::<_, 6>::constant(exactly(0.0)), &unknown);
+            let [least, most] = [-found.lo, found.hi];
+            for reach in [least, most] {
+                assert!(reach >= expected && reach < expected * (1.0 + 1e-12), "{exponents:?}: {found:?}");
+            }
+            // A known one has a mean of its own.
+            let known = mean(&Jet::<_, 6>::constant(exactly(0.0)), &monomial::<F>(exponents, exactly(1.0)));
+            let own = if exponents.iter().all(|exponent| exponent % 2 == 0) { expected } else { 0.0 };
+            assert!((known.lo - own).abs() < 1e-14 && (known.hi - own).abs() < 1e-14, "{exponents:?}: {known:?}");
+        }
+        reaches::<6>([2, 0], 1.0 / 3.0);
+        reaches::<6>([1, 1], 1.0 / 4.0);
+        reaches::<15>([4, 0], 1.0 / 5.0);
+        reaches::<15>([3, 1], 1.0 / 8.0);
+        reaches::<15>([2, 2], 1.0 / 9.0);
+    }
+
+    /// The same of what a function is off its linear part, by its mean or by its largest value.
+    #[test]
+    fn a_positive_part_allows_for_all_second_derivatives() {
+        for (exponents, on_average) in [([2, 0], 1.0 / 3.0), ([1, 1], 1.0 / 4.0), ([0, 2], 1.0 / 3.0)] {
+            let linear = monomial::<6>([1, 0], exactly(0.5)) + monomial::<6>([0, 1], exactly(0.25));
+            let function = Function { middle: linear, whole: linear + monomial(exponents, Ball::new(0.0, 0.01)) };
+            let exact = Function { middle: linear, whole: linear };
+            for (power, off) in [(Power::One, 0.01 * on_average), (Power::Half, 0.01), (Power::Zero, 0.01)] {
+                let found = function.mean_of_positive_part(power);
+                let [lo, hi] = positive_part::mean(0.0, &[0.5, 0.25], off, power);
+                assert!(
+                    found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo),
+                    "{power:?} {exponents:?}"
+                );
+                assert!(exact.mean_of_positive_part(power).width() < 1e-14);
+            }
+        }
+    }
+
+    /// A function that is known to be within a ball about the middle, and its slopes, is within the sum.
+    #[test]
+    fn values_are_within_the_slopes_of_the_middle() {
+        let wide = |value: f64| Jet::<_, 6>::variable(Ball::new(value, 10.0), Ball::new(0.0, 0.5), 1);
+        let function = Function { middle: Jet::constant(Ball::new(2.0, 0.25)), whole: wide(2.0) }.narrowed();
+        assert_eq!(*function.values().midpoint(), 2.0);
+        assert!((0.75..0.75 + 1e-12).contains(&function.values().radius()), "{:?}", function.values());
+    }
 }

@@ -131,7 +131,9 @@ impl Direction {
             Some(Self { of: RateX, ends: [from, to], kind: Kind::Across(arcs) })
         });
         let pieces: Option<Vec<Self>> = pieces.collect();
-        Some(pieces?.into_iter().filter(|piece| !matches!(&piece.kind, Kind::Across(arcs) if arcs.is_empty())).collect())
+        Some(
+            pieces?.into_iter().filter(|piece| !matches!(&piece.kind, Kind::Across(arcs) if arcs.is_empty())).collect(),
+        )
     }
 
     /// Whether ωy is 0, because this coordinate takes the place of both.
@@ -170,7 +172,8 @@ impl Direction {
                     if side.is_x { other.atan2(&at) } else { at.atan2(&other) }
                 };
                 let zero = Jet::constant(Ball::new(0.0, 0.0));
-                let sum = arcs.iter().fold(zero, |sum, arc| sum + (angle(&arc.to) - angle(&arc.from)).scaled(&arc.density));
+                let sum =
+                    arcs.iter().fold(zero, |sum, arc| sum + (angle(&arc.to) - angle(&arc.from)).scaled(&arc.density));
                 (radius, Some((radius * s * sum).scaled(&(length + length))))
             }
         }
@@ -217,7 +220,8 @@ impl Rectangle {
         if !is_beyond(left, bottom)? || is_beyond(right, top)? {
             return Some(None);
         }
-        let from = if is_beyond(right, bottom)? { Side { at: right, is_x: true } } else { Side { at: bottom, is_x: false } };
+        let from =
+            if is_beyond(right, bottom)? { Side { at: right, is_x: true } } else { Side { at: bottom, is_x: false } };
         let to = if is_beyond(left, top)? { Side { at: top, is_x: false } } else { Side { at: left, is_x: true } };
         Some(Some(Arc { from, to, density }))
     }

@@ -54,7 +54,9 @@ mod tests {
             let slope = (after - before) / (step + step);
             let curvature = (after - here - (here - before)) / (step * step);
             let expected = [here, slope, curvature.half()].map(DoubleDouble::hi);
-            for ((term, expected), allowed) in found.terms().map(|(_, term)| term).zip(expected).zip([1e-30, 1e-12, 1e-9]) {
+            for ((term, expected), allowed) in
+                found.terms().map(|(_, term)| term).zip(expected).zip([1e-30, 1e-12, 1e-9])
+            {
                 let off = (term.midpoint() - expected).abs();
                 assert!(off <= term.radius() + allowed, "{x}: {off:e} {term:?}");
                 assert!(term.radius() < 1e-14, "{x}: {term:?}");

@@ -86,7 +86,8 @@ fn the_bounds_of_a_cell_contain_its_mean() {
     let (mut told, mut kinds) = (0, [0; MOST_DIRECTIONS]);
     for (index, space) in (0..).zip(spaces()) {
         let (directions, _) = directions_of(&space);
-        let problem = Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
+        let problem =
+            Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
         let points = [512, 48, 12][directions.len() - 1];
         for cell in cells(&directions, index) {
             let found = bounds_in(&problem, &cell, directions.len(), 0.0);
@@ -108,7 +109,8 @@ fn the_bounds_of_a_cell_contain_its_mean() {
 fn the_bounds_of_a_cell_meet_those_of_its_halves() {
     for (index, space) in (0..).zip(spaces()) {
         let (directions, _) = directions_of(&space);
-        let problem = Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
+        let problem =
+            Problem::new(&space, space.coin().unwrap(), directions.iter().flatten().any(Direction::is_across));
         for cell in cells(&directions, index) {
             let of = |cell: &Cell<'_>| bounds_in(&problem, cell, directions.len(), 0.0);
             let (whole, [one, other]) = (of(&cell), cell.halves(0).unwrap().map(|half| of(&half)));
@@ -133,7 +135,10 @@ fn sampled_probabilities_meet_the_proven_ones() {
         // An interval at 95 % may miss, and then not by much.
         let width = interval.hi - interval.lo;
         outside += u32::from(interval.lo > proven.hi || interval.hi < proven.lo);
-        assert!(interval.lo - 2.0 * width <= proven.hi && proven.lo <= interval.hi + 2.0 * width, "{space:?} {proven:?} {sampled:?}");
+        assert!(
+            interval.lo - 2.0 * width <= proven.hi && proven.lo <= interval.hi + 2.0 * width,
+            "{space:?} {proven:?} {sampled:?}"
+        );
         total += 1;
     }
     assert!(total == 120 && outside < 12, "{outside}");
@@ -145,7 +150,8 @@ fn single_speeds_are_enclosed() {
     for index in 1..20 {
         let part = |square: f64| fraction(index, square);
         let rate = 10.0 * part(2.0)..=30.0 + 10.0 * part(3.0);
-        let space = Space::builder(Coin::PAPER).rate_x(1.0).rate_y(rate).rate_z(20.0 * part(5.0)).speed(2.0 + part(7.0));
+        let space =
+            Space::builder(Coin::PAPER).rate_x(1.0).rate_y(rate).rate_z(20.0 * part(5.0)).speed(2.0 + part(7.0));
         let space = space.tilt(if index % 2 == 0 { 0.0 } else { 0.5 }).build().unwrap();
         let proven = estimate(&space, 1e-7, MOST_CELLS, &|_| {}).unwrap().interval.unwrap();
         let grid = space.with_axis(Coordinate::RateY, space.axis(Coordinate::RateY).with_points(200_001)).unwrap();
@@ -159,13 +165,17 @@ fn single_speeds_are_enclosed() {
 /// The same for any number of threads, and with fewer cells than are needed the best that they gave.
 #[test]
 fn a_computation_stops_at_its_number_of_cells() {
-    let space = Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
+    let space =
+        Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
     let coin = space.coin().unwrap();
     let all = enclosed(&space, coin, 1e-5, MOST_CELLS, &|_| {});
     let few = enclosed(&space, coin, 1e-5, all.cells - 1, &|_| {});
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
     let error = estimate(&space, 1e-5, all.cells - 1, &|_| {}).unwrap_err();
-    assert!(matches!(error, Error::NotReached { reached, points, .. } if reached > 1e-5 && points == few.cells), "{error}");
+    assert!(
+        matches!(error, Error::NotReached { reached, points, .. } if reached > 1e-5 && points == few.cells),
+        "{error}"
+    );
     #[cfg(feature = "rayon")]
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

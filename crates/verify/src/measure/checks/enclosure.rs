@@ -74,7 +74,8 @@ fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         Effort::Standard => 300,
         Effort::Deep => 1500,
     };
-    let names = ["one coordinate beside the speed", "two coordinates beside the speed", "three coordinates beside the speed"];
+    let names =
+        ["one coordinate beside the speed", "two coordinates beside the speed", "three coordinates beside the speed"];
     let mut worst = names.map(|_| (0.0, String::new()));
     let mut cases = names.map(|_| 0);
     for index in 0..spaces {
@@ -89,11 +90,10 @@ fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let ratio = (rough - fine).abs() / (rough_half + fine_half).max(f64::MIN_POSITIVE);
         cases[number - 1] += 1;
         if ratio > worst[number - 1].0 {
-            worst[number - 1] = (ratio, format!("space {index}: {rough} ± {rough_half:.1e} and {fine} ± {fine_half:.1e}"));
+            worst[number - 1] =
+                (ratio, format!("space {index}: {rough} ± {rough_half:.1e} and {fine} ± {fine_half:.1e}"));
         }
     }
     let all = names.into_iter().zip(worst).zip(cases).filter(|(_, cases)| *cases > 0);
-    Ok(all
-        .map(|((name, (ratio, input)), cases)| Measurement::figure(OVERLAP.id, name, ratio, cases, input))
-        .collect())
+    Ok(all.map(|((name, (ratio, input)), cases)| Measurement::figure(OVERLAP.id, name, ratio, cases, input)).collect())
 }
