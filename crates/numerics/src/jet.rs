@@ -178,23 +178,21 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
     }
 
     /// The coefficients from the first one and a rule for the next of each.
-    fn coefficients(first: N, next: impl Fn(&N, f64) -> N) -> [N; 5] {
-        let mut last = first.clone();
-        std::array::from_fn(|index| {
-            if index > 0 {
-                #[expect(clippy::cast_precision_loss, reason = "at most 4")]
-                let next = next(&last, index as f64);
-                last = next;
-            }
-            if index == 0 { first.clone() } else { last.clone() }
-        })
+    fn coefficients(first: &N, next: impl Fn(&N, f64) -> N) -> [N; 5] {
+        let mut coefficients = std::array::from_fn(|_| first.clone());
+        for index in 1..5 {
+            #[expect(clippy::cast_precision_loss, reason = "at most 4")]
+            let next = next(&coefficients[index - 1], index as f64);
+            coefficients[index] = next;
+        }
+        coefficients
     }
 
     /// 1 over this number.
     #[must_use]
     pub fn reciprocal(&self) -> Self {
         let inverse = self.terms[0].like(1.0) / self.terms[0].clone();
-        self.composed(&Self::coefficients(inverse.clone(), |last, _| -(last.clone() * inverse.clone())))
+        self.composed(&Self::coefficients(&inverse, |last, _| -(last.clone() * inverse.clone())))
     }
 
     /// The arctangent without its value at the constant term, which is left 0.
@@ -252,6 +250,7 @@ impl<N: Elementary, const TERMS: usize> Mul for Jet<N, TERMS> {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "a series is divided by multiplying with the reciprocal")]
 impl<N: Elementary, const TERMS: usize> Div for Jet<N, TERMS> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
@@ -312,11 +311,11 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
         let root = self.terms[0].sqrt();
         let inverse = self.terms[0].like(1.0) / self.terms[0].clone();
         let next = |last: &N, k: f64| last.clone() * inverse.clone() * last.like(1.5 - k) / last.like(k);
-        self.composed(&Self::coefficients(root, next))
+        self.composed(&Self::coefficients(&root, next))
     }
 
     fn exp(&self) -> Self {
-        self.composed(&Self::coefficients(self.terms[0].exp(), |last, k| last.clone() / last.like(k)))
+        self.composed(&Self::coefficients(&self.terms[0].exp(), |last, k| last.clone() / last.like(k)))
     }
 
     fn sine_and_cosine(&self) -> [Self; 2] {
