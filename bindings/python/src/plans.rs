@@ -101,12 +101,11 @@ impl Plan {
     /// Parameters
     /// ----------
     /// accuracy : float
-    ///     The largest half-width of the interval.
+    ///     The largest half-width of the interval, at least 2e-14.
     #[staticmethod]
     #[pyo3(signature = (accuracy=1e-6))]
     fn enclosure(#[pyo3(from_py_with = accuracy)] accuracy: f64) -> PyResult<Self> {
-        let valid = "finite and > 0";
-        dynamics::error::require("accuracy", accuracy, valid, accuracy > 0.0).map_err(Failure::from)?;
+        let accuracy = ::toss::sampling::enclosure::require_accuracy(accuracy).map_err(Failure::from)?;
         Ok(::toss::sampling::Plan::Enclosure { accuracy }.into())
     }
 

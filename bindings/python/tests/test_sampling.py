@@ -57,10 +57,11 @@ def test_an_accuracy_chooses_the_plan_of_the_command_line(ask):
     assert found.half_width < 1e-5
 
 
-def test_a_enclosure_has_an_error_estimate_and_no_parts(ask):
+def test_an_enclosure_is_proven_and_has_no_parts(ask):
     expected = ask("probability", "--space", "paper-fig4", "--method", "enclosure", "--accuracy", "1e-9")
     found = ut.probability(FIG4, ut.Plan.enclosure(1e-9))
-    assert (found.probability, found.interval_kind) == (expected["probability"], expected["interval_kind"])
+    assert (found.probability, found.interval_kind) == (expected["probability"], "proven")
+    assert found.interval == tuple(expected["interval"]) and expected["proven"]
     for refused in ({"shards": 2}, {"progress": print}):
         with pytest.raises(errors.OutsideModelError):
             ut.probability(FIG4, ut.Plan.enclosure(), **refused)

@@ -130,6 +130,12 @@ pub(crate) fn progress_bar(number: u64, things: &'static str) -> ProgressBar {
     ProgressBar::new(number).with_style(style).with_message(things)
 }
 
+/// A count of things whose number is not known before.
+pub(crate) fn counter(things: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {human_pos} {msg}, {elapsed}").expect("the template is valid");
+    ProgressBar::new_spinner().with_style(style).with_message(things)
+}
+
 /// Formats rows as a table with aligned columns. The first row is the heading.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);

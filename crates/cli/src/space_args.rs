@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use clap::Args;
+use indicatif::ProgressBar;
 use sampling::enclosure::usual_accuracy;
 use sampling::{
     AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces,
@@ -11,7 +12,7 @@ use sampling::{
 use toss::{Coin, Dimension, Error};
 
 use crate::failure::Failure;
-use crate::output::progress_bar;
+use crate::output::{counter, progress_bar};
 use crate::quantity;
 use crate::rate_args::TurnArgs;
 use crate::toss_args::CoinArgs;
@@ -285,6 +286,18 @@ impl ThreadArgs {
         let answer = pool.install(|| question(&sampler.on_progress(&progress)));
         bar.finish_and_clear();
         Ok(answer?)
+    }
+
+    /// Runs `job` on these threads, with a counter of things whose number is not known before.
+    pub(crate) fn count<T: Send>(
+        &self,
+        things: &'static str,
+        job: impl FnOnce(&ProgressBar) -> T + Send,
+    ) -> Result<T, Failure> {
+        let counter = counter(things);
+        let answer = self.run(|| job(&counter));
+        counter.finish_and_clear();
+        answer
     }
 
     /// Runs `job` on these threads.

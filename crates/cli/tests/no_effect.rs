@@ -71,7 +71,7 @@ fn points_and_seeds_without_effect_are_refused() {
         ("probability --space tails --method exact-speed --points 64", ["--points: exact-speed", "at most the speed"]),
         ("probability --space tails --method exact-speed --seed 2", ["--seed: no launch", "at most the speed"]),
         ("probability --space paper-fig4 --method exact-speed --seed 2", ["--seed: no launch", "a grid"]),
-        ("probability --space tails --method enclosure --points 64", ["--points: enclosure takes", "shares"]),
+        ("probability --space tails --method enclosure --points 64", ["--points: enclosure", "all launches"]),
         ("probability --space tails --method enclosure --seed 2", ["--seed: no launch", "enclosure"]),
         ("probability --space tails --method sobol --accuracy 1e-3", ["--accuracy can't be used", "enclosure"]),
         (&format!("probability --rate-x 0:9:5 {free} --method random"), ["rate x [rad/s] = '0:9:5'", "no grid"]),

@@ -38,13 +38,18 @@ fn enclosure_reports_a_probability_within_the_accuracy() {
     let found =
         json("probability --rate-x 0:50 --rate-y x --rate-z 30 --speed 3:5 --method enclosure --accuracy 1e-9", 0);
     assert!((found["probability"].as_f64().unwrap() - 0.661_452_104_190_6).abs() < 1e-9, "{found}");
-    assert!(found["error_bound"].as_f64().unwrap() <= 1e-9 && found["points"].as_u64().unwrap() < 1000, "{found}");
+    let [lo, hi] = [0, 1].map(|end| found["interval"][end].as_f64().unwrap());
+    assert!(0.0 < hi - lo && hi - lo <= 2e-9 && found["points"].as_u64().unwrap() < 10_000, "{found}");
+    assert!(lo < 0.661_452_104_190_6 && 0.661_452_104_190_6 < hi && found["proven"] == true, "{found}");
     assert_eq!((&found["method"], &found["seed"]), (&"enclosure".into(), &serde_json::Value::Null));
     for (line, parts) in [
-        ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3", ["speed [m/s]", "enclosure needs a range"]),
+        (
+            "--rate-x 0:9 --rate-y x --rate-z 3 --speed normal:3:0.1",
+            ["speed [m/s]", "a range of speeds or a single one"],
+        ),
         ("--rate-x 0:9 --rate-y x --rate-z 3 --speed 3:5 --drop 1", ["drop [m]", "enclosure"]),
-        ("--rate-x 0:9 --rate-y 0:9 --rate-z 0:9 --tilt 0.1 --speed 3:5", ["method", "at most two coordinates"]),
-        ("--space tails --shard 1/2 --out part.json", ["method", "cannot be numbered"]),
+        ("--rate-x 0:9 --rate-y 0:9 --rate-z 0:9 --tilt 0.1:0.2 --speed 3:5", ["method", "at most three coordinates"]),
+        ("--space tails --shard 1/2 --out part.json", ["method", "none to number"]),
         ("--space tails --solver gamma", ["solver = 'gamma'", "enclosure"]),
     ] {
         let text = stderr(&run(&format!("probability {line} --method enclosure")));

@@ -43,11 +43,13 @@ pub enum Error {
         /// What is wrong there, with the name of the field if there is one.
         message: String,
     },
-    /// The largest allowed number of launches did not reach the wanted accuracy.
-    #[error("after {points} launches the probability is known to {reached:.1e}, not to {accuracy:e}")]
+    /// The largest allowed number of launches, or of cells of an enclosure, did not reach the wanted accuracy.
+    #[error("after {number} {of} the probability is known to {reached:.1e}, not to {accuracy:e}")]
     NotReached {
-        /// The number of launches solved.
-        points: u64,
+        /// The number of launches solved, or of cells.
+        number: u64,
+        /// `"launches"` or `"cells"`.
+        of: &'static str,
         /// Half the width of the interval.
         reached: f64,
         /// The accuracy that was wanted.

@@ -17,6 +17,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::coordinate::Coordinate;
 use crate::counts::Counts;
+use crate::enclosure::require_accuracy;
 use crate::estimate::{Estimate, Found, IntervalKind};
 use crate::interval::Interval;
 use crate::plan::{Method, Plan, Rest, SCRAMBLES, Scrambled};
@@ -101,7 +102,7 @@ impl PlanData {
     /// The accuracy of an enclosure.
     fn accuracy(&self) -> Result<f64, InputError> {
         let accuracy = self.accuracy.ok_or(InputError::Missing { field: "accuracy", expected: "the largest error" })?;
-        require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)
+        require_accuracy(accuracy)
     }
 
     /// Refuses an accuracy if the method is not enclosure, which alone has a use for it.

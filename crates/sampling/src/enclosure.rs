@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use crate::axis::Distribution;
 use crate::coordinate::Coordinate;
 use crate::estimate::Estimate;
-use crate::fold::Progress;
+use crate::fold::{Narrowed, Progress};
 use crate::interval::Interval;
 use crate::space::Space;
 use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
@@ -34,6 +34,12 @@ pub const MOST_CELLS: u64 = 1 << 24;
 
 /// The number of cells that are made before they are divided among the threads.
 const FIRST_CELLS: usize = 256;
+
+/// The finest accuracy that can be asked for: roundings in the closed form over the speeds leave about half of it.
+const FINEST: f64 = 2e-14;
+
+/// A pass that may take more than this part of all cells is not followed by another.
+const LAST_PASS: u64 = 4;
 
 /// 2^53 rad.
 const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -46,6 +52,15 @@ const BEYOND_REACH: f64 = 1.1e-16;
 pub(crate) struct Enclosure {
     pub(crate) interval: Interval,
     pub(crate) cells: u64,
+}
+
+/// What is told of an enclosure while it is computed.
+#[derive(Clone, Copy)]
+pub(crate) struct Watched<'a> {
+    /// Gets the number of cells since it was last called.
+    pub(crate) progress: Progress<'a>,
+    /// Gets each interval that is narrower than those before.
+    pub(crate) narrowed: Narrowed<'a>,
 }
 
 /// Why a space without a closed form over the speeds is refused.
@@ -96,6 +111,14 @@ fn largest_phase(space: &Space) -> f64 {
     if size == 0.0 { 0.0 } else { size * (2.0 * most(Coordinate::Speed) / weakest) }
 }
 
+/// Returns an `accuracy` that can be asked for.
+///
+/// # Errors
+/// [`InputError::OutOfRange`] for one that roundings do not allow.
+pub fn require_accuracy(accuracy: f64) -> Result<f64, InputError> {
+    require("accuracy", accuracy, "at least 2e-14, finite", accuracy >= FINEST)
+}
+
 /// The number of coordinates that an enclosure divides into cells in `space`, the speed not included.
 pub fn coordinates(space: &Space) -> usize {
     directions_of(space).0.len()
@@ -113,60 +136,62 @@ pub fn usual_accuracy(space: &Space) -> f64 {
 /// Encloses P(heads) of `space` to ± `accuracy`, with at most `most_cells` cells.
 ///
 /// # Errors
-/// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` that is not positive; [`Error::NotReached`] with the
+/// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` below 2e-14; [`Error::NotReached`] with the
 /// accuracy that was reached.
-pub(crate) fn estimate(
-    space: &Space,
-    accuracy: f64,
-    most_cells: u64,
-    progress: Progress<'_>,
-) -> Result<Estimate, Error> {
-    require("accuracy", accuracy, "finite and > 0", accuracy > 0.0)?;
+pub(crate) fn estimate(space: &Space, accuracy: f64, most_cells: u64, watched: Watched<'_>) -> Result<Estimate, Error> {
+    require_accuracy(accuracy)?;
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
-    let found = enclosed(space, coin, accuracy, most_cells, progress);
-    let reached = 0.5 * (found.interval.hi - found.interval.lo);
+    let found = enclosed(space, coin, accuracy, most_cells, watched);
+    let reached = 0.5 * found.interval.width();
     if reached > accuracy {
-        return Err(Error::NotReached { points: found.cells, reached, accuracy });
+        return Err(Error::NotReached { number: found.cells, of: "cells", reached, accuracy });
     }
     Ok(Estimate::of_enclosure(found.interval, found.cells))
 }
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.
-pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64, progress: Progress<'_>) -> Enclosure {
+pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64, watched: Watched<'_>) -> Enclosure {
     let (directions, roundings) = directions_of(space);
     let is_across = directions.iter().flatten().any(Direction::is_across);
     let is_normal = |of: Coordinate| matches!(space.axis(of).distribution(), Distribution::Normal { .. });
     let beyond = BEYOND_REACH * space.free().filter(|of| is_normal(*of)).count() as f64;
-    let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress };
+    let work =
+        Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress: watched.progress };
     let mut best = Enclosure { interval: Interval { lo: 0.0, hi: 1.0 }, cells: 0 };
+    let goal = 2.0 * accuracy;
     // A first threshold from which few cells result, and lower ones as the last width asks for.
-    let mut threshold = 0.05 * accuracy.powf(0.8).max(accuracy);
+    let mut threshold = 0.05 * accuracy.powf(0.8);
     let power = [1.5, 1.5, 1.35, 1.7][directions.len()];
     loop {
         let Some((sum, cells)) = work.pass(threshold, most_cells) else { return best };
         let sum = sum.widened(roundings + beyond);
         let interval = ends(&sum);
-        let width = |of: &Interval| of.hi - of.lo;
-        let (before, now) = (width(&best.interval), width(&interval));
-        if now < before || best.cells == 0 {
+        let (before, now) = (best.interval.width(), interval.width());
+        let is_first = best.cells == 0;
+        if now < before || is_first {
             best = Enclosure { interval, cells };
+            (watched.narrowed)(interval);
         }
-        // A pass that hardly narrows the enclosure is stopped by roundings.
-        if now <= 2.0 * accuracy || (now > 0.9 * before && best.cells > 1) {
+        // A pass that hardly narrows the enclosure is stopped by roundings, and one that would take too many cells is the last.
+        let is_last = now <= goal || (now > 0.9 * before && !is_first) || most_cells < LAST_PASS * cells;
+        if is_last {
             return best;
         }
-        threshold *= (0.8 * (2.0 * accuracy / now).powf(power)).clamp(1e-5, 0.5);
+        let wanted = 0.8 * (goal / now).powf(power);
+        // With the threshold the cells grow roughly to the power of -1/`power`.
+        let affordable = (most_cells as f64 / (LAST_PASS * cells) as f64).powf(-power);
+        threshold *= wanted.max(affordable).clamp(1e-5, 0.5);
     }
 }
 
 /// The enclosure of a number from 0 to 1 as two f64.
 fn ends(sum: &Ball<DoubleDouble>) -> Interval {
     let (middle, radius) = (sum.midpoint(), sum.radius() + sum.midpoint().lo().abs());
-    if !(radius <= 1.0) {
+    let [lo, hi] = [(middle.hi() - radius).next_down(), (middle.hi() + radius).next_up()];
+    if lo.is_nan() || hi.is_nan() {
         return Interval { lo: 0.0, hi: 1.0 };
     }
-    let [lo, hi] = [(middle.hi() - radius).next_down(), (middle.hi() + radius).next_up()];
     Interval { lo: lo.clamp(0.0, 1.0), hi: hi.clamp(0.0, 1.0) }
 }
 
@@ -183,6 +208,14 @@ fn roots(directions: &[Vec<Direction>]) -> Vec<Cell<'_>> {
         chosen = parts.iter().flat_map(|part| chosen.iter().copied().map(with(part))).collect();
     }
     chosen.into_iter().map(Cell::whole).collect()
+}
+
+/// What a cell gives.
+enum Step<'a> {
+    /// Its mean times its volume.
+    Part(Ball<DoubleDouble>),
+    /// The halves that are to be looked at instead.
+    Halves(Box<[Cell<'a>; 2]>),
 }
 
 struct Work<'a> {
@@ -203,9 +236,9 @@ impl<'a> Work<'a> {
             let mut next = Vec::new();
             for cell in waiting {
                 cells.fetch_add(1, Ordering::Relaxed);
-                match self.bounds_or_halves(&cell, threshold) {
-                    Ok(part) => sum = sum + part,
-                    Err(halves) => next.extend(halves),
+                match self.step(&cell, threshold) {
+                    Step::Part(part) => sum = sum + part,
+                    Step::Halves(halves) => next.extend(*halves),
                 }
             }
             waiting = next;
@@ -215,9 +248,9 @@ impl<'a> Work<'a> {
             let (mut waiting, mut done) = (vec![cell.clone()], 0);
             while let Some(cell) = waiting.pop() {
                 done += 1;
-                match self.bounds_or_halves(&cell, threshold) {
-                    Ok(part) => sum = sum + part,
-                    Err(halves) => waiting.extend(halves),
+                match self.step(&cell, threshold) {
+                    Step::Part(part) => sum = sum + part,
+                    Step::Halves(halves) => waiting.extend(*halves),
                 }
                 if done == 1024 || waiting.is_empty() {
                     (self.progress)(done);
@@ -239,19 +272,18 @@ impl<'a> Work<'a> {
         Some((sum, cells.into_inner()))
     }
 
-    /// The mean over a cell times its volume, or the two halves that are to be looked at instead.
-    fn bounds_or_halves(&self, cell: &Cell<'a>, threshold: f64) -> Result<Ball<DoubleDouble>, [Cell<'a>; 2]> {
+    fn step(&self, cell: &Cell<'a>, threshold: f64) -> Step<'a> {
         let volume = (-f64::from(cell.halvings())).exp2();
         let enough = threshold / volume;
         let found = bounds_in(&self.problem, cell, cell.directions.iter().flatten().count(), enough);
-        if !(found.width() <= enough)
+        if found.width() > enough
             && let Some(halves) = halves(cell, &found)
         {
-            return Err(halves);
+            return Step::Halves(Box::new(halves));
         }
         let middle = 0.5 * (found.lo + found.hi);
         let radius = (0.5 * (found.hi - found.lo)).next_up() + f64::EPSILON * middle.abs();
-        Ok(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume))
+        Step::Part(Ball::new(DoubleDouble::from(middle * volume), radius.next_up() * volume))
     }
 }
 

@@ -9,6 +9,7 @@ use dynamics::Error;
 use rayon::prelude::*;
 
 use crate::block::{BLOCK, Block};
+use crate::interval::Interval;
 use crate::launches::Launches;
 use crate::space::Space;
 
@@ -21,6 +22,10 @@ pub(crate) trait Sum: Default + Send {
 /// A function that is called with the number of launches (or nodes of a map) done since it was last called. It may unwind,
 /// as by [`std::panic::resume_unwind`], which ends the work on all threads.
 pub type Progress<'a> = &'a (dyn Fn(u64) + Sync);
+
+/// A function that is called with each interval of an [enclosure](crate::enclosure) that is narrower than those before. It may
+/// unwind as [`Progress`] may.
+pub type Narrowed<'a> = &'a (dyn Fn(Interval) + Sync);
 
 /// Calls `add` for all blocks of the launches with the numbers `range`, on the threads of the current pool if there are
 /// threads, and merges the sums.

@@ -50,6 +50,11 @@ impl Interval {
         Self { lo: (self.lo - error).max(0.0), hi: (self.hi + error).min(1.0) }
     }
 
+    /// The distance of the ends.
+    pub fn width(&self) -> f64 {
+        self.hi - self.lo
+    }
+
     /// Whether `probability` lies in the interval, ends included.
     pub fn contains(&self, probability: f64) -> bool {
         (self.lo..=self.hi).contains(&probability)

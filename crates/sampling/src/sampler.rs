@@ -4,9 +4,9 @@
 use dynamics::{Checked, Error, InputError, Solver};
 
 use crate::counts::Decider;
-use crate::enclosure;
+use crate::enclosure::{self, MOST_CELLS, Watched};
 use crate::estimate::Estimate;
-use crate::fold::Progress;
+use crate::fold::{Narrowed, Progress};
 use crate::plan::Plan;
 use crate::space::Space;
 
@@ -26,12 +26,13 @@ use crate::space::Space;
 pub struct Sampler<'a> {
     pub(crate) decider: Decider<'a>,
     pub(crate) progress: Progress<'a>,
+    narrowed: Narrowed<'a>,
 }
 
 impl Sampler<'static> {
     /// A sampler that decides outcomes by the exact motion. Every outcome is proven.
     pub fn exact() -> Self {
-        Self { decider: Decider::Exact, progress: &|_| {} }
+        Self { decider: Decider::Exact, progress: &|_| {}, narrowed: &|_| {} }
     }
 }
 
@@ -39,7 +40,7 @@ impl<'a> Sampler<'a> {
     /// A sampler that decides outcomes by `solver`. Outcomes within its error estimate are undecided, and none is
     /// proven.
     pub fn by(solver: &'a dyn Solver) -> Self {
-        Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {} }
+        Self { decider: Decider::Solver(Checked::new(solver)), progress: &|_| {}, narrowed: &|_| {} }
     }
 
     /// Whether the exact motion decides.
@@ -53,12 +54,21 @@ impl<'a> Sampler<'a> {
     where
         'a: 'b,
     {
-        Sampler { decider: self.decider, progress }
+        Sampler { progress, ..self }
+    }
+
+    /// Sets a function that is called with each interval of an enclosure that is narrower than those before.
+    #[must_use]
+    pub fn on_narrowing<'b>(self, narrowed: Narrowed<'b>) -> Sampler<'b>
+    where
+        'a: 'b,
+    {
+        Sampler { narrowed, ..self }
     }
 
     /// The same sampler without progress reports.
     pub(crate) fn silent(&self) -> Sampler<'a> {
-        Sampler { decider: self.decider.clone(), progress: &|_| {} }
+        Sampler { decider: self.decider.clone(), progress: &|_| {}, narrowed: &|_| {} }
     }
 
     /// Estimates the probability of heads in `space` by `plan`.
@@ -74,7 +84,8 @@ impl<'a> Sampler<'a> {
             return Err(InputError::Malformed { field: "solver", value, expected }.into());
         }
         if let Plan::Enclosure { accuracy } = plan {
-            return enclosure::estimate(space, accuracy, enclosure::MOST_CELLS, self.progress);
+            let watched = Watched { progress: self.progress, narrowed: self.narrowed };
+            return enclosure::estimate(space, accuracy, MOST_CELLS, watched);
         }
         let points = plan.points(space)?;
         Ok(self.sums(space, plan, &(0..points))?.estimate(space, plan)?)

@@ -90,7 +90,7 @@ pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64, progress: Progre
     match (found.half_width(), refined(plan, accuracy)) {
         (Some(reached), Some(more)) if reached > accuracy => {
             if found.points >= MOST_LAUNCHES || rounding_error > accuracy {
-                return Err(Error::NotReached { points: found.points, reached, accuracy });
+                return Err(Error::NotReached { number: found.points, of: "launches", reached, accuracy });
             }
             sampled(space, more, accuracy, progress)
         }
@@ -112,5 +112,5 @@ fn refined(plan: Plan, accuracy: f64) -> Option<Plan> {
 
 /// Whether `error` is that of a model that does not reach its accuracy for a space, however many launches it takes.
 pub(crate) fn is_out_of_reach(error: &Error) -> bool {
-    matches!(error, Error::NotReached { points, .. } if *points < MOST_LAUNCHES)
+    matches!(error, Error::NotReached { number, .. } if *number < MOST_LAUNCHES)
 }

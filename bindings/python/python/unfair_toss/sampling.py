@@ -27,11 +27,11 @@ class Estimate:
     probability : float
         From 0 to 1.
     interval : tuple of 2 floats or None
-        The interval of 95 % in which it lies; a grid has none.
+        The interval in which it lies: proven with enclosure, at a level of 95 % with others; a grid has none.
     interval_kind : str
-        What the interval is.
+        What the interval is; "proven" if it is.
     points : int
-        Number of launches; with exact-speed, each of them stands for all speeds.
+        Number of launches; with exact-speed, each of them stands for all speeds. With enclosure, the number of cells.
     heads, tails, undecided : int or None
         Numbers of launches by their outcome; None with exact-speed, which counts none.
     certified : bool

@@ -1,7 +1,7 @@
 //! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
 //! interval of the estimate with it, as far as the method has one.
 
-use sampling::{Estimate, Plan, Sampler, Space};
+use sampling::{Estimate, Interval, Plan, Sampler, Space};
 use toss::{Answer as Answered, Backend, How, Integration, Proving, Registry, Scene, Solver, Want};
 
 use crate::estimate_answer::{Answer, name_of, text};
@@ -115,12 +115,23 @@ impl Args {
     fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
         let plan = self.plan_of(method, space)?;
         if let Plan::Enclosure { .. } = plan {
-            // Its number of cells is not known before.
-            return Ok((plan, self.threads.run(|| backend.sampler().estimate(space, plan))??));
+            return Ok((plan, self.enclosed(backend.sampler(), space, plan)?));
         }
         let launches = (plan.points(space)?, "launches");
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
         Ok((plan, self.threads.ask(backend.sampler(), launches, ask)?))
+    }
+
+    /// The estimate of a plan by enclosure. Who waits sees the cells and how narrow the enclosure is.
+    fn enclosed(&self, sampler: Sampler<'_>, space: &Space, plan: Plan) -> Result<Estimate, Failure> {
+        let found = self.threads.count("cells", |counter| {
+            let progress = |more| counter.inc(more);
+            let narrowed = |interval: Interval| {
+                counter.set_message(format!("cells, the probability is known to {:.1e}", 0.5 * interval.width()));
+            };
+            sampler.on_progress(&progress).on_narrowing(&narrowed).estimate(space, plan)
+        });
+        Ok(found??)
     }
 
     /// The estimate by the method and with the launches that the planner chooses for the accuracy.
@@ -131,7 +142,9 @@ impl Args {
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        let (choice, answer) = self.threads.run(|| scene.choose_and_run(Registry::standard()))??;
+        let (choice, answer) = self.threads.count("launches", |counter| {
+            scene.choose_and_run_reporting(Registry::standard(), &|more| counter.inc(more))
+        })??;
         match (choice.how, answer) {
             (How::Sampling(plan), Answered::Probability(found)) => Ok((plan, *found)),
             _ => Err(no_sample()),

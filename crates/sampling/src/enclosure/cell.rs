@@ -420,7 +420,7 @@ impl<const T: usize> Means<'_, '_, T> {
     /// phase.
     fn face_of_all(&self) -> Option<f64> {
         let most = upper(self.motion.phases[1].values());
-        if !(most < FRAC_PI_2) {
+        if most.is_nan() || most >= FRAC_PI_2 {
             return None;
         }
         let cos_tilt = self.motion.cos_tilt.values();
@@ -657,7 +657,7 @@ impl<const T: usize> Means<'_, '_, T> {
         let face = mean.sign()?;
         // The narrow intervals are those of the face that the mean has not.
         let largest = magnitude(squared.values()) * upper(room.values());
-        if !(largest <= magnitude(mean.values()).powi(2)) {
+        if largest.is_nan() || largest > magnitude(mean.values()).powi(2) {
             return None;
         }
         let ratio = squared.times(room).with(mean, |product, mean| product / (mean * mean)).narrowed();
