@@ -215,7 +215,10 @@ fn enclosure_is_never_planned() {
         let decision = Scene::new(Want::Probability(space), accuracy).plan().unwrap();
         assert_eq!(decision.choice.model.name, chosen);
         let reason = decision.passed_over.iter().find(|(candidate, _)| candidate.model.name == "share-enclosure");
-        assert_eq!(reason.unwrap().1.to_string(), "estimates its error, and has to be chosen by hand");
+        assert_eq!(
+            reason.unwrap().1.to_string(),
+            "takes a time that is not known before, and has to be chosen by hand"
+        );
     }
     let body = box_of_four().with_body(Body::from_moments([1.0, 1.1, 1.9]).unwrap());
     let decision = Scene::new(Want::Probability(body), 1e-2).plan().unwrap();

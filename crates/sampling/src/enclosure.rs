@@ -163,25 +163,29 @@ pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64
     // A first threshold from which few cells result, and lower ones as the last width asks for.
     let mut threshold = 0.05 * accuracy.powf(0.8);
     let power = [1.5, 1.5, 1.35, 1.7][directions.len()];
+    // The last width that was clearly narrower than those before, and its threshold.
+    let (mut before, mut at) = (f64::INFINITY, threshold);
     loop {
         let Some((sum, cells)) = work.pass(threshold, most_cells) else { return best };
-        let sum = sum.widened(roundings + beyond);
-        let interval = ends(&sum);
-        let (before, now) = (best.interval.width(), interval.width());
-        let is_first = best.cells == 0;
-        if now < before || is_first {
+        let interval = ends(&sum.widened(roundings + beyond));
+        let now = interval.width();
+        if now < best.interval.width() || best.cells == 0 {
             best = Enclosure { interval, cells };
             (watched.narrowed)(interval);
         }
-        // A pass that hardly narrows the enclosure is stopped by roundings, and one that would take too many cells is the last.
-        let is_last = now <= goal || (now > 0.9 * before && !is_first) || most_cells < LAST_PASS * cells;
-        if is_last {
+        let is_narrower = now < 0.9 * before;
+        if is_narrower {
+            (before, at) = (now, threshold);
+        }
+        // Cells that are far smaller and add up to the same width are stopped by roundings. A pass is the last, too, if the next
+        // would take too many cells.
+        if now <= goal || (!is_narrower && threshold < 1e-3 * at) || most_cells < LAST_PASS * cells {
             return best;
         }
         let wanted = 0.8 * (goal / now).powf(power);
         // With the threshold the cells grow roughly to the power of -1/`power`.
         let affordable = (most_cells as f64 / (LAST_PASS * cells) as f64).powf(-power);
-        threshold *= wanted.max(affordable).clamp(1e-5, 0.5);
+        threshold *= wanted.max(affordable).clamp(1e-5, if is_narrower { 0.5 } else { 0.05 });
     }
 }
 
