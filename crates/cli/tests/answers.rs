@@ -1,0 +1,41 @@
+//! This test repeats some three hundred command lines and compares what they answer with what is recorded in
+//! `answers.jsonl`, to the last bit of each number. The lines cover all commands, coins and other bodies, solvers, methods, and
+//! bad input. A change that rebuilds code without changing answers is held by it.
+//!
+//! With the environment variable `RECORD_ANSWERS` the test writes the file anew. Each line that then differs needs a reason.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{run, stderr, stdout};
+use serde_json::{Value, json};
+
+/// What the program answers: its exit status, its JSON if there is one, and its message.
+fn answer(line: &str) -> Value {
+    let output = run(line);
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| stdout(&output).into());
+    json!({ "line": line, "status": output.status.code(), "answer": answer, "message": stderr(&output) })
+}
+
+#[test]
+fn recorded_command_lines_answer_what_they_answered() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/answers.jsonl");
+    let text = fs::read_to_string(&file).expect("the recorded answers");
+    let recorded: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let found: Vec<Value> =
+        recorded.iter().map(|before| answer(before["line"].as_str().expect("a command line"))).collect();
+    if std::env::var_os("RECORD_ANSWERS").is_some() {
+        fs::write(&file, found.iter().map(|now| format!("{now}\n")).collect::<String>()).expect("a file to write");
+        return;
+    }
+    assert!(recorded.len() > 300, "{} answers", recorded.len());
+    let moved: Vec<String> = recorded
+        .iter()
+        .zip(&found)
+        .filter(|(before, now)| before != now)
+        .map(|(before, now)| format!("{before}\n{now}\n"))
+        .collect();
+    assert!(moved.is_empty(), "{} of {} moved, before and now:\n{}", moved.len(), recorded.len(), moved.concat());
+}
