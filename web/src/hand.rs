@@ -36,7 +36,7 @@ pub(crate) struct Precision {
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
 pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
-    let found = Sampler::exact().estimate(&space, plan(&space))?;
+    let found = Sampler::exact().sampled(&space, plan(&space))?;
     Ok(Answer {
         probability: found.probability,
         interval: found.interval.map(|interval| [interval.lo, interval.hi]),

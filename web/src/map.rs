@@ -194,7 +194,7 @@ fn probabilities(thrown: &Thrown, grid: &Grid, spread: f64, cells: &mut Vec<u8>)
         let of = if grid.up == Up::RateZ { Coordinate::RateZ } else { Coordinate::Speed };
         let here = here.with_axis(of, Axis::fixed(up))?.with_spread(spread, &[Coordinate::Speed])?;
         let is_fixed = here.free().next().is_none();
-        let found = sampler.estimate(&here, if is_fixed { Plan::Grid } else { plan })?;
+        let found = sampler.sampled(&here, if is_fixed { Plan::Grid } else { plan })?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 254")]
         cells.push((found.probability * f64::from(HEADS)).round() as u8);
     }

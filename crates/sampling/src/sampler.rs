@@ -78,16 +78,28 @@ impl<'a> Sampler<'a> {
     /// the space, and for [`Plan::ExactSpeed`] and [`Plan::Enclosure`] with a solver, because they use the exact motion.
     /// [`Error::NotReached`] if an enclosure does not reach its accuracy.
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
-        if let (Plan::ExactSpeed(_) | Plan::Enclosure { .. }, Decider::Solver(solver)) = (plan, &self.decider) {
-            let expected = "no solver for exact-speed and enclosure, which use the exact motion";
-            let value = solver.name().to_owned();
-            return Err(InputError::Malformed { field: "solver", value, expected }.into());
-        }
-        if let Plan::Enclosure { accuracy } = plan {
-            let watched = Watched { progress: self.progress, narrowed: self.narrowed };
-            return enclosure::estimate(space, accuracy, MOST_CELLS, watched);
+        let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
+        self.require_exact()?;
+        let watched = Watched { progress: self.progress, narrowed: self.narrowed };
+        enclosure::estimate(space, accuracy, MOST_CELLS, watched)
+    }
+
+    /// Estimates the probability of heads from the launches of a plan. A program that has no other plans stays smaller with it
+    /// than with [`Sampler::estimate`], by what computes enclosures.
+    ///
+    /// # Errors
+    /// As [`Sampler::estimate`]; [`InputError`] for [`Plan::Enclosure`], which has no launches.
+    pub fn sampled(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
+        if let Plan::ExactSpeed(_) = plan {
+            self.require_exact()?;
         }
         let points = plan.points(space)?;
         Ok(self.sums(space, plan, &(0..points))?.estimate(space, plan)?)
+    }
+
+    fn require_exact(&self) -> Result<(), InputError> {
+        let Decider::Solver(solver) = &self.decider else { return Ok(()) };
+        let expected = "no solver for exact-speed and enclosure, which use the exact motion";
+        Err(InputError::Malformed { field: "solver", value: solver.name().to_owned(), expected })
     }
 }

@@ -130,7 +130,7 @@ impl Sampler<'_> {
         let mut look = |spread: f64| {
             looks += 1;
             let spread_out = space.with_spread(spread, inputs)?;
-            let estimate = self.silent().estimate(&spread_out, plan(&spread_out, scrambled))?;
+            let estimate = self.silent().sampled(&spread_out, plan(&spread_out, scrambled))?;
             Ok::<_, Error>(Look { spread, estimate })
         };
         let mut here = look(SMALLEST_SPREAD)?;
