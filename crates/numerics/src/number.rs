@@ -18,7 +18,7 @@ pub trait Number: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output =
         self * factor + term
     }
 
-    /// The sums Σ one[i] other[j] over the pairs (i, j) that belong to each of `N` results: `ends[k]` is where those of number k
+    /// The sums `Σ one[i] other[j]` over the pairs (i, j) that belong to each of `N` results: `ends[k]` is where those of number k
     /// end, and each has at least one.
     #[inline(always)]
     #[must_use]
