@@ -1,6 +1,6 @@
 //! This test repeats some three hundred command lines and compares what they answer with what is recorded in
 //! `answers.jsonl`, to the last bit of each number. The lines cover all commands, coins and other bodies, solvers, methods, and
-//! bad input. A change that rebuilds code without changing answers is held by it.
+//! bad input. The test fails if a change that was only to rebuild code changes an answer.
 //!
 //! With the environment variable `RECORD_ANSWERS` the test writes the file anew. Each line that then differs needs a reason.
 

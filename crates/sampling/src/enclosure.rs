@@ -23,22 +23,23 @@ use rayon::prelude::*;
 use crate::axis::Distribution;
 use crate::coordinate::Coordinate;
 use crate::estimate::Estimate;
-use crate::fold::{Narrowed, Progress};
+use crate::fold::Progress;
 use crate::interval::Interval;
+use crate::sampler::Sampler;
 use crate::space::Space;
 use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
 use directions::{Direction, directions_of};
 
-/// The number of cells after which a computation stops, unless another is given.
+/// The largest number of cells of one sum, unless another is given.
 pub const MOST_CELLS: u64 = 1 << 24;
 
 /// The number of cells that are made before they are divided among the threads.
 const FIRST_CELLS: usize = 256;
 
-/// The finest accuracy that can be asked for: roundings in the closed form over the speeds leave about half of it.
+/// The finest accuracy that can be asked for. The roundings of the closed form over the speeds are about half of it.
 const FINEST: f64 = 2e-14;
 
-/// A pass that may take more than this part of all cells is not followed by another.
+/// No pass follows one that took more than the fourth part of the cells that are allowed.
 const LAST_PASS: u64 = 4;
 
 /// 2^53 rad.
@@ -52,15 +53,6 @@ const BEYOND_REACH: f64 = 1.1e-16;
 pub(crate) struct Enclosure {
     pub(crate) interval: Interval,
     pub(crate) cells: u64,
-}
-
-/// What is told of an enclosure while it is computed.
-#[derive(Clone, Copy)]
-pub(crate) struct Watched<'a> {
-    /// Gets the number of cells since it was last called.
-    pub(crate) progress: Progress<'a>,
-    /// Gets each interval that is narrower than those before.
-    pub(crate) narrowed: Narrowed<'a>,
 }
 
 /// Why a space without a closed form over the speeds is refused.
@@ -138,11 +130,16 @@ pub fn usual_accuracy(space: &Space) -> f64 {
 /// # Errors
 /// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` below 2e-14; [`Error::NotReached`] with the
 /// accuracy that was reached.
-pub(crate) fn estimate(space: &Space, accuracy: f64, most_cells: u64, watched: Watched<'_>) -> Result<Estimate, Error> {
+pub(crate) fn estimate(
+    sampler: &Sampler<'_>,
+    space: &Space,
+    accuracy: f64,
+    most_cells: u64,
+) -> Result<Estimate, Error> {
     require_accuracy(accuracy)?;
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
-    let found = enclosed(space, coin, accuracy, most_cells, watched);
+    let found = enclosed(sampler, (space, coin), accuracy, most_cells);
     let reached = 0.5 * found.interval.width();
     if reached > accuracy {
         return Err(Error::NotReached { number: found.cells, of: "cells", reached, accuracy });
@@ -151,13 +148,15 @@ pub(crate) fn estimate(space: &Space, accuracy: f64, most_cells: u64, watched: W
 }
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.
-pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64, watched: Watched<'_>) -> Enclosure {
+///
+/// `sampler` says where progress is reported. Where a sum takes too many cells, `cells` are all that are allowed.
+fn enclosed(sampler: &Sampler<'_>, (space, coin): (&Space, Coin), accuracy: f64, most_cells: u64) -> Enclosure {
     let (directions, roundings) = directions_of(space);
     let is_across = directions.iter().flatten().any(Direction::is_across);
     let is_normal = |of: Coordinate| matches!(space.axis(of).distribution(), Distribution::Normal { .. });
     let beyond = BEYOND_REACH * space.free().filter(|of| is_normal(*of)).count() as f64;
     let work =
-        Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress: watched.progress };
+        Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress: sampler.progress };
     let mut best = Enclosure { interval: Interval { lo: 0.0, hi: 1.0 }, cells: 0 };
     let goal = 2.0 * accuracy;
     // A first threshold from which few cells result, and lower ones as the last width asks for.
@@ -166,19 +165,21 @@ pub(crate) fn enclosed(space: &Space, coin: Coin, accuracy: f64, most_cells: u64
     // The last width that was clearly narrower than those before, and its threshold.
     let (mut before, mut at) = (f64::INFINITY, threshold);
     loop {
-        let Some((sum, cells)) = work.pass(threshold, most_cells) else { return best };
+        let Some((sum, cells)) = work.pass(threshold, most_cells) else {
+            return Enclosure { cells: most_cells, ..best };
+        };
         let interval = ends(&sum.widened(roundings + beyond));
         let now = interval.width();
         if now < best.interval.width() || best.cells == 0 {
             best = Enclosure { interval, cells };
-            (watched.narrowed)(interval);
+            (sampler.narrowed)(interval);
         }
         let is_narrower = now < 0.9 * before;
         if is_narrower {
             (before, at) = (now, threshold);
         }
-        // Cells that are far smaller and add up to the same width are stopped by roundings. A pass is the last, too, if the next
-        // would take too many cells.
+        // If far smaller cells add up to the same width, roundings make it, and no pass helps. Nor is another begun if it would
+        // take too many cells.
         if now <= goal || (!is_narrower && threshold < 1e-3 * at) || most_cells < LAST_PASS * cells {
             return best;
         }
@@ -276,6 +277,7 @@ impl<'a> Work<'a> {
         Some((sum, cells.into_inner()))
     }
 
+    /// Bounds the mean over a cell, or halves the cell if the bounds are too far apart.
     fn step(&self, cell: &Cell<'a>, threshold: f64) -> Step<'a> {
         let volume = (-f64::from(cell.halvings())).exp2();
         let enough = threshold / volume;

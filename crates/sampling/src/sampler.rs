@@ -4,7 +4,7 @@
 use dynamics::{Checked, Error, InputError, Solver};
 
 use crate::counts::Decider;
-use crate::enclosure::{self, MOST_CELLS, Watched};
+use crate::enclosure::{self, MOST_CELLS};
 use crate::estimate::Estimate;
 use crate::fold::{Narrowed, Progress};
 use crate::plan::Plan;
@@ -26,7 +26,7 @@ use crate::space::Space;
 pub struct Sampler<'a> {
     pub(crate) decider: Decider<'a>,
     pub(crate) progress: Progress<'a>,
-    narrowed: Narrowed<'a>,
+    pub(crate) narrowed: Narrowed<'a>,
 }
 
 impl Sampler<'static> {
@@ -80,12 +80,11 @@ impl<'a> Sampler<'a> {
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
         self.require_exact()?;
-        let watched = Watched { progress: self.progress, narrowed: self.narrowed };
-        enclosure::estimate(space, accuracy, MOST_CELLS, watched)
+        enclosure::estimate(self, space, accuracy, MOST_CELLS)
     }
 
-    /// Estimates the probability of heads from the launches of a plan. A program that has no other plans stays smaller with it
-    /// than with [`Sampler::estimate`], by what computes enclosures.
+    /// Estimates the probability of heads from the launches of a plan. A program that calls this function and not
+    /// [`Sampler::estimate`] does not contain the code of enclosures.
     ///
     /// # Errors
     /// As [`Sampler::estimate`]; [`InputError`] for [`Plan::Enclosure`], which has no launches.

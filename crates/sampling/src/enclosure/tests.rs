@@ -7,8 +7,6 @@ use crate::exact_speed;
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
 
-const UNWATCHED: Watched<'static> = Watched { progress: &|_| {}, narrowed: &|_| {} };
-
 fn fraction(index: u32, square: f64) -> f64 {
     (f64::from(index) * square.sqrt()).fract()
 }
@@ -128,7 +126,7 @@ fn sampled_probabilities_meet_the_proven_ones() {
     let (mut outside, mut total) = (0, 0);
     for space in spaces() {
         let accuracy = [1e-8, 1e-5, 5e-3][coordinates(&space) - 1];
-        let found = estimate(&space, accuracy, MOST_CELLS, UNWATCHED).unwrap();
+        let found = estimate(&Sampler::exact(), &space, accuracy, MOST_CELLS).unwrap();
         let proven = found.interval.unwrap();
         assert!(proven.hi - proven.lo <= 2.0 * accuracy && found.interval_kind == crate::IntervalKind::Proven);
         let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 13, 1)));
@@ -155,7 +153,7 @@ fn single_speeds_are_enclosed() {
         let space =
             Space::builder(Coin::PAPER).rate_x(1.0).rate_y(rate).rate_z(20.0 * part(5.0)).speed(2.0 + part(7.0));
         let space = space.tilt(if index % 2 == 0 { 0.0 } else { 0.5 }).build().unwrap();
-        let proven = estimate(&space, 1e-7, MOST_CELLS, UNWATCHED).unwrap().interval.unwrap();
+        let proven = estimate(&Sampler::exact(), &space, 1e-7, MOST_CELLS).unwrap().interval.unwrap();
         let grid = space.with_axis(Coordinate::RateY, space.axis(Coordinate::RateY).with_points(200_001)).unwrap();
         let counted = Sampler::exact().estimate(&grid, Plan::Grid).unwrap().probability;
         // Each of some twenty edges lies between two points.
@@ -170,10 +168,10 @@ fn a_computation_stops_at_its_number_of_cells() {
     let space =
         Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
     let coin = space.coin().unwrap();
-    let all = enclosed(&space, coin, 1e-5, MOST_CELLS, UNWATCHED);
-    let few = enclosed(&space, coin, 1e-5, all.cells - 1, UNWATCHED);
+    let all = enclosed(&Sampler::exact(), (&space, coin), 1e-5, MOST_CELLS);
+    let few = enclosed(&Sampler::exact(), (&space, coin), 1e-5, all.cells - 1);
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
-    let error = estimate(&space, 1e-5, all.cells - 1, UNWATCHED).unwrap_err();
+    let error = estimate(&Sampler::exact(), &space, 1e-5, all.cells - 1).unwrap_err();
     assert!(
         matches!(error, Error::NotReached { reached, number, .. } if reached > 1e-5 && number == few.cells),
         "{error}"
@@ -181,7 +179,7 @@ fn a_computation_stops_at_its_number_of_cells() {
     #[cfg(feature = "rayon")]
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(pool.install(|| enclosed(&space, coin, 1e-5, MOST_CELLS, UNWATCHED)), all);
+        assert_eq!(pool.install(|| enclosed(&Sampler::exact(), (&space, coin), 1e-5, MOST_CELLS)), all);
     }
 }
 
@@ -189,7 +187,7 @@ fn a_computation_stops_at_its_number_of_cells() {
 fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1.0..=2.0).rate_z(3.0).speed(3.0..=5.0);
     let refused = |space: Space, why: &str| {
-        let error = estimate(&space, 1e-6, MOST_CELLS, UNWATCHED).unwrap_err().to_string();
+        let error = estimate(&Sampler::exact(), &space, 1e-6, MOST_CELLS).unwrap_err().to_string();
         assert!(error.contains(why), "{error}");
     };
     refused(space().rate_y(1.0).speed(3.0).build().unwrap(), "nothing varies");
@@ -201,11 +199,12 @@ fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let body = dynamics::Body::from_moments([1.0, 2.0, 2.5]).unwrap();
     refused(space().build().unwrap().with_body(body), "I1 ≠ I2");
     for accuracy in [0.0, -1.0, 1e-17, f64::NAN] {
-        let error = estimate(&space().build().unwrap(), accuracy, MOST_CELLS, UNWATCHED).unwrap_err().to_string();
+        let error =
+            estimate(&Sampler::exact(), &space().build().unwrap(), accuracy, MOST_CELLS).unwrap_err().to_string();
         assert!(error.contains("accuracy"), "{error}");
     }
-    // Narrow rates far away turn many times, so that roundings alone exceed what is asked.
+    // The coin makes so many turns that the first sum already takes more cells than are allowed.
     let far = space().rate_y(1e10..=2e10).build().unwrap();
-    let error = estimate(&far, 2e-14, 1 << 16, UNWATCHED).unwrap_err();
-    assert!(matches!(error, Error::NotReached { of: "cells", .. }), "{error}");
+    let error = estimate(&Sampler::exact(), &far, 2e-14, 1 << 16).unwrap_err();
+    assert!(matches!(error, Error::NotReached { number: 65_536, of: "cells", reached: 0.5, .. }), "{error}");
 }
