@@ -43,8 +43,6 @@ struct CountsAnswer {
 /// The number of outcomes by stage of the proof.
 #[derive(Serialize)]
 struct ProvenBy {
-    keller: u64,
-    certain: u64,
     f64: u64,
     double_double: u64,
     multiprecision: u64,
@@ -105,8 +103,6 @@ impl From<Counts> for CountsAnswer {
 impl From<ProvenCounts> for ProvenBy {
     fn from(proven: ProvenCounts) -> Self {
         Self {
-            keller: proven.by(Stage::Keller),
-            certain: proven.by(Stage::TrigFree),
             f64: proven.by(Stage::F64),
             double_double: proven.by(Stage::DoubleDouble),
             multiprecision: proven.by(Stage::Multiprecision),

@@ -6,9 +6,8 @@
 //! and drop. Values derived from them, as k = 6 r²/(3 r² + h²) or the vertical seen from a tilted coin, are not rounded
 //! before the proof, or the bound covers their rounding.
 //!
-//! The first two stages need little of the motion: `keller.rs` (Keller's coin: flat, without spin) and `trig_free.rs`
-//! (no sine or cosine). The other three use more and more digits, after the adaptive predicates of J. R. Shewchuk,
-//! Discrete Comput. Geom. 18 (1997), 305. φ is the phase ωL T at landing, and u = 2^-53:
+//! The stages use more and more digits, after the adaptive predicates of J. R. Shewchuk, Discrete Comput. Geom. 18 (1997),
+//! 305. φ is the phase ωL T at landing, and u = 2^-53:
 //!
 //! **1. f64.** [`TiltTerms`] gives G = A + B cos φ + C sin φ, which has the sign of cos θ. The errors derived there
 //! lead to these, in units of `size` ≥ |A|, √(B² + C²), |G|:
@@ -28,28 +27,32 @@
 //! [`Attitude::vertical`](dynamics::Attitude::vertical) is right to the errors that the errors of A, B and C are derived
 //! from, whatever the attitude was made from.
 //!
-//! **2. Double-double.** [`ExactMotion::cos_tilt_parts`] gives cos θ = a + b cos φ + c sin φ. No result goes through
-//! more than some fifteen operations with an error of at most 10 u² each, and the vertical is right to 2^-67. So a, b, c
-//! and their sum are right within 2^-66, and the phase within 70 u² φ (|L| 37 u², of which k has 25 u²; time 25 u², their
-//! product 5 u²). Sine and cosine of the leading part of the phase are those of std (2u each, √2 for both); turning them
-//! by the trailing part `lo`, |lo| ≤ ½, adds an error of 4u |lo|. Hence |Δ cos θ| ≤ 3u + 6u |lo| + 70 u² φ, which
-//! [`double_double_bound`] rounds up.
+//! Rates that were not given in rad/s are rounded to it, with a relative error of u each. This turns the landed coin by at
+//! most u φ, which is added to the bound.
 //!
-//! Rates that were not given in rad/s are rounded to it, with an error of u each. This turns the landed coin by at most
-//! u φ. The bounds in f64 have no room for it, so such a toss starts with the stage in double-double, which adds it to its
-//! bound.
+//! A coin whose |A| exceeds √(B² + C²) never changes its face, so that the sign of A decides without a sine or cosine:
 //!
-//! **3. As many digits as it takes.** The number of digits doubles until the sign is certain: see `multiprecision.rs`.
+//! ```text
+//! |A| - √(B² + C²)              29u size          12u (1 + √2)
+//! times |A| + √(B² + C²)        70u size²         which is at most 2.4 size
+//! A² - (B² + C²), as computed   78u size²         8u for its operations; the code uses 100
+//! ```
+//!
+//! **2. Double-double.** The same formula, in [`Ball`]s of double-double numbers: they contain the numbers as they were
+//! given and cover each rounding. Launches whose rates are not in rad/s, or differ too much, go on to the next stage.
+//!
+//! **3. As many digits as it takes.** The formula in balls of more digits, whose number doubles until the sign is certain:
+//! see `multiprecision.rs`.
 
-use dynamics::{Error, Outcome, SolveError, TimeOfFlight, Toss};
-use numerics::{DoubleDouble, UNIT_ROUNDOFF};
+use dynamics::phase::LARGEST_PHASE;
+use dynamics::{Attitude, Error, Outcome, SolveError, Toss};
+use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
-use crate::keller::{keller_outcome, keller_phase};
+use crate::given::{in_double_double, scaled};
 use crate::motion::ExactMotion;
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
-use crate::tilt_terms::TiltTerms;
-use crate::trig_free::{phase_in_range, trig_free_by};
+use crate::tilt_terms::{TiltTerms, terms};
 
 /// Proves the outcome of a toss.
 ///
@@ -57,8 +60,8 @@ use crate::trig_free::{phase_in_range, trig_free_by};
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
 #[inline]
 pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
-    match cheaply(toss) {
-        Some(certificate) => Ok(certificate),
+    match by_f64(toss) {
+        Some(outcome) => Ok(Certificate::new(outcome, Stage::F64)),
         None => with_more_digits(toss),
     }
 }
@@ -105,29 +108,65 @@ pub fn holds_within(toss: &Toss, relative: f64) -> Result<bool, SolveError> {
     Ok(cos_tilt(toss)?.abs() > 4.0 * relative * phase)
 }
 
-/// Tries the stages in f64: Keller's coin, no trigonometry, then all three terms. `None` if none of them can decide.
+/// The stage in f64. `None` if |cos θ| is within the error bound.
 #[inline]
-fn cheaply(toss: &Toss) -> Option<Certificate> {
-    if toss.launch.rate_error() != 0.0 {
-        return None;
-    }
-    let by = |stage| move |outcome| Certificate::new(outcome, stage);
-    if let Some(outcome) = keller_phase(toss).and_then(keller_outcome) {
-        return Some(by(Stage::Keller)(outcome));
+fn by_f64(toss: &Toss) -> Option<Outcome> {
+    if let Some(phase) = flat_phase(toss) {
+        return decided(phase.cos(), f64_bound(phase));
     }
     let terms = TiltTerms::new(toss);
-    let phase = phase_in_range(toss, &terms)?;
-    trig_free_by(&terms, phase).map(by(Stage::TrigFree)).or_else(|| by_terms(&terms, phase).map(by(Stage::F64)))
+    by_terms(&terms, phase_in_range(toss, &terms)?, toss.launch.rate_error())
 }
 
-/// The stage that evaluates all three terms in f64, at the phase of the landing (rad), which is in range. `None` if
-/// |cos θ| is within the error bound.
+/// Heads or tails by a cosine with this error bound.
 #[inline]
-fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
-    match Outcome::of(terms.height(phase), f64_bound(phase) * terms.size) {
+fn decided(cos_tilt: f64, bound: f64) -> Option<Outcome> {
+    match Outcome::of(cos_tilt, bound) {
         Outcome::Undecided => None,
         decided => Some(decided),
     }
+}
+
+/// The phase Ω T (rad) of a coin that is thrown flat and without spin, Ω = √(ωx² + ωy²). Its A and C are 0, and cos θ is
+/// cos(Ω T) (J. B. Keller, Am. Math. Mon. 93 (1986), 191), with an error of at most 2u + 4u Ω T. `None` for any other toss,
+/// and outside the range in which squares, time and phase keep their digits.
+#[inline]
+fn flat_phase(toss: &Toss) -> Option<f64> {
+    const SQUARES: std::ops::Range<f64> = 1e-200..1e200;
+    const PHASES: std::ops::Range<f64> = 1e-100..0.99 * LARGEST_PHASE;
+    let rate = toss.launch.rate();
+    let squared = rate.x * rate.x + rate.y * rate.y;
+    let is_flat = rate.z == 0.0 && toss.launch.attitude() == Attitude::IDENTITY && toss.launch.rate_error() == 0.0;
+    if !(is_flat && SQUARES.contains(&squared)) {
+        return None;
+    }
+    Some(squared.sqrt() * toss.launch.flight_time()).filter(|phase| PHASES.contains(phase))
+}
+
+/// The phase ωL T (rad) at landing. `None` if it or the phase |q| T of the spin may exceed [`LARGEST_PHASE`] or have
+/// lost digits.
+#[inline]
+fn phase_in_range(toss: &Toss, terms: &TiltTerms) -> Option<f64> {
+    const SMALLEST_TIME: f64 = 1e-200;
+    let time = toss.launch.flight_time();
+    let [phase, spin] = terms.phases(time);
+    // A smaller time may have lost digits that matter at the largest rates. The comparisons also reject a NaN.
+    let in_range =
+        (time >= SMALLEST_TIME || time == 0.0) && phase < 0.99 * LARGEST_PHASE && spin < 0.99 * LARGEST_PHASE;
+    in_range.then_some(phase)
+}
+
+/// The outcome by the terms in f64 of a toss whose rates have this relative error, at the phase of its landing (rad), which
+/// is in range.
+#[inline]
+fn by_terms(terms: &TiltTerms, phase: f64, rate_error: f64) -> Option<Outcome> {
+    let TiltTerms { mean, cosine, sine, size, .. } = *terms;
+    let beyond_amplitude = mean * mean - (cosine * cosine + sine * sine);
+    if rate_error == 0.0 && beyond_amplitude > 100.0 * UNIT_ROUNDOFF * (size * size) {
+        return Some(Outcome::of(mean, 0.0));
+    }
+    // Of a phase of 0 and lost digits the product is NaN, within which nothing is decided.
+    decided(terms.height(phase), (f64_bound(phase) + rate_error * phase) * size)
 }
 
 /// Decides by the stages with more digits than f64.
@@ -136,35 +175,38 @@ fn by_terms(terms: &TiltTerms, phase: f64) -> Option<Outcome> {
 /// As [`certify`].
 #[cold]
 fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
-    let motion = ExactMotion::new(toss);
-    let time = toss.launch.time_of_flight();
-    motion.phase(time)?;
-    Ok(match by_double_double(&motion, time, toss.launch.rate_error())? {
-        Some(outcome) => Certificate::new(outcome, Stage::DoubleDouble),
+    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    Ok(match cos_tilt_in_double_double(toss).filter(Ball::has_sign) {
+        Some(cos_tilt) => Certificate::new(Outcome::of(cos_tilt.sign(), 0.0), Stage::DoubleDouble),
         None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
     })
 }
 
-/// The stage in double-double, for rates with this relative error. `None` if |cos θ| is within its error bound.
-///
-/// # Errors
-/// [`SolveError::PhaseTooLarge`].
-fn by_double_double(motion: &ExactMotion, time: TimeOfFlight, rate_error: f64) -> Result<Option<Outcome>, SolveError> {
-    let (cos_tilt, phase) = motion.cos_tilt_parts(time)?;
-    // Of a phase of 0 and lost digits the product is NaN, within which nothing is decided.
-    let bound = double_double_bound(phase) + rate_error * phase.hi();
-    Ok(match Outcome::of(cos_tilt.hi(), bound) {
-        Outcome::Undecided => None,
-        decided => Some(decided),
-    })
+/// A ball of double-double numbers with cos θ at landing, by which the second stage decides. `None` for rates that are not
+/// in rad/s or differ too much.
+pub fn cos_tilt_in_double_double(toss: &Toss) -> Option<Ball<DoubleDouble>> {
+    let (time, vertical) = in_double_double(&toss.launch)?;
+    // The ratio to 25 u² of itself, as the time; its last digits may be below the range of f64.
+    let k = toss.coin.exact_inertia_ratio();
+    let k = Ball::new(k, 2f64.powi(-97) * k.hi() + f64::MIN_POSITIVE);
+    Some(cos_tilt_in(toss, &time, vertical, k))
 }
 
-/// Error bound of cos θ in the double-double stage at a `phase` (rad).
-pub fn double_double_bound(phase: DoubleDouble) -> f64 {
-    const CONSTANT: f64 = 4.0 * UNIT_ROUNDOFF;
-    const OF_REST: f64 = 8.0 * UNIT_ROUNDOFF;
-    const OF_PHASE: f64 = 80.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
-    CONSTANT + OF_REST * phase.lo().abs() + OF_PHASE * phase.hi()
+/// cos θ in any kind of number, from the time in the unit of [`scaled`] rates, the vertical (BF) at launch, and k.
+pub(crate) fn cos_tilt_in<N: Elementary>(toss: &Toss, time: &N, vertical: [N; 3], k: N) -> N {
+    let (rate, _) = toss.launch.given_rate();
+    if rate.x == 0.0 && rate.y == 0.0 {
+        let [.., m_z] = vertical;
+        return m_z;
+    }
+    let [x, y, z] = scaled(&rate, time);
+    let momentum = [x.clone(), y.clone(), k * z];
+    let across = x.clone() * x + y.clone() * y;
+    let squared = across.clone() + momentum[2].clone() * momentum[2].clone();
+    let size = squared.sqrt();
+    let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
+    let [mean, cosine, sine] = terms(vertical, momentum, across);
+    (mean + cosine * cos + sine * size * sin) / squared
 }
 
 /// Error bound of [`TiltTerms::height`] at a `phase` (rad), in units of [`TiltTerms::size`].

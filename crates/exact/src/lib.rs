@@ -9,8 +9,8 @@
 //! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
 //! | the speeds that land heads, for a landing at any height | [`thrown`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
-//! | cheaper forms: without sine and cosine, for a flat launch without spin, in compensated f64 | `trig_free`, `keller`, [`compensated`] |
-//! | outcomes with a proof, also in as many digits as it takes; the types that carry the proof | [`certified`], `multiprecision`, [`certificate`] |
+//! | a cheaper form, in compensated f64 | [`compensated`] |
+//! | outcomes with a proof, also in as many digits as it takes; the numbers as given; the types that carry the proof | [`certified`], `multiprecision`, `given`, [`certificate`] |
 //! | the motion of any rigid body, and its outcomes with a proof | [`rigid`] |
 //! | many tosses at once, in SIMD registers, of coins and other bodies | [`batch`] |
 //! | the exact motion as a [`Solver`](dynamics::Solver) | [`solver`] |
@@ -26,8 +26,8 @@ pub mod certified;
 pub mod compensated;
 #[cfg(feature = "serde")]
 mod data;
+mod given;
 pub mod heads;
-mod keller;
 pub mod margin;
 pub mod motion;
 mod multiprecision;
@@ -37,7 +37,6 @@ pub mod sensitivity;
 pub mod solver;
 pub mod thrown;
 pub mod tilt_terms;
-mod trig_free;
 
 pub use batch::{Batch, BodyFilter};
 pub use certificate::{Certificate, ProvenCounts, Stage};

@@ -21,57 +21,44 @@
 //! - With rates in turns, φ is π times an algebraic number, and there are more ties: a coin that is flipped at one turn
 //!   in a second is on edge after a quarter of a second. Such a toss counts as a tie if |cos θ| is below 2^-12000.
 
+use std::iter::successors;
+
 use dynamics::{AngleUnit, Outcome, Toss};
 use numerics::big::{Big, exactly};
+use numerics::{Elementary, WideBall};
 
-use crate::tilt_terms::terms;
+use crate::certified::cos_tilt_in;
+use crate::given::{in_digits, right_to_roundings};
+
+/// Digits to begin with.
+const FEWEST_DIGITS: usize = 192;
 
 /// Digits after which a toss with rates in turns counts as a tie.
-const MOST_DIGITS_OF_TURNS: isize = 12_288;
+const MOST_DIGITS_OF_TURNS: usize = 12_288;
 
 /// The stage of a proof in as many digits as it takes. It always decides, but for exact ties.
 pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
-    match decided_cos_tilt(toss, 0) {
-        None => Outcome::Undecided,
-        Some(cos_tilt) if cos_tilt > Big::ZERO => Outcome::Heads,
-        Some(_) => Outcome::Tails,
-    }
+    decided_cos_tilt(toss, WideBall::has_sign).map_or(Outcome::Undecided, |cos_tilt| Outcome::of(cos_tilt.sign(), 0.0))
 }
 
 /// cos θ at landing, rounded to f64 so that it keeps its sign. It is 0 for an exact tie alone.
 pub(crate) fn rounded_cos_tilt(toss: &Toss) -> f64 {
     const SMALLEST: f64 = f64::from_bits(1);
-    let Some(exact) = decided_cos_tilt(toss, 60) else { return 0.0 };
-    let rounded = exact.to_f64().value();
-    match (rounded == 0.0, exact > Big::ZERO) {
-        (false, _) => rounded,
-        (true, true) => SMALLEST,
-        (true, false) => -SMALLEST,
-    }
+    let Some(exact) = decided_cos_tilt(toss, |ball| ball.is_right_to(2f64.powi(-60))) else { return 0.0 };
+    let rounded = exact.to_f64();
+    if rounded == 0.0 { exact.sign() * SMALLEST } else { rounded }
 }
 
-/// cos θ at landing, right to 2^-`digits` of itself; `None` for an exact tie.
-fn decided_cos_tilt(toss: &Toss, digits: isize) -> Option<Big> {
+/// The first ball with cos θ at landing that has enough digits; `None` for an exact tie.
+fn decided_cos_tilt(toss: &Toss, has_enough: impl Fn(&WideBall) -> bool) -> Option<WideBall> {
     if is_tie(toss) {
         return None;
     }
     let may_be_0 = matches!(toss.launch.given_rate().1, AngleUnit::Turns(_));
-    let mut precision: isize = 192;
-    loop {
-        if may_be_0 && precision > MOST_DIGITS_OF_TURNS {
-            return None;
-        }
-        let (cos_tilt, bound) = (cos_tilt(toss, precision), multiprecision_bound(precision - digits));
-        if cos_tilt > bound || cos_tilt < -bound {
-            return Some(cos_tilt);
-        }
-        precision *= 2;
-    }
-}
-
-/// Bound of the error of cos θ in `digits` binary digits: some thirty operations, the phase's error multiplied by up to 2^53.
-fn multiprecision_bound(digits: isize) -> Big {
-    Big::ONE >> (digits - 80)
+    successors(Some(FEWEST_DIGITS), |digits| Some(2 * digits))
+        .take_while(|digits| !may_be_0 || *digits <= MOST_DIGITS_OF_TURNS)
+        .map(|digits| cos_tilt(toss, digits))
+        .find(has_enough)
 }
 
 /// Whether cos θ = 0 exactly at landing.
@@ -91,38 +78,18 @@ fn is_tie(toss: &Toss) -> bool {
     landed_at_once || !precesses || (level_momentum && m_x * exactly(rate.y) == m_y * exactly(rate.x))
 }
 
-/// cos θ at landing in `digits` binary digits.
-fn cos_tilt(toss: &Toss, digits: isize) -> Big {
-    let digits = digits.unsigned_abs();
-    let round = |value: Big| value.with_precision(digits).value();
-    let [x, y, z] = given_momentum(toss, digits);
-    let across = &x * &x + &y * &y;
-    let squared = &across + &z * &z;
-    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
-    let (vertical, norm) = (vertical.map(round), round(norm));
-    if squared == Big::ZERO {
-        let [.., m_z] = vertical;
-        return m_z / norm;
-    }
-    let momentum = squared.sqrt();
-    // L is in the unit of the rates, whose size only the phase depends on.
-    let (_, unit) = toss.launch.given_rate();
-    let (sin, cos) = (&momentum * unit.in_digits(digits) * flight_time(toss, digits)).sin_cos();
-    let [mean, cosine, sine] = terms(vertical, [x, y, z], across);
-    (mean + cosine * cos + sine * &momentum * sin) / (squared * norm)
-}
-
-/// (ωx, ωy, k ωz) in `digits` binary digits, in the unit of the rates.
-fn given_momentum(toss: &Toss, digits: usize) -> [Big; 3] {
-    let big = |value: f64| exactly(value).with_precision(digits).value();
-    let (rate, _) = toss.launch.given_rate();
-    [big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z)]
+/// A ball of `digits` binary digits with cos θ at landing.
+pub(crate) fn cos_tilt(toss: &Toss, digits: usize) -> WideBall {
+    let (time, vertical) = in_digits(&toss.launch, digits);
+    cos_tilt_in(toss, &time, vertical, right_to_roundings(toss.coin.inertia_ratio_in_digits(digits), digits))
 }
 
 /// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
 pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
-    let unit = toss.launch.given_rate().1.in_digits(digits);
-    given_momentum(toss, digits).map(|part| part * &unit)
+    let big = |value: f64| exactly(value).with_precision(digits).value();
+    let (rate, unit) = toss.launch.given_rate();
+    let unit = unit.in_digits(digits);
+    [big(rate.x), big(rate.y), toss.coin.inertia_ratio_in_digits(digits) * big(rate.z)].map(|part| part * &unit)
 }
 
 /// T in `digits` binary digits (s).
@@ -145,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn more_digits_change_cos_theta_by_less_than_its_bound() {
+    fn balls_of_few_digits_contain_cos_theta_of_more() {
         let coins = [Coin::from_moments(1.0, 0.7).unwrap(), Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()];
         let attitudes = [Attitude::from_components([0.3, -0.7, 0.5, 0.4]).unwrap(), Attitude::about_x(2.5)];
         for (coin, attitude) in coins.into_iter().zip(attitudes) {
@@ -153,12 +120,12 @@ mod tests {
                 let toss = toss(coin, [1.0, -2.0, 3.0], attitude, time);
                 for digits in [192, 384] {
                     let (rough, fine) = (cos_tilt(&toss, digits), cos_tilt(&toss, 2 * digits));
-                    let difference = if rough > fine { &rough - &fine } else { &fine - &rough };
-                    assert!(difference < multiprecision_bound(digits), "{digits}, {time}");
+                    let difference = (rough.midpoint() - fine.midpoint()).to_f64().value().abs();
+                    assert!(difference <= rough.error(), "{digits}, {time}");
+                    // And the radius is what the phase's loss of digits makes of the last ones.
+                    assert!(rough.is_right_to(2f64.powi(90 - i32::try_from(digits).unwrap())), "{digits}, {time}");
                     let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
-                    assert!((fine.to_f64().value() - exact).abs() < 1e-15, "{digits}, {time}");
-                    // And the bound is what the phase's loss of digits makes of the last one.
-                    assert!(multiprecision_bound(digits) < (Big::ONE >> (digits - 81)));
+                    assert!((Elementary::to_f64(&fine) - exact).abs() < 1e-15, "{digits}, {time}");
                 }
             }
         }

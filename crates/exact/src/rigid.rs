@@ -71,6 +71,7 @@ use curve::Curve;
 pub use margin::{RigidMargin, margin_rigid, rigid_speeds_of_heads};
 pub use regime::Regime;
 
+use crate::given::{components_are_close, scaled};
 use crate::motion::ExactMotion;
 
 /// Digits of the constants of a launch where double-double has too few.
@@ -264,22 +265,6 @@ fn curve_in_double_double(toss: &RigidToss, rate: Vector3<f64>) -> Curve<DoubleD
         // With so many digits a launch has a regime: only numbers with an error bound may lack one.
         curve.map(|curve| curve.to_double_double()).unwrap_or_else(|| unreachable!("a regime"))
     })
-}
-
-/// Whether squares and fourth powers of the components, relative to the largest, are in the range of f64.
-fn components_are_close(rate: &Vector3<f64>) -> bool {
-    let scale = power_of_two_scale(rate.amax());
-    rate.iter().all(|part| *part == 0.0 || (part / scale).abs() > 2f64.powi(-200))
-}
-
-/// The rate (BF) in a unit near its largest component, exactly.
-fn scaled<N: Elementary>(rate: &Vector3<f64>, like: &N) -> [N; 3] {
-    let scale = power_of_two_scale(rate.amax());
-    if components_are_close(rate) {
-        return [rate.x, rate.y, rate.z].map(|part| like.like(part / scale));
-    }
-    let (_, exponent) = mantissa_and_exponent(scale);
-    [rate.x, rate.y, rate.z].map(|part| like.like_big(&exactly(part).times_power_of_two(-exponent)))
 }
 
 #[cfg(test)]

@@ -47,7 +47,7 @@ class Counts:
         return self.heads / self.points if self.points else float("nan")
 
 
-STAGES = ("keller", "certain", "f64", "double_double", "multiprecision")
+STAGES = ("f64", "double_double", "multiprecision")
 """The stages of the proof, from the cheapest on, by their names in JSON."""
 
 

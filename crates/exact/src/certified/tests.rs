@@ -1,9 +1,10 @@
 //! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
-use dynamics::{AngleUnit, Attitude, Coin, Launch, Unit};
+use dynamics::{AngleUnit, Attitude, Coin, Launch, TimeOfFlight, Unit};
 use nalgebra::Vector3;
 
 use super::*;
+use crate::multiprecision::cos_tilt as in_more_digits;
 
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
@@ -91,10 +92,8 @@ fn every_stage_gives_the_same_outcome_where_it_decides() {
         let launch = Launch::new(rate, time).unwrap().with_attitude(attitude);
         let toss = Toss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
         let exact = by_multiprecision(&toss);
-        let double = by_double_double(&ExactMotion::new(&toss), toss.launch.time_of_flight(), 0.0).unwrap();
-        let terms = TiltTerms::new(&toss);
-        let by_f64 = phase_in_range(&toss, &terms).and_then(|phase| by_terms(&terms, phase));
-        for (stage, outcome) in [by_f64, double].into_iter().enumerate() {
+        let double = cos_tilt_in_double_double(&toss).filter(Ball::has_sign).map(|ball| Outcome::of(ball.sign(), 0.0));
+        for (stage, outcome) in [by_f64(&toss), double].into_iter().enumerate() {
             assert!(outcome.is_none_or(|outcome| outcome == exact), "stage {stage} of {toss:?}");
             decided[stage] += u32::from(outcome.is_some());
         }
@@ -112,33 +111,121 @@ fn a_phase_above_two_to_the_53_is_refused() {
 
 #[test]
 fn the_cheapest_stage_that_can_decides() {
-    let stage = |k, rate, time| certify(&toss(k, rate, Attitude::IDENTITY, time)).unwrap().stage();
-    assert_eq!(stage(0.5, [20.0, 3.0, 0.0], 0.6), Stage::Keller);
-    assert_eq!(stage(2.0, [1.0, 1.0, 2.5], 0.6), Stage::TrigFree);
-    assert_eq!(stage(0.5, [20.0, 3.0, 1.0], 0.6), Stage::F64);
-    // cos θ is -10^-15, and 6·10^-17.
+    let stage = |rate, time| certify(&toss(1.0, rate, Attitude::IDENTITY, time)).unwrap().stage();
+    assert_eq!(stage([20.0, 3.0, 0.0], 0.6), Stage::F64);
+    // cos θ is -10^-15, 6·10^-17, and 10^-20.
     let quarter = std::f64::consts::FRAC_PI_2;
-    assert_eq!(stage(1.0, [1.0, 0.0, 0.0], quarter + 1e-15), Stage::DoubleDouble);
-    assert_eq!(stage(1.0, [1.0, 0.0, 0.0], quarter), Stage::Multiprecision);
+    assert_eq!(stage([1.0, 0.0, 0.0], quarter + 1e-15), Stage::DoubleDouble);
+    assert_eq!(stage([1.0, 0.0, 0.0], quarter), Stage::DoubleDouble);
+    let near_edge = |tilt| certify(&toss(1.0, [0.0; 3], Attitude::about_x(tilt), 1.0)).unwrap().stage();
+    assert_eq!(near_edge(quarter), Stage::DoubleDouble);
+    let tiny = toss(1.0, [1e-20, 7.0, 0.0], on_edge(), 1.0);
+    assert_eq!(certify(&tiny).unwrap().stage(), Stage::Multiprecision);
 }
 
+/// 40 neighbouring times around each of 200 landings on edge, and launches that are not flat or leave the range.
 #[test]
-fn bounds_are_those_of_the_derivations() {
-    const U: f64 = UNIT_ROUNDOFF;
-    assert_eq!([0.0, 2.0].map(f64_bound), [34.0 * U, 48.0 * U]);
-    let bound = |hi: f64, lo: f64| double_double_bound(DoubleDouble::exactly(hi) + DoubleDouble::exactly(lo));
-    assert_eq!(bound(0.0, 0.0), 4.0 * U);
-    assert_eq!(bound(f64::exp2(53.0), 0.5), (4.0 + 4.0 + 80.0) * U);
-    assert_eq!(bound(f64::exp2(52.0), -0.25), (4.0 + 2.0 + 40.0) * U);
+fn a_flat_coin_without_spin_is_decided_by_one_cosine() {
+    let flat = |rate: [f64; 3], tilt, time| toss(1.5, rate, Attitude::about_x(tilt), time);
+    let mut undecided = 0;
+    for quarter in 0..200 {
+        let time = (f64::from(quarter) + 0.5) * std::f64::consts::PI / 7.0;
+        for ulps in 0..40_u64 {
+            let toss = flat([7.0, 0.0, 0.0], 0.0, f64::from_bits(time.to_bits() - 20 + ulps));
+            assert!(flat_phase(&toss).is_some_and(|phase| (phase - 7.0 * time).abs() < 1e-11));
+            match by_f64(&toss) {
+                Some(outcome) => assert_eq!(outcome, by_multiprecision(&toss), "{toss:?}"),
+                None => undecided += 1,
+            }
+        }
+    }
+    assert!(undecided > 100, "{undecided}");
+    for (rate, tilt, time) in [
+        ([7.0, 1.0, 1e-9], 0.0, 1.0),
+        ([7.0, 1.0, 0.0], 1e-9, 1.0),
+        ([1e-150, 0.0, 0.0], 0.0, 1.0),
+        ([7.0, 1.0, 0.0], 0.0, 1e-200),
+        ([1.0, 0.0, 0.0], 0.0, 0.99 * LARGEST_PHASE),
+    ] {
+        assert_eq!(flat_phase(&flat(rate, tilt, time)), None, "{rate:?} {tilt} {time}");
+    }
+}
+
+/// And the bound of f64 is that of the derivation.
+#[test]
+fn balls_in_double_double_contain_those_of_more_digits() {
+    assert_eq!([0.0, 2.0].map(f64_bound), [34.0, 48.0].map(|units: f64| units * UNIT_ROUNDOFF));
+    let mut largest: f64 = 0.0;
+    for index in 1..=300 {
+        let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
+        let rate = [2f64, 3.0, 5.0].map(|square| 40.0 * part(square.sqrt()));
+        let attitude = Attitude::from_components([7f64, 11.0, 13.0, 17.0].map(|square| part(square.sqrt()))).unwrap();
+        let launch = TimeOfFlight::Ballistic { speed: 10f64.powi(index % 14), gravity: 9.81 };
+        let coin = Coin::from_cylinder(0.003, 0.018_74, 0.001_14).unwrap();
+        let toss = Toss { coin, launch: Launch::new(rate, launch).unwrap().with_attitude(attitude) };
+        let (ball, fine) = (cos_tilt_in_double_double(&toss).unwrap(), in_more_digits(&toss, 192));
+        let off = (ball.to_big() - fine.to_big()).to_f64().value().abs();
+        assert!(off <= ball.radius() && ball.radius() < 1e-11, "{toss:?}: {off:e} {:e}", ball.radius());
+        largest = largest.max(off / ball.radius());
+    }
+    assert!(largest > 1e-4, "{largest:e}");
 }
 
 #[test]
 fn the_stage_in_f64_decides_beyond_its_bound_in_parts_of_the_size() {
-    let mut terms = TiltTerms::new(&toss(1.0, [1.0, 0.0, 0.0], Attitude::IDENTITY, 1.0));
-    (terms.cosine, terms.sine, terms.size) = (0.0, 0.0, 3.0);
+    // B keeps |A| below the amplitude.
     for (units, outcome) in [(101.0, None), (103.0, Some(Outcome::Heads)), (-103.0, Some(Outcome::Tails))] {
-        terms.mean = units * UNIT_ROUNDOFF;
-        assert_eq!(by_terms(&terms, 0.0), outcome, "{units}");
+        assert_eq!(by_terms(&terms(1.0 + units * UNIT_ROUNDOFF, -1.0, 3.0), 0.0, 0.0), outcome, "{units}");
+    }
+    // Rates with an error add it, times the phase: at ½ rad 37.5 u in all, of a B that hardly changes.
+    let turned = |units: f64| by_terms(&terms(units * UNIT_ROUNDOFF, 0.0, 1.0), 0.5, UNIT_ROUNDOFF);
+    assert_eq!([37.0, 39.0].map(turned), [None, Some(Outcome::Heads)]);
+}
+
+/// A² - B² above 100 u size². At a phase of 2^52 the cosine decides nothing.
+#[test]
+fn a_coin_keeps_its_face_beyond_the_amplitude_alone() {
+    let by_sign = |units: f64| {
+        let terms = terms(1.0, 1.0 - units * UNIT_ROUNDOFF, 3.0);
+        by_terms(&terms, 0.5 * LARGEST_PHASE, 0.0)
+    };
+    assert_eq!([448.0, 450.0, 452.0].map(by_sign), [None, None, Some(Outcome::Heads)]);
+    // tan ψ = Ω/(k ωz), here just below 1, and upside down.
+    let outcome = |rate, tilt| by_f64(&toss(2.0, rate, Attitude::about_x(tilt), 1e9));
+    assert_eq!(outcome([1.999, 0.0, 1.0], 0.0), Some(Outcome::Heads));
+    assert_eq!(outcome([1.0, 0.0, 9.0], 3.1), Some(Outcome::Tails));
+    // Cones of nearly 45° that land at their lowest point.
+    for index in 0..3000 {
+        let part = |irrational: f64| 2.0 * (f64::from(index) * irrational).fract() - 1.0;
+        let nearness = 10f64.powi(-(index % 17)) * part(13f64.sqrt());
+        let (k, z) = (f64::from(1 + index % 4) * 0.5, 40.0 * part(5f64.sqrt()));
+        let across = k * z * (1.0 + nearness);
+        let time = std::f64::consts::PI / across.hypot(k * z);
+        let toss = toss(k, [across, 0.0, z], Attitude::about_x(0.0), time);
+        assert!(by_f64(&toss).is_none_or(|outcome| outcome == by_multiprecision(&toss)), "{toss:?}");
+    }
+}
+
+/// Terms with C = 0 and these values instead of those of a toss.
+fn terms(mean: f64, cosine: f64, size: f64) -> TiltTerms {
+    let mut terms = TiltTerms::new(&toss(1.0, [1.0, 0.0, 0.0], Attitude::IDENTITY, 1.0));
+    (terms.mean, terms.cosine, terms.sine, terms.size) = (mean, cosine, 0.0, size);
+    terms
+}
+
+#[test]
+fn f64_is_tried_for_phases_up_to_99_percent_of_the_largest() {
+    let in_range = |k: f64, rate: [f64; 3], time: f64| {
+        let toss = toss(k, rate, Attitude::IDENTITY, time);
+        phase_in_range(&toss, &TiltTerms::new(&toss)).is_some()
+    };
+    for (part, taken) in [(0.985, true), (0.99, false), (0.995, false)] {
+        let time = part * LARGEST_PHASE;
+        assert_eq!(in_range(1.0, [1.0, 0.0, 0.0], time), taken, "precession {part}");
+        assert_eq!(in_range(0.0, [0.0, 0.0, 1.0], time), taken, "spin {part}");
+    }
+    for (time, taken) in [(0.0, true), (1e-200, true), (0.99e-200, false)] {
+        assert_eq!(in_range(1.0, [1.0, 0.0, 0.0], time), taken, "{time}");
     }
 }
 

@@ -5,14 +5,13 @@
 //! speed, gravity and drop. They are exact, or balls contain them. The sign of E, and with it the formula, is exact for
 //! a body given by its moments; of a tensor it is proven, or more digits are tried.
 
-use dynamics::time_of_flight::ExactTime;
-use dynamics::{AngleUnit, Error, Outcome, RigidToss, SolveError};
-use numerics::big::exactly;
-use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
+use dynamics::{Error, Outcome, RigidToss, SolveError};
+use numerics::{Ball, Elementary};
 
-use super::{RigidMotion, components_are_close, cos_tilt, scaled};
+use super::{RigidMotion, cos_tilt};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::certify;
+use crate::given::{in_digits, in_double_double, rounded, scaled};
 use crate::rigid::curve::Curve;
 
 /// Digits of the stages after double-double. The last are for rates that differ by more than 1e135.
@@ -82,76 +81,27 @@ fn cos_tilt_in_ball<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], ti
 
 /// The outcome in f64, for phases whose rounding leaves digits.
 fn by_f64(toss: &RigidToss) -> Option<Outcome> {
-    let (time, vertical) = in_double_double(toss)?;
+    let (time, vertical) = in_double_double(&toss.launch)?;
     outcome(toss, &vertical.each_ref().map(rounded), &rounded(&time))
 }
 
-/// A ball of f64 that contains a ball of double-double.
-pub(super) fn rounded(number: &Ball<DoubleDouble>) -> Ball<f64> {
-    let midpoint = number.midpoint();
-    Ball::new(midpoint.hi(), (midpoint.lo().abs() + number.radius()) * (1.0 + f64::EPSILON))
-}
-
 fn by_double_double(toss: &RigidToss) -> Option<Outcome> {
-    let (time, vertical) = in_double_double(toss)?;
+    let (time, vertical) = in_double_double(&toss.launch)?;
     outcome(toss, &vertical, &time)
-}
-
-/// The time in the unit of the rates, and the vertical (BF) at launch; `None` for rates that are not in rad/s or differ
-/// too much.
-fn in_double_double(toss: &RigidToss) -> Option<(Ball<DoubleDouble>, [Ball<DoubleDouble>; 3])> {
-    // The time to 25 u² of itself, and the vertical to 2^-67.
-    const TIME: f64 = 6.310_887_241_768_095e-30; // 2^-97
-    const VERTICAL: f64 = 6.776_263_578_034_403e-21; // 2^-67
-    let (rate, unit) = toss.launch.given_rate();
-    if !components_are_close(&rate) || unit != AngleUnit::RADIAN {
-        return None;
-    }
-    let time = ExactTime::from(toss.launch.time_of_flight());
-    let scale = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(rate.amax())).1;
-    let time = time.mantissa().times_power_of_two(time.exponent() + scale);
-    let vertical = toss.launch.attitude().exact_vertical().map(|part: DoubleDouble| Ball::new(part, VERTICAL));
-    Some((Ball::new(time, TIME * time.hi()), vertical))
 }
 
 /// The outcome in this number of digits, for rates of any ratio.
 fn by_digits(toss: &RigidToss, digits: usize) -> Option<Outcome> {
-    let (time, vertical) = in_digits(toss, digits);
+    let (time, vertical) = in_digits(&toss.launch, digits);
     let curve = Curve::new(&toss.body, &scaled(&toss.launch.given_rate().0, &time))?;
     let cos_tilt = cos_tilt(&curve.turn(&time), &vertical);
     cos_tilt.has_sign().then(|| Outcome::of(cos_tilt.sign(), 0.0))
 }
 
-/// Balls with the time, in the unit of [`scaled`] rates, and with the vertical seen from the body at launch.
-pub(super) fn in_digits(toss: &RigidToss, digits: usize) -> (WideBall, [WideBall; 3]) {
-    let (rate, unit) = toss.launch.given_rate();
-    let scale = numerics::scale::mantissa_and_exponent(numerics::scale::power_of_two_scale(rate.amax())).1;
-    let time = time_in_digits(toss, digits) * right_to_roundings(unit.in_digits(digits), digits);
-    (time.times_power_of_two(scale), vertical_in_digits(toss, digits))
-}
-
-/// A ball with the time of flight (s).
-pub(super) fn time_in_digits(toss: &RigidToss, digits: usize) -> WideBall {
-    right_to_roundings(toss.launch.time_of_flight().in_digits(digits), digits)
-}
-
-/// Balls with the vertical seen from the body at launch. Their radii are of its length: a part near 0 has lost digits.
-pub(super) fn vertical_in_digits(toss: &RigidToss, digits: usize) -> [WideBall; 3] {
-    let round = |value: Big| value.with_precision(digits).value();
-    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
-    let (norm, roundings) = (round(norm), round(exactly(1.0)) >> (digits - 16).cast_signed());
-    vertical.map(|part| WideBall::new(round(part) / &norm, &roundings))
-}
-
-/// A ball around a number that is right to some roundings of itself.
-fn right_to_roundings(value: Big, digits: usize) -> WideBall {
-    let value = value.with_precision(digits).value();
-    WideBall::new(value.clone(), &(value >> (digits - 16).cast_signed()))
-}
-
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Body, Launch, TimeOfFlight};
+    use dynamics::{AngleUnit, Attitude, Body, Launch, TimeOfFlight};
+    use numerics::DoubleDouble;
 
     use super::*;
 
@@ -174,7 +124,7 @@ mod tests {
     fn balls_of_f64_contain_those_of_double_double_and_decide_nearly_all_outcomes() {
         let (mut decided, mut largest) = (0, 0.0_f64);
         for toss in tosses() {
-            let (time, vertical) = in_double_double(&toss).unwrap();
+            let (time, vertical) = in_double_double(&toss.launch).unwrap();
             let fine = cos_tilt_in_ball(&toss, &vertical, &time).unwrap();
             let Some(rough) = cos_tilt_in_ball(&toss, &vertical.each_ref().map(rounded), &rounded(&time)) else {
                 continue;
@@ -211,7 +161,7 @@ mod tests {
             let thrown = TimeOfFlight::Ballistic { speed: 1.0 + toss.launch.flight_time(), gravity: 9.81 };
             let launch = Launch::in_unit([1.0, 2.0, 3.0], degree, thrown).unwrap();
             let toss = RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };
-            let ((time, vertical), (finer_time, finer)) = (in_digits(&toss, 256), in_digits(&toss, 448));
+            let ((time, vertical), (finer_time, finer)) = (in_digits(&toss.launch, 256), in_digits(&toss.launch, 448));
             for (ball, fine) in vertical.iter().chain([&time]).zip(finer.iter().chain([&finer_time])) {
                 let off = (fine.midpoint() - ball.midpoint()).to_f64().value().abs();
                 assert!(off <= ball.error(), "{toss:?}: {off:e}, radius {:e}", ball.error());
@@ -257,7 +207,7 @@ mod tests {
         assert_eq!(certified(1e11), Ok((Outcome::Heads, Stage::F64)));
         // A rate of more than 1 rad/s, so that the time alone is below 1e12.
         for time in [0.8e12, 1e13, 1e15] {
-            let (exact_time, vertical) = in_double_double(&spinning(time)).unwrap();
+            let (exact_time, vertical) = in_double_double(&spinning(time).launch).unwrap();
             let rough = vertical.each_ref().map(rounded);
             assert!(cos_tilt_in_ball(&spinning(time), &rough, &rounded(&exact_time)).is_none(), "{time:e}");
             assert!(cos_tilt_in_ball(&spinning(time), &vertical, &exact_time).is_some(), "{time:e}");
@@ -270,10 +220,10 @@ mod tests {
     #[test]
     fn balls_of_the_inputs_have_the_radii_of_their_roundings() {
         for toss in tosses().skip(1).take(20) {
-            let (time, vertical) = in_double_double(&toss).unwrap();
+            let (time, vertical) = in_double_double(&toss.launch).unwrap();
             assert_eq!(time.radius(), 2f64.powi(-97) * time.midpoint().hi());
             assert!(vertical.iter().all(|part| part.radius() == 2f64.powi(-67)));
-            let (time, vertical) = in_digits(&toss, 256);
+            let (time, vertical) = in_digits(&toss.launch, 256);
             let time_in_roundings = time.error() / (2f64.powi(-240) * Elementary::to_f64(time.midpoint()));
             // Those of the time of flight and of the unit, and of their product.
             assert!((2.0..2.01).contains(&time_in_roundings), "{time_in_roundings}");
@@ -287,7 +237,7 @@ mod tests {
         let attitude = Attitude::from_components([3e9, 1e9, -2e9, 0.5e9]).unwrap();
         let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
         let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
-        let (_, vertical) = in_digits(&toss, 256);
+        let (_, vertical) = in_digits(&toss.launch, 256);
         let squares: f64 = vertical.iter().map(|part| part.midpoint().to_f64().value().powi(2)).sum();
         assert!((squares - 1.0).abs() < 1e-12, "{squares}");
     }

@@ -20,11 +20,11 @@ use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
 use numerics::{Ball, DoubleDouble, Dual, Elementary};
 
-use super::certified::in_digits;
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
 use super::regime::{Regime, along};
-use super::{MANY_DIGITS, RigidMotion, components_are_close, cos_tilt, scaled};
+use super::{MANY_DIGITS, RigidMotion, cos_tilt};
+use crate::given::{components_are_close, in_digits, scaled};
 use crate::sensitivity::Sensitivity;
 
 /// How far, in units of the largest component, a launch is moved off the separatrix, or off the axis of a tensor. Its
@@ -132,7 +132,7 @@ fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
         are_right(&found, 0.0).then(|| in_f64(&found))
     };
     let in_balls = |digits: usize| {
-        let (time, vertical) = in_digits(toss, digits);
+        let (time, vertical) = in_digits(&toss.launch, digits);
         let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
         let none_above = if digits == DIGITS[1] { NO_SLOPE } else { 0.0 };
         are_right(&found, none_above).then(|| in_f64(&found))

@@ -11,9 +11,9 @@ use dynamics::{Outcome, RigidToss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Ball, DoubleDouble, Elementary, WideBall};
 
-use super::certified::{rounded, time_in_digits, vertical_in_digits};
 use super::cos_tilt;
 use super::curve::Curve;
+use crate::given::{rounded, time_in_digits, vertical_in_digits};
 
 /// Width of the interval that a flip is known to lie in, in parts of its distance; also the shortest step.
 pub(super) const RESOLUTION: f64 = 2.5e-13;
@@ -177,7 +177,7 @@ impl<B: Elementary> Stage<B> {
 
 impl Stage<WideBall> {
     fn in_digits(toss: &RigidToss, input: Input, digits: usize) -> Self {
-        Self::new(toss, input, vertical_in_digits(toss, digits), time_in_digits(toss, digits), 0)
+        Self::new(toss, input, vertical_in_digits(&toss.launch, digits), time_in_digits(&toss.launch, digits), 0)
     }
 }
 

@@ -7,7 +7,7 @@
 //! angle between the coin's normal n and its angular momentum S.
 
 use exact::TiltTerms;
-use exact::certified::{double_double_bound, f64_bound};
+use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use rayon::prelude::*;
 use toss::{ExactMotion, SolveError, Stage, Toss, certify};
 
@@ -146,11 +146,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let differs = judged.into_iter().map(|judged| judged.map(|(found, right)| found.outcome() != right));
             let mut counted = Measurement::count_of_set(name, &differs.collect::<Vec<_>>(), |index| cases[index]);
             if let Some(worst) = &mut counted.worst {
-                worst.input = format!(
-                    "decided by Keller's cosine, without the motion, by f64, double-double, more digits: \
-                     {stages:?}; {}",
-                    worst.input
-                );
+                worst.input = format!("decided by f64, double-double, more digits: {stages:?}; {}", worst.input);
             }
             Ok(counted)
         })
@@ -178,8 +174,8 @@ pub(super) fn of_f64(toss: &Toss, reference: &Reference) -> Deviation {
     Ok(error / f64_bound(phase))
 }
 
-/// Error of cos θ in the double-double stage, divided by the stage's error bound.
+/// Error of cos θ in the double-double stage, divided by the radius of its ball; 0 of a toss that has none.
 pub(super) fn of_double_double(toss: &Toss, reference: &Reference) -> Deviation {
-    let (cos_tilt, phase) = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
-    Ok(reference.cos_tilt_error(cos_tilt.hi()) / double_double_bound(phase))
+    let Some(ball) = cos_tilt_in_double_double(toss) else { return Ok(0.0) };
+    Ok(reference.unrounded_cos_tilt_error(*ball.midpoint()) / ball.radius())
 }

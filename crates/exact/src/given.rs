@@ -1,0 +1,74 @@
+//! The numbers of a launch as they were given: exact, or balls that contain them. Proofs are evaluated in these, so that
+//! they hold for the toss before any rounding.
+
+use dynamics::time_of_flight::ExactTime;
+use dynamics::{AngleUnit, Launch, Vector3};
+use numerics::big::exactly;
+use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
+use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
+
+/// Whether squares and fourth powers of the components, relative to the largest, are in the range of f64.
+pub(crate) fn components_are_close(rate: &Vector3<f64>) -> bool {
+    let scale = power_of_two_scale(rate.amax());
+    rate.iter().all(|part| *part == 0.0 || (part / scale).abs() > 2f64.powi(-200))
+}
+
+/// The rate (BF) in a unit near its largest component, exactly.
+pub(crate) fn scaled<N: Elementary>(rate: &Vector3<f64>, like: &N) -> [N; 3] {
+    let scale = power_of_two_scale(rate.amax());
+    if components_are_close(rate) {
+        return [rate.x, rate.y, rate.z].map(|part| like.like(part / scale));
+    }
+    let (_, exponent) = mantissa_and_exponent(scale);
+    [rate.x, rate.y, rate.z].map(|part| like.like_big(&exactly(part).times_power_of_two(-exponent)))
+}
+
+/// The time in the unit of [`scaled`] rates, and the vertical (BF) at launch; `None` for rates that are not in rad/s or
+/// differ too much.
+pub(crate) fn in_double_double(launch: &Launch) -> Option<(Ball<DoubleDouble>, [Ball<DoubleDouble>; 3])> {
+    // The time to 25 u² of itself, and the vertical to 2^-67.
+    const TIME: f64 = 6.310_887_241_768_095e-30; // 2^-97
+    const VERTICAL: f64 = 6.776_263_578_034_403e-21; // 2^-67
+    let (rate, unit) = launch.given_rate();
+    if !components_are_close(&rate) || unit != AngleUnit::RADIAN {
+        return None;
+    }
+    let time = ExactTime::from(launch.time_of_flight());
+    let scale = mantissa_and_exponent(power_of_two_scale(rate.amax())).1;
+    let time = time.mantissa().times_power_of_two(time.exponent() + scale);
+    let vertical = launch.attitude().exact_vertical().map(|part: DoubleDouble| Ball::new(part, VERTICAL));
+    Some((Ball::new(time, TIME * time.hi()), vertical))
+}
+
+/// A ball of f64 that contains a ball of double-double.
+pub(crate) fn rounded(number: &Ball<DoubleDouble>) -> Ball<f64> {
+    let midpoint = number.midpoint();
+    Ball::new(midpoint.hi(), (midpoint.lo().abs() + number.radius()) * (1.0 + f64::EPSILON))
+}
+
+/// Balls with the time, in the unit of [`scaled`] rates, and with the vertical seen from the body at launch.
+pub(crate) fn in_digits(launch: &Launch, digits: usize) -> (WideBall, [WideBall; 3]) {
+    let (rate, unit) = launch.given_rate();
+    let scale = mantissa_and_exponent(power_of_two_scale(rate.amax())).1;
+    let time = time_in_digits(launch, digits) * right_to_roundings(unit.in_digits(digits), digits);
+    (time.times_power_of_two(scale), vertical_in_digits(launch, digits))
+}
+
+/// A ball with the time of flight (s).
+pub(crate) fn time_in_digits(launch: &Launch, digits: usize) -> WideBall {
+    right_to_roundings(launch.time_of_flight().in_digits(digits), digits)
+}
+
+/// Balls with the vertical seen from the body at launch. Their radii are of its length: a part near 0 has lost digits.
+pub(crate) fn vertical_in_digits(launch: &Launch, digits: usize) -> [WideBall; 3] {
+    let round = |value: Big| value.with_precision(digits).value();
+    let (vertical, norm) = launch.attitude().vertical_in_digits(digits);
+    let (norm, roundings) = (round(norm), round(exactly(1.0)) >> (digits - 16).cast_signed());
+    vertical.map(|part| WideBall::new(round(part) / &norm, &roundings))
+}
+
+/// A ball around a number that is right to some roundings of itself.
+pub(crate) fn right_to_roundings(value: Big, digits: usize) -> WideBall {
+    let value = value.with_precision(digits).value();
+    WideBall::new(value.clone(), &(value >> (digits - 16).cast_signed()))
+}
