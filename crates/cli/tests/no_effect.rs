@@ -50,6 +50,8 @@ fn what_proves_nothing_refuses_to_prove_and_says_why() {
             ("--solver gamma", ["gamma proves nothing", "no bound of its own error; quaternion has one"]),
             ("--solver euler", ["euler proves nothing", "no bound of its own error; quaternion has one"]),
             ("--solver quaternion --formulation raw", ["proves nothing", "division by the norm"]),
+            ("--solver quaternion --scheme dop853", ["proves nothing", "only the scheme taylor"]),
+            ("--solver quaternion --scheme rk4 --step 1e-3", ["proves nothing", "only the scheme taylor"]),
         ] {
             assert_refused(&[(&format!("{command} {options} --prove"), words)]);
         }

@@ -12,7 +12,7 @@ use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
 #[cfg(feature = "integrators")]
-use crate::integrate::{Accepted, OdeSystem, Span, integrate_steps, integrate_within};
+use crate::integrate::{OdeSystem, Span, integrate_within};
 use crate::launch::{Launch, Toss};
 use crate::phase::RoughPhases;
 #[cfg(feature = "integrators")]
@@ -83,21 +83,6 @@ impl Flight {
     ) -> Result<(SVector<f64, N>, Work), SolveError> {
         let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
         integrate_within(system, start, self.span_of::<N, S>(), &stepping)
-    }
-
-    /// [`integrate`](Self::integrate) with all accepted steps.
-    ///
-    /// # Errors
-    /// As [`integrate`](crate::integrate::integrate).
-    #[cfg(feature = "integrators")]
-    pub fn integrate_steps<const N: usize, S: OdeSystem<N>>(
-        &self,
-        system: &S,
-        start: SVector<f64, N>,
-        stepping: &Stepping,
-    ) -> Result<Accepted<N>, SolveError> {
-        let stepping = stepping.tightened(self.phase / LONG_FLIGHT);
-        integrate_steps(system, start, self.span_of::<N, S>(), &stepping)
     }
 
     /// The time of an integration, with the longest step that the system allows.

@@ -53,18 +53,6 @@ impl RungeKutta {
     }
 }
 
-/// The accepted steps of an integration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Accepted<const N: usize> {
-    /// The dimensionless times at which steps begin or end, from 0 on. They are sums that were rounded; the state at the
-    /// end belongs to the end of the integration.
-    pub times: Vec<f64>,
-    /// The state at each of them.
-    pub states: Vec<SVector<f64, N>>,
-    /// The work of all steps.
-    pub work: Work,
-}
-
 /// Integrates `system` from `start` over `duration` ≥ 0 (s), and returns the end state and the work.
 ///
 /// The derivatives of `system` are taken with respect to the dimensionless time `scale` × t, where `scale` is a power
@@ -104,21 +92,6 @@ pub(crate) fn integrate_within<const N: usize>(
 ) -> Result<(SVector<f64, N>, Work), SolveError> {
     let (run, work) = run(system, start, span, stepping)?;
     Ok((run.get().1.last().copied().unwrap_or(start), work))
-}
-
-/// [`integrate`] with a longest step, and with all accepted steps.
-///
-/// # Errors
-/// As [`integrate`].
-pub(crate) fn integrate_steps<const N: usize>(
-    system: &impl OdeSystem<N>,
-    start: SVector<f64, N>,
-    span: Span,
-    stepping: &Stepping,
-) -> Result<Accepted<N>, SolveError> {
-    let (run, work) = run(system, start, span, stepping)?;
-    let (times, states) = run.get();
-    Ok(Accepted { times: times.clone(), states: states.clone(), work })
 }
 
 /// The accepted steps of `ode_solvers`.

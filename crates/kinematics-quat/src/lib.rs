@@ -8,31 +8,16 @@
 //! paper; their closed-form solution is never used. Rates are dimensionless, as in a [`Flight`].
 //!
 //! The Runge-Kutta schemes are those of `dynamics::integrate`. Taylor series are in this crate, because they need the
-//! recurrences of the coefficients in addition to the right-hand side: `taylor.rs` computes one step, `plan.rs` chooses
-//! its length, `coins.rs` keeps the states, and `lockstep.rs` runs the flights.
+//! recurrences of the coefficients in addition to the right-hand side: `taylor/coin.rs` computes one step, `plan.rs` chooses
+//! its length, and `lockstep.rs` runs the flights. Flights by them bound their own error: see `prove`.
 //!
-//! Any other rigid body has three rates that change, about its principal axes (`bodies.rs`). The formulations mean the
+//! Any other rigid body has three rates that change, about its principal axes (`taylor/rigid.rs`). The formulations mean the
 //! same for it: in [`Formulation::RAW`] the quaternion is not projected.
 
-mod accepted;
-mod bodies;
-mod coins;
-mod defect;
-mod digits;
-mod enclosure;
-mod integration;
-mod jump;
-mod lockstep;
-mod outcomes;
-mod plan;
-mod product;
-mod proven;
-mod proven_bodies;
-mod proving;
+mod prove;
 mod system;
 mod taylor;
 
-use dynamics::integrate::Accepted;
 use dynamics::phase::RoughPhases;
 use dynamics::{
     Attitude, Error, Flight, Formulation, Propagation, RigidFlight, RigidPhase, RigidToss, Scheme, Settings,
@@ -41,18 +26,18 @@ use dynamics::{
 use nalgebra::SVector;
 use numerics::lanes::SimdLevel;
 
-use crate::bodies::Bodies;
-use crate::bodies::Bound;
-pub use crate::bodies::RigidSystem;
-use crate::coins::Coins;
-use crate::enclosure::Record;
-pub use crate::integration::Integration;
-use crate::lockstep::{by_kind, fly};
-use crate::plan::Plans;
-pub use crate::proven::IntegratedCertificate;
-pub use crate::proving::{IntegratedCounts, Proving};
+pub use crate::prove::certificate::IntegratedCertificate;
+pub use crate::prove::certificate::Integration;
+pub use crate::prove::counts::{IntegratedCounts, Proving};
+use crate::prove::flight::Record;
+use crate::prove::rigid_lanes::Bound;
 pub use crate::system::QuaternionSystem;
 use crate::system::half_product;
+use crate::taylor::coin::Coins;
+use crate::taylor::lockstep::{by_kind, fly};
+use crate::taylor::plan::Plans;
+use crate::taylor::rigid::Bodies;
+pub use crate::taylor::rigid::RigidSystem;
 
 /// The scheme by Taylor series, [`Scheme::TAYLOR`].
 pub const TAYLOR: Scheme = Scheme::TAYLOR;
@@ -188,8 +173,8 @@ impl Solver for QuaternionSolver {
             return landing;
         }
         let flight = RigidFlight::new(toss)?;
-        let accepted = RigidSystem::integrated(&flight, &self.stepping)?;
-        self.landing(toss.launch.attitude(), &Landed::at_rigid(&flight, &accepted)?)
+        let (end, work) = RigidSystem::integrated(&flight, &self.stepping)?;
+        self.landing(toss.launch.attitude(), &Landed::at_rigid(&flight, &end, work))
     }
 
     /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
@@ -251,12 +236,11 @@ impl Landed {
         Self { flight: *flight, turn: [w, x, y, z], rate, work, record: None, enclosed: None }
     }
 
-    /// The end of a body's flight in these steps of a [`RigidSystem`].
-    fn at_rigid(flight: &RigidFlight, accepted: &Accepted<7>) -> Result<Self, SolveError> {
-        let timing = *flight.timing();
-        let &[w, x, y, z, first, second, third] = &accepted.states.last().ok_or_else(|| timing.not_finite())?.data.0[0];
+    /// The end of a body's flight in this state of a [`RigidSystem`].
+    fn at_rigid(flight: &RigidFlight, end: &SVector<f64, 7>, work: Work) -> Self {
+        let &[w, x, y, z, first, second, third] = &end.data.0[0];
         let (turn, rate) = (flight.turn_in_body([w, x, y, z]), flight.rate_at([first, second, third]));
-        Ok(Self { flight: timing, turn, rate, work: accepted.work, record: None, enclosed: None })
+        Self { flight: *flight.timing(), turn, rate, work, record: None, enclosed: None }
     }
 }
 

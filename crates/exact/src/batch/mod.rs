@@ -8,7 +8,6 @@
 //! | attitude at landing | [`Batch::attitudes`] | 1e-15 rad |
 //! | phases that show heads | [`Batch::heads`] | as stated with each |
 //! | proven outcomes of any rigid body | `Batch<Body>`, by the same names | none |
-//! | cos θ of any rigid body | [`Batch::cos_tilts_to`] | as asked |
 //!
 //! A kernel for coins solves *ordinary* tosses: |L|² between 1e-100 and 1e100 (rad/s)², gravity between 1e-50 and 1e50
 //! m/s², and a phase ωL T below 2^40 turns (below k 2^40 turns for a coin with an inertia ratio k < 1). L = (ωx, ωy, k ωz) is the

@@ -42,25 +42,15 @@ pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Conte
     let launches = tosses.clone();
     let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify_rigid(toss)));
     contests.push(contest("proven outcome", "one by one", tosses.len(), None, run));
-    contests.extend(SimdLevel::all().into_iter().flat_map(|level| batches(many, level)));
+    contests.extend(SimdLevel::all().into_iter().map(|level| batch(many, level)));
     contests
 }
 
-/// Proven outcomes, and cos θ to 1e-9, of many launches.
-fn batches(columns: &Columns, level: SimdLevel) -> [Contest<'_>; 2] {
-    let (tosses, number) = (columns.tosses_of(body()), columns.speeds.len());
-    let (batch, name) = (Batch::new(tosses).on(level), format!("batch, {}", level.name()));
-    let mut cos_tilts = vec![0.0; number];
-    batch.cos_tilts_to(1e-9, &mut cos_tilts).expect("valid tosses");
-    let exact = |toss: &RigidToss| RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
-    let error = |(index, found): (usize, &f64)| (found - tosses.solve_rigid(index, exact).unwrap_or(f64::NAN)).abs();
-    let error = cos_tilts.iter().enumerate().map(error).fold(0.0, f64::max);
+/// Proven outcomes of many launches.
+fn batch(columns: &Columns, level: SimdLevel) -> Contest<'_> {
+    let batch = Batch::new(columns.tosses_of(body())).on(level);
     let count = move || _ = std::hint::black_box(batch.count().expect("valid tosses"));
-    let cos_tilt = move || batch.cos_tilts_to(1e-9, &mut cos_tilts).expect("valid tosses");
-    [
-        contest("proven outcome", &name, number, None, count),
-        contest("cos θ to 1e-9", &name, number, Some(error), cos_tilt),
-    ]
+    contest("proven outcome", &format!("batch, {}", level.name()), columns.speeds.len(), None, count)
 }
 
 /// cos θ at many times of a few launches, whose constants are computed before.

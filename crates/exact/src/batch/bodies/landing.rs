@@ -30,17 +30,11 @@ pub(super) struct Height<S: Simd> {
 }
 
 impl<S: Simd> Height<S> {
-    /// What is written of it, with [`Run`](super::Run)'s accuracy. NaN is not beyond any bound.
+    /// A number with the sign of cos θ, or 0 if it is within its bound. NaN is not beyond any bound.
     #[inline(always)]
-    pub(super) fn written(&self, accuracy: Option<f64>) -> Real<S> {
+    pub(super) fn written(&self) -> Real<S> {
         let Self { height, norm, bound } = *self;
-        let number = |value: f64| norm.constant(value);
-        match accuracy {
-            None => (bound * norm).less_than(height.abs()).choose(height, number(0.0)),
-            Some(accuracy) => {
-                bound.at_most(number(accuracy)).choose((height / norm).clamp_to_cosine(), number(f64::NAN))
-            }
-        }
+        (bound * norm).less_than(height.abs()).choose(height, norm.constant(0.0))
     }
 }
 

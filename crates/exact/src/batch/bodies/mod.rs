@@ -22,13 +22,13 @@ mod start;
 
 use std::ops::Range;
 
-use dynamics::{Body, Error, Outcome, RigidToss, Tosses};
+use dynamics::{Body, Error, Outcome, Tosses};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use super::Batch;
 use super::proving::{self, Proving};
 use crate::certificate::{Certificate, ProvenCounts};
-use crate::rigid::{RigidMotion, certify_rigid};
+use crate::rigid::certify_rigid;
 use constants::Constants;
 pub use filter::BodyFilter;
 use landing::{Begun, Height};
@@ -76,30 +76,6 @@ impl Batch<'_, Body> {
     pub fn count_by(&self, filter: &BodyFilter) -> Result<ProvenCounts, Error> {
         proving::count(&Filtered(self, filter.constants_of(&self.tosses)), |_| ())
     }
-
-    /// Writes cos θ at landing of each toss, right to `accuracy`. The filter's value is taken where the bound of its error
-    /// is as small, near 2e-10 for flights of seconds; the others are those of [`RigidMotion`], to the last bit.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no cos θ; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If `out` does not have one entry per toss.
-    pub fn cos_tilts_to(&self, accuracy: f64, out: &mut [f64]) -> Result<(), Error> {
-        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
-        match Constants::new(&self.tosses) {
-            Some(constants) => {
-                let accuracy = Some(accuracy);
-                self.level.run(Run { constants: &constants, tosses: self.tosses, accuracy, out: &mut *out });
-            }
-            None => out.fill(f64::NAN),
-        }
-        let exactly = |toss: &RigidToss| RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
-        for (index, out) in out.iter_mut().enumerate().filter(|(_, cos_tilt)| cos_tilt.is_nan()) {
-            *out = self.tosses.solve_rigid(index, exactly)?;
-        }
-        Ok(())
-    }
 }
 
 /// A batch with the constants of its filter, if it has one.
@@ -118,7 +94,7 @@ impl Proving for Filtered<'_, '_> {
         match &self.1 {
             Some(constants) => {
                 let tosses = self.0.tosses.part(range);
-                self.0.level.run(Run { constants, tosses, accuracy: None, out: heights });
+                self.0.level.run(Run { constants, tosses, out: heights });
             }
             None => heights.fill(0.0),
         }
@@ -138,9 +114,7 @@ struct Columns<const N: usize>([[f64; TILE]; N]);
 struct Run<'a, 'out> {
     constants: &'a Constants,
     tosses: Tosses<'a, Body>,
-    /// Bound of the errors up to which cos θ is written, and NaN otherwise; `None` for a number with the proven sign, and
-    /// 0 where none is proven.
-    accuracy: Option<f64>,
+    /// Receives a number with the proven sign of cos θ, and 0 where none is proven.
     out: &'out mut [f64],
 }
 
@@ -170,7 +144,7 @@ impl WithSimd for Run<'_, '_> {
                 for (part, column) in begun.iter_mut().zip(&between.0) {
                     *part = Real::load(simd, &column[at..]);
                 }
-                let written = self.constants.end(begun).written(self.accuracy);
+                let written = self.constants.end(begun).written();
                 written.store_up_to(&mut self.out[start + at..tile.end]);
             }
         }

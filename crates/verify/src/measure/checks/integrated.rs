@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use toss::{ExactSolver, IntegratedCertificate, Outcome, SolveError, Solver, Stepping, Toss};
 
 use super::enclosed::{distance, require_short, share, share_by_exact_motion, share_by_reference};
-use super::{integrated_bodies, integrated_steps, judged};
+use super::{integrated_bodies, judged};
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -41,8 +41,8 @@ pub(super) const OUTCOMES: Check = Check {
 
 pub(super) const TIGHTNESS: Check = Check {
     id: "integrated-tightness",
-    claim: "The bound that an integration proves for the attitude, by Taylor series at the default tolerance if no scheme \
-            is named, is not far above its error. Measured: the median of the bound divided by the error.",
+    claim: "The bound that an integration at the default tolerance proves for the attitude is not far above its error. \
+            Measured: the median of the bound divided by the error.",
     basis: Basis::ClosedForm,
     judges: Judges::Library,
     ceiling: 300.0,
@@ -99,7 +99,7 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     };
     let coins: anyhow::Result<Vec<Measurement>> = SETS.into_iter().zip(cases).map(measure).collect();
     let bodies = integrated_bodies::bounds(BOUNDS.id, number / 20)?;
-    Ok([coins?, bodies, integrated_steps::bounds(BOUNDS.id, number)?].concat())
+    Ok([coins?, bodies].concat())
 }
 
 fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -117,7 +117,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     };
     let coins: Vec<Measurement> = sets.into_iter().map(measure).collect();
     let bodies = integrated_bodies::outcomes(OUTCOMES.id, tries(context.effort) / 20)?;
-    Ok([coins, bodies, integrated_steps::outcomes(tries(context.effort))?].concat())
+    Ok([coins, bodies].concat())
 }
 
 /// The outcome by the exact motion where cos θ is far from 0, else by the reference.
@@ -144,6 +144,5 @@ fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let median = ratios[ratios.len() / 2];
         Ok(Measurement::figure(TIGHTNESS.id, name, median, number, format!("95 % are below {largest:.0}")))
     };
-    let series: anyhow::Result<Vec<Measurement>> = sets.into_iter().map(measure).collect();
-    Ok([series?, integrated_steps::tightness(TIGHTNESS.id, number / 4)?].concat())
+    sets.into_iter().map(measure).collect()
 }

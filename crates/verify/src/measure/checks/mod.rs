@@ -19,7 +19,6 @@ mod first_return;
 mod hostile;
 mod integrated;
 mod integrated_bodies;
-mod integrated_steps;
 mod invariants;
 mod judged;
 mod long_flights;

@@ -3,7 +3,7 @@
 
 use toss::Toss;
 
-use super::{batch, certified, integrated, integrated_steps, margins, mean_error, sensitivity};
+use super::{batch, certified, integrated, margins, mean_error, sensitivity};
 use crate::measure::case::Case;
 use crate::measure::measurement::Deviation;
 use crate::measure::reference::Reference;
@@ -44,11 +44,6 @@ pub const OF_TOSS: &[OfToss] = &[
     of(integrated::BOUNDS.id, integrated::SETS[3].0, integrated::share_of_set::<3>),
     of(integrated::BOUNDS.id, integrated::SETS[4].0, integrated::share_of_set::<4>),
     of(integrated::BOUNDS.id, integrated::SETS[5].0, integrated::share_of_set::<5>),
-    of(integrated::BOUNDS.id, integrated_steps::SETS[0].0, integrated_steps::share_of_set::<0>),
-    of(integrated::BOUNDS.id, integrated_steps::SETS[1].0, integrated_steps::share_of_set::<1>),
-    of(integrated::BOUNDS.id, integrated_steps::SETS[2].0, integrated_steps::share_of_set::<2>),
-    of(integrated::BOUNDS.id, integrated_steps::SETS[3].0, integrated_steps::share_of_set::<3>),
-    of(integrated::BOUNDS.id, integrated_steps::SETS[4].0, integrated_steps::share_of_set::<4>),
     of(integrated::OUTCOMES.id, "", integrated::outcome_differs),
 ];
 

@@ -4,13 +4,14 @@
 use dynamics::{Outcome, RigidToss, SolveError, Toss};
 use numerics::lanes::SimdLevel;
 
-use crate::coins::Coins;
-use crate::defect::bounds;
-use crate::enclosure::{attitude_bound, steps};
-use crate::integration::Integration;
-use crate::lockstep::{by_kind, fly};
-use crate::plan::Plans;
-use crate::proven::{IntegratedCertificate, OF_COS_TILT, cos_tilt};
+use crate::prove::certificate::IntegratedCertificate;
+use crate::prove::certificate::Integration;
+use crate::prove::coin_step::bounds;
+use crate::prove::driver::{OF_COS_TILT, cos_tilt};
+use crate::prove::flight::{attitude_bound, steps};
+use crate::taylor::coin::Coins;
+use crate::taylor::lockstep::{by_kind, fly};
+use crate::taylor::plan::Plans;
 use crate::{Landed, QuaternionSolver};
 
 /// The tolerance of the coarse flights.

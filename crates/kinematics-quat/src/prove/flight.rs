@@ -11,8 +11,8 @@ use dynamics::{Flight, Launch, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
-use crate::bodies::Bound;
-use crate::defect::{StepBound, Steps};
+use crate::prove::coin_step::{StepBound, Steps};
+use crate::prove::rigid_lanes::Bound;
 
 /// What a bound of the error has to know of the steps of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,14 +23,10 @@ pub(crate) struct Record {
     pub(crate) moduli: [f64; 2],
     /// The longest step, in the unit of the flight.
     pub(crate) longest: f64,
-    /// The sum of the measured jumps of the turn and of the direction of η; 0 of a flight by series.
-    pub(crate) jumps: f64,
-    /// A bound of how far the sum of the steps is from the time of flight, in the unit of the flight.
-    pub(crate) strayed: f64,
 }
 
 /// A |η| below which it turns the coin by less than can be told from no turn.
-pub(crate) const NO_RATE: f64 = 1e-140;
+const NO_RATE: f64 = 1e-140;
 
 /// More than underflow, and an |η| below [`NO_RATE`], can add to the error of an attitude.
 const TINY: f64 = 1e-90;
@@ -57,8 +53,7 @@ pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
 }
 
 /// An upper bound of the distance between the computed quaternion P, divided by its norm, and that of the ideal flight;
-/// infinite where the theorem does not apply. It is the formula (4), or (21)
-/// of a flight by a Runge-Kutta scheme.
+/// infinite where the theorem does not apply. It is the formula (4).
 pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step: &StepBound) -> f64 {
     let rate = flight.rate;
     let modulus = modulus(flight);
@@ -66,7 +61,7 @@ pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step
     let eta = if has_rate { step.eta } else { 0.0 };
     #[expect(clippy::cast_precision_loss, reason = "at most a million")]
     let steps = record.steps as f64;
-    let of_steps = steps * (step.turn + step.rates + eta) + record.jumps;
+    let of_steps = steps * (step.turn + step.rates + eta);
     let of_launch = Launched::new(toss, flight);
     let drift = if record.steps > 0 {
         let off = |measured: f64| (measured - modulus.hi()).abs();
@@ -75,21 +70,21 @@ pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step
         0.0
     };
     let along = drift + of_launch.rate * (modulus.hi() + 0.5 * rate.z.abs()) + 2.0 * of_launch.q;
-    let of_time = 0.5 * rate.norm() * (of_launch.time + record.strayed);
-    let sum = of_steps + along * (flight.span() + record.strayed) + of_launch.rate + of_time + TINY;
+    let of_time = 0.5 * rate.norm() * of_launch.time;
+    let sum = of_steps + along * flight.span() + of_launch.rate + of_time + TINY;
     whole(sum)
 }
 
 /// The bound of an attitude from the sum of all errors; infinite where the theorem does not apply. The steps multiply
 /// quaternions whose norm is 1 to within the error itself, and the last factor covers the rounding of the sum.
-pub(crate) fn whole(sum: f64) -> f64 {
+fn whole(sum: f64) -> f64 {
     let bound = sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9);
     if bound < LARGEST { bound } else { f64::INFINITY }
 }
 
 /// [`attitude_bound`] of any body.
 pub(crate) fn attitude_bound_of_body(launch: &Launch, flight: &Flight, bound: &Bound) -> f64 {
-    whole(bound.turn + 0.5 * bound.fastest * (time_error(launch, flight) + bound.strayed) + TINY)
+    whole(bound.turn + 0.5 * bound.fastest * time_error(launch, flight) + TINY)
 }
 
 /// |η| at launch, in the unit of the flight, to 12 u² of itself.

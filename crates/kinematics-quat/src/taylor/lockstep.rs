@@ -12,7 +12,7 @@ use dynamics::{Flight, RigidToss, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use crate::Landed;
-use crate::plan::{Plan, Plans};
+use crate::taylor::plan::{Plan, Plans};
 
 /// The number of lanes of the widest vectors.
 pub(crate) const MOST_LANES: usize = 8;
@@ -60,16 +60,6 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// The clock of flights with the same tolerance, each with so much time left.
-    pub(crate) fn of(left: PerLane, inverse_tolerance: f64) -> Self {
-        Self { left, inverse_tolerance: [inverse_tolerance; MOST_LANES] }
-    }
-
-    /// The remaining time of a lane.
-    pub(crate) fn left(&self, lane: usize) -> f64 {
-        self.left[lane]
-    }
-
     /// The length of the next step in each lane, from the sizes of the last two coefficients. It is subtracted from the
     /// remaining time.
     #[inline(always)]

@@ -4,11 +4,11 @@
 use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Work};
 use numerics::lanes::{Real, Simd};
 
-use super::polhode::{Errors, Polhode, Step};
-use super::{Bodies, RigidSeries};
 use crate::Landed;
-use crate::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
-use crate::plan::Plan;
+use crate::prove::polhode::{Errors, Polhode, Step};
+use crate::taylor::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
+use crate::taylor::plan::Plan;
+use crate::taylor::rigid::{Bodies, RigidSeries};
 
 /// The state of the body in each lane.
 #[derive(Default)]
@@ -26,8 +26,6 @@ pub(crate) struct Bound {
     pub(crate) turn: f64,
     /// An upper bound of the rate, in the unit of the flight.
     pub(crate) fastest: f64,
-    /// A bound of how far the sum of the steps is from the time of flight, in the unit of the flight.
-    pub(crate) strayed: f64,
 }
 
 impl Motion for Enclosed {
@@ -67,7 +65,7 @@ impl Motion for Enclosed {
     }
 
     fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let stated = |errors: &Errors| Bound { turn: errors.bound(), fastest: errors.fastest(), strayed: 0.0 };
+        let stated = |errors: &Errors| Bound { turn: errors.bound(), fastest: errors.fastest() };
         Landed { enclosed: self.errors[lane].as_ref().map(stated), ..self.bodies.landing(lane, flight, work) }
     }
 }
@@ -76,7 +74,7 @@ impl Enclosed {
     /// Adds a step of `lane`. An idle lane has steps of no length.
     fn add(&mut self, lane: usize, [h, turn, rates, rounding]: [f64; 4]) {
         if let Some(errors) = self.errors[lane].as_mut().filter(|_| h > 0.0) {
-            let after = self.bodies.half.each_ref().map(|half| 2.0 * half[lane]);
+            let after = self.bodies.rates(lane);
             errors.add(&Step { h, turn, rates, rounding, after });
         }
     }

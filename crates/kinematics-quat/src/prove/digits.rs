@@ -1,5 +1,5 @@
 //! The flight of a coin by Taylor series in numbers with error bounds, for outcomes that f64 leaves undecided. The theorem
-//! is that of `docs/proofs/enclosure.md`, section 6. Symbols are those of the file `taylor.rs`.
+//! is that of `docs/proofs/enclosure.md`, section 6. Symbols are those of the file `taylor/coin.rs`.
 //!
 //! Time is in units of the flight, and all steps have the same length. As |η| never changes and the axes turn with η, all
 //! steps have the same turn, whose series is computed once, in balls. The attitude and the direction of η are stepped on

@@ -4,16 +4,16 @@
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{Real, Simd};
 
-use super::{RigidSeries, products};
+use crate::taylor::rigid::{RigidSeries, products};
 
 /// Bounds of what one step adds to the error, in the unit of the flight.
-pub(super) struct Defect<S: Simd> {
+pub(crate) struct Defect<S: Simd> {
     /// Of the turn, for its own rates (13).
-    pub(super) turn: Real<S>,
+    pub(crate) turn: Real<S>,
     /// Of the rates: the integral of the defect of their polynomials (14).
-    pub(super) rates: Real<S>,
+    pub(crate) rates: Real<S>,
     /// Of the rates: the rounding at the end of the step (15).
-    pub(super) rounding: Real<S>,
+    pub(crate) rounding: Real<S>,
 }
 
 /// Sums over the coefficients of a step, each times its power of the step.
@@ -31,7 +31,7 @@ struct Sizes<S: Simd> {
 impl<S: Simd> RigidSeries<S> {
     /// The bounds of a step `h` of this `order`. `twice` are twice the couplings.
     #[inline(always)]
-    pub(super) fn defect(&self, order: usize, h: Real<S>, twice: [Real<S>; 3]) -> Defect<S> {
+    pub(crate) fn defect(&self, order: usize, h: Real<S>, twice: [Real<S>; 3]) -> Defect<S> {
         let constant = |value: f64| h.constant(value);
         let Sizes { turn, turn_evaluated, rates: [a, b, c], rates_evaluated } = self.sizes(order, h);
         let [turn_dropped, rates_dropped] = self.dropped(order, h, twice);

@@ -3,7 +3,7 @@
 
 use numerics::lanes::{Real, Simd};
 
-use crate::taylor::LARGEST_ORDER;
+use crate::taylor::coin::LARGEST_ORDER;
 
 /// Exponents of two by which the shortest step of a coin is multiplied, tried one after the other from the largest on.
 /// A factor is kept if the last terms of the series allow it.
@@ -19,9 +19,6 @@ const FASTEST: f64 = 4.0;
 /// A lower bound of the distance from the time of a step to the nearest pole of a rigid body's rate, in the same unit,
 /// with a factor of almost two to spare. The poles are at distances of at least K'/λ, where K' ≥ π/2 and λ ≤ |ω| < 2√3.
 const NEAREST_POLE: f64 = 0.25;
-
-/// The turn (rad) of most bodies from the time of a step to the nearest pole, or less.
-const NEAREST_TURN: f64 = 1.5;
 
 /// Tolerances below this one need compensated rates, that is, η with twice as many digits. Without them the rounding
 /// error of ε |ω| in each step adds up to 1e-13 in a flight of 100 rad.
@@ -55,28 +52,10 @@ impl Plan {
 
     /// The constants of other bodies, for local errors of `tolerance`.
     fn of_bodies(tolerance: f64) -> Self {
-        Self::of_bodies_in_order(tolerance, order(tolerance))
-    }
-
-    fn of_bodies_in_order(tolerance: f64, order: usize) -> Self {
+        let order = order(tolerance);
         // Terms of a series with a pole at the distance ρ fall like (t/ρ)^order.
         let shortest = NEAREST_POLE * tolerance.powf(1.0 / order as f64);
         Self::new(tolerance, order, shortest, OCTAVES_OF_BODIES)
-    }
-
-    /// The constants of the pieces of steps in which a body turns by `turning` (rad) at most, or not much more, for local
-    /// errors of `tolerance`. The order is one that leaves most steps whole.
-    pub(crate) fn of_pieces_of_bodies(tolerance: f64, turning: f64) -> Self {
-        let mut order = 8;
-        while order < LARGEST_ORDER && (turning / NEAREST_TURN).powf(order as f64) > tolerance {
-            order += 2;
-        }
-        Self::of_bodies_in_order(tolerance, order)
-    }
-
-    /// Equal steps of this `length`, in the unit of the flight, and this even `order`, with compensated rates.
-    pub(crate) fn of_equal_steps(order: usize, length: f64) -> Self {
-        Self { order, compensates: true, shortest: length, growth: [[1.0; 2]; 6], ..Self::of_coins(f64::EPSILON) }
     }
 
     fn new(tolerance: f64, order: usize, shortest: f64, octaves: [f64; 6]) -> Self {
@@ -155,7 +134,8 @@ impl Plans {
     /// Equal steps of coins, of this order and length in the unit of the flight.
     #[cfg(test)]
     pub(crate) fn fixed(order: usize, step: f64) -> Self {
-        let plan = Plan { compensates: false, ..Plan::of_equal_steps(order, step) };
+        let finest = Plan::of_coins(f64::EPSILON);
+        let plan = Plan { order, compensates: false, shortest: step, growth: [[1.0; 2]; 6], ..finest };
         Self { short: plan, long: plan }
     }
 

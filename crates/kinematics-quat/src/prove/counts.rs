@@ -7,8 +7,8 @@ use dynamics::{Error, Outcome, Propagation, RigidToss, SolveError, Solver, Stepp
 use numerics::lanes::SimdLevel;
 
 use crate::QuaternionSolver;
-use crate::integration::Integration;
-use crate::outcomes::Decided;
+use crate::prove::certificate::Integration;
+use crate::prove::outcomes::Decided;
 
 /// Numbers of outcomes that were proven by integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

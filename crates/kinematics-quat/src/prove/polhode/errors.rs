@@ -10,7 +10,7 @@ use super::{INVERSE_ROOT_3, Polhode, ROOT_2, SLOWEST, TINY, exp_above};
 pub(crate) struct Step {
     /// Its length.
     pub(crate) h: f64,
-    /// The bounds of [`Defect`](crate::bodies::defect::Defect).
+    /// The bounds of [`Defect`](crate::prove::rigid_step::Defect).
     pub(crate) turn: f64,
     pub(crate) rates: f64,
     pub(crate) rounding: f64,
@@ -73,11 +73,6 @@ impl Errors {
     pub(crate) fn bound(&self) -> f64 {
         let along = 0.5 * self.along.integral + self.polhode.across * self.along.shift;
         self.turn + along.min(0.5 * self.growing.integral) + self.polhode.axes
-    }
-
-    /// κ̄.
-    pub(crate) fn widest(&self) -> f64 {
-        self.polhode.widest
     }
 
     /// W.

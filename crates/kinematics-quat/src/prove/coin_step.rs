@@ -1,5 +1,5 @@
 //! Bounds of the error of one step by Taylor series, from the defect of its polynomials. The theorem and its proof are in
-//! `docs/proofs/enclosure.md`, whose numbers of formulas stand here in brackets. Symbols are those of the file `taylor.rs`.
+//! `docs/proofs/enclosure.md`, whose numbers of formulas stand here in brackets. Symbols are those of the file `taylor/coin.rs`.
 //!
 //! The coefficients of a step depend on |η|, c and q alone, of which c and q never change, and |η| changes in its last
 //! bits. One bound therefore holds for all steps of a flight: it is computed once, for the largest |η| and the longest
@@ -8,9 +8,9 @@
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
-use crate::lockstep::{MOST_LANES, PerLane};
-use crate::plan::Plan;
-use crate::taylor::{COMPENSATED, LARGEST_ORDER, Series};
+use crate::taylor::coin::{COMPENSATED, LARGEST_ORDER, Series};
+use crate::taylor::lockstep::{MOST_LANES, PerLane};
+use crate::taylor::plan::Plan;
 
 /// What the bound of a step depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

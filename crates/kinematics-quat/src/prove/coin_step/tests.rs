@@ -4,8 +4,8 @@
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
-use crate::plan::Plans;
-use crate::taylor::INVERSES;
+use crate::taylor::coin::INVERSES;
+use crate::taylor::plan::Plans;
 
 /// |η|, c, q and the length of a step.
 type Inputs = [f64; 4];

@@ -13,24 +13,16 @@
 //! before it. A step computes the turn that leads from the attitude at its start to that at its end, as for coins.
 
 use dynamics::body_rate::principal_acceleration;
-use dynamics::integrate::{Accepted, OdeSystem};
+use dynamics::integrate::OdeSystem;
 use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Stepping, Work};
 use nalgebra::SVector;
 use numerics::lanes::{Real, Simd};
 
-use crate::lockstep::{Clock, Motion, PerLane, store};
-use crate::plan::Plan;
-use crate::product::turned;
-use crate::taylor::{INVERSES, LARGEST_ORDER};
+use crate::taylor::coin::{INVERSES, LARGEST_ORDER};
+use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
+use crate::taylor::plan::Plan;
+use crate::taylor::product::turned;
 use crate::{Landed, half_product};
-
-mod accepted;
-mod defect;
-mod enclosed;
-mod polhode;
-
-pub(crate) use accepted::compared;
-pub(crate) use enclosed::{Bound, Enclosed};
 
 /// The system over the state (w, x, y, z, ω1, ω2, ω3) in principal axes. Rates may be in any unit; its inverse is the
 /// unit of time.
@@ -48,11 +40,11 @@ impl RigidSystem {
 }
 
 impl RigidSystem {
-    /// The accepted steps of a flight by a Runge-Kutta scheme.
-    pub(crate) fn integrated(flight: &RigidFlight, stepping: &Stepping) -> Result<Accepted<7>, SolveError> {
+    /// The end state of a flight by a Runge-Kutta scheme, and the work.
+    pub(crate) fn integrated(flight: &RigidFlight, stepping: &Stepping) -> Result<(SVector<f64, 7>, Work), SolveError> {
         let [first, second, third] = flight.rates;
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, first, second, third]);
-        flight.timing().integrate_steps(&Self::new(flight.couplings), start, stepping)
+        flight.timing().integrate(&Self::new(flight.couplings), start, stepping)
     }
 }
 
@@ -67,11 +59,11 @@ impl OdeSystem<7> for RigidSystem {
 }
 
 /// The coefficients of w, x, y, z, a, b, c at one power of the time.
-type Term<S> = [Real<S>; 7];
+pub(crate) type Term<S> = [Real<S>; 7];
 
 /// The coefficients of a step.
 #[repr(align(64))]
-pub(crate) struct RigidSeries<S: Simd>([Term<S>; LARGEST_ORDER + 1]);
+pub(crate) struct RigidSeries<S: Simd>(pub(crate) [Term<S>; LARGEST_ORDER + 1]);
 
 impl<S: Simd> RigidSeries<S> {
     /// Computes the coefficients up to `order`, of the turn that starts at 1 with half the rates `half`. `twice` are
@@ -110,7 +102,7 @@ impl<S: Simd> RigidSeries<S> {
 
 /// The coefficient of tᵏ of the right-hand sides, without the couplings, from the terms up to k.
 #[inline(always)]
-fn products<S: Simd>(terms: &[Term<S>]) -> Term<S> {
+pub(crate) fn products<S: Simd>(terms: &[Term<S>]) -> Term<S> {
     let zero = terms[0][0].constant(0.0);
     let mut sum = [zero; 7];
     for (left, right) in terms.iter().zip(terms.iter().rev()) {
@@ -136,7 +128,7 @@ pub(crate) struct Bodies {
     /// Half the rates about the principal axes.
     half: [PerLane; 3],
     /// Twice the couplings.
-    twice: [PerLane; 3],
+    pub(crate) twice: [PerLane; 3],
 }
 
 impl Motion for Bodies {
@@ -159,8 +151,13 @@ impl Motion for Bodies {
     }
 
     fn launch(&mut self, lane: usize, _: &RigidToss, flight: &RigidFlight) {
-        let [first, second, third] = flight.rates;
-        self.start(lane, &[1.0, 0.0, 0.0, 0.0, first, second, third], flight.couplings);
+        for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
+            part[lane] = value;
+        }
+        for axis in 0..3 {
+            self.half[axis][lane] = 0.5 * flight.rates[axis];
+            self.twice[axis][lane] = 2.0 * flight.couplings[axis];
+        }
     }
 
     #[inline(always)]
@@ -175,30 +172,25 @@ impl Motion for Bodies {
 }
 
 impl Bodies {
-    /// Sets `lane` to the start of a step in this state of a [`RigidSystem`] with these couplings.
-    fn start(&mut self, lane: usize, state: &[f64; 7], couplings: [f64; 3]) {
-        for (part, value) in self.attitude.iter_mut().zip(state) {
-            part[lane] = *value;
-        }
-        for axis in 0..3 {
-            self.half[axis][lane] = 0.5 * state[4 + axis];
-            self.twice[axis][lane] = 2.0 * couplings[axis];
-        }
-    }
-
     /// The turn since launch of the body in `lane`.
     fn turn(&self, lane: usize) -> [f64; 4] {
         self.attitude.each_ref().map(|part| part[lane])
     }
 
     /// The rates of the body in `lane`.
-    fn rates(&self, lane: usize) -> [f64; 3] {
+    pub(crate) fn rates(&self, lane: usize) -> [f64; 3] {
         self.half.each_ref().map(|part| 2.0 * part[lane])
     }
 
     /// Takes one step in each lane, and returns its length.
     #[inline(always)]
-    fn step<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) -> Real<S> {
+    pub(crate) fn step<S: Simd>(
+        &mut self,
+        simd: S,
+        plan: &Plan,
+        series: &mut RigidSeries<S>,
+        clock: &mut Clock,
+    ) -> Real<S> {
         let load = |numbers: &PerLane| Real::load(simd, numbers);
         series.expand(plan.order, self.half.each_ref().map(load), self.twice.each_ref().map(load));
         let h = clock.step(simd, plan, [series.size(plan.order - 1), series.size(plan.order)]);

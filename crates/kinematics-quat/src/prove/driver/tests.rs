@@ -5,7 +5,7 @@ use exact::{ExactMotion, certify};
 use nalgebra::Vector3;
 
 use super::*;
-use crate::enclosure::Record;
+use crate::prove::flight::Record;
 
 fn solver(tolerance: f64) -> QuaternionSolver {
     QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
@@ -247,11 +247,16 @@ fn extreme_numbers_have_bounds_or_errors() {
 #[test]
 fn what_proves_nothing_refuses_to() {
     let toss = random(&mut Numbers(1), 1.0);
-    for scheme in [Scheme::TAYLOR, Scheme::DOP853] {
-        let solver = QuaternionSolver::new(Stepping::adaptive(scheme, 1e-9).unwrap(), Formulation::RAW);
-        let (refused, why) = (solver.certify(&toss).unwrap_err(), "division by the norm");
+    for (scheme, formulation, why) in [
+        (Scheme::TAYLOR, Formulation::RAW, "division by the norm"),
+        (Scheme::DOP853, Formulation::RAW, "division by the norm"),
+        (Scheme::DOP853, Formulation::MOMENTUM, "only the scheme taylor"),
+    ] {
+        let solver = QuaternionSolver::new(Stepping::adaptive(scheme, 1e-9).unwrap(), formulation);
+        let refused = solver.certify(&toss).unwrap_err();
         assert!(matches!(refused, SolveError::NotProven { .. }) && refused.to_string().contains(why), "{refused}");
         assert_eq!(solver.enclose(&toss).unwrap_err(), refused);
+        assert_eq!(solver.enclose_rigid(&toss.into()).unwrap_err(), refused);
         assert_eq!(solver.certify_all(&[toss; 2], SimdLevel::widest()), [Err(refused.clone()), Err(refused)]);
     }
     let too_long = Toss { launch: Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1e17)).unwrap(), ..toss };

@@ -1,0 +1,110 @@
+//! What a proof by integration states: an [`IntegratedCertificate`] with its [`Integration`], the kind of flight that
+//! decided. Only the proofs of this crate can make a certificate, so that no other code can pass off an estimate as a proof.
+
+use std::fmt;
+
+use dynamics::{Outcome, Propagation, Work};
+use numerics::UNIT_ROUNDOFF;
+
+/// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
+///
+/// Nothing but [`QuaternionSolver::certify`] and its like make one:
+///
+/// ```compile_fail,E0451
+/// fn forged(one: kinematics_quat::IntegratedCertificate) -> kinematics_quat::IntegratedCertificate {
+///     kinematics_quat::IntegratedCertificate { error_bound: 0.0, ..one }
+/// }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IntegratedCertificate {
+    pub(super) outcome: Outcome,
+    pub(super) landing: Propagation,
+    pub(super) error_bound: f64,
+    pub(super) attitude_error_bound: f64,
+    pub(super) integration: Integration,
+}
+
+impl IntegratedCertificate {
+    /// The face that the toss lands on, which is proven; [`Outcome::Undecided`] if cos θ is within its bound even with the
+    /// most digits, as it is for a tie.
+    pub fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+
+    /// cos θ at landing, to within [`Self::error_bound`].
+    pub fn cos_tilt(&self) -> f64 {
+        self.landing.cos_tilt
+    }
+
+    /// An upper bound of the error of cos θ, which is proven; at most 2.
+    pub fn error_bound(&self) -> f64 {
+        self.error_bound
+    }
+
+    /// State and cos θ at landing, with the work of all flights that it took.
+    pub fn landing(&self) -> &Propagation {
+        &self.landing
+    }
+
+    /// An upper bound of the distance |Q - Q̂| between the quaternion of the landing and that of the ideal flight, of
+    /// either sign, which is proven; at most 2. The angle between the two attitudes is at most 4 asin of half of it.
+    pub fn attitude_error_bound(&self) -> f64 {
+        self.attitude_error_bound
+    }
+
+    /// An upper bound of the angle between the attitude of the landing and that of the ideal flight (rad), which is
+    /// proven; π where nothing is proven.
+    pub fn angle_bound(&self) -> f64 {
+        // The division, the arcsine and the product round by less than 8 u.
+        let angle = 4.0 * (0.5 * self.attitude_error_bound).min(1.0).asin() * (1.0 + 8.0 * UNIT_ROUNDOFF);
+        angle.min(std::f64::consts::PI)
+    }
+
+    /// The arithmetic of the flight that decided the outcome.
+    pub fn integration(&self) -> Integration {
+        self.integration
+    }
+
+    /// The cost of all flights that it took.
+    pub fn work(&self) -> Work {
+        self.landing.work
+    }
+
+    /// The same landing, with the work of all flights that it took.
+    pub(super) fn with_work(mut self, work: Work) -> Self {
+        self.landing.work = work;
+        self
+    }
+}
+
+/// The arithmetic of the flight that proved an outcome, from the cheapest to the most accurate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integration {
+    /// f64, by Taylor series with a tolerance of 1e-3, which outcomes of coins alone take first.
+    Coarse,
+    /// f64, with the solver's own steps.
+    AsConfigured,
+    /// f64, by Taylor series with the finest tolerance.
+    Finest,
+    /// Double-double arithmetic.
+    DoubleDouble,
+    /// 192 binary digits or more.
+    MoreDigits,
+}
+
+impl Integration {
+    /// All of them, from the cheapest to the most accurate.
+    pub const ALL: [Self; 5] = [Self::Coarse, Self::AsConfigured, Self::Finest, Self::DoubleDouble, Self::MoreDigits];
+
+    /// Its name, in words.
+    pub fn name(self) -> &'static str {
+        ["coarse", "f64", "finest tolerance", "double-double", "more digits"][self as usize]
+    }
+}
+
+/// Writes the [name](Integration::name).
+impl fmt::Display for Integration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
