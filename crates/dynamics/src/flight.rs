@@ -178,9 +178,6 @@ mod tests {
                 flight([rate, 0.0, 0.0], 20.0 / rate).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
             // 40 of half a radian, after the first ones, which grow from 1e-6.
             assert!((41..52).contains(&work.accepted_steps), "{work:?}");
-            let steps =
-                flight([rate, 0.0, 0.0], 20.0 / rate).integrate_steps(&Rest, SVector::zeros(), &stepping).unwrap();
-            assert_eq!(steps.work, work);
         }
         let (_, work) = flight([0.0; 3], 20.0).integrate(&Rest, SVector::zeros(), &stepping).unwrap();
         assert!(work.accepted_steps < 20, "{work:?}");
