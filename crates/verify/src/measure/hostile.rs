@@ -183,8 +183,7 @@ pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError>
     Ok(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
 }
 
-/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad, of whose flights the planner's table
-/// knows few.
+/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad.
 ///
 /// # Errors
 /// Never: every launch is valid.
