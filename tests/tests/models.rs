@@ -5,8 +5,7 @@ use blackbox::{config, tosses};
 use proptest::prelude::*;
 use sampling::{Axis, Space};
 use toss::{
-    Answer, Body, Choice, Coin, Error, ExactSolver, How, MODELS, Model, Outcome, Registry, Scene, Solver, Stage, Toss,
-    Want,
+    Answer, Body, Choice, Coin, Error, ExactSolver, How, MODELS, Model, Outcome, Scene, Solver, Stage, Toss, Want,
 };
 
 /// The answers of all models that serve a scene, each with a bound of its error: the expected error, or ten times the
@@ -116,14 +115,15 @@ fn an_integrator_decides_outcomes_down_to_the_accuracy() {
                 panic!("an integrator was asked for")
             };
             let estimate = stepping.error_estimate(&toss).unwrap();
-            assert!((0.5..1.0 + 1e-9).contains(&(estimate / accuracy)), "{rate} {accuracy:e}: {estimate:e}");
+            // A tolerance of the plan is a tenth of the next coarser one.
+            assert!((0.05..=1.0).contains(&(estimate / accuracy)), "{rate} {accuracy:e}: {estimate:e}");
         }
     }
 }
 
 /// The error of the attitude of a scene's answer (rad), and the error that its plan expected.
-fn attitude_error_as_planned(scene: &Scene, registry: &Registry) -> Result<[f64; 2], Error> {
-    let choice = scene.plan_with(registry)?.choice;
+fn attitude_error_as_planned(scene: &Scene) -> Result<[f64; 2], Error> {
+    let choice = scene.plan()?.choice;
     let (Answer::Attitude(state), Some(toss)) = (choice.run(scene)?, scene.want.toss()) else {
         panic!("an attitude was asked for")
     };
@@ -131,8 +131,7 @@ fn attitude_error_as_planned(scene: &Scene, registry: &Registry) -> Result<[f64;
     Ok([exact.angle_to(&state.attitude), choice.expected_error])
 }
 
-/// A rod that spins fast, of whose flights the planner's table knows too few: by its tolerance this one is off by four
-/// times as much.
+/// A rod that spins fast, which is off by more than other flights at the same tolerance.
 #[test]
 fn a_plan_by_an_integrator_keeps_its_accuracy_on_the_toss_that_was_asked_about() {
     let rod: Toss = toml::from_str(
@@ -142,31 +141,23 @@ fn a_plan_by_an_integrator_keeps_its_accuracy_on_the_toss_that_was_asked_about()
     .unwrap();
     for accuracy in [1e-5, 1e-7, 6.192153173781187e-9, 1e-9] {
         let scene = Scene::new(Want::Attitude(rod.into()), accuracy).by("quaternion", Some("dop853"));
-        let [error, expected] = attitude_error_as_planned(&scene, Registry::standard()).unwrap();
-        assert!(error <= expected && expected <= accuracy * (1.0 + 1e-12), "{error:e} {expected:e} {accuracy:e}");
+        let [error, expected] = attitude_error_as_planned(&scene).unwrap();
+        assert!(error <= expected && expected <= accuracy, "{error:e} {expected:e} {accuracy:e}");
     }
 }
 
-/// With a table whose errors are a millionth of what they should be, only the trial on the toss itself can help.
 #[test]
-fn no_wrong_table_makes_a_plan_miss_its_accuracy() {
-    let mut wrong = toss::fitted::FITTED.clone();
-    for fit in &mut wrong.integrators {
-        for error in fit.errors.iter_mut().chain(&mut fit.tilt_errors).flatten().flatten() {
-            *error *= 1e-6;
-        }
-    }
-    let registry = Registry::standard().measured(wrong);
+fn a_plan_by_an_integrator_keeps_its_accuracy_with_every_solver_and_scheme() {
     let toss: Toss = toml::from_str("[launch]\nrate = [20.0, 3.0, 1.0]\nspeed = 3").unwrap();
     for solver in ["gamma", "euler", "quaternion"] {
         for scheme in ["dop853", "dopri5"] {
             for accuracy in [1e-3, 1e-6, 1e-9] {
                 let scene = Scene::new(Want::Attitude(toss.into()), accuracy).by(solver, Some(scheme));
-                let [error, expected] = attitude_error_as_planned(&scene, &registry).unwrap();
-                assert!(error <= expected && expected <= accuracy * (1.0 + 1e-12), "{solver} {scheme} {accuracy:e}");
+                let [error, expected] = attitude_error_as_planned(&scene).unwrap();
+                assert!(error <= expected && expected <= accuracy, "{solver} {scheme} {accuracy:e}");
             }
             let out_of_reach = Scene::new(Want::Attitude(toss.into()), 1e-16).by(solver, Some(scheme));
-            assert_eq!(out_of_reach.plan_with(&registry).unwrap_err().field(), Some("accuracy"), "{solver} {scheme}");
+            assert_eq!(out_of_reach.plan().unwrap_err().field(), Some("accuracy"), "{solver} {scheme}");
         }
     }
 }

@@ -15,7 +15,7 @@ const CHECK: &str = "cargo xtask verify --only ";
 
 /// Checks that are left out because together they sample, plan or search for a minute; all their rows are repeated by the
 /// whole check.
-const LONG: [&str; 10] = [
+const LONG: [&str; 8] = [
     "adversarial-silence",
     "atlas-answers",
     "work-precision",
@@ -24,8 +24,6 @@ const LONG: [&str; 10] = [
     "clopper-pearson-coverage",
     "plan-delivers",
     "plan-expects",
-    "plan-tight",
-    "plan-regret",
 ];
 
 /// What a replay command was seen to run.

@@ -50,7 +50,7 @@ pub(crate) struct Verify {
 #[derive(Debug, Args)]
 struct Foreign {
     /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-integrator.md
-    #[arg(long, value_name = "LINE", conflicts_with_all = ["list", "fit", "fit_spaces"])]
+    #[arg(long, value_name = "LINE", conflicts_with = "list")]
     command: Option<String>,
     /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
     #[arg(long, value_name = "ERROR", requires = "command")]
@@ -90,12 +90,6 @@ struct Instead {
     /// measure of proofs, batches and margins on it
     #[arg(long, value_name = "INPUT")]
     replay: Option<String>,
-    /// Measure the planner's table, which --bless does too
-    #[arg(long)]
-    fit: bool,
-    /// Measure the part of the planner's table that is about spaces of launches, and keep the rest
-    #[arg(long)]
-    fit_spaces: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -113,12 +107,10 @@ impl Verify {
 
     /// The command of the program and its arguments.
     fn arguments(&self) -> Vec<String> {
-        let Instead { list, replay, fit, fit_spaces } = &self.instead;
+        let Instead { list, replay } = &self.instead;
         match replay {
             Some(input) => ["replay".into(), input.clone()].into_iter().chain(self.foreign.arguments()).collect(),
             None if *list => vec!["list".into()],
-            None if *fit => vec!["fit".into()],
-            None if *fit_spaces => vec!["fit".into(), "--spaces".into()],
             None => self.run_arguments(),
         }
     }
@@ -203,8 +195,6 @@ mod tests {
                 "--command a --answer-seconds 1 --total-seconds 2",
                 "run --command a --answer-seconds 1 --total-seconds 2",
             ),
-            ("--fit", "fit"),
-            ("--fit-spaces", "fit --spaces"),
         ] {
             let line = Line::try_parse_from(std::iter::once("verify").chain(given.split_whitespace())).unwrap();
             assert_eq!(line.verify.arguments().join(" "), passed);

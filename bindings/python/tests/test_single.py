@@ -127,6 +127,8 @@ def test_a_trace_and_a_plan_take_any_body():
     toss = ut.Toss((1, 2, 3), speed=3, body=BOOK)
     landing = ut.trace(toss, 5)
     assert ut.plan("tilt", toss, 1e-6) is not None
+    found = ut.plan("attitude", toss, 1e-6, solver="quaternion")
+    assert found.solver == "quaternion" and 0 < found.expected_error <= 1e-6
     assert landing.cos_tilt[-1] == pytest.approx(ut.toss(toss).cos_tilt, abs=1e-14)
 
 

@@ -3,7 +3,6 @@
 
 use std::ffi::OsString;
 
-use toss::fitted::{FITTED, Fitted, IntegratorFit};
 use toss::{Propagation, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry, Stepping, Toss};
 use unfair_toss::{Streams, run_with};
 
@@ -60,18 +59,9 @@ fn the_commands_know_a_solver_from_elsewhere() {
 }
 
 #[test]
-fn the_planner_takes_a_solver_from_elsewhere_once_it_has_been_measured() {
+fn the_planner_takes_a_solver_from_elsewhere() {
     const PLAN: &str = "plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-6 --solver mine";
-    let (code, _, err) = answer(&registry(), PLAN);
-    assert!(code == 2 && err.contains("measured into the planner's table"), "{err}");
-    // What was measured of the quaternion by dopri5 holds for the solver that is the same.
-    let fit = FITTED.integrator("quaternion", "dopri5").expect("it is in the table").clone();
-    let (closed, sampling) = (Vec::new(), Vec::new());
-    let integrators = vec![IntegratorFit { solver: "mine".to_owned(), ..fit }];
-    let fitted = Fitted { closed, sampling, integrators, ..FITTED.clone() };
-    let read = Fitted::parse(&toml::to_string(&fitted).expect("plain data")).expect("a valid table");
-    assert_eq!(read, fitted);
-    let (code, out, err) = answer(&registry().measured(read), PLAN);
+    let (code, out, err) = answer(&registry(), PLAN);
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("mine, dopri5, tolerance"), "{out}");
 }

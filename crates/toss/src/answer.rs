@@ -2,20 +2,15 @@
 //! taken for a proof.
 
 use dynamics::Outcome;
-#[cfg(feature = "planner")]
 use dynamics::State;
 use exact::{Certificate, Stage};
-#[cfg(all(feature = "planner", feature = "integrators"))]
 use kinematics_quat::IntegratedCertificate;
-#[cfg(feature = "planner")]
 use sampling::Estimate;
 
-#[cfg(feature = "planner")]
 use crate::trace::TracePoint;
 
 /// The answer to a [`Want`](crate::Want), of the same kind. It is written as plain data and not read, because it may hold a
 /// proof, and a file proves nothing.
-#[cfg(feature = "planner")]
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Answer {
@@ -28,7 +23,6 @@ pub enum Answer {
     /// The flight at equally spaced times.
     Trace(Vec<TracePoint>),
     /// cos θ and the attitude at landing by an integration, with proven bounds of their errors.
-    #[cfg(feature = "integrators")]
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::data::enclosed"))]
     Enclosed(Box<IntegratedCertificate>),
     /// The probability of heads.

@@ -15,10 +15,10 @@ pub struct Choice {
     pub model: &'static Model,
     /// The settings of the model.
     pub how: How,
-    /// The error to expect by the [table of measurements](crate::fitted): of cos θ, of the attitude (rad) or of the
-    /// probability. It is 0 for an outcome, which is either right or undecided.
+    /// The error to expect: of cos θ, of the attitude (rad) or of the probability. That of an integrator is the error of its
+    /// flight. It is 0 for an outcome, which is either right or undecided.
     pub expected_error: f64,
-    /// The cost to expect (ns), on one core of the machine on which the table was measured.
+    /// The cost to expect (ns), on one core of the machine on which costs were measured.
     pub expected_cost_ns: f64,
 }
 

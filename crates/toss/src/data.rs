@@ -1,15 +1,12 @@
-//! Verdicts and traces as plain data, and with the planner also its choices and answers. What may hold a proof is written and
-//! not read, because a file proves nothing.
+//! Verdicts, traces, choices of the planner and its answers as plain data. What may hold a proof is written and not read,
+//! because a file proves nothing.
 
-#[cfg(feature = "planner")]
 mod choice;
 
-#[cfg(all(feature = "planner", feature = "integrators"))]
 use dynamics::State;
 use dynamics::error::require;
 use dynamics::{Attitude, EulerAngles, Outcome};
 use exact::Stage;
-#[cfg(all(feature = "planner", feature = "integrators"))]
 use kinematics_quat::IntegratedCertificate;
 use serde::de::{Error, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -32,7 +29,6 @@ impl Serialize for Verdict {
 }
 
 /// `{ cos_tilt, error_bound, attitude, attitude_error_bound, rate }`, the rate in rad/s about the body's axes.
-#[cfg(all(feature = "planner", feature = "integrators"))]
 pub(crate) fn enclosed<S: Serializer>(found: &IntegratedCertificate, to: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Data {

@@ -208,42 +208,28 @@
 //! ```
 //!
 //! # Features
-//! All are on by default, and each can be left out. Without any, there are the exact motion with its proofs, batches,
-//! traces, and the registry for solvers of your own.
+//! Both are on by default, and each can be left out. Whoever wants less than this crate depends on `exact` (the exact motion
+//! with its proofs and batches) or `sampling` (probabilities by the exact motion) directly.
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `integrators` | the solvers `gamma`, `euler` and `quaternion` |
-//! | `sampling` | probabilities over many launches |
-//! | `planner` | scenes and the models that answer them; turns `sampling` on |
 //! | `serde` | settings, tosses, plans and answers as plain data; spaces of launches by name or from a file |
 //! | `rayon` | samples on all threads |
 //!
 //! The folder `examples` answers further questions, such as which launches are fair and how much people's coins wobble.
 
 mod answer;
-#[cfg(feature = "planner")]
 mod choice;
 #[cfg(feature = "serde")]
 mod data;
-#[cfg(feature = "planner")]
-pub mod fitted;
-#[cfg(feature = "planner")]
 mod integrators;
-#[cfg(feature = "planner")]
 mod model;
-#[cfg(feature = "planner")]
 mod plan;
-#[cfg(all(feature = "planner", feature = "integrators"))]
 mod proofs;
-#[cfg(feature = "planner")]
 mod reason;
 mod registry;
 mod rounding;
-#[cfg(feature = "planner")]
-#[cfg(feature = "planner")]
 mod samples;
-#[cfg(feature = "planner")]
 mod scene;
 mod trace;
 
@@ -259,9 +245,7 @@ pub use dynamics::{
     Checked, ForeignError, Formulation, FreeRotation, Propagation, Scheme, Settings, Solver, SolverConfig, SolverEntry,
     StepControl, Stepping, Work,
 };
-#[cfg(feature = "integrators")]
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-#[cfg(feature = "integrators")]
 pub use kinematics_quat::{IntegratedCertificate, IntegratedCounts, Integration, Proving, QuaternionSolver, TAYLOR};
 pub use registry::{Backend, Registry};
 
@@ -273,27 +257,17 @@ pub use exact::{
 pub use numerics::lanes::SimdLevel;
 
 // Probabilities over many launches.
-#[cfg(feature = "sampling")]
 pub use sampling;
 
 // Questions, and the models that answer them.
-#[cfg(feature = "planner")]
-pub use answer::Answer;
-pub use answer::Verdict;
-#[cfg(feature = "planner")]
+pub use answer::{Answer, Verdict};
 pub use choice::{Candidate, Choice, Decision, How, Offer};
-#[cfg(feature = "planner")]
 pub use model::{MODELS, Model};
-#[cfg(feature = "planner")]
 pub use plan::Solution;
-#[cfg(feature = "planner")]
 pub use reason::{Nanoseconds, Reason};
 pub use rounding::{BodyRounding, Rounding};
-#[cfg(feature = "planner")]
 pub use scene::{Integrator, Scene, Want, WantKind};
-#[cfg(feature = "integrators")]
-pub use trace::{EnclosedPoint, trace_enclosed, trace_enclosed_every};
-pub use trace::{MOST_POINTS, TracePoint, trace, trace_every};
+pub use trace::{EnclosedPoint, MOST_POINTS, TracePoint, trace, trace_enclosed, trace_enclosed_every, trace_every};
 
 // Errors.
 pub use dynamics::{Error, InputError, SolveError};

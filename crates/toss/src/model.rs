@@ -1,9 +1,13 @@
 //! The hierarchy of models that the planner chooses from, as a table with one row for each. A new model is a new row,
 //! because the planner goes through the rows and treats them alike.
 //!
-//! A row says what its model assumes and gives, which question it answers and by which function. Its error and cost are
-//! in the table of [`fitted`](crate::fitted). Bodies that are no coins have rows of their own, because their motion needs
-//! elliptic functions; a question about a coin does not consider those.
+//! A row says what its model assumes and gives, which question it answers and by which function, and how large its error
+//! and its cost are. Bodies that are no coins have rows of their own, because their motion needs elliptic functions; a
+//! question about a coin does not consider those.
+//!
+//! The errors are the largest that were met on random tosses and spaces, times 2. The costs are
+//! those of one core of an AMD EPYC, measured on 2026-11-23. Integrators have neither: the planner
+//! [flies](crate::Scene::plan) them.
 //!
 //! An outcome takes 15 to 35 ns and cos θ 60 ns. To look for a cheaper form would cost more than it saves, so there is
 //! one model for an outcome, `outcome`, and one for cos θ to the last bits, `tilt`. The [proof](exact::certified) of an
@@ -59,6 +63,10 @@ pub(crate) enum Kind {
         serves: WantKind,
         /// Computes the answer for a toss; the number is that of the points of a trace.
         answer: fn(&RigidToss, usize) -> Result<Answer, Error>,
+        /// Its largest error, of cos θ or of the attitude (rad).
+        error: f64,
+        /// Its cost (ns); for a trace, the cost of each point.
+        cost_ns: f64,
     },
     /// Any integrator with any of its schemes.
     Integrator,
@@ -68,18 +76,44 @@ pub(crate) enum Kind {
         refuses: fn(&Space) -> Option<Reason>,
         /// Makes the plan from the number of launches and the seed.
         plan: fn(u64, u64) -> Plan,
+        /// How large its error and its cost are; `None` without an error estimate, for what is never planned.
+        fit: Option<Fit>,
     },
     /// The enclosure of the probability of a space. A plan never chooses it, because its cost is not known before.
     Enclosure,
+}
+
+/// The error and the cost of a sample.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Fit {
+    /// Of rounding alone, whatever the launches.
+    Rounding {
+        /// The largest error.
+        error: f64,
+        /// The cost (ns).
+        cost_ns: f64,
+    },
+    /// Of N launches the error is `error` × N^-`power`, and the cost `cost_ns` + N `launch_ns`.
+    Launches {
+        /// What the error would be with a single launch.
+        error: f64,
+        /// The exponent with which it falls.
+        power: f64,
+        /// The cost without the launches (ns).
+        cost_ns: f64,
+        /// The cost of a launch (ns).
+        launch_ns: f64,
+    },
 }
 
 const fn closed_form(
     name: &'static str,
     gives: &'static str,
     serves: WantKind,
+    [error, cost_ns]: [f64; 2],
     answer: fn(&RigidToss, usize) -> Result<Answer, Error>,
 ) -> Model {
-    Model { name, assumes: "I1 = I2", gives, of: Of::Coins, kind: Kind::ClosedForm { serves, answer } }
+    Model { name, assumes: "I1 = I2", gives, of: Of::Coins, kind: Kind::ClosedForm { serves, answer, error, cost_ns } }
 }
 
 /// The same model for the bodies that are no coins.
@@ -98,26 +132,31 @@ const fn sample(
     gives: &'static str,
     refuses: fn(&Space) -> Option<Reason>,
     plan: fn(u64, u64) -> Plan,
+    fit: Option<Fit>,
 ) -> Model {
-    Model { name, assumes, gives, of: Of::Coins, kind: Kind::Sample { refuses, plan } }
+    Model { name, assumes, gives, of: Of::Coins, kind: Kind::Sample { refuses, plan, fit } }
 }
 
 /// All models: first those for a toss, then those for a space, both in the order of their cost, from the cheapest on,
 /// with those for bodies that are no coins behind those for coins.
 pub static MODELS: [Model; 18] = [
-    closed_form("outcome", "outcome, proven", WantKind::Outcome, |toss, _| {
+    closed_form("outcome", "outcome, proven", WantKind::Outcome, [0.0, 41.3], |toss, _| {
         Ok(Answer::Outcome(Verdict::Proven(certify(&coin(toss)?)?)))
     }),
-    closed_form("tilt", "cos θ to the last bits", WantKind::Tilt, |toss, _| {
+    closed_form("tilt", "cos θ to the last bits", WantKind::Tilt, [7.62e-16, 87.2], |toss, _| {
         Ok(Answer::Tilt(compensated_cos_tilt(&coin(toss)?)?))
     }),
-    closed_form("attitude", "attitude and body rate to the last bits", WantKind::Attitude, |toss, _| {
-        Ok(Answer::Attitude(compensated_landing(&coin(toss)?)?))
-    }),
-    closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, |toss, _| {
+    closed_form(
+        "attitude",
+        "attitude and body rate to the last bits",
+        WantKind::Attitude,
+        [1.08e-15, 159.0],
+        |toss, _| Ok(Answer::Attitude(compensated_landing(&coin(toss)?)?)),
+    ),
+    closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, [2.07e-16, 289.0], |toss, _| {
         Ok(Answer::Tilt(ExactSolver.cos_tilt(&coin(toss)?)?))
     }),
-    closed_form("trace", "the flight at equally spaced times", WantKind::Trace, |toss, points| {
+    closed_form("trace", "the flight at equally spaced times", WantKind::Trace, [1.13e-15, 958.0], |toss, points| {
         Ok(Answer::Trace(trace(&ExactSolver, toss, points)?))
     }),
     Model {
@@ -127,21 +166,26 @@ pub static MODELS: [Model; 18] = [
         of: Of::Coins,
         kind: Kind::Integrator,
     },
-    of_others(closed_form("body-outcome", "outcome, proven", WantKind::Outcome, |toss, _| {
+    of_others(closed_form("body-outcome", "outcome, proven", WantKind::Outcome, [0.0, 2000.0], |toss, _| {
         Ok(Answer::Outcome(Verdict::Proven(certify_rigid(toss)?)))
     })),
-    of_others(closed_form("body-tilt", "cos θ to the last bit", WantKind::Tilt, |toss, _| {
+    of_others(closed_form("body-tilt", "cos θ to the last bit", WantKind::Tilt, [1.11e-16, 5100.0], |toss, _| {
         Ok(Answer::Tilt(ExactSolver.cos_tilt_rigid(toss)?))
     })),
     of_others(closed_form(
         "body-attitude",
         "attitude and body rate to the last bits",
         WantKind::Attitude,
+        [6.64e-16, 6340.0],
         |toss, _| Ok(Answer::Attitude(ExactSolver.propagate_rigid(toss)?.state)),
     )),
-    of_others(closed_form("body-trace", "the flight at equally spaced times", WantKind::Trace, |toss, points| {
-        Ok(Answer::Trace(trace(&ExactSolver, toss, points)?))
-    })),
+    of_others(closed_form(
+        "body-trace",
+        "the flight at equally spaced times",
+        WantKind::Trace,
+        [7.61e-16, 6620.0],
+        |toss, points| Ok(Answer::Trace(trace(&ExactSolver, toss, points)?)),
+    )),
     sample(
         "share",
         "that at most the speed is free",
@@ -152,6 +196,7 @@ pub static MODELS: [Model; 18] = [
             _ => Some(Reason::MoreIsFree),
         },
         |_, _| Plan::ExactSpeed(Rest::Grid),
+        Some(Fit::Rounding { error: 2e-15, cost_ns: 1600.0 }),
     ),
     Model {
         name: "share-enclosure",
@@ -170,6 +215,7 @@ pub static MODELS: [Model; 18] = [
             false => Some(Reason::SpeedIsFixed),
         },
         |points, seed| Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, seed))),
+        Some(Fit::Launches { error: 2.41, power: 1.01, cost_ns: 14100.0, launch_ns: 21.9 }),
     ),
     sample(
         "sobol",
@@ -177,13 +223,15 @@ pub static MODELS: [Model; 18] = [
         "probability, with an interval",
         |_| None,
         |points, seed| Plan::Sobol(Scrambled::new(points, seed)),
+        Some(Fit::Launches { error: 5.96, power: 0.64, cost_ns: 11900.0, launch_ns: 24.2 }),
     ),
     sample(
         "grid",
         "points on every free axis",
         "probability, without an error estimate",
-        |_| Some(Reason::TellsNoError),
+        |_| None,
         |_, _| Plan::Grid,
+        None,
     ),
     sample(
         "random",
@@ -191,6 +239,7 @@ pub static MODELS: [Model; 18] = [
         "probability, with an interval",
         |_| None,
         |points, seed| Plan::Random { points, seed },
+        Some(Fit::Launches { error: 3.05, power: 0.5, cost_ns: 1050.0, launch_ns: 4.24 }),
     ),
     of_others(sample(
         "body-sobol",
@@ -198,6 +247,7 @@ pub static MODELS: [Model; 18] = [
         "probability, with an interval",
         |_| None,
         |points, seed| Plan::Sobol(Scrambled::new(points, seed)),
+        Some(Fit::Launches { error: 4.01, power: 0.641, cost_ns: 8230.0, launch_ns: 2130.0 }),
     )),
     of_others(sample(
         "body-random",
@@ -205,6 +255,7 @@ pub static MODELS: [Model; 18] = [
         "probability, with an interval",
         |_| None,
         |points, seed| Plan::Random { points, seed },
+        Some(Fit::Launches { error: 2.04, power: 0.5, cost_ns: 180.0, launch_ns: 2110.0 }),
     )),
 ];
 
@@ -231,6 +282,16 @@ impl Model {
     /// Whether it is a closed form, which takes no steps and no samples.
     pub fn is_closed_form(&self) -> bool {
         matches!(self.kind, Kind::ClosedForm { .. })
+    }
+
+    /// The cost (ns) that a plan expects of a model whose cost no setting changes; for a trace, that of each point.
+    pub fn cost_ns(&self) -> Option<f64> {
+        match self.kind {
+            Kind::ClosedForm { cost_ns, .. } | Kind::Sample { fit: Some(Fit::Rounding { cost_ns, .. }), .. } => {
+                Some(cost_ns)
+            }
+            _ => None,
+        }
     }
 
     /// The plan of `points` launches with this seed; `None` for a model that takes no samples.

@@ -1,20 +1,19 @@
 //! Plans a scene: finds the cheapest model that gives what is wanted within the accuracy, and answers by it. You don't
-//! have to know the models, because their [measured errors and costs](crate::fitted) decide.
+//! have to know the models, because their errors and costs decide.
 //!
 //! Closed forms are tried in the order of the table of [models](crate::model), from the cheapest on, and the first that
-//! serves is taken. Integrators and samples have costs that depend on the scene, so all of them are compared.
+//! serves is taken. Integrators and samples have costs that depend on the scene, so all of them are compared. Integrators
+//! are [flown](crate::integrators) for that.
 
 use dynamics::error::require;
-use dynamics::{Error, InputError, RigidToss, Toss};
+use dynamics::{Error, InputError, RigidToss, RoughPhases};
 use exact::{RigidMotion, certify};
 use sampling::Progress;
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, Decision, How, Offer};
-use crate::fitted::{FITTED, Turn};
-use crate::integrators::{Aim, Flights, integrated, integrators};
+use crate::integrators::{integrated, integrators};
 use crate::model::{Kind, MODELS, Model, Of};
-#[cfg(feature = "integrators")]
 use crate::proofs::{plan as proof, run as proven};
 use crate::reason::Reason;
 use crate::registry::Registry;
@@ -40,12 +39,13 @@ impl Scene {
         self.plan_with(Registry::standard())
     }
 
-    /// The cheapest model that serves the scene, with the integrators of `registry`. An integrator that is not of this
-    /// workspace can be chosen if the registry has its errors and costs ([`Registry::measured`]).
+    /// The cheapest model that serves the scene, with the integrators of `registry`. An integrator that the scene asks for
+    /// flies at one tolerance after the other, from coarse to fine, until its answer is within the accuracy of the exact
+    /// motion.
     ///
     /// # Errors
     /// [`Error::Input`] if the scene is invalid or no model is accurate enough; [`Error::Solve`] for a phase above 2^53
-    /// rad, at which neighbouring inputs differ by whole turns.
+    /// rad, at which neighbouring inputs differ by whole turns, and for a toss that the integrator does not solve.
     pub fn plan_with(&self, registry: &Registry) -> Result<Decision, Error> {
         self.validate()?;
         if let Some(by) = self.by_proof() {
@@ -54,11 +54,19 @@ impl Scene {
         match (self.want.toss(), &self.by) {
             (Some(toss), None) => self.first_closed_form(toss),
             (Some(toss), Some(by)) => {
-                let toss = &toss.symmetric().ok_or(ONLY_COINS_BY)?;
-                let passed_over = closed_forms(Of::Coins).map(|model| (model.into(), Reason::NotAskedFor)).collect();
-                let candidates = integrators(registry, Some(by), self.flights(toss)?)?;
-                let valid = "at least what the integrator reaches at its finest tolerance";
-                cheapest(passed_over, candidates).ok_or_else(|| self.too_accurate(valid))
+                let of = Of::body(&toss.body);
+                let passed_over = closed_forms(of).map(|model| (model.into(), Reason::NotAskedFor)).collect();
+                let candidates = integrators(registry, Some(by), self)?;
+                let failed = candidates.iter().find_map(|(_, offer)| match offer {
+                    Err(Reason::Fails(error)) => Some(error.clone()),
+                    _ => None,
+                });
+                let is_solved = candidates.iter().any(|(_, offer)| !matches!(offer, Err(Reason::Fails(_))));
+                match (cheapest(passed_over, candidates), failed) {
+                    (Some(decision), _) => Ok(decision),
+                    (None, Some(error)) if !is_solved => Err(error),
+                    (None, _) => Err(self.too_accurate("at least what the integrator reaches at its finest tolerance")),
+                }
             }
             (None, _) => {
                 let valid = "at least what rounding leaves of a share of speeds, or 2^36 launches of a sample";
@@ -73,8 +81,7 @@ impl Scene {
     }
 
     /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
-    /// [`Registry::standard`] are among them, whether the scene asks for one or not. Their offers follow from measured
-    /// errors alone; that of a [plan](Scene::plan) has been tried on the toss, too.
+    /// [`Registry::standard`] are among them, whether the scene asks for one or not. All of them are flown.
     ///
     /// # Errors
     /// As for [`Scene::plan`].
@@ -91,8 +98,7 @@ impl Scene {
         let Some(toss) = self.want.toss() else { return Ok(samples(self)?) };
         let of = Of::body(&toss.body);
         let closed_forms = closed_forms(of).map(|model| (model.into(), self.closed_form(model, of)));
-        let Some(toss) = toss.symmetric() else { return Ok(closed_forms.collect()) };
-        Ok(closed_forms.chain(integrators(registry, None, self.flights(&toss)?)?).collect())
+        Ok(closed_forms.chain(integrators(registry, None, self)?).collect())
     }
 
     /// Answers the scene by the model that [`Scene::plan`] chooses.
@@ -170,7 +176,7 @@ impl Scene {
     fn first_closed_form(&self, toss: &RigidToss) -> Result<Decision, Error> {
         // No model has an answer beyond a phase of 2^53 rad; this returns the error.
         match toss.symmetric() {
-            Some(toss) => _ = Turn::of(&toss)?,
+            Some(toss) => _ = RoughPhases::new(&toss).largest()?,
             None => _ = RigidMotion::new(toss).phase(toss.launch.time_of_flight())?,
         }
         let of = Of::body(&toss.body);
@@ -188,33 +194,20 @@ impl Scene {
         InputError::OutOfRange { field: "accuracy", value: self.accuracy, valid }.into()
     }
 
-    /// The flights that an integrator makes for the scene.
-    fn flights(&self, toss: &Toss) -> Result<Flights, Error> {
-        let aim = match self.want {
-            Want::Outcome(_) => Aim::Outcome,
-            Want::Tilt(_) => Aim::Tilt,
-            Want::Trace { points, .. } => Aim::Trace(points.saturating_sub(1).max(1)),
-            Want::Attitude(_) | Want::Probability(_) => Aim::Attitude,
-        };
-        Ok(Flights { toss: *toss, turn: Turn::of(toss)?, aim, accuracy: self.accuracy })
-    }
-
     fn closed_form(&self, model: &'static Model, of: Of) -> Offer {
         if model.of != of {
             return Err(Reason::OnlyCoins);
         }
-        let (Kind::ClosedForm { serves, .. }, Some(fit)) = (&model.kind, FITTED.closed(model.name)) else {
-            return Err(Reason::NotMeasured);
-        };
-        if *serves != self.want.kind() {
+        let Kind::ClosedForm { serves, error, cost_ns, .. } = model.kind else { return Err(Reason::NotAskedFor) };
+        if serves != self.want.kind() {
             return Err(Reason::GivesOnly(serves.words()));
         }
-        if fit.error > self.accuracy {
-            return Err(Reason::TooRough { expected_error: fit.error });
+        if error > self.accuracy {
+            return Err(Reason::TooRough { expected_error: error });
         }
         #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
-        let expected_cost_ns = fit.cost_ns * self.want.points() as f64;
-        Ok(Choice { model, how: How::ClosedForm, expected_error: fit.error, expected_cost_ns })
+        let expected_cost_ns = cost_ns * self.want.points() as f64;
+        Ok(Choice { model, how: How::ClosedForm, expected_error: error, expected_cost_ns })
     }
 }
 
@@ -231,7 +224,7 @@ impl Choice {
         let expected = "one that was made for this scene";
         let other = || InputError::Malformed { field: "choice", value: self.model.name.to_owned(), expected };
         match (&self.how, &self.model.kind, &scene.want) {
-            (How::ClosedForm, Kind::ClosedForm { serves, answer }, want) if *serves == want.kind() => {
+            (How::ClosedForm, Kind::ClosedForm { serves, answer, .. }, want) if *serves == want.kind() => {
                 answer(want.toss().ok_or_else(other)?, want.points())
             }
             (How::Integrator(_, stepping), _, want) if scene.by_proof().is_some() => proven(*stepping, want),
@@ -248,28 +241,6 @@ impl Choice {
 fn closed_forms(of: Of) -> impl Iterator<Item = &'static Model> {
     MODELS.iter().filter(move |model| model.is_closed_form() && (model.of == Of::Coins || model.of == of))
 }
-
-/// Why no integrator is planned for a body with I1 ≠ I2.
-const ONLY_COINS_BY: InputError = InputError::OutsideModel {
-    field: "by",
-    why: "this body has I1 ≠ I2, and the errors and costs of integrators were measured on coins, so that no plan can \
-          choose a tolerance; choose the solver and its tolerance yourself",
-};
-
-/// Without the integrators nothing is proven by integration.
-#[cfg(not(feature = "integrators"))]
-fn proof(_: &Registry, _: &Integrator, _: &Want, _: f64) -> Result<Decision, Error> {
-    Err(NO_INTEGRATORS.into())
-}
-
-#[cfg(not(feature = "integrators"))]
-fn proven(_: dynamics::Stepping, _: &Want) -> Result<Answer, Error> {
-    Err(NO_INTEGRATORS.into())
-}
-
-#[cfg(not(feature = "integrators"))]
-const NO_INTEGRATORS: InputError =
-    InputError::OutsideModel { field: "prove", why: "this library was built without the integrators, which prove" };
 
 /// Chooses the cheapest candidate that serves, and appends the others with their reasons to `passed_over`. `None` if no
 /// candidate serves.

@@ -1,19 +1,14 @@
-//! Plans an integration that proves how far cos θ or an attitude can be off. No table of measurements can promise a bound,
-//! because it follows from the steps of the flight itself. So the plan flies: it takes the coarsest of some tolerances
-//! whose bound is within the accuracy.
+//! Plans an integration that proves how far cos θ or an attitude can be off. The plan flies, as that of any integrator
+//! does, and takes the coarsest of the same tolerances whose proven bound is within the accuracy.
 
 use dynamics::{Error, Formulation, InputError, RigidToss, Stepping};
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver, TAYLOR};
 
 use crate::answer::Answer;
 use crate::choice::{Choice, Decision, How};
-use crate::integrators::model;
+use crate::integrators::{TOLERANCES, costs, model};
 use crate::registry::Registry;
 use crate::scene::{Integrator, Want};
-
-/// The tolerances, from coarse to fine, of which a plan with a proof takes one.
-const TOLERANCES: [f64; 14] =
-    [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, f64::EPSILON];
 
 /// What a flight with its bound costs, in flights of a coin with as many calls and without one: that of a coin, and that of
 /// another body, of whose series each call costs more and whose bound is computed step by step. Measured on the paper's
@@ -60,13 +55,13 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
         return Err(refused("a plan with a proof takes the solver quaternion with the scheme taylor").into());
     }
     let (toss, bound) = question(want)?;
-    let (_, fit) = registry.fit(entry.name(), scheme.name()).ok_or(refused("its costs have not been measured"))?;
+    let [cost_ns, call_ns] = costs(entry.name(), scheme);
     for tolerance in TOLERANCES {
         let stepping = Stepping::adaptive(scheme, tolerance)?;
         let found = QuaternionSolver::new(stepping, Formulation::default()).enclose_rigid(toss)?;
         if bound(&found) <= accuracy {
             #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
-            let flight_ns = fit.cost_ns + fit.call_ns * found.work().rhs_calls as f64;
+            let flight_ns = cost_ns + call_ns * found.work().rhs_calls as f64;
             let expected_cost_ns = COSTS[usize::from(toss.symmetric().is_none())] * flight_ns;
             let how = How::Integrator(entry.clone(), stepping);
             let choice = Choice { model: model(), how, expected_error: bound(&found), expected_cost_ns };
@@ -88,4 +83,4 @@ pub(crate) fn run(stepping: Stepping, want: &Want) -> Result<Answer, Error> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

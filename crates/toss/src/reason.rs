@@ -3,18 +3,20 @@
 
 use std::fmt;
 
+use dynamics::Error;
+
 /// The reason why a model is passed over.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Reason {
     /// The model computes only this, and something else is wanted.
     GivesOnly(&'static str),
     /// The expected error is larger than the accuracy wanted.
     TooRough {
-        /// The expected error, of what is wanted.
+        /// The expected error, of what is wanted. Of an integrator, the smallest one that it reached.
         expected_error: f64,
     },
-    /// The table has no error and cost of this model.
-    NotMeasured,
+    /// The integrator does not solve this toss.
+    Fails(Error),
     /// The scene asks for an integrator, and the model is none.
     NotAskedFor,
     /// The model serves, but a cheaper one serves too.
@@ -40,7 +42,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::GivesOnly(what) => write!(f, "gives only {what}"),
-            Self::NotMeasured => f.write_str("its error and cost have not been measured"),
+            Self::Fails(error) => write!(f, "fails: {error}"),
             Self::TooRough { expected_error } => write!(f, "its expected error is {expected_error:.1e}"),
             Self::NotAskedFor => f.write_str("an integrator was asked for"),
             Self::Dearer { expected_cost_ns } => write!(f, "serves, but takes {}", Nanoseconds(*expected_cost_ns)),

@@ -2,8 +2,6 @@
 //! go through this list, so that a new solver needs one line here and nothing else.
 
 use std::fmt;
-#[cfg(feature = "planner")]
-use std::sync::Arc;
 use std::sync::LazyLock;
 
 use dynamics::error::find_named;
@@ -11,28 +9,15 @@ use dynamics::{
     Checked, InputError, Outcome, RigidToss, Settings, SolveError, Solver, SolverConfig, SolverEntry, Toss,
 };
 use exact::{ExactSolver, certify, certify_rigid};
-#[cfg(feature = "integrators")]
 use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-#[cfg(feature = "integrators")]
 use kinematics_quat::QuaternionSolver;
-#[cfg(feature = "sampling")]
 use sampling::Sampler;
 
 use crate::answer::Verdict;
-#[cfg(feature = "planner")]
-use crate::fitted::{FITTED, Fitted, IntegratorFit};
 
-/// The solvers of this workspace, one entry for each. Those that integrate need the feature `integrators`.
+/// The solvers of this workspace, one entry for each.
 fn standard() -> Vec<SolverEntry> {
-    vec![
-        ExactSolver::entry(),
-        #[cfg(feature = "integrators")]
-        GammaSolver::entry(),
-        #[cfg(feature = "integrators")]
-        EulerAnglesSolver::entry(),
-        #[cfg(feature = "integrators")]
-        QuaternionSolver::entry(),
-    ]
+    vec![ExactSolver::entry(), GammaSolver::entry(), EulerAnglesSolver::entry(), QuaternionSolver::entry()]
 }
 
 /// A list of solvers with unique names.
@@ -47,15 +32,12 @@ fn standard() -> Vec<SolverEntry> {
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     entries: Vec<SolverEntry>,
-    /// What was measured of integrators that are not in the planner's own table.
-    #[cfg(feature = "planner")]
-    measured: Vec<Arc<Fitted>>,
 }
 
 impl Registry {
     /// The solvers of this workspace.
     pub fn standard() -> &'static Self {
-        static STANDARD: LazyLock<Registry> = LazyLock::new(|| Registry::empty().holding(standard()));
+        static STANDARD: LazyLock<Registry> = LazyLock::new(|| Registry { entries: standard() });
         &STANDARD
     }
 
@@ -71,7 +53,7 @@ impl Registry {
     pub fn only(&self, names: &[&str]) -> Result<Self, InputError> {
         names.iter().try_for_each(|name| self.named(name).map(|_| ()))?;
         let entries = self.entries.iter().filter(|entry| names.contains(&entry.name())).cloned().collect();
-        Ok(self.holding(entries))
+        Ok(Self { entries })
     }
 
     /// A registry with the same solvers and one more.
@@ -88,31 +70,7 @@ impl Registry {
         if entry.name() == ExactSolver::NAME {
             return refused("a name other than that of the exact motion, whose outcomes are proven");
         }
-        Ok(self.holding(self.entries.iter().cloned().chain([entry]).collect()))
-    }
-
-    /// The same registry with these solvers instead of its own.
-    fn holding(&self, entries: Vec<SolverEntry>) -> Self {
-        let mut registry = self.clone();
-        registry.entries = entries;
-        registry
-    }
-
-    /// The same registry with the measured errors and costs of its integrators, by which the planner can choose them.
-    /// The command `fit` of a verification suite measures them. They take precedence over what this library was built
-    /// with.
-    #[cfg(feature = "planner")]
-    #[must_use]
-    pub fn measured(&self, fitted: Fitted) -> Self {
-        let measured = [Arc::new(fitted)].into_iter().chain(self.measured.iter().cloned()).collect();
-        Self { entries: self.entries.clone(), measured }
-    }
-
-    /// What was measured of the integrator `solver` with `scheme`, and the table that it belongs to.
-    #[cfg(feature = "planner")]
-    pub(crate) fn fit(&self, solver: &str, scheme: &str) -> Option<(&Fitted, &IntegratorFit)> {
-        let tables = self.measured.iter().map(|fitted| &**fitted).chain([&*FITTED]);
-        tables.into_iter().find_map(|fitted| Some((fitted, fitted.integrator(solver, scheme)?)))
+        Ok(Self { entries: self.entries.iter().cloned().chain([entry]).collect() })
     }
 
     /// All solvers, in the order in which they were added.
@@ -203,7 +161,6 @@ impl Backend {
     }
 
     /// A sampler that solves its launches by this backend.
-    #[cfg(feature = "sampling")]
     pub fn sampler(&self) -> Sampler<'_> {
         match self {
             Self::Exact(_) => Sampler::exact(),

@@ -1,14 +1,13 @@
-//! Plans and runs the models that sample a space of launches. The number of launches N follows from the tabulated error
-//! e N^-p: it is N = (e/accuracy)^(1/p). This error was measured on other spaces, so an estimate whose interval turns
-//! out wider than the accuracy is repeated with twice as many launches.
+//! Plans and runs the models that sample a space of launches. The number of launches N follows from the error e N^-p that
+//! the table of [models](crate::model) states: it is N = (e/accuracy)^(1/p). This error was measured on other spaces, so an
+//! estimate whose interval turns out wider than the accuracy is repeated with twice as many launches.
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
 use sampling::{Estimate, Found, Plan, Progress, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
-use crate::fitted::{FITTED, SamplingFit};
-use crate::model::{Kind, MODELS, Model, Of};
+use crate::model::{Fit, Kind, MODELS, Model, Of};
 use crate::reason::Reason;
 use crate::scene::{Scene, Want};
 
@@ -31,10 +30,10 @@ pub(crate) fn samples(scene: &Scene) -> Result<Vec<(Candidate, Offer)>, InputErr
     let of = Of::body(space.body());
     let offer = |model: &'static Model| match model.kind {
         Kind::Sample { .. } if model.of == Of::Others && of == Of::Coins => None,
-        Kind::Sample { refuses, plan } => {
+        Kind::Sample { refuses, plan, fit } => {
             let only_coins = (model.of != of).then_some(Reason::OnlyCoins);
             let refused = only_coins.or_else(|| refuses(space)).map(Err);
-            Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, scene.accuracy))))
+            Some((model.into(), refused.unwrap_or_else(|| offer(model, plan, fit, scene.accuracy))))
         }
         Kind::Enclosure if of == Of::Others => Some((model.into(), Err(Reason::OnlyCoins))),
         Kind::Enclosure => Some((model.into(), Err(Reason::UnknownCost))),
@@ -51,31 +50,31 @@ pub(crate) fn no_integrator_for_a_space() -> InputError {
     }
 }
 
-fn offer(model: &'static Model, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Offer {
+fn offer(model: &'static Model, plan: fn(u64, u64) -> Plan, fit: Option<Fit>, accuracy: f64) -> Offer {
     let of = |points, expected_error, expected_cost_ns| {
         Ok(Choice { model, how: How::Sampling(plan(points, SEED)), expected_error, expected_cost_ns })
     };
-    if let Some(fit) = FITTED.sampling(model.name) {
-        let points = points_for(fit, plan, accuracy)?;
-        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-        let launches = points as f64;
-        return of(points, fit.error * launches.powf(-fit.power), fit.cost_ns + fit.launch_ns * launches);
-    }
-    match FITTED.closed(model.name) {
-        None => Err(Reason::NotMeasured),
-        Some(fit) if fit.error > accuracy => Err(Reason::TooRough { expected_error: fit.error }),
-        Some(fit) => of(1, fit.error, fit.cost_ns),
+    match fit {
+        None => Err(Reason::TellsNoError),
+        Some(Fit::Rounding { error, .. }) if error > accuracy => Err(Reason::TooRough { expected_error: error }),
+        Some(Fit::Rounding { error, cost_ns }) => of(1, error, cost_ns),
+        Some(Fit::Launches { error, power, cost_ns, launch_ns }) => {
+            let points = points_for([error, power], plan, accuracy)?;
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            let launches = points as f64;
+            of(points, error * launches.powf(-power), cost_ns + launch_ns * launches)
+        }
     }
 }
 
-/// The number of launches for which the tabulated error equals the accuracy, rounded up to a power of two for scrambled
+/// The number of launches for which the expected error equals the accuracy, rounded up to a power of two for scrambled
 /// points.
-fn points_for(fit: &SamplingFit, plan: fn(u64, u64) -> Plan, accuracy: f64) -> Result<u64, Reason> {
+fn points_for([error, power]: [f64; 2], plan: fn(u64, u64) -> Plan, accuracy: f64) -> Result<u64, Reason> {
     #[expect(clippy::cast_precision_loss, reason = "a power of two")]
     let most = MOST_LAUNCHES as f64;
-    let needed = (fit.error / accuracy).powf(1.0 / fit.power).max(1.0);
+    let needed = (error / accuracy).powf(1.0 / power).max(1.0);
     if needed > most {
-        return Err(Reason::TooRough { expected_error: fit.error * most.powf(-fit.power) });
+        return Err(Reason::TooRough { expected_error: error * most.powf(-power) });
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 2^36")]
     let needed = needed.ceil() as u64;

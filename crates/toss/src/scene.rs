@@ -51,8 +51,8 @@ pub enum Want {
     Probability(Space),
 }
 
-/// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy: by measured
-/// errors and a trial on the toss itself, or, of one that proves, by the bound of the flight itself.
+/// An integrator that a scene asks for, with or without its scheme. Its tolerance follows from the accuracy by
+/// flights of the toss: by their errors against the exact motion, or, of one that proves, by their proven bounds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct Integrator {

@@ -10,7 +10,6 @@ use dynamics::{
     Vector3,
 };
 use exact::RigidAngles;
-#[cfg(feature = "integrators")]
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
 
 /// The largest number of points of a trace. A chart needs some hundreds.
@@ -79,7 +78,6 @@ fn stepped(launch: &Launch, step: f64) -> Result<Vec<f64>, InputError> {
 }
 
 /// A point of a trace with the certificate that bounds its errors.
-#[cfg(feature = "integrators")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnclosedPoint {
     /// The point. Its cos θ is that of the certificate.
@@ -92,7 +90,6 @@ pub struct EnclosedPoint {
 ///
 /// # Errors
 /// As [`trace`] and [`QuaternionSolver::enclose_rigid`].
-#[cfg(feature = "integrators")]
 pub fn trace_enclosed(
     solver: &QuaternionSolver,
     toss: impl Into<RigidToss>,
@@ -106,7 +103,6 @@ pub fn trace_enclosed(
 ///
 /// # Errors
 /// As [`trace_every`] and [`QuaternionSolver::enclose_rigid`].
-#[cfg(feature = "integrators")]
 pub fn trace_enclosed_every(
     solver: &QuaternionSolver,
     toss: impl Into<RigidToss>,
@@ -116,7 +112,6 @@ pub fn trace_enclosed_every(
     enclosed_at(solver, toss, &stepped(&toss.launch, step)?)
 }
 
-#[cfg(feature = "integrators")]
 fn enclosed_at(solver: &QuaternionSolver, toss: &RigidToss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
     let mut branch = Branch::new(toss);
     let mut at = |time: f64| -> Result<EnclosedPoint, Error> {

@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::catalogue::{BODIES, Body, BodyEntry, CATALOGUE, CatalogueEntry, Shape};
-use toss::fitted::FITTED;
 use toss::{MODELS, Registry, SolverEntry};
 
 use crate::failure::Failure;
@@ -173,14 +172,13 @@ struct ModelLine {
 }
 
 pub(crate) fn models(args: &Args, input: &Input) -> Result<String, Failure> {
-    let cost = |model| FITTED.closed(model).map(|fit| fit.cost_ns);
     let lines: Vec<ModelLine> = MODELS
         .iter()
         .map(|model| ModelLine {
             name: model.name,
             assumes: model.assumes,
             gives: model.gives,
-            cost_ns: cost(model.name),
+            cost_ns: model.cost_ns(),
         })
         .collect();
     if args.format == Format::Json {

@@ -8,23 +8,23 @@ use super::*;
 use crate::scene::Scene;
 
 /// Numbers in [0, 1), the same in every run (S. Vigna, splitmix64).
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((mixed ^ (mixed >> 31)) >> 11) as f64 * 2f64.powi(-53)
     }
 
-    fn between(&mut self, from: f64, to: f64) -> f64 {
+    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 }
 
 /// A toss of a coin, a racket or a brick, of up to some hundred radians.
-fn toss(numbers: &mut Numbers) -> RigidToss {
+pub(crate) fn toss(numbers: &mut Numbers) -> RigidToss {
     let body = match (3.0 * numbers.next()) as usize {
         0 => Coin::from_moments(1.0, numbers.between(0.0, 2.0)).unwrap().into(),
         1 => named_body("racket").unwrap(),

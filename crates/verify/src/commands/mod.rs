@@ -3,7 +3,6 @@
 
 mod bench;
 mod figure;
-mod fit;
 mod history;
 mod list;
 mod program;
@@ -56,7 +55,6 @@ enum Command {
     Replay(Box<replay::Replay>),
     Bench(bench::Bench),
     Work(work::Work),
-    Fit(fit::Fit),
     /// Draw the accuracy of the committed records over time
     History,
     Figure(figure::Figure),
@@ -67,7 +65,7 @@ enum Command {
 ///
 /// Without a command it runs the checks, with `--quick`, `--deep`, `--only ID`, `--bless`, `--format` and `--verbose`.
 /// Commands are `list` (the checks), `replay INPUT` (one toss by every solver, scheme and formulation), `history`,
-/// `figure`, `fit` and `bench`.
+/// `figure` and `bench`.
 ///
 /// Exit codes: 0, all checks pass; 1, a check fails; 2, bad usage; 3, accuracy or work is worse than the baseline,
 /// though within its bounds; 4, the command could not run.
@@ -105,7 +103,6 @@ impl Program {
             Command::Replay(command) => command.run(suite, &out),
             Command::Bench(command) => command.run(&suite),
             Command::Work(command) => command.run(),
-            Command::Fit(of) => fit::fit(&suite, &of),
             Command::History => history::history(&suite, &out),
             Command::Figure(command) => command.run(&suite),
         }

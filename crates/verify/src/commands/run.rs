@@ -6,9 +6,7 @@ use std::path::Path;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::fit;
 use super::program::Foreign;
-use crate::measure::replay::Commands;
 use crate::render::{Report, github, junit, left_out, moves, table};
 use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
 use crate::{Check, Effort, files};
@@ -71,9 +69,6 @@ impl Run {
         self.print(&verified, out)?;
         if self.bless && verified.verdict() != Verdict::Fail {
             suite.accept(&verified)?;
-            if *suite.commands() == Commands::Workspace && verified.report().effort == Effort::Standard {
-                fit::fit(&suite, &fit::Fit::default())?;
-            }
         }
         Ok(verified.exit_code())
     }

@@ -183,8 +183,16 @@ pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError>
     Ok(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
 }
 
-/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad, of whose flights the planner's table
-/// knows few.
+/// A body of any of the families for a plan, which turns by up to 300 rad. `None` where the family has no such body.
+pub(super) fn planned_body(index: u64) -> (ChaCha8Rng, Option<RigidToss>) {
+    let mut rng = stream(101, index);
+    let phase = decades(&mut rng, -1.0, 2.5);
+    let families = FAMILIES.len() as u64;
+    let family = &FAMILIES[usize::try_from(index % families).unwrap_or(0)];
+    (rng, flown_for(family, index / families, phase))
+}
+
+/// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad.
 ///
 /// # Errors
 /// Never: every launch is valid.

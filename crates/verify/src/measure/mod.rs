@@ -10,7 +10,7 @@
 //! | the forms in which a time of flight is given | [`throws`] |
 //! | flights: random, adversarial, long, both at the finest tolerances, and near the places where methods fail | [`survey`], `random_flights`, [`adversary`], [`search`], [`long_flights`], `hostile`, [`atlas`]; of any body [`bodies`], `rigid_errors` |
 //! | error by step and by work; drift of conserved quantities | [`convergence`], [`work_precision`], [`drift`] |
-//! | the planner's table, and its accuracy and cost | [`planner`] |
+//! | the accuracy of the planner | [`planner`] |
 //! | probabilities of the named spaces | [`tables`] |
 
 pub mod adversary;

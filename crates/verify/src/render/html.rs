@@ -185,23 +185,16 @@ fn probabilities(lines: &[Probability]) -> Markup {
 }
 
 fn planner(lines: &[Line]) -> Markup {
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     html! {
         h2 id="planner" { "The planner" }
         p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy asked for and \
-                   by the error expected. expected ≤ 30×: the fraction of scenes whose expected error is at most 30 times the error. \
-                   tried: the scenes that were solved by every model. economical: the fraction of these where the chosen model cost at \
-                   most 1.2 times the cheapest that served, by recorded and by measured cost." }
+                   by the error expected." }
         div.wide { table {
-            tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } th { "expected ≤ 30×" }
-                 th { "tried" } th { "economical, recorded" } th { "economical, measured" } th { "largest cost ratio" } }
+            tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } }
             @for line in lines {
                 tr {
                     td { (line.kind) } td { (line.scenes) } td { (line.refused) }
                     td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
-                    td { (percent(line.within_30_of_one)) } td { (line.tried) }
-                    td { (percent(line.economical)) } td { (percent(line.economical_by_clock)) }
-                    td { (format!("{:.2}×", line.largest_cost_ratio_by_clock)) }
                 }
             }
         } }

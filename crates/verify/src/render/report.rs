@@ -11,7 +11,7 @@ use crate::measure::context::Records;
 use crate::measure::effort::Effort;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 4;
+const SCHEMA: u32 = 5;
 
 /// Everything that a run found.
 #[derive(Debug, Serialize)]

@@ -4,8 +4,9 @@
 use anyhow::Context as _;
 use exact::motion::COS_TILT_ERROR;
 use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Error, InputError, Scene, Scheme, SolveError, SolverEntry, Want};
+use toss::{Answer, Error, InputError, Scene, Scheme, SolveError, SolverEntry, Want};
 
 use crate::measure::any_case::AnyReference;
 use crate::measure::bodies::FAMILIES;
@@ -76,8 +77,8 @@ fn land(Flight { toss, input, by }: &Flight) -> Option<Landing> {
 
 pub(super) const PLANS: Check = Check {
     id: "plan-hostile",
-    claim: "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates. \
-            Measured: the largest error divided by that accuracy; it fails above the bound.",
+    claim: "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates, \
+            and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the bound.",
     basis: Basis::ClosedForm,
     judges: Judges::Library,
     ceiling: 1.0,
@@ -88,21 +89,26 @@ pub(super) const PLANS: Check = Check {
             Effort::Standard => 1000,
             Effort::Deep => 5000,
         };
-        let planned: Vec<Planned> = (0..number).into_par_iter().map(plan).collect::<anyhow::Result<_>>()?;
+        let coins = (0..number).into_par_iter().map(|index| plan(index).map(Some));
+        let bodies = (0..number).into_par_iter().map(plan_body);
+        let planned: Vec<Option<Planned>> = coins.chain(bodies).collect::<anyhow::Result<_>>()?;
         let row = |kind: &'static str| {
-            let of_kind: Vec<&Planned> = planned.iter().filter(|one| one.kind == kind).collect();
+            let of_kind: Vec<&Planned> = planned.iter().flatten().filter(|one| one.kind == kind).collect();
             let answered = of_kind.iter().filter_map(|one| Some((one.error_by_accuracy?, &one.input)));
             let (over, cases) = (answered.clone().filter(|(part, _)| *part > 1.0).count(), answered.clone().count());
             let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0)).context("every plan was refused")?;
             let input = format!("{over} above; {} refused; worst {}", of_kind.len() - cases, worst.1);
             Ok(Measurement::figure(PLANS.id, kind, worst.0, cases as u64, input))
         };
-        KINDS.into_iter().map(row).collect()
+        KINDS.into_iter().chain([BODIES]).map(row).collect()
     },
 };
 
 /// What is planned.
 const KINDS: [&str; 4] = ["outcome", "tilt", "attitude", "trace"];
+
+/// The kind of a plan of a body with I1 ≠ I2: half want cos θ, half an attitude.
+const BODIES: &str = "bodies";
 
 /// What came of a plan.
 struct Planned {
@@ -123,18 +129,50 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
         "attitude" => Want::Attitude(toss),
         _ => Want::Trace { toss, points: rng.random_range(2..8) },
     };
-    let solver = ["gamma", "euler", "quaternion"][rng.random_range(0..3)];
+    let (by, scene) = asked(want, ["gamma", "euler", "quaternion"][rng.random_range(0..3)], &mut rng);
+    let input = format!("{kind} {by}: {}", case.hex());
+    planned(kind, &scene, input, |answer| Ok(Truth::new(&case.toss).error(&scene, answer)?))
+}
+
+/// Plan number `index` of a body, and its answer; `None` where there is no such body.
+fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
+    let (mut rng, toss) = hostile::planned_body(index);
+    let Some(toss) = toss.filter(|toss| toss.symmetric().is_none()) else { return Ok(None) };
+    let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
+    let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
+    let input = format!("{} {by}: {:?}, {:?}", scene.want.kind().name(), toss.body.tensor(), toss.launch);
+    let error = |answer: &Answer| {
+        let exact = AnyReference::of_rigid(&toss)?;
+        Ok(match answer {
+            Answer::Tilt(cos_tilt) => exact.cos_tilt_error(*cos_tilt),
+            Answer::Attitude(state) => exact.attitude_error(&state.attitude),
+            _ => f64::INFINITY,
+        })
+    };
+    planned(BODIES, &scene, input, error).map(Some)
+}
+
+/// A scene that wants this by the solver, with any scheme and accuracy, and these in words.
+fn asked(want: Want, solver: &str, rng: &mut ChaCha8Rng) -> (String, Scene) {
     let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
     let accuracy = 10f64.powf(rng.random_range(-11.0..-2.0));
-    let scene = Scene::new(want, accuracy).by(solver, scheme);
-    let input = format!("{kind} to {accuracy:e} by {solver} {}: {}", scheme.unwrap_or("any"), case.hex());
-    let answer = match scene.plan().and_then(|decision| decision.choice.run(&scene)) {
+    let by = format!("to {accuracy:e} by {solver} {}", scheme.unwrap_or("any"));
+    (by, Scene::new(want, accuracy).by(solver, scheme))
+}
+
+/// What comes of the plan of a scene.
+fn planned(
+    kind: &'static str,
+    scene: &Scene,
+    input: String,
+    error: impl FnOnce(&Answer) -> anyhow::Result<f64>,
+) -> anyhow::Result<Planned> {
+    let answer = match scene.plan().and_then(|decision| decision.choice.run(scene)) {
         Ok(answer) => answer,
         Err(Error::Solve(_) | Error::Input(InputError::OutOfRange { field: "accuracy", .. })) => {
             return Ok(Planned { kind, error_by_accuracy: None, input });
         }
         Err(error) => return Err(error.into()),
     };
-    let error = Truth::new(&case.toss).error(&scene, &answer)?;
-    Ok(Planned { kind, error_by_accuracy: Some(error / accuracy), input })
+    Ok(Planned { kind, error_by_accuracy: Some(error(&answer)? / scene.accuracy), input })
 }

@@ -96,8 +96,6 @@ pub const CHECKS: &[Check] = &[
     tolerance::PROPORTION,
     planner::DELIVERS,
     planner::EXPECTS,
-    planner::TIGHT,
-    planner::COST_RATIO,
     hostile::PLANS,
     paper::CHEATED_IN_FLIGHT,
     paper::CHEATED_FOREVER,

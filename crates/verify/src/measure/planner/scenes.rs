@@ -7,8 +7,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use sampling::{Coordinate, Space};
 use toss::catalogue::CATALOGUE;
-use toss::fitted::FITTED;
-use toss::{Choice, Coin, InputError, Launch, Registry, Scene, SolverEntry, TimeOfFlight, Toss, Vector3, Want};
+use toss::{Coin, InputError, Launch, Registry, Scene, TimeOfFlight, Toss, Vector3, Want};
 
 use crate::measure::case::Case;
 
@@ -102,9 +101,7 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
         _ => Want::Trace { toss: case.toss.into(), points: rng.random_range(2..8) },
     };
     let scene = if kind == "integrator" {
-        // The planner does not choose integrators that are not in its table, so no scene asks for one.
-        let measured = |entry: &&SolverEntry| FITTED.integrators.iter().any(|fit| fit.solver == entry.name());
-        let entries: Vec<_> = Registry::standard().entries().iter().filter(measured).collect();
+        let entries: Vec<_> = Registry::standard().entries().iter().filter(|entry| entry.integrates()).collect();
         let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
         let solver = entries[rng.random_range(0..entries.len())].name();
         Scene::new(want, decades(&mut rng, -11.0, -2.0)).by(solver, scheme)
@@ -112,11 +109,6 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
         Scene::new(want, decades(&mut rng, -14.7, -2.0))
     };
     Ok(TossScene { kind, scene, case })
-}
-
-/// The choices that serve a scene, by the planner's expectations.
-pub(super) fn served(scene: &Scene) -> anyhow::Result<Vec<Choice>> {
-    Ok(scene.candidates()?.into_iter().filter_map(|(_, verdict)| verdict.ok()).collect())
 }
 
 /// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces

@@ -4,7 +4,6 @@ mod atlas_lines;
 mod atlas_matrix;
 mod history;
 mod long_flights;
-mod models;
 mod order;
 mod palette;
 mod proofs;
@@ -95,9 +94,6 @@ pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Cha
     }
     if let Some(all) = records.convergence.filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", order::order(all, &palette)?));
-    }
-    if let Some(planner) = &records.planner {
-        charts.push(chart("models.svg", models::models(&planner.t_costs_ns)?));
     }
     if let Some(sweep) = records.sweep {
         charts.push(chart("work-precision-all.svg", work_precision::all_problems(sweep, &palette)?));

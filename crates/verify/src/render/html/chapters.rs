@@ -13,7 +13,7 @@ pub(super) struct Section<'a> {
 }
 
 /// Id, title and caption of every chapter; the files of its charts begin with the id.
-const CHAPTERS: [(&str, &str, &str); 6] = [
+const CHAPTERS: [(&str, &str, &str); 5] = [
     (
         "fig4",
         "The paper's Fig. 4",
@@ -28,12 +28,6 @@ const CHAPTERS: [(&str, &str, &str); 6] = [
       accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
       calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
       and work. The exact motion calls nothing and is accurate to the last bit.",
-    ),
-    (
-        "models",
-        "The hierarchy of models",
-        "What each model costs in this run, over the random scenes that it can serve: median, and the range of nine \
-      in ten. The planner takes the cheapest model that is accurate enough.",
     ),
     (
         "order",
