@@ -2,7 +2,7 @@
 //! tolerance and phase, the median of the bound of the attitude divided by its error, how many flights have no bound, and the
 //! right-hand sides and the time of all flights divided by those of flights without a proof.
 //!
-//! `cargo run --release -p kinematics-quat --example bounds` prints the numbers of the decision 072.
+//! `cargo run --release -p kinematics-quat --example bounds` prints these numbers.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
