@@ -1,6 +1,6 @@
-//! Runs every command that README.md, DESIGN.md and the pages of `docs` show, and compares its output with the output shown there, so
-//! that these pages cannot become outdated. A block of another kind is listed in [`ELSEWHERE`] with what runs it, or with
-//! the reason why nothing does. Links have to lead to files and headings that exist.
+//! Runs every command that README.md, DESIGN.md and the pages of `docs` show, and compares its output with the output shown
+//! there, so that these pages cannot become outdated. A block of another kind is listed in [`ELSEWHERE`] with what runs
+//! it, or with the reason why nothing does. Links have to lead to files and headings that exist.
 
 use std::collections::BTreeMap;
 use std::fs;
