@@ -1,6 +1,6 @@
-//! Runs every command that README.md and the pages of `docs` show, and compares its output with the output shown there, so
-//! that these pages cannot become outdated. A block of another kind is listed in [`ELSEWHERE`] with what runs it, or with
-//! the reason why nothing does. Links have to lead to files and headings that exist.
+//! Runs every command that README.md, DESIGN.md and the pages of `docs` show, and compares its output with the output shown
+//! there, so that these pages cannot become outdated. A block of another kind is listed in [`ELSEWHERE`] with what runs
+//! it, or with the reason why nothing does. Links have to lead to files and headings that exist.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -52,14 +52,14 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// README.md and the pages of `docs` and `docs/guide`, from the root of the workspace.
+/// README.md, DESIGN.md and the pages of `docs` and `docs/guide`, from the root of the workspace.
 fn documents() -> Vec<String> {
     let pages = ["docs", "docs/guide"].into_iter().flat_map(|folder| {
         let entries = fs::read_dir(root().join(folder)).expect("a folder of documents");
         let names = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8"));
         names.filter(|name| name.ends_with(".md")).map(move |name| format!("{folder}/{name}"))
     });
-    std::iter::once("README.md".to_owned()).chain(pages).collect()
+    ["README.md", "DESIGN.md"].map(str::to_owned).into_iter().chain(pages).collect()
 }
 
 fn blocks(document: &str) -> Vec<Block> {

@@ -21,7 +21,7 @@
 //! Along the momentum the angles of a body that turns about one axis turn evenly. An adaptive scheme has no error to
 //! estimate there, and its steps would grow until it is unstable. DOP853 is stable for y' = i y up to steps of 5.9 rad, and
 //! disturbances of a plate oscillate up to twice as fast as it turns. No step therefore turns the body by more than 2 rad,
-//! see `docs/decisions/077-limit-the-steps-of-a-bodys-angles.md`.
+//! see "Runge-Kutta integration" in `DESIGN.md`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
