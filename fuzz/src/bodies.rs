@@ -1,7 +1,7 @@
 //! Columns of tosses of any rigid body: a header of its three moments, the tilt and gravity, and rows of ωx, ωy, ωz and
 //! the speed.
 
-use toss::{Attitude, Batch, Body, Outcome, SimdLevel, Tosses, certify_rigid};
+use toss::{Attitude, Batch, Body, Outcome, SimdLevel, Tosses, certify};
 
 /// The most tosses of an input. A proof of one of them may take a millisecond.
 const MOST: usize = 24;
@@ -24,9 +24,8 @@ pub fn check(data: &[u8]) {
         Ok(tosses) => tosses,
         Err(error) => return crate::assert_said(&error),
     };
-    let alone: Vec<Option<Outcome>> = (0..tosses.len())
-        .map(|index| tosses.solve_rigid(index, certify_rigid).ok().map(|proof| proof.outcome()))
-        .collect();
+    let alone: Vec<Option<Outcome>> =
+        (0..tosses.len()).map(|index| tosses.solve(index, certify).ok().map(|proof| proof.outcome())).collect();
     let found: Vec<Option<Vec<Outcome>>> =
         SimdLevel::all().into_iter().map(|level| outcomes(&Batch::new(tosses).on(level), &alone)).collect();
     assert!(found.iter().all(|of_level| *of_level == found[0]), "{found:?}");
@@ -37,7 +36,7 @@ pub fn check(data: &[u8]) {
     }
 }
 
-/// Whether no number is so small beside another that the radii of a proof underflow. `certify_rigid` documents that such a
+/// Whether no number is so small beside another that the radii of a proof underflow. `certify` documents that such a
 /// toss may stay undecided, which a batch does not have to.
 fn are_comparable([x, y, z, speed]: &[f64; 4]) -> bool {
     const FACTOR: f64 = 1e100;

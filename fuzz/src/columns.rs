@@ -104,7 +104,7 @@ fn check_alone(tosses: &Tosses<'_>, batch: &Solved) {
 /// cos θ and the attitude of a batch are those of the toss to some roundings.
 fn check_landing(toss: &Toss, index: usize, batch: &Solved) {
     const ROUNDINGS: f64 = 4e-15;
-    let exact = ExactSolver.propagate(toss).expect("a toss with an outcome lands");
+    let exact = ExactSolver.land(toss).expect("a toss with an outcome lands");
     if let Ok(cos_tilts) = &batch.cos_tilts {
         let found = cos_tilts[index];
         assert!((-1.0..=1.0).contains(&found), "{toss:?}: {found}");

@@ -1,6 +1,6 @@
 //! Scenes, the questions to the planner, as JSON and as TOML.
 
-use toss::{Answer, Error, RigidToss, Scene, Want};
+use toss::{Answer, Error, ExactSolver, Scene, Solver, Tilt, Toss, Want};
 
 /// The most points of a trace that are computed here.
 const FEW_POINTS: usize = 1000;
@@ -57,10 +57,10 @@ fn check_answer(scene: &Scene) {
 }
 
 /// The proven outcome is the sign of cos θ, and an error of one is an error of the other.
-fn check_outcome(toss: &RigidToss) {
+fn check_outcome(toss: &Toss) {
     let solve = |want| Scene::new(want, 1e-15).solve().map(|solution| solution.answer);
     let outcome = solve(Want::Outcome(*toss));
-    let Ok(cos_tilt) = toss::Solver::cos_tilt_rigid(&toss::ExactSolver, toss) else {
+    let Ok(Tilt { cos_tilt, .. }) = ExactSolver.tilt(toss) else {
         assert!(outcome.is_err(), "{toss:?} has an outcome and no cos θ");
         return;
     };

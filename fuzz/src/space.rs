@@ -2,7 +2,7 @@
 
 use sampling::space_file::DescribedSpace;
 use sampling::{Plan, Sampler, Space};
-use toss::{Error, ExactSolver, Solver};
+use toss::{Error, ExactSolver, Solver, Tilt};
 
 /// A space, read by either way, reads back as itself; each of its launches has finite values and lands or is refused; and
 /// its estimate is a probability within its interval.
@@ -37,8 +37,8 @@ pub(crate) fn check_space(space: &Space) {
     let mut refused = false;
     for launch in &launches {
         assert!(launch.values.iter().all(|value| value.is_finite()), "{launch:?}");
-        match ExactSolver.cos_tilt_rigid(&launch.toss) {
-            Ok(cos_tilt) => assert!((-1.0..=1.0).contains(&cos_tilt), "{launch:?}: {cos_tilt}"),
+        match ExactSolver.tilt(&launch.toss) {
+            Ok(Tilt { cos_tilt, .. }) => assert!((-1.0..=1.0).contains(&cos_tilt), "{launch:?}: {cos_tilt}"),
             Err(error) => {
                 crate::assert_said(&error);
                 refused = true;

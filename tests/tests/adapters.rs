@@ -2,7 +2,7 @@
 //! compared with the exact motion, and is used through a registry as any solver.
 
 use toss::{
-    ExactMotion, ExactSolver, FreeRotation, Registry, Scheme, Settings, Solver, SolverEntry, StepControl, Stepping,
+    CoinMotion, ExactSolver, FreeRotation, Registry, Scheme, Settings, Solver, SolverEntry, StepControl, Stepping,
     Toss, Work,
 };
 
@@ -39,8 +39,8 @@ fn a_stepper_from_elsewhere_lands_within_its_error_estimate_at_any_speed() {
         let stepping = Stepping::fixed(Scheme::RK4, toss.launch.flight_time() / 700.0).unwrap();
         let settings = Settings { stepping, ..Settings::default() };
         let backend = Registry::standard().with(entry.clone()).unwrap().backend("mine", &settings).unwrap();
-        let (found, exact) = (backend.solver().propagate(&toss).unwrap(), ExactSolver.propagate(&toss).unwrap());
-        let claim = backend.solver().error_estimate(&toss).unwrap().unwrap();
+        let (found, exact) = (backend.solver().land(&toss).unwrap(), ExactSolver.land(&toss).unwrap());
+        let claim = found.error.unwrap();
         assert!(claim < 1e-6 && (found.cos_tilt - exact.cos_tilt).abs() <= claim, "{found:?}, not {exact:?}");
         assert!(found.state.attitude.angle_to(&exact.state.attitude) <= claim);
         assert!((found.state.rate - exact.state.rate).norm() <= claim * exact.state.rate.norm());
@@ -55,11 +55,11 @@ fn a_function_that_gives_the_attitude_lands_with_the_body_rate_of_the_motion() {
         "mine",
         "the closed form once more",
         |_| 1e-14,
-        |toss| Ok(ExactMotion::new(toss).state(toss.launch.flight_time())?.attitude),
+        |toss| Ok(CoinMotion::new(toss).state(toss.launch.flight_time())?.attitude),
     );
     let backend = Registry::standard().with(entry).unwrap().backend("mine", &Settings::default()).unwrap();
     for toss in tosses() {
-        let (found, exact) = (backend.solver().propagate(&toss).unwrap(), ExactSolver.propagate(&toss).unwrap());
+        let (found, exact) = (backend.solver().land(&toss).unwrap(), ExactSolver.land(&toss).unwrap());
         assert_eq!(found.state.attitude, exact.state.attitude);
         assert!((found.state.rate - exact.state.rate).norm() < 1e-14 * exact.state.rate.norm(), "{found:?}");
         assert!((found.cos_tilt - exact.cos_tilt).abs() < 1e-15);

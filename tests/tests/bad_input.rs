@@ -3,8 +3,8 @@
 
 use blackbox::{entries, integrators, name, solvers, tilt_error, toss};
 use toss::{
-    Attitude, Coin, ExactMotion, ExactSolver, Formulation, InputError, Launch, Outcome, Registry, Scheme, Settings,
-    SolveError, Solver, Stepping, TAYLOR, TimeOfFlight,
+    Attitude, Coin, CoinMotion, ExactSolver, Formulation, InputError, Launch, Outcome, Registry, Scheme, Settings,
+    SolveError, Solver, Stepping, TAYLOR, Tilt, TimeOfFlight,
 };
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -87,7 +87,7 @@ fn a_coin_that_has_not_turned_lands_heads_by_every_solver() {
     for (rate, time) in [([1.0, 2.0, 3.0], 0.0), ([0.0; 3], 1.0), ([0.0; 3], 1e308), ([-0.0; 3], 0.0)] {
         for k in [0.0, 0.5, 1.0, 2.0] {
             for solver in solvers() {
-                let outcome = solver.outcome(&toss(k, rate, 0.0, time));
+                let outcome = solver.tilt(&toss(k, rate, 0.0, time)).map(Tilt::outcome);
                 assert_eq!(outcome, Ok(Outcome::Heads), "{} at {rate:?}, {time}", name(solver.as_ref()));
             }
         }
@@ -118,10 +118,10 @@ fn every_guarded_formulation_is_right_or_a_typed_error_at_special_rates_and_tilt
         for tilt in tilts {
             for k in [0.0, 0.5, 1.0, 1.98, 2.0] {
                 let toss = toss(k, rate, tilt, 0.9);
-                let exact = ExactSolver.cos_tilt(&toss).unwrap();
+                let exact = ExactSolver.tilt(&toss).unwrap().cos_tilt;
                 for solver in every_guarded_formulation() {
-                    if let Ok(cos_tilt) = solver.cos_tilt(&toss) {
-                        let error = (cos_tilt - exact).abs();
+                    if let Ok(found) = solver.tilt(&toss) {
+                        let error = (found.cos_tilt - exact).abs();
                         let allowed = tilt_error(solver.as_ref(), &toss);
                         assert!(error <= allowed, "{}: {error:e} on {toss:?}", name(solver.as_ref()));
                     } else {
@@ -141,8 +141,8 @@ fn errors_of_the_vertical_frame_name_the_singular_point_and_the_time() {
     };
     // F1 of the atlas of failures: launched from horizontal, the normal n is vertical again at 2π/ωL.
     let returning = toss(0.5, [9.0, 4.0, 3.0], 0.0, 1.0);
-    let first_return = std::f64::consts::TAU / ExactMotion::new(&returning).precession_rate();
-    match build("gamma").propagate(&returning) {
+    let first_return = std::f64::consts::TAU / CoinMotion::new(&returning.coin().unwrap()).precession_rate();
+    match build("gamma").land(&returning) {
         Err(SolveError::Singular { time, .. } | SolveError::StepSizeUnderflow { time }) => {
             assert!((time - first_return).abs() < 1e-3 * first_return, "{time}, not {first_return}");
         }
@@ -150,10 +150,10 @@ fn errors_of_the_vertical_frame_name_the_singular_point_and_the_time() {
     }
     // F2: a tilted launch whose cone does not enclose the vertical, so that α' (the rate of precession) changes its
     // sign.
-    let message = build("gamma").propagate(&toss(0.5, [0.3, 0.3, 5.0], 1.0, 5.0)).unwrap_err().to_string();
+    let message = build("gamma").land(&toss(0.5, [0.3, 0.3, 5.0], 1.0, 5.0)).unwrap_err().to_string();
     assert!(message.contains("α' = 0") && message.contains("at t = "), "{message}");
     // F4: Keller's coin (no spin) has no precession in this frame.
-    let keller = build("gamma").propagate(&toss(1.98, [9.0, 0.0, 0.0], 0.0, 1.0));
+    let keller = build("gamma").land(&toss(1.98, [9.0, 0.0, 0.0], 0.0, 1.0));
     assert!(matches!(keller, Err(SolveError::Singular { time: 0.0, .. })), "{keller:?}");
 }
 
@@ -165,7 +165,7 @@ fn rk4_returns_finite_states_or_errors() {
                 let stepping = Stepping::fixed(Scheme::RK4, step).unwrap();
                 let solver = entry.solver(&Settings { stepping, formulation }).unwrap();
                 for tilt in [0.0, 1e-16, 1e-4, 1.0] {
-                    if let Ok(landing) = solver.propagate(&toss(0.5, [50.0, -20.0, 30.0], tilt, 1.0)) {
+                    if let Ok(landing) = solver.land(&toss(0.5, [50.0, -20.0, 30.0], tilt, 1.0)) {
                         let state = landing.state;
                         assert!(state.attitude.components().iter().chain(&state.rate).all(|part| part.is_finite()));
                     }
@@ -177,15 +177,15 @@ fn rk4_returns_finite_states_or_errors() {
 
 #[test]
 fn huge_and_subnormal_rates_are_solved_and_huge_phases_refused() {
-    let paper = ExactSolver.cos_tilt(&toss(0.5, [1.0, 1.0, 2.5], 0.0, 1.0)).unwrap();
+    let paper = ExactSolver.tilt(&toss(0.5, [1.0, 1.0, 2.5], 0.0, 1.0)).unwrap().cos_tilt;
     for solver in solvers() {
         let solver = solver.as_ref();
-        let fast = solver.cos_tilt(&toss(0.5, [1e300, 1e300, 2.5e300], 0.0, 1e-300)).unwrap();
+        let fast = solver.tilt(&toss(0.5, [1e300, 1e300, 2.5e300], 0.0, 1e-300)).unwrap().cos_tilt;
         assert!((fast - paper).abs() < 1e-8, "{}: {fast}", name(solver));
-        let slow = solver.cos_tilt(&toss(0.5, [5e-324, 0.0, 1e-310], 0.0, 1e3)).unwrap();
+        let slow = solver.tilt(&toss(0.5, [5e-324, 0.0, 1e-310], 0.0, 1e3)).unwrap().cos_tilt;
         assert!((slow - 1.0).abs() < 1e-15, "{}: {slow}", name(solver));
         for (rate, time) in [([1e300, 1e300, 1e300], 1.0), ([f64::MAX; 3], 1.0), ([1.0, 1.0, 1e10], 1e10)] {
-            let refused = solver.outcome(&toss(0.5, rate, 0.0, time));
+            let refused = solver.tilt(&toss(0.5, rate, 0.0, time));
             assert!(matches!(refused, Err(SolveError::PhaseTooLarge { .. })), "{}: {refused:?}", name(solver));
             assert!(refused.unwrap_err().to_string().starts_with("outcome not determined"));
         }
@@ -204,13 +204,14 @@ fn an_outcome_at_the_edge_is_never_misjudged() {
             let time = f64::from_bits(half_turn.to_bits().wrapping_add_signed(nudge));
             let edge = toss(2.0, [transverse, 0.0, 0.5], 0.0, time);
             let outcome = if ulps <= 0 { Outcome::Heads } else { Outcome::Tails };
-            assert_eq!(ExactSolver.outcome(&edge), Ok(outcome), "{ulps}, {nudge}");
+            assert_eq!(ExactSolver.tilt(&edge).map(Tilt::outcome), Ok(outcome), "{ulps}, {nudge}");
             for solver in solvers().iter().filter(|solver| solver.stepping().is_some()) {
-                assert_eq!(solver.outcome(&edge), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
+                assert_eq!(solver.tilt(&edge).map(Tilt::outcome), Ok(Outcome::Undecided), "{}", name(solver.as_ref()));
             }
         }
         // After 0.9 times half a turn the outcome is clear.
-        assert_eq!(ExactSolver.outcome(&toss(2.0, [transverse, 0.0, 0.5], 0.0, 0.9 * half_turn)), Ok(Outcome::Heads));
+        let before = toss(2.0, [transverse, 0.0, 0.5], 0.0, 0.9 * half_turn);
+        assert_eq!(ExactSolver.tilt(&before).map(Tilt::outcome), Ok(Outcome::Heads));
     }
 }
 
@@ -220,7 +221,7 @@ fn reaching_the_step_limit_is_an_error() {
     let stepping = Stepping::fixed(Scheme::RK4, 1e-3).unwrap();
     for entry in integrators() {
         let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
-        assert!(matches!(solver.propagate(&long), Err(SolveError::StepLimit { .. })), "{}", entry.name());
+        assert!(matches!(solver.land(&long), Err(SolveError::StepLimit { .. })), "{}", entry.name());
     }
 }
 

@@ -5,7 +5,7 @@
 use blackbox::toss;
 use toss::sampling::{Axis, Coordinate, Counts, Found, Plan, Rest, Sampler, Scrambled, Space};
 use toss::{
-    Coin, Error, ExactSolver, Outcome, Propagation, Registry, Scene, Scheme, Settings, SolveError, Solver, SolverEntry,
+    Coin, Error, ExactSolver, Landing, Outcome, Registry, Scene, Scheme, Settings, SolveError, Solver, SolverEntry,
     Stepping, Toss, Want, trace,
 };
 
@@ -23,13 +23,10 @@ impl Solver for Liar {
     fn stepping(&self) -> Option<Stepping> {
         Stepping::adaptive(OWN_SCHEME, 1e-9).ok()
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let landing = ExactSolver.propagate(toss)?;
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let landing = ExactSolver.land(toss)?;
         let cos_tilt = -landing.cos_tilt;
-        Ok(landing.with_cos_tilt(cos_tilt))
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(0.0))
+        Ok(landing.with_cos_tilt(cos_tilt).with_error(0.0))
     }
 }
 
@@ -66,7 +63,7 @@ fn counts(sampler: &Sampler<'_>, space: &Space, plan: Plan) -> Counts {
 fn outcomes_of_a_wrong_solver_never_count_as_proven() {
     let backend = registry().backend(NAME, &settings()).unwrap();
     let one = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
-    let verdict = backend.verdict(&one, backend.solver().cos_tilt(&one).unwrap()).unwrap();
+    let verdict = backend.verdict(&one, backend.solver().tilt(&one).unwrap()).unwrap();
     assert_eq!((verdict.outcome(), verdict.is_proven(), verdict.stage()), (Outcome::Tails, false, None));
     for (space, plan) in spaces().iter().flat_map(|space| COUNTED.map(|plan| (space, plan))) {
         for sampler in [Sampler::by(&Liar), backend.sampler()] {
@@ -89,15 +86,17 @@ fn exact_speed_refuses_any_solver_but_the_exact_motion() {
 }
 
 #[test]
-fn a_plan_by_an_unmeasured_solver_is_an_error_that_says_so() {
+fn no_plan_takes_a_wrong_solver_although_its_error_estimate_is_zero() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0, 0.6);
-    let scene = Scene::new(Want::Attitude(toss.into()), 1e-6).by("quaternion", None);
+    let scene = Scene::new(Want::Attitude(toss), 1e-6).by("quaternion", None);
     assert!(scene.plan_with(&registry()).is_ok());
-    let error = Scene::new(Want::Outcome(toss.into()), 1e-6).by(NAME, None).plan_with(&registry()).unwrap_err();
-    assert_eq!(error.field(), Some("solver"));
-    assert!(error.to_string().contains("'liar'") && error.to_string().contains("measured"), "{error}");
+    for want in [Want::Outcome(toss), Want::Tilt(toss)] {
+        let error = Scene::new(want, 1e-6).by(NAME, None).plan_with(&registry()).unwrap_err();
+        assert_eq!(error.field(), Some("accuracy"));
+        assert!(error.to_string().contains("what the integrator reaches at its finest tolerance"), "{error}");
+    }
     // A plan without an integrator does not depend on the other solvers of the registry.
-    let outcome = Scene::new(Want::Outcome(toss.into()), 1e-6).plan_with(&registry()).unwrap();
+    let outcome = Scene::new(Want::Outcome(toss), 1e-6).plan_with(&registry()).unwrap();
     assert_eq!(outcome.choice.model.name, "outcome");
 }
 
@@ -117,19 +116,14 @@ impl Solver for Broken {
     fn name(&self) -> &str {
         "broken"
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        match self.0 {
-            Misdeed::AnswersNan => Ok(ExactSolver.propagate(toss)?.with_cos_tilt(f64::NAN)),
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let landing = ExactSolver.land(toss)?.with_error(1e-9);
+        Ok(match self.0 {
+            Misdeed::AnswersNan => landing.with_cos_tilt(f64::NAN),
             Misdeed::Panics => panic!("out of order"),
-            _ => ExactSolver.propagate(toss),
-        }
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(match self.0 {
-            Misdeed::ClaimsNan => f64::NAN,
-            Misdeed::ClaimsLessThanNothing => -1e-9,
-            _ => 1e-9,
-        }))
+            Misdeed::ClaimsNan => landing.with_error(f64::NAN),
+            Misdeed::ClaimsLessThanNothing => landing.with_error(-1e-9),
+        })
     }
 }
 
@@ -153,7 +147,7 @@ fn an_impossible_answer_is_an_error_that_names_the_solver() {
         let backend = Registry::standard().with(entry).unwrap().backend("broken", &Settings::default()).unwrap();
         assert_names_it(backend.outcome(&one).map_err(Error::from), "outcome");
         assert_names_it(
-            backend.solver().cos_tilt(&one).and_then(|cos_tilt| backend.verdict(&one, cos_tilt)).map_err(Error::from),
+            backend.solver().tilt(&one).and_then(|tilt| backend.verdict(&one, tilt)).map_err(Error::from),
             "verdict",
         );
         for (space, plan) in spaces().iter().flat_map(|space| COUNTED.map(|plan| (space, plan))) {
@@ -166,10 +160,7 @@ fn an_impossible_answer_is_an_error_that_names_the_solver() {
         assert_names_it(Sampler::by(&Broken(misdeed)).running_shares(&space, 3, 1), "running shares");
         let long = Sampler::by(&Broken(misdeed)).long_flight_shares(Coin::PAPER, &[1.0], (10, 1));
         assert_names_it(long, "long flights");
-        // A trace does not use the error estimate.
-        if matches!(misdeed, Misdeed::AnswersNan | Misdeed::Panics) {
-            assert_names_it(trace(&Broken(misdeed), one, 3), "trace");
-        }
+        assert_names_it(trace(&Broken(misdeed), &one, 3), "trace");
     }
 }
 
@@ -195,11 +186,8 @@ fn a_solver_with_an_error_of_its_own_keeps_it_as_the_source() {
         fn name(&self) -> &str {
             "remote"
         }
-        fn propagate(&self, _: &Toss) -> Result<Propagation, SolveError> {
+        fn land(&self, _: &Toss) -> Result<Landing, SolveError> {
             Err(SolveError::failed("remote", std::io::Error::other("the line is dead")))
-        }
-        fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-            Ok(None)
         }
     }
     let error = Sampler::by(&Remote).estimate(&spaces()[0], Plan::Grid).unwrap_err();

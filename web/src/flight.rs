@@ -2,7 +2,7 @@
 //! animation reads them sixty times a second.
 
 use serde::Serialize;
-use toss::{Error, InputError, RigidMotion, RigidToss, SolveError, TimeOfFlight, Vector3};
+use toss::{Error, ExactMotion, InputError, SolveError, TimeOfFlight, Toss, Vector3};
 
 use crate::thrown::Thrown;
 
@@ -20,8 +20,8 @@ const MOST_POINTS: usize = 20_000;
 /// A flight whose motion is prepared.
 #[derive(Debug)]
 pub(crate) struct Flight {
-    toss: RigidToss,
-    motion: RigidMotion,
+    toss: Toss,
+    motion: ExactMotion,
 }
 
 /// What stays the same during the flight.
@@ -43,7 +43,7 @@ pub(crate) struct Answer {
 
 impl Flight {
     pub(crate) fn new(thrown: &Thrown) -> Self {
-        Self { toss: thrown.toss, motion: RigidMotion::new(&thrown.toss) }
+        Self { toss: thrown.toss, motion: ExactMotion::new(&thrown.toss) }
     }
 
     /// The trace at `points` equally spaced times, appended to `numbers`.

@@ -1,7 +1,7 @@
 //! Integrators beside the exact motion: where each lands, what it costs, and how its error grows along the flight.
 
 use serde::{Deserialize, Serialize};
-use toss::{Backend, Error, ExactSolver, Formulation, Registry, RigidToss, Solver, SolverConfig, TimeOfFlight};
+use toss::{Backend, Error, ExactSolver, Formulation, Registry, Solver, SolverConfig, TimeOfFlight, Toss};
 
 use crate::known::scheme_of;
 use crate::thrown::{Thrown, malformed};
@@ -76,7 +76,7 @@ pub(crate) fn landing(thrown: &Thrown, chosen: &Chosen) -> Result<Landing, Error
 /// Flies the toss `times` times, for a clock outside.
 pub(crate) fn repeat(thrown: &Thrown, chosen: &Chosen, times: u32) -> Result<u32, Error> {
     let backend = chosen.backend()?;
-    let flights = (0..times).map(|_| backend.solver().propagate_rigid(&thrown.toss).is_ok());
+    let flights = (0..times).map(|_| backend.solver().land(&thrown.toss).is_ok());
     Ok(flights.map(u32::from).sum())
 }
 
@@ -104,21 +104,20 @@ pub(crate) fn candidates(tolerance: &str, step: &str, formulation: &str) -> Resu
 }
 
 impl Landing {
-    fn of(toss: &RigidToss, backend: &Backend) -> Self {
+    fn of(toss: &Toss, backend: &Backend) -> Self {
         match Self::answered(toss, backend) {
             Ok(landing) => landing,
             Err(error) => Self { failure: Some(error.to_string()), ..Self::empty() },
         }
     }
 
-    fn answered(toss: &RigidToss, backend: &Backend) -> Result<Self, Error> {
-        let landed = backend.solver().propagate_rigid(toss)?;
-        let outcome = backend.solver().outcome_at_rigid(toss, landed.cos_tilt)?;
-        let answer = Self { cos_tilt: Some(landed.cos_tilt), outcome: Some(outcome.name()), ..Self::empty() };
+    fn answered(toss: &Toss, backend: &Backend) -> Result<Self, Error> {
+        let landed = backend.solver().land(toss)?;
+        let answer = Self { cos_tilt: Some(landed.cos_tilt), outcome: Some(landed.outcome().name()), ..Self::empty() };
         if backend.solver().name() == ExactSolver::NAME {
             return Ok(answer);
         }
-        let exact = ExactSolver.propagate_rigid(toss)?;
+        let exact = ExactSolver.land(toss)?;
         Ok(Self {
             cos_tilt_error: Some((landed.cos_tilt - exact.cos_tilt).abs()),
             attitude_error: Some(landed.state.attitude.angle_to(&exact.state.attitude)),
@@ -179,7 +178,7 @@ impl Growth {
 }
 
 /// The same toss, caught `time` (s) after its launch.
-fn until(toss: &RigidToss, time: f64) -> Result<RigidToss, Error> {
+fn until(toss: &Toss, time: f64) -> Result<Toss, Error> {
     let launch = toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?;
-    Ok(RigidToss { launch, ..*toss })
+    Ok(Toss { launch, ..*toss })
 }

@@ -2,10 +2,10 @@
 //! The outcomes are proven, each for the f64 numbers of its cell.
 
 use dynamics::Tosses;
-use exact::{Batch, certify_rigid};
+use exact::{Batch, certify};
 use sampling::{Axis, Coordinate, Plan, Rest, Sampler};
 use serde::{Deserialize, Serialize};
-use toss::{Body, Error, InputError, Launch, Outcome, RigidToss, TimeOfFlight, Toss, Vector3};
+use toss::{Body, CoinToss, Error, InputError, Launch, Outcome, TimeOfFlight, Toss, Vector3};
 
 use crate::hand::part;
 use crate::thrown::Thrown;
@@ -132,7 +132,7 @@ impl Flights {
 const NO_SPEED: InputError =
     InputError::Missing { field: "speed [m/s]", expected: "a speed in place of the time of flight" };
 
-fn outcomes(thrown: &Thrown, toss: &Toss, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Error> {
+fn outcomes(thrown: &Thrown, toss: &CoinToss, grid: &Grid, cells: &mut Vec<u8>) -> Result<(), Error> {
     let flights = Flights::of(thrown)?;
     let rate = toss.launch.rate();
     let mut columns: [Vec<f64>; 4] = Default::default();
@@ -167,7 +167,7 @@ fn rigid_outcomes(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<(
         };
         let here = Launch::new(Vector3::new(x, rate.y, z), time)?.with_attitude(launch.attitude());
         let body: Body = thrown.toss.body;
-        cells.push(cell(certify_rigid(&RigidToss { body, launch: here })?.outcome()));
+        cells.push(cell(certify(&Toss { body, launch: here })?.outcome()));
     }
     Ok(())
 }

@@ -1,11 +1,9 @@
 //! One toss: how it lands, whether that is proven, how far each input is from the other outcome, and the motion in numbers.
 //! The fields that the command line has too carry its names and digits.
 
-use exact::certify_rigid;
+use exact::certify;
 use serde::Serialize;
-use toss::{
-    Error, ExactMotion, ExactSolver, Margin, RigidMargin, RigidMotion, Solver, TimeOfFlight, Toss, margin_rigid,
-};
+use toss::{CoinMotion, CoinToss, Error, ExactMotion, ExactSolver, Margin, Solver, TimeOfFlight, margin};
 
 use crate::thrown::Thrown;
 
@@ -78,9 +76,9 @@ struct Precession {
 /// The answer about `thrown`.
 pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Error> {
     let (toss, coin) = (&thrown.toss, thrown.coin());
-    let motion = RigidMotion::new(toss);
-    let certificate = certify_rigid(toss)?;
-    let landing = ExactSolver.propagate_rigid(toss)?;
+    let motion = ExactMotion::new(toss);
+    let certificate = certify(toss)?;
+    let landing = ExactSolver.land(toss)?;
     let [i1, i2, i3] = toss.body.moments().unwrap_or_else(|| toss.body.principal_moments());
     Ok(Answer {
         coin: Moments { i1, i2, i3 },
@@ -101,8 +99,7 @@ pub(crate) fn answer(thrown: &Thrown) -> Result<Answer, Error> {
 
 /// The nearest flip in each input. For a body with I1 ≠ I2 the search takes up to some seconds.
 pub(crate) fn margins(thrown: &Thrown) -> Result<Margins, Error> {
-    let RigidMargin { margin, time_range } = margin_rigid(&thrown.toss)?;
-    let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
+    let Margin { time, speed, gravity, tilt, rate, rate_range, time_range } = margin(&thrown.toss)?;
     let time_range = if thrown.coin().is_some() { None } else { Some(time_range) };
     Ok(Margins { time, speed, gravity, tilt, rate, rate_range, time_range })
 }
@@ -120,8 +117,8 @@ impl Input {
 }
 
 impl Precession {
-    fn new(toss: &Toss) -> Self {
-        let motion = ExactMotion::new(toss);
+    fn new(toss: &CoinToss) -> Self {
+        let motion = CoinMotion::new(toss);
         let (cone_angle, momentum_tilt) = (motion.cone_angle(), motion.momentum_tilt());
         Self {
             k: toss.coin.inertia_ratio(),

@@ -8,7 +8,7 @@ use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
 use toss::{
-    Body, BodyRounding, Coin, Dimension, Error, InputError, Launch, RigidToss, Rounding, TimeOfFlight, Toss, Vector3,
+    Body, BodyRounding, Coin, CoinToss, Dimension, Error, InputError, Launch, Rounding, TimeOfFlight, Toss, Vector3,
 };
 
 /// A body and its launch as texts. Numbers without a unit are in SI units and radians.
@@ -31,7 +31,7 @@ pub struct Scene {
 /// The toss that a scene describes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Thrown {
-    pub(crate) toss: RigidToss,
+    pub(crate) toss: Toss,
     /// A turn of the launch about the x axis of LF (rad).
     pub(crate) tilt: f64,
     /// What the conversion of units has rounded.
@@ -52,7 +52,7 @@ impl Scene {
         let tilt = self.tilt.as_deref().map(|text| Dimension::Angle.given("tilt [rad]", text)).transpose()?;
         let launch = tilt.map_or(Ok(launch), |tilt| launch.with_tilt(tilt.angle()))?;
         let rounding = Rounding { flight: times.are_rounded(), rate: is_rate_rounded, body: body_rounding };
-        Ok(Thrown { toss: RigidToss { body, launch }, tilt: tilt.map_or(0.0, Given::si), rounding })
+        Ok(Thrown { toss: Toss { body, launch }, tilt: tilt.map_or(0.0, Given::si), rounding })
     }
 
     /// The body, and how it is rounded from what was given.
@@ -87,15 +87,15 @@ impl Scene {
 
 impl Thrown {
     /// The toss of a coin; `None` of a body with I1 ≠ I2.
-    pub(crate) fn coin(&self) -> Option<Toss> {
-        self.toss.symmetric()
+    pub(crate) fn coin(&self) -> Option<CoinToss> {
+        self.toss.coin()
     }
 
     /// The toss of a coin.
     ///
     /// # Errors
     /// [`InputError::OutsideModel`] that says `why` a body with I1 ≠ I2 has none.
-    pub(crate) fn require_coin(&self, why: &'static str) -> Result<Toss, InputError> {
+    pub(crate) fn require_coin(&self, why: &'static str) -> Result<CoinToss, InputError> {
         self.coin().ok_or(InputError::OutsideModel { field: "moments", why })
     }
 
@@ -114,7 +114,7 @@ impl Thrown {
     /// [`InputError`] for a body with I1 ≠ I2, and for a time of flight that does not come from a speed.
     pub(crate) fn space(&self) -> Result<Space, InputError> {
         const WHY: &str = "probabilities are computed for bodies with I1 = I2";
-        let Toss { coin, launch } = self.require_coin(WHY)?;
+        let CoinToss { coin, launch } = self.require_coin(WHY)?;
         let missing = missing("speed [m/s]", "a speed in place of the time of flight: a hand varies in its speed");
         let (speed, gravity, drop) = self.thrown_up().ok_or(missing)?;
         let rate = launch.rate();
@@ -167,7 +167,7 @@ fn precessing(body: &Body, turn: &str, wobble: &str) -> Result<Vector3<f64>, Inp
     const WHY: &str = "a body with I1 ≠ I2 does not precess evenly: give it a rate instead";
     let turn = Dimension::TurnRate.read("turn [rad/s]", turn)?;
     let wobble = Dimension::Angle.read("wobble [rad]", wobble)?;
-    let coin = body.symmetric().ok_or(InputError::OutsideModel { field: "wobble [rad]", why: WHY })?;
+    let coin = body.coin().ok_or(InputError::OutsideModel { field: "wobble [rad]", why: WHY })?;
     rate_of_precession(&coin, turn, wobble)
 }
 

@@ -107,13 +107,13 @@ impl Body {
     /// Whether the moments about x and y are equal, so that the body is a coin.
     #[getter]
     fn is_symmetric(&self) -> bool {
-        self.body.symmetric().is_some()
+        self.body.coin().is_some()
     }
 
     /// k = I3/I1 of a coin, from 0 (rod) to 2 (flat disc); None for other bodies.
     #[getter]
     fn inertia_ratio(&self) -> Option<f64> {
-        self.body.symmetric().map(|coin| coin.inertia_ratio())
+        self.body.coin().map(|coin| coin.inertia_ratio())
     }
 
     fn __repr__(&self) -> String {
@@ -171,7 +171,7 @@ impl Body {
 /// The coin that a body is, for what is computed of coins alone.
 pub(crate) fn coin_of(body: &::toss::Body, why: &'static str) -> PyResult<Coin> {
     let refused = InputError::OutsideModel { field: "body", why };
-    body.symmetric().ok_or_else(|| Failure::from(refused).into())
+    body.coin().ok_or_else(|| Failure::from(refused).into())
 }
 
 /// The names of the coins and other bodies of the catalogue, each with a short description.

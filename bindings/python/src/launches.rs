@@ -3,9 +3,7 @@
 
 use std::ops::Range;
 
-use ::toss::{
-    Attitude, Backend, Body, Error, ExactSolver, Launch, Outcome, RigidToss, Solver, Stage, TimeOfFlight, Tosses,
-};
+use ::toss::{Attitude, Backend, Body, Error, ExactSolver, Launch, Outcome, Solver, Stage, TimeOfFlight, Toss, Tosses};
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -34,7 +32,7 @@ pub(crate) struct Common {
 impl Common {
     /// Whether all that is asked of the launches is solved by the kernels.
     pub(crate) fn is_vectorised(&self) -> bool {
-        self.solver.is_none() && self.body.symmetric().is_some()
+        self.solver.is_none() && self.body.coin().is_some()
     }
 
     /// The solver that estimates outcomes; `None` where the exact motion proves them, which the kernels do.
@@ -67,21 +65,21 @@ impl Launches<'_> {
     }
 
     /// The launches in `range` as tosses of `body`.
-    fn tosses<B: Copy>(&self, body: B, range: Range<usize>) -> Result<Tosses<'_, B>, Failure> {
+    fn tosses<B: Copy + Into<Body>>(&self, body: B, range: Range<usize>) -> Result<Tosses<'_, B>, Failure> {
         let rates = self.rates.map(|column| &column[range.clone()]);
         Ok(Tosses::new(body, self.of.attitude, self.of.gravity, rates, &self.speeds[range])?)
     }
 
     /// The launches in `range` for the kernels; `None` if they are solved one by one.
     fn batch(&self, range: Range<usize>) -> Result<Option<::toss::Batch<'_>>, Failure> {
-        let coin = self.of.body.symmetric().filter(|_| self.of.solver.is_none());
+        let coin = self.of.body.coin().filter(|_| self.of.solver.is_none());
         coin.map(|coin| self.tosses(coin, range).map(::toss::Batch::new)).transpose()
     }
 
     /// Writes the proven outcomes of the launches in `range`, of any body.
     fn prove(&self, range: Range<usize>, outcomes: &mut [Outcome]) -> Result<(), Failure> {
         let start = range.start;
-        let done = match self.of.body.symmetric() {
+        let done = match self.of.body.coin() {
             Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).outcomes(outcomes),
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).outcomes(outcomes),
         };
@@ -91,7 +89,7 @@ impl Launches<'_> {
     /// Counts the proven outcomes of the launches in `range`, of any body.
     fn count_proven(&self, range: Range<usize>) -> Result<Counts, Failure> {
         let start = range.start;
-        let counts = match self.of.body.symmetric() {
+        let counts = match self.of.body.coin() {
             Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
         };
@@ -112,20 +110,20 @@ impl Launches<'_> {
         error.after(self.first).into()
     }
 
-    fn toss(&self, index: usize) -> Result<RigidToss, Failure> {
+    fn toss(&self, index: usize) -> Result<Toss, Failure> {
         let Common { body, attitude, gravity, timed, .. } = self.of;
         let speed = self.speeds[index];
         let time =
             if *timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::Ballistic { speed, gravity: *gravity } };
         let launch = Launch::new(self.rates.map(|column| column[index]), time)?.with_attitude(*attitude);
-        Ok(RigidToss { body: *body, launch })
+        Ok(Toss::new(*body, launch))
     }
 
     /// The result of `solve` for each launch in `range`, with its place.
     fn each(
         &self,
         range: Range<usize>,
-        mut solve: impl FnMut(usize, &dyn Solver, &RigidToss) -> Result<(), Error>,
+        mut solve: impl FnMut(usize, &dyn Solver, &Toss) -> Result<(), Error>,
     ) -> Result<(), Failure> {
         let solver = self.of.solver.as_ref().map_or(&ExactSolver as &dyn Solver, Backend::solver);
         for (place, index) in range.enumerate() {
@@ -143,7 +141,7 @@ impl Launches<'_> {
         match self.batch(range.clone())? {
             Some(batch) => batch.cos_tilts(out).map_err(|error| self.failed(start, error)),
             None => self.each(range, |place, solver, toss| {
-                out[place] = solver.cos_tilt_rigid(toss)?;
+                out[place] = solver.tilt(toss)?.cos_tilt;
                 Ok(())
             }),
         }
@@ -153,7 +151,7 @@ impl Launches<'_> {
     pub(crate) fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
         if self.of.estimating().is_some() {
             return self.each(range, |place, solver, toss| {
-                out[place] = sign(solver.outcome_rigid(toss)?);
+                out[place] = sign(solver.tilt(toss)?.outcome());
                 Ok(())
             });
         }
@@ -172,7 +170,7 @@ impl Launches<'_> {
         let start = range.start;
         let Some(_) = self.batch(0..0)? else {
             return self.each(range, |place, solver, toss| {
-                let landing = solver.propagate_rigid(toss)?.state.attitude;
+                let landing = solver.land(toss)?.state.attitude;
                 out[4 * place..4 * place + 4].copy_from_slice(&landing.components());
                 Ok(())
             });
@@ -198,7 +196,7 @@ impl Launches<'_> {
         }
         let mut faces = [0; 3];
         self.each(range, |_, solver, toss| {
-            faces[solver.outcome_rigid(toss)? as usize] += 1;
+            faces[solver.tilt(toss)?.outcome() as usize] += 1;
             Ok(())
         })?;
         Ok((faces[0], faces[1], faces[2], None))

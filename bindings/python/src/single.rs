@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use ::toss::sampling::{long_flight_cone, rate_ratio};
 use ::toss::{
-    Backend, InputError, Launch, Margin, Outcome, Propagation, RigidMargin, RigidMotion, RigidToss, SolveError, Solver,
-    State, StepControl, Stepping, TimeOfFlight, TracePoint, Work, certify_rigid, margin_rigid, rigid_speeds_of_heads,
-    trace_every,
+    Backend, ExactMotion, InputError, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR,
+    TimeOfFlight, Toss, TracePoint, Work, certify, margin, speeds_of_heads, trace_every,
 };
+use exact::motion::COS_TILT_ERROR;
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -39,7 +39,7 @@ type Landing = (
 #[pyfunction]
 pub(crate) fn land(
     py: Python<'_>,
-    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    #[pyo3(from_py_with = toss_of)] toss: Toss,
     solver: &Bound<'_, PyAny>,
 ) -> PyResult<Landing> {
     let backend = backend_of(solver)?;
@@ -50,10 +50,10 @@ pub(crate) fn land(
 }
 
 /// Whether a landing is found in some milliseconds at most.
-fn is_short(backend: &Backend, toss: &RigidToss) -> bool {
+fn is_short(backend: &Backend, toss: &Toss) -> bool {
     let time = toss.launch.flight_time();
     let steps = match backend.solver().stepping().map(|stepping| stepping.control()) {
-        None => return toss.symmetric().is_some(),
+        None => return toss.coin().is_some(),
         Some(StepControl::Tolerance(_)) => 0.0,
         Some(StepControl::Step(step)) => time / step,
     };
@@ -62,15 +62,16 @@ fn is_short(backend: &Backend, toss: &RigidToss) -> bool {
     steps <= SHORT && toss.launch.rate().norm() * time * (moments[2] / moments[0]) <= SHORT
 }
 
-fn landing(backend: &Backend, toss: &RigidToss) -> Result<Landing, Failure> {
+fn landing(backend: &Backend, toss: &Toss) -> Result<Landing, Failure> {
     let solver = backend.solver();
-    let landing = solver.propagate_rigid(toss)?;
-    let (outcome, stage): (Outcome, _) = match backend {
+    let landing = solver.land(toss)?;
+    let (outcome, stage, estimate) = match backend {
         Backend::Exact(_) => {
-            let certificate = certify_rigid(toss)?;
-            (certificate.outcome(), certificate.is_proven().then(|| certificate.stage().name()))
+            let certificate = certify(toss)?;
+            let stage = certificate.is_proven().then(|| certificate.stage().name());
+            (certificate.outcome(), stage, Some(COS_TILT_ERROR))
         }
-        Backend::Solver(solver) => (solver.outcome_at_rigid(toss, landing.cos_tilt)?, None),
+        Backend::Solver(_) => (landing.outcome(), None, landing.error),
     };
     let Work { rhs_calls, accepted_steps, rejected_steps } = landing.work;
     let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
@@ -79,7 +80,7 @@ fn landing(backend: &Backend, toss: &RigidToss) -> Result<Landing, Failure> {
     Ok((
         (landing.cos_tilt + 0.0, outcome.name(), stage),
         (attitude, landing.state.rate.into()),
-        (landing.norm_error, solver.error_estimate_rigid(toss)?),
+        (landing.norm_error, estimate),
         (rhs_calls, accepted_steps, rejected_steps),
         (solver.name().to_owned(), scheme),
     ))
@@ -91,9 +92,9 @@ type Margins = ([Option<f64>; 4], [Option<f64>; 3], [f64; 3], [f64; 2]);
 
 /// The nearest values that land the other way.
 #[pyfunction]
-pub(crate) fn margins(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: RigidToss) -> PyResult<Margins> {
-    let RigidMargin { margin, time_range, .. } = threads::aside(py, move |_| Ok(margin_rigid(&toss)?))?;
-    let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
+pub(crate) fn margins(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: Toss) -> PyResult<Margins> {
+    let found = threads::aside(py, move |_| Ok(margin(&toss)?))?;
+    let Margin { time, speed, gravity, tilt, rate, rate_range, time_range } = found;
     Ok(([time, speed, gravity, tilt], rate, rate_range, time_range))
 }
 
@@ -101,7 +102,7 @@ pub(crate) fn margins(py: Python<'_>, #[pyo3(from_py_with = toss_of)] toss: Rigi
 #[pyfunction]
 pub(crate) fn intervals(
     py: Python<'_>,
-    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    #[pyo3(from_py_with = toss_of)] toss: Toss,
     slowest: &Bound<'_, PyAny>,
 ) -> PyResult<Vec<[f64; 2]>> {
     let slowest = number("slowest", slowest)?;
@@ -116,11 +117,11 @@ pub(crate) fn intervals(
     Launch::new(toss.launch.rate(), from).map_err(|error| Failure::from(error).of("slowest [m/s]"))?;
     let valid = "below the speed of the toss";
     dynamics::error::require("slowest [m/s]", slowest, valid, slowest < fastest).map_err(Failure::from)?;
-    let phase = RigidMotion::new(&toss).phase(toss.launch.time_of_flight()).map_err(Failure::from)?;
+    let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight()).map_err(Failure::from)?;
     let turns = phase / TAU;
     let valid = "at most 10000 turns; ask for a shorter range";
     dynamics::error::require("turns in flight", turns, valid, turns <= MOST_TURNS).map_err(Failure::from)?;
-    let found = threads::aside(py, move |_| Ok(rigid_speeds_of_heads(&toss, slowest)?))?;
+    let found = threads::aside(py, move |_| Ok(speeds_of_heads(&toss, slowest)?))?;
     Ok(found.unwrap_or_default())
 }
 
@@ -141,7 +142,7 @@ type Rows<'py> = Bound<'py, PyArray2<f64>>;
 #[pyo3(signature = (toss, points, dt, solver))]
 pub(crate) fn trace<'py>(
     py: Python<'py>,
-    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    #[pyo3(from_py_with = toss_of)] toss: Toss,
     points: Option<&Bound<'py, PyAny>>,
     dt: Option<&Bound<'py, PyAny>>,
     solver: &Bound<'py, PyAny>,
@@ -151,8 +152,8 @@ pub(crate) fn trace<'py>(
     let flight = threads::aside(py, move |stop| {
         let solver = Stopping { solver: backend.solver(), stop };
         match (points, dt) {
-            (Some(points), None) => Ok(::toss::trace(&solver, toss, points)?),
-            (None, Some(dt)) => Ok(trace_every(&solver, toss, dt)?),
+            (Some(points), None) => Ok(::toss::trace(&solver, &toss, points)?),
+            (None, Some(dt)) => Ok(trace_every(&solver, &toss, dt)?),
             _ => {
                 let (field, expected) = ("points", "either points or dt");
                 Err(InputError::Malformed { field, value: "given with dt, or neither".to_owned(), expected }.into())
@@ -178,17 +179,9 @@ impl Solver for Stopping<'_> {
         self.solver.stepping()
     }
 
-    fn propagate(&self, toss: &::toss::Toss) -> Result<Propagation, SolveError> {
-        self.propagate_rigid(&(*toss).into())
-    }
-
-    fn error_estimate(&self, toss: &::toss::Toss) -> Result<Option<f64>, SolveError> {
-        self.solver.error_estimate(toss)
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<::toss::Landing, SolveError> {
         self.stop.here();
-        self.solver.propagate_rigid(toss)
+        self.solver.land(toss)
     }
 }
 
@@ -210,7 +203,7 @@ type Solution<'py> = (Rows<'py>, (u64, u64, u64), Option<f64>);
 #[pyfunction]
 pub(crate) fn solve<'py>(
     py: Python<'py>,
-    #[pyo3(from_py_with = toss_of)] toss: RigidToss,
+    #[pyo3(from_py_with = toss_of)] toss: Toss,
     times: PyReadonlyArray1<'py, f64>,
     solver: &Bound<'py, PyAny>,
 ) -> PyResult<Solution<'py>> {
@@ -232,21 +225,30 @@ pub(crate) fn solve<'py>(
 /// The states at `times`, the work, and the error estimate at landing.
 fn solved(
     backend: &Backend,
-    toss: &RigidToss,
+    toss: &Toss,
     times: &[f64],
     stop: &Stop,
 ) -> Result<(Vec<State>, Work, Option<f64>), Failure> {
-    let solver = backend.solver();
-    let (states, work) = match backend {
-        Backend::Exact(_) => (exactly(toss, times, stop)?, Work::default()),
-        Backend::Solver(solver) => by_legs(solver.as_ref(), toss, times, stop)?,
-    };
-    Ok((states, work, solver.error_estimate_rigid(toss)?))
+    match backend {
+        Backend::Exact(_) => Ok((exactly(toss, times, stop)?, Work::default(), Some(COS_TILT_ERROR))),
+        Backend::Solver(solver) => {
+            let (states, work) = by_legs(solver, toss, times, stop)?;
+            Ok((states, work, error_estimate(solver, toss)?))
+        }
+    }
+}
+
+/// The error estimate of a flight from launch to landing. Only that of Taylor series takes the flight itself.
+fn error_estimate(solver: &dyn Solver, toss: &Toss) -> Result<Option<f64>, SolveError> {
+    match solver.stepping() {
+        Some(stepping) if stepping.scheme() != TAYLOR => stepping.error_estimate(toss),
+        _ => Ok(solver.tilt(toss)?.error),
+    }
 }
 
 /// The states of the exact motion. At the landing its time of flight counts as it was given, not as it was rounded.
-fn exactly(toss: &RigidToss, times: &[f64], stop: &Stop) -> Result<Vec<State>, Failure> {
-    let motion = RigidMotion::new(toss);
+fn exactly(toss: &Toss, times: &[f64], stop: &Stop) -> Result<Vec<State>, Failure> {
+    let motion = ExactMotion::new(toss);
     let state = |time: &f64| {
         stop.here();
         let landing = *time == toss.launch.flight_time();
@@ -256,15 +258,15 @@ fn exactly(toss: &RigidToss, times: &[f64], stop: &Stop) -> Result<Vec<State>, F
 }
 
 /// The states by a solver that starts again from each of them.
-fn by_legs(solver: &dyn Solver, toss: &RigidToss, times: &[f64], stop: &Stop) -> Result<(Vec<State>, Work), Failure> {
+fn by_legs(solver: &dyn Solver, toss: &Toss, times: &[f64], stop: &Stop) -> Result<(Vec<State>, Work), Failure> {
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
     let (mut last, mut work) = ((0.0, launch), Work::default());
     let mut states = Vec::with_capacity(times.len());
     for time in times {
         stop.here();
         let (since, from) = if solver.stepping().is_some() { last } else { (0.0, launch) };
-        let leg = RigidToss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
-        let done = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?;
+        let leg = Toss { launch: Launch::from_state(&from, TimeOfFlight::Given(time - since))?, ..*toss };
+        let done = solver.land(&leg).map_err(|error| error.later(since))?;
         work.rhs_calls += done.work.rhs_calls;
         work.accepted_steps += done.work.accepted_steps;
         work.rejected_steps += done.work.rejected_steps;

@@ -1,6 +1,6 @@
 //! A body and its launch.
 
-use ::toss::{Attitude, InputError, Launch, RigidToss, TimeOfFlight};
+use ::toss::{Attitude, InputError, Launch, TimeOfFlight};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -31,7 +31,7 @@ use crate::given::{object, optional_number, refused_value, vector};
 ///     A name of the catalogue, or a body; the paper's coin by default.
 #[pyclass(frozen, eq, module = "unfair_toss")]
 pub(crate) struct Toss {
-    pub(crate) toss: RigidToss,
+    pub(crate) toss: ::toss::Toss,
     body: Py<Body>,
     given: Given,
 }
@@ -83,7 +83,7 @@ impl Toss {
             Some(body) => body_of(body)?,
             None => Py::new(py, Body::of_name("paper".to_owned(), "body")?)?,
         };
-        let toss = RigidToss { body: body.get().body, launch: given.launch()? };
+        let toss = ::toss::Toss::new(body.get().body, given.launch()?);
         Ok(Self { toss, body, given })
     }
 
@@ -204,6 +204,6 @@ pub(crate) fn components_of(attitude: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
 }
 
 /// The toss that an argument is.
-pub(crate) fn toss_of(value: &Bound<'_, PyAny>) -> PyResult<RigidToss> {
+pub(crate) fn toss_of(value: &Bound<'_, PyAny>) -> PyResult<::toss::Toss> {
     Ok(object::<Toss>("toss", value, "a Toss")?.get().toss)
 }

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use csv::StringRecord;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use toss::{Body, Dimension, Error, InputError, Launch, RigidToss, TimeOfFlight};
+use toss::{Body, Dimension, Error, InputError, Launch, TimeOfFlight, Toss};
 
 use crate::commands::sample_rows::Given;
 use crate::failure::Failure;
@@ -101,7 +101,7 @@ fn launch(record: &StringRecord, places: &[Option<usize>; 8], body: Body) -> Res
     };
     let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
     let gravity = speed.map(|_| gravity.unwrap_or(DEFAULT_GRAVITY));
-    Ok(Given { rate, speed, time, gravity, drop, tilt: tilt.unwrap_or(0.0), toss: RigidToss { body, launch } })
+    Ok(Given { rate, speed, time, gravity, drop, tilt: tilt.unwrap_or(0.0), toss: Toss { body, launch } })
 }
 
 /// The error of a place in the text: a line from 1, and a column of the table from 0.

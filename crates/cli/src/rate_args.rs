@@ -29,7 +29,7 @@ impl TurnArgs {
         let (Some(turn), Some(wobble)) = (self.turn, self.wobble) else { return Ok(None) };
         let uneven =
             || Failure::usage("turn", "--turn: n of a body with I1 ≠ I2 turns unevenly; use the body rate instead");
-        let coin = body.symmetric().ok_or_else(uneven)?;
+        let coin = body.coin().ok_or_else(uneven)?;
         Ok(Some(rate_of_precession(&coin, turn, wobble)?))
     }
 }

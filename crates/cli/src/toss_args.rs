@@ -6,8 +6,7 @@ use dynamics::data::{NO_BOUNCE, NO_DRAG};
 use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use toss::{
-    Backend, Body, BodyRounding, Coin, Dimension, InputError, QuaternionSolver, Registry, RigidToss, Rounding,
-    TimeOfFlight,
+    Backend, Body, BodyRounding, Coin, Dimension, InputError, QuaternionSolver, Registry, Rounding, TimeOfFlight, Toss,
 };
 
 use crate::failure::Failure;
@@ -63,7 +62,7 @@ impl CoinArgs {
     /// says.
     pub(crate) fn coin(&self, why: &str) -> Result<Coin, Failure> {
         let Some(body) = self.given()? else { return Ok(Coin::PAPER) };
-        body.symmetric().ok_or_else(|| self.refused(why))
+        body.coin().ok_or_else(|| self.refused(why))
     }
 
     /// The error of a body with I1 ≠ I2 where a coin is needed.
@@ -129,7 +128,7 @@ pub(crate) struct TossArgs {
 }
 
 impl TossArgs {
-    pub(crate) fn toss(&self) -> Result<RigidToss, Failure> {
+    pub(crate) fn toss(&self) -> Result<Toss, Failure> {
         if self.drag.is_some() {
             return Err(NO_DRAG.into());
         }
@@ -147,7 +146,7 @@ impl TossArgs {
         if let Some(tilt) = self.tilt {
             launch = launch.with_tilt(tilt.angle())?;
         }
-        Ok(RigidToss { body, launch })
+        Ok(Toss { body, launch })
     }
 
     /// The tilt at launch (rad).
@@ -184,7 +183,7 @@ impl FlightArgs {
         self.solver.prover(registry)
     }
 
-    pub(crate) fn parts(&self, registry: &Registry) -> Result<(RigidToss, Backend), Failure> {
+    pub(crate) fn parts(&self, registry: &Registry) -> Result<(Toss, Backend), Failure> {
         Ok((self.toss.toss()?, self.solver.backend(registry)?))
     }
 }

@@ -3,7 +3,7 @@
 
 use std::ffi::OsString;
 
-use toss::{Propagation, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry, Stepping, Toss};
+use toss::{Landing, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry, Stepping, Toss};
 use unfair_toss::{Streams, run_with};
 
 /// The quaternion solver under another name.
@@ -16,11 +16,8 @@ impl Solver for Mine {
     fn stepping(&self) -> Option<Stepping> {
         self.0.stepping()
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        self.0.propagate(toss)
-    }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        self.0.land(toss)
     }
 }
 

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use toss::{
-    ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight,
-    Toss,
+    CoinToss, ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping,
+    TimeOfFlight, Toss,
 };
 use verify::Effort;
 use verify::host::Host;
@@ -195,7 +195,7 @@ impl Flown {
         let runs: Vec<Run> = launches.map(|(case, reference)| Run::new(subject, case, reference)).collect();
         let largest = |of: fn(&Run) -> Option<f64>| runs.iter().filter_map(of).fold(0.0, f64::max);
         let count = |of: fn(&Run) -> bool| runs.iter().filter(|run| of(run)).count() as u64;
-        let estimate = |case: &Case| subject.solver.error_estimate(&case.toss).ok().flatten();
+        let estimate = |case: &Case| subject.solver.tilt(&case.toss.into()).ok()?.error;
         let answered = runs.iter().filter_map(|run| run.rhs_calls);
         Self {
             setting: setting(subject.stepping),
@@ -236,7 +236,7 @@ fn at_speed(case: &Case, factor: f64) -> Result<Case, InputError> {
     let launch = case.toss.launch;
     let time = TimeOfFlight::Given(launch.flight_time() / factor);
     let launch = Launch::new(launch.rate() * factor, time)?.with_tilt(case.tilt)?;
-    Ok(Case { toss: Toss { launch, ..case.toss }, tilt: case.tilt })
+    Ok(Case { toss: CoinToss { launch, ..case.toss }, tilt: case.tilt })
 }
 
 /// `subject` with its step, if it has one, divided by `factor`.
@@ -261,11 +261,12 @@ fn setting(stepping: Option<Stepping>) -> String {
 
 /// The shortest time per launch (ns) of some passes over `cases`.
 fn nanoseconds(solver: &dyn Solver, cases: &[Case]) -> f64 {
+    let tosses: Vec<Toss> = cases.iter().map(|case| case.toss.into()).collect();
     let pass = || {
         let began = Instant::now();
-        for case in cases {
+        for toss in &tosses {
             // Failed flights take time, too.
-            let _ = std::hint::black_box(solver.propagate(std::hint::black_box(&case.toss)));
+            let _ = std::hint::black_box(solver.land(std::hint::black_box(toss)));
         }
         began.elapsed().as_nanos() as f64
     };

@@ -10,10 +10,10 @@ use crate::attitude::Attitude;
 use crate::body_rate::rate_by_momentum;
 use crate::entry::SolverEntry;
 use crate::error::{Reason, SolveError};
-use crate::launch::Toss;
 use crate::phase::RoughPhases;
-use crate::solver::{Propagation, Solver, Work};
+use crate::solver::{Landing, Solver, Work};
 use crate::state::State;
+use crate::toss::{CoinToss, Toss};
 
 /// The error of a function from elsewhere. `?` makes it of any error, `into` also of a text.
 pub type ForeignError = Box<dyn Error + Send + Sync>;
@@ -47,8 +47,8 @@ impl SolverEntry {
     pub fn from_attitude(
         name: impl Into<Cow<'static, str>>,
         summary: impl Into<Cow<'static, str>>,
-        error_estimate: impl Fn(&Toss) -> f64 + Clone + Send + Sync + 'static,
-        attitude: impl Fn(&Toss) -> Result<Attitude, ForeignError> + Clone + Send + Sync + 'static,
+        error_estimate: impl Fn(&CoinToss) -> f64 + Clone + Send + Sync + 'static,
+        attitude: impl Fn(&CoinToss) -> Result<Attitude, ForeignError> + Clone + Send + Sync + 'static,
     ) -> Self {
         let name = name.into();
         let solver = ByAttitude { name: name.clone(), error_estimate, attitude };
@@ -74,25 +74,24 @@ struct ByAttitude<E, A> {
 
 impl<E, A> Solver for ByAttitude<E, A>
 where
-    E: Fn(&Toss) -> f64 + Send + Sync,
-    A: Fn(&Toss) -> Result<Attitude, ForeignError> + Send + Sync,
+    E: Fn(&CoinToss) -> f64 + Send + Sync,
+    A: Fn(&CoinToss) -> Result<Attitude, ForeignError> + Send + Sync,
 {
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        RoughPhases::new(toss).largest()?;
-        let attitude = (self.attitude)(toss).map_err(|error| failed(&self.name, error))?;
-        let state = State { attitude, rate: rate_by_momentum(toss, &attitude) };
-        Ok(Propagation::new(state, Work::default()))
-    }
-
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        RoughPhases::new(toss).largest()?;
-        Ok(Some((self.error_estimate)(toss)))
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let toss = toss.of_coin(&self.name, COINS_ALONE)?;
+        RoughPhases::new(&toss).largest()?;
+        let attitude = (self.attitude)(&toss).map_err(|error| failed(&self.name, error))?;
+        let state = State { attitude, rate: rate_by_momentum(&toss, &attitude) };
+        Ok(Landing::new(state, Work::default()).with_error((self.error_estimate)(&toss)))
     }
 }
+
+/// Why a solver of coins refuses another body.
+const COINS_ALONE: &str = "it has no method for other rigid bodies";
 
 #[cfg(test)]
 mod tests {
@@ -106,7 +105,7 @@ mod tests {
 
     fn toss(rate: [f64; 3], time: f64) -> Toss {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-        Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.4).unwrap() }
+        Toss::new(Coin::PAPER, launch.with_tilt(0.4).unwrap())
     }
 
     /// The solver of a function that returns `attitude`.
@@ -121,9 +120,9 @@ mod tests {
     fn a_function_lands_with_its_attitude_and_the_momentum_of_the_launch() {
         let toss = toss([9.0, -4.0, 3.0], 0.8);
         let landed = Attitude::from_components([0.5, -0.1, 0.7, 0.4]).unwrap();
-        let landing = answering(move || Ok(landed)).propagate(&toss).unwrap();
+        let landing = answering(move || Ok(landed)).land(&toss).unwrap();
         assert_eq!((landing.state.attitude, landing.cos_tilt), (landed, landed.cos_tilt()));
-        let momentum = |state: &State| crate::body_rate::angular_momentum_tf(&toss.coin, state);
+        let momentum = |state: &State| crate::body_rate::angular_momentum_tf(&Coin::PAPER, state);
         let launched = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
         let (before, after) = (momentum(&launched), momentum(&landing.state));
         // The component along the normal is that of the launch whatever the attitude is.
@@ -136,20 +135,19 @@ mod tests {
     #[test]
     fn errors_keep_their_kind_and_their_words() {
         let toss = toss([9.0, -4.0, 3.0], 0.8);
-        let error = answering(|| Err("out of fuel".into())).propagate(&toss).unwrap_err();
+        let error = answering(|| Err("out of fuel".into())).land(&toss).unwrap_err();
         assert_eq!(error.to_string(), "solver 'mine' failed: out of fuel");
-        let error = answering(|| Err(Box::new(SolveError::NotFinite { time: 0.5 }))).propagate(&toss).unwrap_err();
+        let error = answering(|| Err(Box::new(SolveError::NotFinite { time: 0.5 }))).land(&toss).unwrap_err();
         assert_eq!(error, SolveError::NotFinite { time: 0.5 });
-        let error = answering(|| panic!("out of order")).propagate(&toss).unwrap_err();
+        let error = answering(|| panic!("out of order")).land(&toss).unwrap_err();
         assert_eq!(error.kind(), "misbehaved");
-        let error = answering(|| Ok(Attitude::from_components([f64::NAN, 0.0, 0.0, 0.0])?)).propagate(&toss);
+        let error = answering(|| Ok(Attitude::from_components([f64::NAN, 0.0, 0.0, 0.0])?)).land(&toss);
         assert!(error.unwrap_err().to_string().contains("attitude (largest component) = NaN"));
     }
 
     #[test]
     fn a_function_is_not_asked_beyond_the_largest_phase() {
         let (far, function) = (toss([1e20, 0.0, 0.0], 1.0), answering(|| panic!("out of order")));
-        assert_eq!(function.propagate(&far).unwrap_err().kind(), "phase_too_large");
-        assert_eq!(function.error_estimate(&far).unwrap_err().kind(), "phase_too_large");
+        assert_eq!(function.land(&far).unwrap_err().kind(), "phase_too_large");
     }
 }

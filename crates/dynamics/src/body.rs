@@ -25,9 +25,19 @@ use crate::body_rate::principal_acceleration;
 use crate::coin::Coin;
 use crate::error::{InputError, require};
 
-/// A rigid body. No constructor makes one that breaks the inequalities of [this module](self).
+/// A body: a coin, which has I1 = I2 exactly, about z, or any other rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body {
+#[expect(clippy::large_enum_variant, reason = "a toss is copied, and few of them are at hand at once")]
+pub enum Body {
+    /// A coin. All that is said of coins holds for it.
+    Coin(Coin),
+    /// A body with I1 ≠ I2, or with principal axes that are not x, y and z.
+    Rigid(RigidBody),
+}
+
+/// A rigid body with its principal axes. No constructor makes one that breaks the inequalities of [this module](self).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidBody {
     origin: Origin,
     /// Moments (kg m²) and axes in double-double.
     principal: PrincipalAxes<DoubleDouble>,
@@ -38,9 +48,7 @@ pub struct Body {
 /// What a body was made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Origin {
-    /// From a coin.
-    Coin(Coin),
-    /// From the moments about x, y, z, not symmetric about z.
+    /// From the moments about x, y, z.
     Moments([f64; 3]),
     /// From a tensor that is not diagonal.
     Tensor([[f64; 3]; 3]),
@@ -55,7 +63,7 @@ const THINNEST_TENSOR: f64 = 9.094_947_017_729_282e-13; // 2^-40
 impl Body {
     /// A body with the principal moments `moments` = [I1, I2, I3] (kg m²) about the axes x, y and z = n of BF.
     ///
-    /// With I1 = I2 it is a [`Coin`]: see [`Body::symmetric`].
+    /// With I1 = I2 it is a [`Coin`]: see [`Body::Coin`].
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a moment that is not finite, negative, or below 2.3e-308 and not 0;
@@ -75,7 +83,7 @@ impl Body {
         if moments[0] == moments[1] {
             return Coin::from_moments(moments[0], moments[2]).map(Self::from);
         }
-        Ok(Self::of(Origin::Moments(moments)))
+        Ok(Self::Rigid(RigidBody::of(Origin::Moments(moments))))
     }
 
     /// A body with the moments `[I1, I3]` of a coin or `[I1, I2, I3]` (kg m²), as files and options list them.
@@ -130,7 +138,7 @@ impl Body {
         if [xy, xz, yz] == [0.0; 3] {
             return Self::from_moments([xx, yy, zz]);
         }
-        let body = Self::of(Origin::Tensor(tensor));
+        let body = RigidBody::of(Origin::Tensor(tensor));
         let [least, _, most] = body.principal_moments();
         let thick = least > THINNEST_TENSOR * most;
         require("inertia tensor (smallest principal moment) [kg m²]", least, "> 1e-12 of the largest one", thick)?;
@@ -140,9 +148,72 @@ impl Body {
             let field = "inertia tensor (largest principal moment) [kg m²]";
             return Err(InputError::NoBody { field, value: most, limit: "the sum of the other two", excess });
         }
-        Ok(body)
+        Ok(Self::Rigid(body))
     }
 
+    #[cfg(feature = "serde")]
+    pub(crate) fn paper() -> Self {
+        Coin::PAPER.into()
+    }
+
+    /// The coin that this body is, if it is one.
+    pub fn coin(&self) -> Option<Coin> {
+        if let Self::Coin(coin) = self { Some(*coin) } else { None }
+    }
+
+    /// The body with its principal axes, also that of a coin.
+    pub fn rigid(&self) -> RigidBody {
+        match self {
+            Self::Coin(coin) => RigidBody::of(Origin::Moments([coin.i1(), coin.i1(), coin.i3()])),
+            Self::Rigid(body) => *body,
+        }
+    }
+
+    /// The moments I1, I2, I3 about x, y and z (kg m²), if these are its principal axes.
+    pub fn moments(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Coin(coin) => Some([coin.i1(), coin.i1(), coin.i3()]),
+            Self::Rigid(RigidBody { origin: Origin::Moments(moments), .. }) => Some(*moments),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The inertia tensor (kg m²), row by row in the axes of BF.
+    pub fn tensor(&self) -> [[f64; 3]; 3] {
+        let diagonal = |[x, y, z]: [f64; 3]| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
+        match self {
+            Self::Coin(coin) => diagonal([coin.i1(), coin.i1(), coin.i3()]),
+            Self::Rigid(body) => match body.origin {
+                Origin::Moments(moments) => diagonal(moments),
+                Origin::Tensor(tensor) => tensor,
+            },
+        }
+    }
+
+    /// The elements `[Jxx, Jyy, Jzz, Jxy, Jxz, Jyz]` of the inertia tensor (kg m²).
+    pub fn inertia(&self) -> [f64; 6] {
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.tensor();
+        [xx, yy, zz, xy, xz, yz]
+    }
+
+    /// The principal moments (kg m²), the smallest first.
+    pub fn principal_moments(&self) -> [f64; 3] {
+        self.rigid().principal_moments()
+    }
+
+    /// Angular momentum (kg m²/s, BF) at the body rate `rate` (rad/s, BF). Its size is conserved.
+    pub fn angular_momentum(&self, rate: &Vector3<f64>) -> Vector3<f64> {
+        let [x, y, z] = self.tensor().map(|row| Vector3::from(row).dot(rate));
+        Vector3::new(x, y, z)
+    }
+
+    /// Kinetic energy of the rotation (J) at the body rate `rate` (rad/s, BF). It is conserved.
+    pub fn kinetic_energy(&self, rate: &Vector3<f64>) -> f64 {
+        0.5 * rate.dot(&self.angular_momentum(rate))
+    }
+}
+
+impl RigidBody {
     fn of(origin: Origin) -> Self {
         let principal = principal_axes(&origin, &DoubleDouble::ZERO);
         let [a, b, c] = principal.moments;
@@ -160,41 +231,6 @@ impl Body {
         Self { origin, principal, couplings }
     }
 
-    #[cfg(feature = "serde")]
-    pub(crate) fn paper() -> Self {
-        Coin::PAPER.into()
-    }
-
-    /// The coin that this body is, if it has I1 = I2 exactly, about z. All that is said of coins then holds for it.
-    pub fn symmetric(&self) -> Option<Coin> {
-        if let Origin::Coin(coin) = self.origin { Some(coin) } else { None }
-    }
-
-    /// The moments I1, I2, I3 about x, y and z (kg m²), if these are its principal axes.
-    pub fn moments(&self) -> Option<[f64; 3]> {
-        match self.origin {
-            Origin::Coin(coin) => Some([coin.i1(), coin.i1(), coin.i3()]),
-            Origin::Moments(moments) => Some(moments),
-            Origin::Tensor(_) => None,
-        }
-    }
-
-    /// The inertia tensor (kg m²), row by row in the axes of BF.
-    pub fn tensor(&self) -> [[f64; 3]; 3] {
-        match (self.origin, self.moments()) {
-            (Origin::Tensor(tensor), _) => tensor,
-            (_, Some([x, y, z])) => [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
-            // A body without a tensor of its own has moments.
-            (_, None) => [[0.0; 3]; 3],
-        }
-    }
-
-    /// The elements `[Jxx, Jyy, Jzz, Jxy, Jxz, Jyz]` of the inertia tensor (kg m²).
-    pub fn inertia(&self) -> [f64; 6] {
-        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.tensor();
-        [xx, yy, zz, xy, xz, yz]
-    }
-
     /// The principal moments (kg m²), the smallest first.
     pub fn principal_moments(&self) -> [f64; 3] {
         self.principal.moments.map(DoubleDouble::hi)
@@ -210,7 +246,6 @@ impl Body {
     pub fn scaled_principal<N: Elementary>(&self, like: &N) -> PrincipalAxes<N> {
         let scale = power_of_two_scale(self.principal.moments[2].hi());
         let scaled = match self.origin {
-            Origin::Coin(coin) => Origin::Moments([coin.i1(), coin.i1(), coin.i3()].map(|moment| moment / scale)),
             Origin::Moments(moments) => Origin::Moments(moments.map(|moment| moment / scale)),
             Origin::Tensor(tensor) => Origin::Tensor(tensor.map(|row| row.map(|element| element / scale))),
         };
@@ -235,36 +270,25 @@ impl Body {
 
     /// How many times as large as at launch |ω| can become: at most √2, and √3 for a plate as thin as rounding.
     ///
-    /// |ω|² - pr ω2², with p and r the first and the last of the [couplings](Body::couplings), does not change: see
+    /// |ω|² - pr ω2², with p and r the first and the last of the [couplings](RigidBody::couplings), does not change: see
     /// [`RigidPhase`](crate::RigidPhase).
     pub fn largest_growth_of_rate(&self) -> f64 {
         let [p, _, r] = self.couplings;
         (1.0 + (p * r).abs().max(1.0)).sqrt()
     }
-
-    /// Angular momentum (kg m²/s, BF) at the body rate `rate` (rad/s, BF). Its size is conserved.
-    pub fn angular_momentum(&self, rate: &Vector3<f64>) -> Vector3<f64> {
-        let [x, y, z] = self.tensor().map(|row| Vector3::from(row).dot(rate));
-        Vector3::new(x, y, z)
-    }
-
-    /// Kinetic energy of the rotation (J) at the body rate `rate` (rad/s, BF). It is conserved.
-    pub fn kinetic_energy(&self, rate: &Vector3<f64>) -> f64 {
-        0.5 * rate.dot(&self.angular_momentum(rate))
-    }
 }
 
-/// The same body, with all that the coin was made from.
+/// The coin as a body, with all that it was made from.
 impl From<Coin> for Body {
+    #[inline]
     fn from(coin: Coin) -> Self {
-        Self::of(Origin::Coin(coin))
+        Self::Coin(coin)
     }
 }
 
 /// Principal moments and axes in numbers like `like`.
 fn principal_axes<N: Elementary>(origin: &Origin, like: &N) -> PrincipalAxes<N> {
     match origin {
-        Origin::Coin(coin) => PrincipalAxes::of_moments([coin.i1(), coin.i1(), coin.i3()], like),
         Origin::Moments(moments) => PrincipalAxes::of_moments(*moments, like),
         Origin::Tensor(tensor) => PrincipalAxes::of_tensor(tensor.map(|row| row.map(|element| like.like(element)))),
     }

@@ -15,8 +15,8 @@ use numerics::scale::power_of_two_scale;
 
 use crate::attitude::Attitude;
 use crate::coin::Coin;
-use crate::launch::Toss;
 use crate::state::State;
+use crate::toss::CoinToss;
 
 /// q = (k - 1) ωz (rad/s): the rate at which (ωx, ωy) turns in BF by (2)-(4). `inertia_ratio` is k, `rate_z` is ωz
 /// (rad/s).
@@ -30,7 +30,7 @@ pub fn transverse_acceleration(q: f64, rate_x: f64, rate_y: f64) -> (f64, f64) {
 }
 
 /// Euler's equations of any rigid body in its principal axes: ω' (rad/s²) from ω (rad/s) and the
-/// [couplings](crate::Body::couplings).
+/// [couplings](crate::RigidBody::couplings).
 #[inline]
 pub fn principal_acceleration([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> [f64; 3] {
     [a * second * third, b * third * first, c * first * second]
@@ -48,7 +48,7 @@ pub fn angular_momentum_tf(coin: &Coin, state: &State) -> Vector3<f64> {
 
 /// The body rate at landing (BF, rad/s) of a coin that lands with `attitude`: its component along n is that of the launch,
 /// and with the others the angular momentum across n is that of the launch.
-pub fn rate_by_momentum(toss: &Toss, attitude: &Attitude) -> Vector3<f64> {
+pub fn rate_by_momentum(toss: &CoinToss, attitude: &Attitude) -> Vector3<f64> {
     let launched = toss.launch.rate();
     // Of the largest finite rates, a sum of two may overflow.
     let scale = power_of_two_scale(launched.amax());

@@ -3,14 +3,11 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::columns::Tosses;
 use crate::error::{Fault, SolveError};
 use crate::failure::Error;
-use crate::launch::Toss;
-use crate::outcome::Outcome;
-use crate::rigid_toss::RigidToss;
-use crate::solver::{Propagation, Solver};
+use crate::solver::{Landing, Solver, Tilt};
 use crate::stepping::Stepping;
+use crate::toss::Toss;
 
 /// A solver whose panics, and whose results that are NaN, infinite or impossible, are returned as
 /// [`SolveError::Misbehaved`] with the solver's name. All code that accepts a solver from outside wraps it in this
@@ -50,12 +47,16 @@ impl<S: Solver> Checked<S> {
         if holds { Ok(value) } else { Err(self.misbehaved(Fault::Answer { field, value })) }
     }
 
-    fn require_cosine(&self, cos_tilt: f64) -> Result<f64, SolveError> {
-        self.require("cos θ", cos_tilt, cos_tilt.abs() <= LARGEST_COSINE)
+    fn checked_tilt(&self, tilt: Tilt) -> Result<Tilt, SolveError> {
+        self.require("cos θ", tilt.cos_tilt, tilt.cos_tilt.abs() <= LARGEST_COSINE)?;
+        match tilt.error {
+            Some(error) if !(error.is_finite() && error >= 0.0) => Err(self.misbehaved(Fault::Claim(error))),
+            _ => Ok(tilt),
+        }
     }
 
-    fn checked_landing(&self, landing: Propagation) -> Result<Propagation, SolveError> {
-        self.require_cosine(landing.cos_tilt)?;
+    fn checked_landing(&self, landing: Landing) -> Result<Landing, SolveError> {
+        self.checked_tilt(landing.tilt())?;
         for part in landing.state.attitude.components() {
             self.require("a component of the attitude", part, part.is_finite())?;
         }
@@ -65,14 +66,10 @@ impl<S: Solver> Checked<S> {
         self.require("the norm error", landing.norm_error, landing.norm_error.is_finite())?;
         Ok(landing)
     }
-
-    fn checked_claim(&self, claim: Option<f64>) -> Result<Option<f64>, SolveError> {
-        match claim {
-            Some(error) if !(error.is_finite() && error >= 0.0) => Err(self.misbehaved(Fault::Claim(error))),
-            estimate => Ok(estimate),
-        }
-    }
 }
+
+/// What a solver that writes no result leaves, which is refused.
+const UNWRITTEN: Tilt = Tilt { cos_tilt: f64::NAN, error: None };
 
 impl<S: Solver> Solver for Checked<S> {
     fn name(&self) -> &str {
@@ -83,69 +80,20 @@ impl<S: Solver> Solver for Checked<S> {
         catch_unwind(AssertUnwindSafe(|| self.solver.stepping())).ok().flatten()
     }
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        self.checked_landing(self.guarded(|solver| solver.propagate(toss))?)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        self.checked_landing(self.guarded(|solver| solver.land(toss))?)
     }
 
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.checked_claim(self.guarded(|solver| solver.error_estimate(toss))?)
+    fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
+        self.checked_tilt(self.guarded(|solver| solver.tilt(toss))?)
     }
 
-    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        self.require_cosine(self.guarded(|solver| solver.cos_tilt(toss))?)
-    }
-
-    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
-        // A result that the solver does not write stays NaN, and is refused below.
-        out.fill(f64::NAN);
-        self.guarded(|solver| solver.cos_tilts(tosses, out))?;
-        out.iter().enumerate().try_for_each(|(index, cos_tilt)| {
-            if cos_tilt.abs() <= LARGEST_COSINE {
-                return Ok(());
-            }
-            tosses.solve(index, |_| self.require_cosine(*cos_tilt).map(|_| ()))
+    fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
+        out.fill(UNWRITTEN);
+        self.guarded(|solver| solver.tilts(tosses, out))?;
+        tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, tilt))| {
+            self.checked_tilt(*tilt).map(drop).map_err(|source| Error::of_launch(index, toss, source))
         })
-    }
-
-    fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        self.require_cosine(cos_tilt)?;
-        self.error_estimate(toss)?;
-        self.guarded(|solver| solver.outcome_at(toss, cos_tilt))
-    }
-
-    /// The outcome is decided from the checked cos θ, not by the solver's own `outcome`.
-    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        self.outcome_at(toss, self.cos_tilt(toss)?)
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        self.checked_landing(self.guarded(|solver| solver.propagate_rigid(toss))?)
-    }
-
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        self.checked_claim(self.guarded(|solver| solver.error_estimate_rigid(toss))?)
-    }
-
-    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
-        self.require_cosine(self.guarded(|solver| solver.cos_tilt_rigid(toss))?)
-    }
-
-    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
-        out.fill(f64::NAN);
-        self.guarded(|solver| solver.cos_tilts_rigid(tosses, out))?;
-        tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, cos_tilt))| {
-            self.require_cosine(*cos_tilt).map(drop).map_err(|source| Error::of_launch(index, toss, source))
-        })
-    }
-
-    fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        self.require_cosine(cos_tilt)?;
-        self.error_estimate_rigid(toss)?;
-        self.guarded(|solver| solver.outcome_at_rigid(toss, cos_tilt))
-    }
-
-    fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
-        self.outcome_at_rigid(toss, self.cos_tilt_rigid(toss)?)
     }
 }
 
@@ -154,7 +102,6 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::attitude::Attitude;
     use crate::coin::Coin;
     use crate::launch::Launch;
     use crate::solver::Work;
@@ -172,56 +119,41 @@ mod tests {
             "foreign"
         }
 
-        fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+        fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
             assert!(self.cos_tilt != 9.0, "nine is not for me");
             let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-            Ok(Propagation::new(state, Work::default()).with_cos_tilt(self.cos_tilt))
-        }
-
-        fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-            Ok(self.claim)
+            Ok(Landing::new(state, Work::default()).with_cos_tilt(self.cos_tilt).with_error(self.claim))
         }
     }
 
     fn toss() -> Toss {
         let launch = Launch::new(Vector3::new(0.1, 0.0, 0.0), TimeOfFlight::Given(0.1)).unwrap();
-        Toss { coin: Coin::DISC, launch }
+        Toss::new(Coin::DISC, launch)
     }
 
-    /// The results of `propagate`, `cos_tilt`, `cos_tilts`, `cos_tilts_rigid` and `outcome`, as text.
-    fn answers(cos_tilt: f64, claim: Option<f64>) -> [Result<String, String>; 5] {
+    /// cos θ by `land`, `tilt` and `tilts`, or the error as text.
+    fn answers(cos_tilt: f64, claim: Option<f64>) -> [Result<f64, String>; 3] {
         let solver = Checked::new(Foreign { cos_tilt, claim });
-        let rates = [[0.1], [0.0], [0.0]];
-        let tosses = Tosses::new(Coin::DISC, Attitude::IDENTITY, 2.0, rates.each_ref().map(|rate| &rate[..]), &[0.1]);
-        let (mut out, mut of_bodies) = ([0.0], [0.0]);
+        let mut out = [UNWRITTEN];
         [
-            solver.propagate(&toss()).map(|landing| landing.cos_tilt.to_string()).map_err(|error| error.to_string()),
-            solver.cos_tilt(&toss()).map(|cos_tilt| cos_tilt.to_string()).map_err(|error| error.to_string()),
-            solver
-                .cos_tilts(&tosses.unwrap(), &mut out)
-                .map(|()| out[0].to_string())
-                .map_err(|error| error.to_string()),
-            solver
-                .cos_tilts_rigid(&[toss().into()], &mut of_bodies)
-                .map(|()| of_bodies[0].to_string())
-                .map_err(|error| error.to_string()),
-            solver.outcome(&toss()).map(|outcome| outcome.name().to_owned()).map_err(|error| error.to_string()),
+            solver.land(&toss()).map(|landing| landing.cos_tilt).map_err(|error| error.to_string()),
+            solver.tilt(&toss()).map(|tilt| tilt.cos_tilt).map_err(|error| error.to_string()),
+            solver.tilts(&[toss()], &mut out).map(|()| out[0].cos_tilt).map_err(|error| error.to_string()),
         ]
     }
 
     #[test]
     fn valid_answers_are_returned_unchanged() {
-        for answer in &answers(-0.5, Some(1e-9))[..4] {
-            assert_eq!(answer.as_deref(), Ok("-0.5"));
+        for claim in [None, Some(0.0), Some(1e-9)] {
+            assert_eq!(answers(-0.5, claim), [Ok(-0.5), Ok(-0.5), Ok(-0.5)]);
         }
-        assert_eq!(answers(-0.5, Some(1e-9))[4].as_deref(), Ok("tails"));
     }
 
     #[test]
     fn impossible_numbers_and_panics_are_errors_that_name_the_solver() {
         for (cos_tilt, says) in [(f64::NAN, "cos θ = NaN"), (f64::INFINITY, "cos θ = inf"), (7.0, "cos θ = 7")] {
-            for answer in &answers(cos_tilt, Some(1e-9))[..4] {
-                let error = answer.as_ref().unwrap_err();
+            for answer in answers(cos_tilt, Some(1e-9)) {
+                let error = answer.unwrap_err();
                 assert!(error.contains(&format!("solver 'foreign' answered {says}")), "{error}");
             }
         }
@@ -229,8 +161,29 @@ mod tests {
             assert!(answer.unwrap_err().contains("solver 'foreign' panicked: nine is not for me"));
         }
         for claim in [-1e-9, f64::NAN, f64::INFINITY] {
-            let error = answers(-0.5, Some(claim))[4].clone().unwrap_err();
-            assert_eq!(error, format!("solver 'foreign' claims an error of {claim}"));
+            for answer in answers(-0.5, Some(claim)) {
+                let error = answer.unwrap_err();
+                assert!(error.contains(&format!("solver 'foreign' claims an error of {claim}")), "{error}");
+            }
         }
+    }
+
+    #[test]
+    fn a_solver_that_writes_no_results_is_refused() {
+        struct Idle;
+        impl Solver for Idle {
+            fn name(&self) -> &str {
+                "idle"
+            }
+            fn land(&self, _: &Toss) -> Result<Landing, SolveError> {
+                Err(SolveError::NotFinite { time: 0.0 })
+            }
+            fn tilts(&self, _: &[Toss], _: &mut [Tilt]) -> Result<(), Error> {
+                Ok(())
+            }
+        }
+        let mut out = [Tilt { cos_tilt: 0.5, error: Some(0.1) }];
+        let error = Checked::new(Idle).tilts(&[toss()], &mut out).unwrap_err();
+        assert!(error.to_string().contains("solver 'idle' answered cos θ = NaN"), "{error}");
     }
 }

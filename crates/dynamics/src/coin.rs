@@ -46,11 +46,6 @@ impl Coin {
     /// A flat disc with the transverse moment of [`Coin::PAPER`]: I3 = 2 I1.
     pub const DISC: Self = Self { i1: 5e-7, i3: 1e-6, ratio: DoubleDouble::exactly(2.0), origin: Origin::Moments };
 
-    #[cfg(feature = "serde")]
-    pub(crate) fn paper() -> Self {
-        Self::PAPER
-    }
-
     /// A homogeneous cylinder with a `mass` (kg) > 0, a `radius` (m) > 0 and a `thickness` (m) ≥ 0. Each of them is an f64,
     /// or a number in a unit.
     ///

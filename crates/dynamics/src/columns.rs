@@ -12,9 +12,9 @@ use crate::body::Body;
 use crate::coin::Coin;
 use crate::error::{InputError, SolveError, require};
 use crate::failure::Error;
-use crate::launch::{Launch, Toss};
-use crate::rigid_toss::RigidToss;
+use crate::launch::Launch;
 use crate::time_of_flight::TimeOfFlight;
+use crate::toss::{CoinToss, Toss};
 
 /// Tosses that differ in their body rates and speeds only: the coin or [`Body`], the attitude at launch and the gravity
 /// are the same.
@@ -27,7 +27,7 @@ pub struct Tosses<'a, B = Coin> {
     speeds: &'a [f64],
 }
 
-impl<'a, B: Copy> Tosses<'a, B> {
+impl<'a, B: Copy + Into<Body>> Tosses<'a, B> {
     /// Tosses of a coin or a body with the body rates `rates` (body frame, rad/s: all ωx, all ωy, all ωz), thrown up at `speeds` (m/s)
     /// under `gravity` (m/s²) and caught at the same height. With a gravity of 2 m/s² the speed is the time of flight
     /// in seconds.
@@ -95,31 +95,21 @@ impl<'a, B: Copy> Tosses<'a, B> {
         Ok(Launch::new(Vector3::new(x, y, z), time)?.with_attitude(self.attitude))
     }
 
-    /// The result of `solve` for the launch of toss `index`, of which `toss` makes the toss.
-    fn solved<T, K: Into<RigidToss>>(
-        &self,
-        index: usize,
-        toss: impl Fn(Launch) -> K,
-        solve: impl Fn(&K) -> Result<T, SolveError>,
-    ) -> Result<T, Error> {
-        let launch = self.launch(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
-        let toss = toss(launch);
-        solve(&toss).map_err(|source| Error::Launch { index: index as u64, toss: Box::new(toss.into()), source })
-    }
-}
-
-impl Tosses<'_> {
-    /// The coin of all tosses.
-    pub fn coin(&self) -> &Coin {
-        &self.body
-    }
-
     /// Toss number `index`, which is below [`Tosses::len`].
     ///
     /// # Errors
     /// As [`Launch::new`].
     pub fn toss(&self, index: usize) -> Result<Toss, InputError> {
-        Ok(Toss { coin: self.body, launch: self.launch(index)? })
+        Ok(Toss::new(self.body, self.launch(index)?))
+    }
+
+    /// The result of `solve` for toss `index`.
+    ///
+    /// # Errors
+    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
+    pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
+        let toss = self.toss(index).map_err(|source| Error::BadLaunch { index: index as u64, source })?;
+        solve(&toss).map_err(|source| Error::of_launch(index, &toss, source))
     }
 
     /// All tosses, one after the other.
@@ -130,31 +120,19 @@ impl Tosses<'_> {
         (0..self.len()).map(|index| self.solve(index, |toss| Ok(*toss))).collect()
     }
 
-    /// The result of `solve` for toss `index`.
-    ///
-    /// # Errors
-    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
-    pub fn solve<T>(&self, index: usize, solve: impl Fn(&Toss) -> Result<T, SolveError>) -> Result<T, Error> {
-        self.solved(index, |launch| Toss { coin: self.body, launch }, solve)
+    /// The coin or body of all tosses.
+    pub fn body(&self) -> &B {
+        &self.body
     }
 }
 
-impl Tosses<'_, Body> {
-    /// The body of all tosses.
-    pub fn body(&self) -> &Body {
-        &self.body
-    }
-
-    /// The result of `solve` for toss `index`, which is below [`Tosses::len`].
+impl Tosses<'_, Coin> {
+    /// The result of `solve` for toss `index`, as [`Tosses::solve`] returns it, by a formula for coins alone.
     ///
     /// # Errors
-    /// [`Error::BadLaunch`] if the toss is invalid, [`Error::Launch`] if `solve` fails, each with the index.
-    pub fn solve_rigid<T>(
-        &self,
-        index: usize,
-        solve: impl Fn(&RigidToss) -> Result<T, SolveError>,
-    ) -> Result<T, Error> {
-        self.solved(index, |launch| RigidToss { body: self.body, launch }, solve)
+    /// As [`Tosses::solve`].
+    pub fn solve_coin<T>(&self, index: usize, solve: impl Fn(&CoinToss) -> Result<T, SolveError>) -> Result<T, Error> {
+        self.solve(index, |toss| solve(&CoinToss { coin: self.body, launch: toss.launch }))
     }
 }
 

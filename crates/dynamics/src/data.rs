@@ -4,7 +4,7 @@
 //!
 //! ```toml
 //! coin = "us-quarter"              # or { moments = [I1, I3] } or { cylinder = [mass, radius, thickness] };
-//!                                  # the paper's coin if not given. Any body, of a RigidToss or a space, may also be
+//!                                  # the paper's coin if not given. Any body, of a Toss or a space, may also be
 //!                                  # { moments = [I1, I2, I3] } or { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }
 //! [launch]
 //! rate = [1.0, 1.0, 2.5]           # rad/s, BF; or three texts in one unit, "38rev/s"

@@ -149,9 +149,9 @@ impl fmt::Debug for SolverEntry {
 mod tests {
     use super::*;
     use crate::error::SolveError;
-    use crate::launch::Toss;
-    use crate::solver::{Propagation, Work};
+    use crate::solver::{Landing, Work};
     use crate::state::State;
+    use crate::toss::Toss;
 
     /// A solver with this name and stepping, whose coins land as they were launched.
     struct Still(&'static str, Stepping);
@@ -163,11 +163,8 @@ mod tests {
         fn stepping(&self) -> Option<Stepping> {
             Some(self.1)
         }
-        fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-            Ok(Propagation::new(State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }, Work::default()))
-        }
-        fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-            Ok(None)
+        fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+            Ok(Landing::new(State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }, Work::default()))
         }
     }
 

@@ -2,7 +2,7 @@
 //! it alone, by its kind, its field and its source.
 
 use crate::error::{InputError, SolveError};
-use crate::rigid_toss::RigidToss;
+use crate::toss::Toss;
 
 /// The reason why a question has no answer: either its input is at fault, or the solver failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -21,7 +21,7 @@ pub enum Error {
         /// The index of the launch, from 0.
         index: u64,
         /// The toss.
-        toss: Box<RigidToss>,
+        toss: Box<Toss>,
         /// Why the solver failed.
         source: SolveError,
     },
@@ -59,7 +59,7 @@ pub enum Error {
 
 impl Error {
     /// The error of the solver on launch number `index` of many.
-    pub fn of_launch(index: usize, toss: &RigidToss, source: SolveError) -> Self {
+    pub fn of_launch(index: usize, toss: &Toss, source: SolveError) -> Self {
         Self::Launch { index: index as u64, toss: Box::new(*toss), source }
     }
 

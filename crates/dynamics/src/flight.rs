@@ -13,13 +13,14 @@ use numerics::scale::power_of_two_scale;
 use crate::error::SolveError;
 #[cfg(feature = "integrators")]
 use crate::integrate::{OdeSystem, Span, integrate_within};
-use crate::launch::{Launch, Toss};
+use crate::launch::Launch;
 use crate::phase::RoughPhases;
 #[cfg(feature = "integrators")]
 use crate::solver::Work;
 #[cfg(any(feature = "integrators", doc))]
 use crate::stepping::Stepping;
 use crate::stepping::tightened;
+use crate::toss::CoinToss;
 
 /// Phase (rad) above which the tolerance of the steps is divided by phase/`LONG_FLIGHT`.
 ///
@@ -49,7 +50,7 @@ impl Flight {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the phase exceeds 2^53 rad.
-    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+    pub fn new(toss: &CoinToss) -> Result<Self, SolveError> {
         Self::turning_by(&toss.launch, |rate, time| {
             RoughPhases::dimensionless(toss.coin.inertia_ratio(), rate, time).largest()
         })
@@ -102,6 +103,11 @@ impl Flight {
         time / self.scale
     }
 
+    /// The phase (rad): of a coin the [largest](RoughPhases::largest), of another body how far it turns at most.
+    pub fn phase(&self) -> f64 {
+        self.phase
+    }
+
     /// Whether the phase exceeds 100 rad, so that the tolerance is tightened.
     pub fn is_long(&self) -> bool {
         self.phase > LONG_FLIGHT
@@ -139,7 +145,7 @@ mod tests {
 
     fn flight(rate: [f64; 3], time: f64) -> Flight {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        Flight::new(&Toss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch }).unwrap()
+        Flight::new(&CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch }).unwrap()
     }
 
     #[test]

@@ -20,19 +20,19 @@ use crate::attitude::Attitude;
 use crate::body_rate::{body_precession_rate, transverse_acceleration};
 use crate::error::SolveError;
 use crate::flight::Flight;
-use crate::launch::Toss;
-use crate::solver::{Propagation, Work};
+use crate::solver::{Landing, Work};
 use crate::state::State;
 use crate::stepping::{StepControl, Stepping, step_count};
+use crate::toss::CoinToss;
 
 /// The rotation of a toss from launch to landing. See [this module](self) for its state and its units.
 ///
 /// A classical Runge-Kutta step of it, by hand:
 ///
 /// ```
-/// # use dynamics::{Coin, FreeRotation, Launch, TimeOfFlight, Toss, Vector3};
+/// # use dynamics::{Coin, FreeRotation, Launch, TimeOfFlight, CoinToss, Vector3};
 /// # let launch = Launch::new(Vector3::new(2.0, 1.0, 2.5), TimeOfFlight::Given(0.6))?;
-/// let system = FreeRotation::new(&Toss { coin: Coin::PAPER, launch })?;
+/// let system = FreeRotation::new(&CoinToss { coin: Coin::PAPER, launch })?;
 /// let (mut y, steps) = (system.start(), 1000_u32);
 /// let h = system.duration() / f64::from(steps);
 /// for _ in 0..steps {
@@ -65,7 +65,7 @@ impl FreeRotation {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
-    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+    pub fn new(toss: &CoinToss) -> Result<Self, SolveError> {
         Ok(Self {
             flight: Flight::new(toss)?,
             launched: toss.launch.attitude(),
@@ -115,7 +115,7 @@ impl FreeRotation {
     ///
     /// # Errors
     /// [`SolveError::NotFinite`] if the state is not finite, or its quaternion is 0.
-    pub fn landing(&self, end: &[f64; 7], work: Work) -> Result<Propagation, SolveError> {
+    pub fn landing(&self, end: &[f64; 7], work: Work) -> Result<Landing, SolveError> {
         let &[w, x, y, z, rate_x, rate_y, rate_z] = end;
         if !end.iter().all(|part| part.is_finite()) {
             return Err(self.flight.not_finite());
@@ -128,7 +128,7 @@ impl FreeRotation {
         }
         let norm = Vector4::new(w, x, y, z).norm();
         let state = State { attitude: self.launched * turn, rate };
-        Ok(Propagation::new(state, work).with_norm_error((norm - 1.0).abs()))
+        Ok(Landing::new(state, work).with_norm_error((norm - 1.0).abs()))
     }
 
     /// `stepping` in the units of the system. The tolerance is [tightened](Flight::tightened) for a flight of more than
@@ -155,9 +155,9 @@ mod tests {
     use crate::scheme::Scheme;
     use crate::time_of_flight::TimeOfFlight;
 
-    fn toss(rate: [f64; 3], time: f64) -> Toss {
+    fn toss(rate: [f64; 3], time: f64) -> CoinToss {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-        Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.7).unwrap() }
+        CoinToss { coin: Coin::PAPER, launch: launch.with_tilt(0.7).unwrap() }
     }
 
     #[test]

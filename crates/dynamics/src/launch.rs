@@ -1,11 +1,9 @@
-//! The launch and the toss. A [`Launch`] is the body rate ω, the attitude Q0 and the time of flight T of a coin that
-//! leaves the hand; a [`Toss`] is a launch with its coin, and is all that a solver takes.
+//! [`Launch`]: the body rate ω, the attitude Q0 and the time of flight T of a body that leaves the hand.
 
 use nalgebra::Vector3;
 use numerics::{Angle, AngleUnit, DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::attitude::Attitude;
-use crate::coin::Coin;
 use crate::error::{InputError, require};
 use crate::state::State;
 use crate::time_of_flight::TimeOfFlight;
@@ -142,15 +140,4 @@ impl Launch {
     pub fn flight_time(&self) -> f64 {
         self.flight_time
     }
-}
-
-/// A coin and its launch: all that a flight depends on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
-pub struct Toss {
-    /// The coin. When a toss is read from data without a coin, it is [`Coin::PAPER`].
-    #[cfg_attr(feature = "serde", serde(default = "Coin::paper"))]
-    pub coin: Coin,
-    /// The launch of the coin.
-    pub launch: Launch,
 }

@@ -8,7 +8,7 @@
 //! | what | module |
 //! |---|---|
 //! | the coin's moments of inertia, from its geometry or by its name | [`coin`], [`catalogue`] |
-//! | any rigid body, by its moments or its inertia tensor, and its toss | [`body`], [`rigid_toss`] |
+//! | any rigid body, by its moments or its inertia tensor, and its toss | [`body`], [`toss`] |
 //! | the toss: coin, body rate, attitude and time of flight | [`launch`], [`mod@time_of_flight`], [`state`] |
 //! | a toss as plain data in a file, many tosses as columns of numbers | [`data`], [`columns`] |
 //! | Euler's equations and what they conserve; how far a motion turns | [`body_rate`], [`phase`] |
@@ -74,16 +74,16 @@ pub mod precession;
 pub mod quantity;
 pub mod rigid_flight;
 pub mod rigid_phase;
-pub mod rigid_toss;
 pub mod scheme;
 pub mod solver;
 pub mod state;
 pub mod stepping;
 pub mod time_of_flight;
+pub mod toss;
 
 pub use adapter::ForeignError;
 pub use attitude::Attitude;
-pub use body::{Body, PrincipalAxes};
+pub use body::{Body, PrincipalAxes, RigidBody};
 pub use checked::Checked;
 pub use coin::Coin;
 pub use columns::Tosses;
@@ -95,7 +95,7 @@ pub use failure::Error;
 pub use flight::Flight;
 pub use formulation::{Formulation, Frame};
 pub use free_rotation::FreeRotation;
-pub use launch::{Launch, Toss};
+pub use launch::Launch;
 pub use nalgebra::{self, Vector3};
 pub use numerics::{Angle, AngleUnit, Quantity, Unit};
 pub use outcome::Outcome;
@@ -104,9 +104,9 @@ pub use precession::rate_of_precession;
 pub use quantity::Dimension;
 pub use rigid_flight::RigidFlight;
 pub use rigid_phase::RigidPhase;
-pub use rigid_toss::RigidToss;
 pub use scheme::Scheme;
-pub use solver::{Propagation, Solver, Work};
+pub use solver::{Landing, Solver, Tilt, Work};
 pub use state::State;
 pub use stepping::{StepControl, Stepping};
 pub use time_of_flight::TimeOfFlight;
+pub use toss::{CoinToss, Toss};

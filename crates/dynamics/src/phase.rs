@@ -8,10 +8,10 @@
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 
-use crate::body::Body;
+use crate::body::RigidBody;
 use crate::body_rate::body_precession_rate;
 use crate::error::SolveError;
-use crate::launch::Toss;
+use crate::toss::CoinToss;
 
 /// The largest phase that solvers accept (rad), 2^53. Above it, neighbouring f64 numbers differ by 2 or more.
 pub const LARGEST_PHASE: f64 = 9_007_199_254_740_992.0;
@@ -26,11 +26,11 @@ pub fn require_phase(phase: f64) -> Result<f64, SolveError> {
 }
 
 /// An upper bound of the angle (rad) through which a `body` turns in a `time`, from the size of its `rate` at launch, which
-/// never grows by more than [a factor](Body::largest_growth_of_rate).
+/// never grows by more than [a factor](RigidBody::largest_growth_of_rate).
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] if it exceeds 2^53.
-pub(crate) fn turned_at_most(body: &Body, rate: f64, time: f64) -> Result<f64, SolveError> {
+pub(crate) fn turned_at_most(body: &RigidBody, rate: f64, time: f64) -> Result<f64, SolveError> {
     // Without a rate the angle is 0, also where the product would be 0 · ∞ = NaN.
     require_phase(if rate == 0.0 { 0.0 } else { body.largest_growth_of_rate() * rate * time })
 }
@@ -48,7 +48,7 @@ pub struct RoughPhases {
 impl RoughPhases {
     /// The phases at the landing of `toss`.
     #[inline]
-    pub fn new(toss: &Toss) -> Self {
+    pub fn new(toss: &CoinToss) -> Self {
         let rate = toss.launch.rate();
         let scale = power_of_two_scale(rate.amax());
         Self::dimensionless(toss.coin.inertia_ratio(), &(rate / scale), toss.launch.flight_time() * scale)
@@ -83,7 +83,7 @@ mod tests {
 
     fn phases(k: f64, rate: [f64; 3], time: f64) -> RoughPhases {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        RoughPhases::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
+        RoughPhases::new(&CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::body::PrincipalAxes;
 use crate::error::SolveError;
 use crate::flight::Flight;
 use crate::phase::turned_at_most;
-use crate::rigid_toss::RigidToss;
+use crate::toss::Toss;
 
 /// The flight of a rigid body about its principal axes, with its rates divided by σ, a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub struct RigidFlight {
     launched: Vector3<f64>,
     /// The rates about the principal axes at launch, in units of σ.
     pub rates: [f64; 3],
-    /// The [couplings](crate::Body::couplings) of Euler's equations.
+    /// The [couplings](crate::RigidBody::couplings) of Euler's equations.
     pub couplings: [f64; 3],
 }
 
@@ -33,11 +33,12 @@ impl RigidFlight {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the body may turn by more than 2^53 rad.
-    pub fn new(toss: &RigidToss) -> Result<Self, SolveError> {
-        let flight = Flight::turning_by(&toss.launch, |rate, time| turned_at_most(&toss.body, rate.norm(), time))?;
-        let axes = *toss.body.principal();
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        let body = toss.body.rigid();
+        let flight = Flight::turning_by(&toss.launch, |rate, time| turned_at_most(&body, rate.norm(), time))?;
+        let axes = *body.principal();
         let rates = axes.rates(&flight.rate);
-        Ok(Self { flight, axes, launched: toss.launch.rate(), rates, couplings: toss.body.couplings() })
+        Ok(Self { flight, axes, launched: toss.launch.rate(), rates, couplings: body.couplings() })
     }
 
     /// The flight's times and tolerances.
@@ -75,7 +76,7 @@ mod tests {
 
     fn flight(body: Body, rate: [f64; 3]) -> RigidFlight {
         let launch = Launch::new(rate, TimeOfFlight::Given(0.5)).unwrap();
-        RigidFlight::new(&RigidToss { body, launch }).unwrap()
+        RigidFlight::new(&Toss { body, launch }).unwrap()
     }
 
     #[test]

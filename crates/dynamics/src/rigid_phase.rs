@@ -26,7 +26,7 @@ use numerics::scale::power_of_two_scale;
 
 use crate::error::SolveError;
 use crate::phase::turned_at_most;
-use crate::rigid_toss::RigidToss;
+use crate::toss::Toss;
 
 /// How far a rigid body turns, and how a disturbance grows, in f64 with an error of some roundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,16 +42,16 @@ impl RigidPhase {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if the angle exceeds 2^53 rad.
-    pub fn new(toss: &RigidToss) -> Result<Self, SolveError> {
-        let launched = toss.launch.rate();
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        let (body, launched) = (toss.body.rigid(), toss.launch.rate());
         let scale = power_of_two_scale(launched.amax());
         let rate = launched / scale;
-        let angle = turned_at_most(&toss.body, rate.norm(), toss.launch.flight_time() * scale)?;
-        let [a, _, c] = toss.body.couplings();
+        let angle = turned_at_most(&body, rate.norm(), toss.launch.flight_time() * scale)?;
+        let [a, _, c] = body.couplings();
         let fastest = ((a * c).abs().sqrt() * angle).exp();
-        let rates = toss.body.principal().rates(&rate);
+        let rates = body.principal().rates(&rate);
         // Of a body at rest or with equal moments the distance is not a number, and the first limit is 1.
-        Ok(Self { angle, growth: fastest.min(1.0 + 1.0 / from_separatrix(toss.body.couplings(), rates)) })
+        Ok(Self { angle, growth: fastest.min(1.0 + 1.0 / from_separatrix(body.couplings(), rates)) })
     }
 }
 
@@ -76,7 +76,7 @@ mod tests {
 
     fn phase(moments: [f64; 3], rate: [f64; 3], time: f64) -> Result<RigidPhase, SolveError> {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        RigidPhase::new(&RigidToss { body: Body::from_moments(moments).unwrap(), launch })
+        RigidPhase::new(&Toss { body: Body::from_moments(moments).unwrap(), launch })
     }
 
     #[test]
@@ -93,7 +93,7 @@ mod tests {
     #[test]
     fn the_moments_fulfil_the_identity_on_which_the_bound_rests() {
         for moments in [[1.0, 2.0, 2.5], [0.3, 1.0, 1.3], [1e-9, 1.0, 1.0 + 5e-10], [1.0, 1.001, 1.002]] {
-            let [a, b, c] = Body::from_moments(moments).unwrap().couplings().map(f64::abs);
+            let [a, b, c] = Body::from_moments(moments).unwrap().rigid().couplings().map(f64::abs);
             assert!((a - b + c - a * b * c).abs() < 1e-15 && a.max(b).max(c) <= 1.0 + 1e-15, "{moments:?}");
         }
     }
@@ -106,7 +106,7 @@ mod tests {
         let growth = (1.0 + f64::EPSILON / 1.2e-16).sqrt();
         let found = phase(moments, [0.0, 1.0, 0.0], 2.0).unwrap().angle;
         assert!((found - 2.0 * growth).abs() < 1e-12 && growth > 1.68, "{found}");
-        let [a, _, c] = Body::from_moments(moments).unwrap().couplings().map(f64::abs);
+        let [a, _, c] = Body::from_moments(moments).unwrap().rigid().couplings().map(f64::abs);
         let b = (a + c) / (1.0 + a * c);
         assert!((found / 2.0 - (a / b + c / b).sqrt()).abs() < 1e-15);
     }

@@ -2,28 +2,23 @@
 //! landing, with an estimate of its error. All tests, checks and programs use solvers through it, so that any two can
 //! be compared.
 //!
-//! The toss of a coin is a [`Toss`], that of any rigid body a [`RigidToss`]. A solver has to solve the first and may
-//! solve the second: without methods of its own for it, it solves bodies with I1 = I2 as the coins that they are, and
-//! refuses the rest.
+//! A [`Toss`] is that of any rigid body. A solver that solves coins alone says so in one line, [`Toss::of_coin`].
 //!
 //! A solver is chosen at compile time by its type, or at run time by its [`SolverEntry`](crate::SolverEntry). A solver
 //! cannot prove an outcome. It states an error estimate, and the outcome is undecided where cos θ is not larger. Only
 //! the crate `exact`, by the closed form, and `kinematics-quat`, by a bound of its integrations, make proofs, as types
 //! that nothing else can make.
 
-use std::ops::Add;
-use std::sync::Arc;
+use std::ops::{Add, Deref};
 
-use crate::columns::Tosses;
 use crate::error::SolveError;
 use crate::failure::Error;
-use crate::launch::Toss;
 use crate::outcome::Outcome;
-use crate::rigid_toss::RigidToss;
 use crate::state::State;
 use crate::stepping::Stepping;
+use crate::toss::Toss;
 
-/// The cost of a propagation, as counts that are the same in every run and on every machine.
+/// The cost of a flight, as counts that are the same in every run and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Evaluations of the right-hand side. For Taylor series, the number of coefficients of the state: one for each
@@ -48,24 +43,48 @@ impl Add for Work {
     }
 }
 
-/// The result of a flight: the state at landing, cos θ, and the cost.
+/// cos θ at landing, with the solver's estimate of its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tilt {
+    /// cos θ.
+    pub cos_tilt: f64,
+    /// The solver's estimate of the error of cos θ, finite and ≥ 0. Without one, `None`, the outcome is undecided.
+    pub error: Option<f64>,
+}
+
+impl Tilt {
+    /// Heads or tails by cos θ, or undecided if |cos θ| is at most the error estimate.
+    pub fn outcome(self) -> Outcome {
+        self.error.map_or(Outcome::Undecided, |error| Outcome::of(self.cos_tilt, error))
+    }
+}
+
+/// The result of a flight: the state at landing, cos θ with its error estimate, and the cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Propagation {
+pub struct Landing {
     /// The state at landing.
     pub state: State,
     /// cos θ at landing. It is that of the state's attitude, unless the solver can compute it more accurately.
     pub cos_tilt: f64,
+    /// The solver's estimate of the error of cos θ, finite and ≥ 0. Without one, `None`, the outcome is undecided.
+    pub error: Option<f64>,
     /// Norm error ||Q| - 1| of an integrated quaternion before it was normalised; 0 for other solvers.
     pub norm_error: f64,
-    /// The cost of the propagation.
+    /// The cost of the flight.
     pub work: Work,
 }
 
-impl Propagation {
-    /// A landing whose cos θ is that of its attitude, without a norm error.
+impl Landing {
+    /// A landing whose cos θ is that of its attitude, without a norm error and without an error estimate.
     pub fn new(state: State, work: Work) -> Self {
-        Self { state, cos_tilt: state.attitude.cos_tilt(), norm_error: 0.0, work }
+        Self { state, cos_tilt: state.attitude.cos_tilt(), error: None, norm_error: 0.0, work }
+    }
+
+    /// The same landing with this estimate of the error of cos θ. Integrators give [`Stepping::error_estimate`].
+    #[must_use]
+    pub fn with_error(self, error: impl Into<Option<f64>>) -> Self {
+        Self { error: error.into(), ..self }
     }
 
     /// The same landing with this cos θ instead of that of its attitude.
@@ -79,6 +98,16 @@ impl Propagation {
     pub fn with_norm_error(self, norm_error: f64) -> Self {
         Self { norm_error, ..self }
     }
+
+    /// cos θ with its error estimate.
+    pub fn tilt(&self) -> Tilt {
+        Tilt { cos_tilt: self.cos_tilt, error: self.error }
+    }
+
+    /// The [outcome](Tilt::outcome) by cos θ and its error estimate.
+    pub fn outcome(&self) -> Outcome {
+        self.tilt().outcome()
+    }
 }
 
 /// Computes the flight of a toss from launch to landing.
@@ -91,181 +120,64 @@ pub trait Solver: Send + Sync {
         None
     }
 
-    /// The state at landing, `toss.launch.flight_time()` seconds after launch.
+    /// The state at landing, `toss.launch.flight_time()` seconds after launch, with the error estimate of its cos θ.
     ///
     /// # Errors
-    /// [`SolveError`] where the solver cannot go on; never a partial result.
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError>;
-
-    /// An estimate of the error of the solver's cos θ at the landing of `toss`, finite and ≥ 0. Without one, `None`,
-    /// every outcome is undecided. Integrators return [`Stepping::error_estimate`].
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError>;
+    /// [`SolveError`] where the solver cannot go on; never a partial result. [`SolveError::NotSymmetric`] for a body
+    /// with I1 ≠ I2 where the solver does not solve it; [`SolveError::PhaseTooLarge`] if the body turns by more than
+    /// 2^53 rad.
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError>;
 
     /// cos θ at landing. Override it if cos θ can be computed more cheaply than the attitude.
     ///
     /// # Errors
-    /// As [`Solver::propagate`].
-    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        self.propagate(toss).map(|landing| landing.cos_tilt)
+    /// As [`Solver::land`].
+    fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
+        self.land(toss).map(|landing| landing.tilt())
     }
 
     /// cos θ at landing of each of many tosses. Override it if many tosses can be solved more cheaply than one by one.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss without an answer; the numbers in `out` then mean nothing.
-    ///
-    /// # Panics
-    /// If `out` has another length than `tosses`.
-    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
-        assert_eq!(out.len(), tosses.len(), "one result a toss");
-        out.iter_mut().enumerate().try_for_each(|(index, out)| {
-            *out = tosses.solve(index, |toss| self.cos_tilt(toss))?;
-            Ok(())
-        })
-    }
-
-    /// Heads or tails by `cos_tilt`, which this solver has computed, or undecided if |`cos_tilt`| is at most the error
-    /// estimate.
-    ///
-    /// # Errors
-    /// As [`Solver::error_estimate`].
-    fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        Ok(self.error_estimate(toss)?.map_or(Outcome::Undecided, |error| Outcome::of(cos_tilt, error)))
-    }
-
-    /// How the toss lands.
-    ///
-    /// # Errors
-    /// As [`Solver::propagate`].
-    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        self.outcome_at(toss, self.cos_tilt(toss)?)
-    }
-
-    /// The state at landing of any rigid body. Override it if the solver integrates three body rates.
-    ///
-    /// # Errors
-    /// [`SolveError::NotSymmetric`] for a body with I1 ≠ I2 where the solver does not solve it; else as
-    /// [`Solver::propagate`].
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        self.propagate(&toss.require_symmetric(self.name(), COINS_ALONE)?)
-    }
-
-    /// An estimate of the error of cos θ for any rigid body, as [`Solver::error_estimate`] is one for a coin.
-    ///
-    /// # Errors
-    /// As [`Solver::error_estimate`]; [`SolveError::NotSymmetric`] as for [`Solver::propagate_rigid`].
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        self.error_estimate(&toss.require_symmetric(self.name(), COINS_ALONE)?)
-    }
-
-    /// cos θ at landing of any rigid body. Override it if cos θ can be computed more cheaply than the attitude.
-    ///
-    /// # Errors
-    /// As [`Solver::propagate_rigid`].
-    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
-        match toss.symmetric() {
-            Some(toss) => self.cos_tilt(&toss),
-            None => self.propagate_rigid(toss).map(|landing| landing.cos_tilt),
-        }
-    }
-
-    /// cos θ at landing of each of many tosses of rigid bodies. Override it if many tosses can be solved more cheaply than
-    /// one by one.
     ///
     /// # Errors
     /// [`Error::Launch`] for the first toss without an answer; the numbers in `out` then mean nothing.
     ///
     /// # Panics
     /// If `out` has another length than `tosses`.
-    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
+    fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
         tosses.iter().zip(out).enumerate().try_for_each(|(index, (toss, out))| {
-            *out = self.cos_tilt_rigid(toss).map_err(|source| Error::of_launch(index, toss, source))?;
+            *out = self.tilt(toss).map_err(|source| Error::of_launch(index, toss, source))?;
             Ok(())
         })
     }
-
-    /// The outcome of any rigid body by `cos_tilt`, as [`Solver::outcome_at`] is that of a coin.
-    ///
-    /// # Errors
-    /// As [`Solver::error_estimate_rigid`].
-    fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        match toss.symmetric() {
-            Some(toss) => self.outcome_at(&toss, cos_tilt),
-            None => {
-                Ok(self.error_estimate_rigid(toss)?.map_or(Outcome::Undecided, |error| Outcome::of(cos_tilt, error)))
-            }
-        }
-    }
-
-    /// How any rigid body lands.
-    ///
-    /// # Errors
-    /// As [`Solver::propagate_rigid`].
-    fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
-        self.outcome_at_rigid(toss, self.cos_tilt_rigid(toss)?)
-    }
 }
 
-/// Why a solver without methods for rigid bodies refuses one.
-const COINS_ALONE: &str = "it has no method for other rigid bodies";
+/// A pointer to a solver, such as a reference, a box or an `Arc`, is a solver.
+impl<P> Solver for P
+where
+    P: Deref + Send + Sync,
+    P::Target: Solver,
+{
+    fn name(&self) -> &str {
+        (**self).name()
+    }
 
-/// Implements [`Solver`] for a pointer to a solver.
-macro_rules! by_pointer {
-    ($pointer:ty) => {
-        impl<S: Solver + ?Sized> Solver for $pointer {
-            fn name(&self) -> &str {
-                (**self).name()
-            }
-            fn stepping(&self) -> Option<Stepping> {
-                (**self).stepping()
-            }
-            fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-                (**self).propagate(toss)
-            }
-            fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-                (**self).error_estimate(toss)
-            }
-            fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-                (**self).cos_tilt(toss)
-            }
-            fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
-                (**self).cos_tilts(tosses, out)
-            }
-            fn outcome_at(&self, toss: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-                (**self).outcome_at(toss, cos_tilt)
-            }
-            fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-                (**self).outcome(toss)
-            }
-            fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-                (**self).propagate_rigid(toss)
-            }
-            fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-                (**self).error_estimate_rigid(toss)
-            }
-            fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
-                (**self).cos_tilt_rigid(toss)
-            }
-            fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
-                (**self).cos_tilts_rigid(tosses, out)
-            }
-            fn outcome_at_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-                (**self).outcome_at_rigid(toss, cos_tilt)
-            }
-            fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
-                (**self).outcome_rigid(toss)
-            }
-        }
-    };
+    fn stepping(&self) -> Option<Stepping> {
+        (**self).stepping()
+    }
+
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        (**self).land(toss)
+    }
+
+    fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
+        (**self).tilt(toss)
+    }
+
+    fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
+        (**self).tilts(tosses, out)
+    }
 }
-
-by_pointer!(&S);
-by_pointer!(Box<S>);
-by_pointer!(Arc<S>);
 
 #[cfg(test)]
 mod tests;

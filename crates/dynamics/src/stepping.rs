@@ -10,12 +10,11 @@ use std::str::FromStr;
 
 use crate::error::{InputError, SolveError, require};
 use crate::flight::LONG_FLIGHT;
-use crate::launch::Toss;
 use crate::phase::RoughPhases;
 use crate::quantity::Dimension;
 use crate::rigid_phase::RigidPhase;
-use crate::rigid_toss::RigidToss;
 use crate::scheme::Scheme;
+use crate::toss::Toss;
 
 /// The largest number of steps of a flight. It is limited because integrators hold all steps in memory.
 pub const STEP_LIMIT: u32 = 1_000_000;
@@ -152,21 +151,15 @@ impl Stepping {
     /// steps is known. With a tolerance it is taken as ¼ (1 + φ) × tolerance^(-1/order), with the
     /// [tightened](crate::Flight::tightened) tolerance and the root rounded up to a power of two.
     ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
-    pub fn error_estimate(&self, toss: &Toss) -> Result<f64, SolveError> {
-        Ok(self.estimate(RoughPhases::new(toss).largest()?, toss.launch.turn_rate(), toss.launch.flight_time()))
-    }
-
-    /// Estimate of the error of cos θ at the landing of any rigid body: that of [`error_estimate`](Self::error_estimate)
-    /// with the angle through which the body turns at most as φ, times the [growth](RigidPhase::growth) of a
-    /// disturbance. `None` from 1 on: such an estimate says nothing about a cosine.
+    /// For a body that is no coin, φ is the angle through which it turns at most, and the estimate is multiplied by the
+    /// [growth](RigidPhase::growth) of a disturbance. It is `None` from 1 on: it then says nothing about a cosine.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
-    pub fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        if let Some(toss) = toss.symmetric() {
-            return self.error_estimate(&toss).map(Some);
+    pub fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
+        if let Some(toss) = toss.coin() {
+            let phase = RoughPhases::new(&toss).largest()?;
+            return Ok(Some(self.estimate(phase, toss.launch.turn_rate(), toss.launch.flight_time())));
         }
         let phase = RigidPhase::new(toss)?;
         let fastest = SQRT_2 * toss.launch.turn_rate();

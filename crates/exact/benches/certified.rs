@@ -14,14 +14,14 @@ fn tosses() -> Vec<Toss> {
     let toss = |index| {
         let rate = [2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt()].map(|root| 1.0 + 59.0 * part(index, root));
         let thrown = TimeOfFlight::Ballistic { speed: 3.0 + 2.0 * part(index, 7f64.sqrt()), gravity: 9.81 };
-        Toss { coin: Coin::PAPER, launch: Launch::new(rate, thrown).expect("a valid launch") }
+        Toss::new(Coin::PAPER, Launch::new(rate, thrown).expect("a valid launch"))
     };
     (0..10_000).map(toss).collect()
 }
 
 /// The outcome by the sign of the f64 terms, without an error bound.
 fn plain(toss: &Toss) -> Outcome {
-    let terms = TiltTerms::new(toss);
+    let terms = TiltTerms::new(&toss.coin().expect("a coin"));
     let [phase, _] = terms.phases(toss.launch.flight_time());
     Outcome::of(terms.height(phase), 0.0)
 }
@@ -38,7 +38,13 @@ fn outcomes(criterion: &mut Criterion) {
     });
     group.bench_function("plain f64 outcome", |bencher| bencher.iter(|| heads(|toss| plain(black_box(toss)))));
     group.bench_function("cos θ to the last bit", |bencher| {
-        bencher.iter(|| tosses.iter().filter_map(|toss| ExactSolver.cos_tilt(black_box(toss)).ok()).sum::<f64>());
+        bencher.iter(|| {
+            tosses
+                .iter()
+                .filter_map(|toss| ExactSolver.tilt(black_box(toss)).ok())
+                .map(|tilt| tilt.cos_tilt)
+                .sum::<f64>()
+        });
     });
     group.bench_function("state to the last bits", |bencher| {
         let state = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.time_of_flight()).ok();

@@ -45,12 +45,12 @@
 //! see `multiprecision.rs`.
 
 use dynamics::phase::LARGEST_PHASE;
-use dynamics::{Attitude, Error, Outcome, SolveError, Toss};
+use dynamics::{Attitude, CoinToss, Outcome, SolveError};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
-use crate::certificate::{Certificate, ProvenCounts, Stage};
+use crate::certificate::{Certificate, Stage};
 use crate::given::{in_double_double, scaled};
-use crate::motion::ExactMotion;
+use crate::motion::CoinMotion;
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
 use crate::tilt_terms::{TiltTerms, terms};
 
@@ -59,7 +59,7 @@ use crate::tilt_terms::{TiltTerms, terms};
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
 #[inline]
-pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
+pub(crate) fn certify_coin(toss: &CoinToss) -> Result<Certificate, SolveError> {
     match by_f64(toss) {
         Some(outcome) => Ok(Certificate::new(outcome, Stage::F64)),
         None => with_more_digits(toss),
@@ -70,28 +70,13 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
 /// it is 0 for a tie alone. Near 0, where that error would take the leading digits, it is rounded from more digits.
 ///
 /// # Errors
-/// As [`certify`].
-pub fn cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+/// As [`certify`](crate::certify).
+pub fn cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
     // Above the error of double-double at any phase.
     const NEAR_0: f64 = 1e-9;
-    let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
+    let cos_tilt = CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
     let is_right = cos_tilt.abs() > NEAR_0 && toss.launch.rate_error() == 0.0;
     Ok(if is_right { cos_tilt } else { rounded_cos_tilt(toss) })
-}
-
-impl ProvenCounts {
-    /// Proves and counts the outcomes of `tosses`.
-    ///
-    /// # Errors
-    /// [`Error::Launch`] for the first toss that has no outcome.
-    pub fn of(tosses: impl IntoIterator<Item = Toss>) -> Result<Self, Error> {
-        let mut counts = Self::default();
-        for (index, toss) in (0..).zip(tosses) {
-            let certificate = certify(&toss);
-            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss.into()), source })?);
-        }
-        Ok(counts)
-    }
 }
 
 /// Whether all tosses land as `toss` does whose rates, inertia ratio k and time of flight differ from its own by up to
@@ -102,15 +87,15 @@ impl ProvenCounts {
 /// of the bound, for a `relative` of 4 u or more.
 ///
 /// # Errors
-/// As [`certify`].
-pub fn holds_within(toss: &Toss, relative: f64) -> Result<bool, SolveError> {
-    let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+/// As [`certify`](crate::certify).
+pub fn holds_within(toss: &CoinToss, relative: f64) -> Result<bool, SolveError> {
+    let phase = CoinMotion::new(toss).phase(toss.launch.time_of_flight())?;
     Ok(cos_tilt(toss)?.abs() > 4.0 * relative * phase)
 }
 
 /// The stage in f64. `None` if |cos θ| is within the error bound.
 #[inline]
-fn by_f64(toss: &Toss) -> Option<Outcome> {
+fn by_f64(toss: &CoinToss) -> Option<Outcome> {
     if let Some(phase) = flat_phase(toss) {
         return decided(phase.cos(), f64_bound(phase));
     }
@@ -131,7 +116,7 @@ fn decided(cos_tilt: f64, bound: f64) -> Option<Outcome> {
 /// cos(Ω T) (J. B. Keller, Am. Math. Mon. 93 (1986), 191), with an error of at most 2u + 4u Ω T. `None` for any other toss,
 /// and outside the range in which squares, time and phase keep their digits.
 #[inline]
-fn flat_phase(toss: &Toss) -> Option<f64> {
+fn flat_phase(toss: &CoinToss) -> Option<f64> {
     const SQUARES: std::ops::Range<f64> = 1e-200..1e200;
     const PHASES: std::ops::Range<f64> = 1e-100..0.99 * LARGEST_PHASE;
     let rate = toss.launch.rate();
@@ -146,7 +131,7 @@ fn flat_phase(toss: &Toss) -> Option<f64> {
 /// The phase ωL T (rad) at landing. `None` if it or the phase |q| T of the spin may exceed [`LARGEST_PHASE`] or have
 /// lost digits.
 #[inline]
-fn phase_in_range(toss: &Toss, terms: &TiltTerms) -> Option<f64> {
+fn phase_in_range(toss: &CoinToss, terms: &TiltTerms) -> Option<f64> {
     const SMALLEST_TIME: f64 = 1e-200;
     let time = toss.launch.flight_time();
     let [phase, spin] = terms.phases(time);
@@ -172,10 +157,10 @@ fn by_terms(terms: &TiltTerms, phase: f64, rate_error: f64) -> Option<Outcome> {
 /// Decides by the stages with more digits than f64.
 ///
 /// # Errors
-/// As [`certify`].
+/// As [`certify`](crate::certify).
 #[cold]
-fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
-    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+fn with_more_digits(toss: &CoinToss) -> Result<Certificate, SolveError> {
+    CoinMotion::new(toss).phase(toss.launch.time_of_flight())?;
     Ok(match cos_tilt_in_double_double(toss).filter(Ball::has_sign) {
         Some(cos_tilt) => Certificate::new(Outcome::of(cos_tilt.sign(), 0.0), Stage::DoubleDouble),
         None => Certificate::new(by_multiprecision(toss), Stage::Multiprecision),
@@ -184,7 +169,7 @@ fn with_more_digits(toss: &Toss) -> Result<Certificate, SolveError> {
 
 /// A ball of double-double numbers with cos θ at landing, by which the second stage decides. `None` for rates that are not
 /// in rad/s or differ too much.
-pub fn cos_tilt_in_double_double(toss: &Toss) -> Option<Ball<DoubleDouble>> {
+pub fn cos_tilt_in_double_double(toss: &CoinToss) -> Option<Ball<DoubleDouble>> {
     let (time, vertical) = in_double_double(&toss.launch)?;
     // The ratio to 25 u² of itself, as the time; its last digits may be below the range of f64.
     let k = toss.coin.exact_inertia_ratio();
@@ -193,7 +178,7 @@ pub fn cos_tilt_in_double_double(toss: &Toss) -> Option<Ball<DoubleDouble>> {
 }
 
 /// cos θ in any kind of number, from the time in the unit of [`scaled`] rates, the vertical (BF) at launch, and k.
-pub(crate) fn cos_tilt_in<N: Elementary>(toss: &Toss, time: &N, vertical: [N; 3], k: N) -> N {
+pub(crate) fn cos_tilt_in<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N; 3], k: N) -> N {
     let (rate, _) = toss.launch.given_rate();
     if rate.x == 0.0 && rate.y == 0.0 {
         let [.., m_z] = vertical;

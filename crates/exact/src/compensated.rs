@@ -1,5 +1,5 @@
 //! This file computes cos θ and the state at landing in f64 with compensated phases. It is three times as fast as
-//! [`ExactMotion`], and nearly as accurate at any phase.
+//! [`CoinMotion`], and nearly as accurate at any phase.
 //!
 //! In plain f64 the phases ωL T and q T are off by a few roundings, and the error of cos θ grows with them. Here the
 //! rounding error of each operation is carried along to first order. For products and sums it is computed exactly; for
@@ -8,13 +8,13 @@
 //! are left to the exact motion, which takes them as they were given.
 
 use dynamics::phase::require_phase;
-use dynamics::{Attitude, SolveError, State, Toss};
+use dynamics::{Attitude, CoinToss, SolveError, State};
 use nalgebra::Vector3;
 use numerics::DoubleDouble;
 use numerics::double_double::two_sum;
 use numerics::scale::power_of_two_scale;
 
-use crate::motion::ExactMotion;
+use crate::motion::CoinMotion;
 use crate::tilt_terms::{SLOWEST_SQUARED, TiltTerms};
 
 /// The angular momentum divided by I1, L = (ωx, ωy, k ωz), in the body frame (BF).
@@ -31,7 +31,7 @@ struct Momentum {
 
 impl Momentum {
     #[inline]
-    fn new(toss: &Toss) -> Self {
+    fn new(toss: &CoinToss) -> Self {
         let (k, rate) = (toss.coin.exact_inertia_ratio(), toss.launch.rate());
         let unit = power_of_two_scale(rate.amax());
         let (x, y, z) = (rate.x / unit, rate.y / unit, rate.z / unit);
@@ -66,7 +66,7 @@ pub(crate) fn root(square: f64, rest: f64) -> [f64; 2] {
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
-pub(crate) fn turned([rate, rest]: [f64; 2], toss: &Toss, unit: f64) -> Result<DoubleDouble, SolveError> {
+pub(crate) fn turned([rate, rest]: [f64; 2], toss: &CoinToss, unit: f64) -> Result<DoubleDouble, SolveError> {
     // A rate of 0 gives phase 0 at any time, also where the product would be 0 · ∞.
     if rate == 0.0 {
         return Ok(DoubleDouble::ZERO);
@@ -82,9 +82,9 @@ pub(crate) fn turned([rate, rest]: [f64; 2], toss: &Toss, unit: f64) -> Result<D
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
-pub fn compensated_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
+pub fn compensated_cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
     if toss.launch.rate_error() != 0.0 {
-        return ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
+        return CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
     }
     let Momentum { vector, squared, rate, unit } = Momentum::new(toss);
     let phase = turned(rate, toss, unit)?;
@@ -102,9 +102,9 @@ pub fn compensated_cos_tilt(toss: &Toss) -> Result<f64, SolveError> {
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 #[inline]
-pub fn compensated_landing(toss: &Toss) -> Result<State, SolveError> {
+pub fn compensated_landing(toss: &CoinToss) -> Result<State, SolveError> {
     if toss.launch.rate_error() != 0.0 {
-        return ExactMotion::new(toss).state(toss.launch.time_of_flight());
+        return CoinMotion::new(toss).state(toss.launch.time_of_flight());
     }
     let Momentum { vector, rate: precession_rate, unit, .. } = Momentum::new(toss);
     let phase = turned(precession_rate, toss, unit)?;
@@ -123,7 +123,7 @@ pub fn compensated_landing(toss: &Toss) -> Result<State, SolveError> {
 
 /// q = (k - 1) ωz and its rounding error, in the `unit` (rad/s).
 #[inline]
-fn spin_rate(toss: &Toss, unit: f64) -> [f64; 2] {
+fn spin_rate(toss: &CoinToss, unit: f64) -> [f64; 2] {
     let (k, z) = (toss.coin.exact_inertia_ratio(), toss.launch.rate().z / unit);
     let less_one = two_sum(k.hi(), -1.0);
     let rate = DoubleDouble::product(less_one.hi(), z);
@@ -151,8 +151,8 @@ mod tests {
             for (k, tilt) in [0.0, 0.3, 1.0, 1.9].into_iter().flat_map(|k| [0.0, 0.7, 3.0].map(|tilt| (k, tilt))) {
                 let launch = Launch::new(rate, time).unwrap().with_tilt(tilt).unwrap();
                 // The inertia ratio k/1.1 has no exact f64, except for k = 0.
-                let toss = Toss { coin: Coin::from_moments(1.1, k).unwrap(), launch };
-                let (landing, motion) = (compensated_landing(&toss).unwrap(), ExactMotion::new(&toss));
+                let toss = CoinToss { coin: Coin::from_moments(1.1, k).unwrap(), launch };
+                let (landing, motion) = (compensated_landing(&toss).unwrap(), CoinMotion::new(&toss));
                 let exact = motion.state(time).unwrap();
                 let error = landing.attitude.angle_to(&exact.attitude);
                 assert!(error < 5.0 * f64::EPSILON, "{rate:?} {time:?} {k} {tilt}: {error:e}");
@@ -168,7 +168,7 @@ mod tests {
     fn a_phase_above_two_to_the_53_is_refused() {
         for rate in [Vector3::new(0.0, 0.0, 1e300), Vector3::new(1e20, 0.0, 0.0)] {
             let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
-            let toss = Toss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch };
+            let toss = CoinToss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch };
             assert!(matches!(compensated_landing(&toss), Err(SolveError::PhaseTooLarge { .. })));
             assert!(matches!(compensated_cos_tilt(&toss), Err(SolveError::PhaseTooLarge { .. })));
         }
@@ -187,7 +187,7 @@ mod tests {
         ] {
             let time = TimeOfFlight::Given(part * LARGEST_PHASE);
             let launch = Launch::new(Vector3::new(0.0, 0.0, z), time).unwrap();
-            let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+            let toss = CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
             assert_eq!(compensated_cos_tilt(&toss).is_ok(), taken, "{k}, {part}");
             assert_eq!(compensated_landing(&toss).is_ok(), taken, "{k}, {part}");
         }

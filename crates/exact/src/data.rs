@@ -6,7 +6,6 @@ use serde::{Serialize, Serializer};
 
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::margin::Margin;
-use crate::rigid::RigidMargin;
 use crate::sensitivity::Sensitivity;
 
 /// The [name](Stage::name).
@@ -43,7 +42,8 @@ impl Serialize for ProvenCounts {
     }
 }
 
-/// `{ time, speed, gravity, tilt, rate, rate_range }` in s, m/s, m/s², rad and rad/s. What no change flips is null.
+/// `{ time, speed, gravity, tilt, rate, rate_range, time_range }` in s, m/s, m/s², rad and rad/s. What no change flips is
+/// null, and so is a range that is infinite.
 impl Serialize for Margin {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -54,22 +54,11 @@ impl Serialize for Margin {
             tilt: Option<f64>,
             rate: [Option<f64>; 3],
             rate_range: [f64; 3],
-        }
-        let &Self { time, speed, gravity, tilt, rate, rate_range } = self;
-        Data { time, speed, gravity, tilt, rate, rate_range }.serialize(to)
-    }
-}
-
-/// `{ margin, time_range }`; `null` for a time that is infinite.
-impl Serialize for RigidMargin {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Data<'a> {
-            margin: &'a Margin,
             time_range: [Option<f64>; 2],
         }
-        let time_range = self.time_range.map(|time| Some(time).filter(|time| time.is_finite()));
-        Data { margin: &self.margin, time_range }.serialize(to)
+        let &Self { time, speed, gravity, tilt, rate, rate_range, time_range } = self;
+        let time_range = time_range.map(|range| Some(range).filter(|range| range.is_finite()));
+        Data { time, speed, gravity, tilt, rate, rate_range, time_range }.serialize(to)
     }
 }
 
@@ -87,25 +76,25 @@ impl Serialize for Sensitivity {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, TimeOfFlight, Toss, Tosses};
+    use dynamics::{Coin, CoinToss, Launch, TimeOfFlight, Tosses};
     use serde_json::{json, to_value};
 
     use super::*;
     use crate::batch::Batch;
-    use crate::certified::certify;
-    use crate::margin::margin;
+    use crate::certified::certify_coin;
+    use crate::margin::margin_coin;
 
     /// The paper's cheated toss, with the margins of the README.
     #[test]
     fn proofs_margins_and_sensitivities_are_written_with_the_names_of_their_fields() {
         let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-        let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown).unwrap() };
-        let certificate = to_value(certify(&toss).unwrap()).unwrap();
+        let toss = CoinToss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown).unwrap() };
+        let certificate = to_value(certify_coin(&toss).unwrap()).unwrap();
         assert_eq!(certificate, json!({ "outcome": "heads", "stage": "f64" }));
-        let margin = to_value(margin(&toss).unwrap()).unwrap();
+        let margin = to_value(margin_coin(&toss).unwrap()).unwrap();
         assert!((margin["speed"].as_f64().unwrap() - 3.4123).abs() < 1e-4, "{margin}");
         assert_eq!((&margin["rate"][2], &margin["rate_range"][2]), (&json!(null), &json!(1000.0)));
-        let sensitivity = Sensitivity::new(&toss).unwrap();
+        let sensitivity = Sensitivity::new(&toss.into()).unwrap();
         let written = to_value(sensitivity).unwrap();
         assert_eq!(written["attitude"][3][0].as_f64(), Some(sensitivity.attitude[(0, 3)]));
         assert_eq!(written["cos_tilt"][2].as_f64(), Some(sensitivity.cos_tilt[2]));

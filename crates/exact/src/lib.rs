@@ -1,4 +1,4 @@
-//! This crate computes the exact motion of a free coin by its closed form, and what follows from it: outcomes with a
+//! This crate computes the exact motion of a free coin or another rigid body by its closed form, and what follows from it: outcomes with a
 //! proof, sensitivities, margins and fast batches. It is a crate of its own so that no integrator can use the closed
 //! form against which it is judged.
 //!
@@ -7,7 +7,7 @@
 //! | rates, attitude, cos θ and Euler angles at any time, to the last bits | [`motion`] |
 //! | cos θ as three terms in f64; the phases that show heads | [`tilt_terms`], [`heads`] |
 //! | how far the other outcome is: the nearest flip by each input alone | [`mod@margin`] |
-//! | the speeds that land heads, for a landing at any height | [`thrown`] |
+//! | the speeds that land heads, for a landing at any height | [`speeds_of_heads`] |
 //! | derivatives of the landing with respect to the launch | [`sensitivity`] |
 //! | a cheaper form, in compensated f64 | [`compensated`] |
 //! | outcomes with a proof, also in as many digits as it takes; the numbers as given; the types that carry the proof | [`certified`], `multiprecision`, `given`, [`certificate`] |
@@ -35,18 +35,16 @@ mod polar;
 pub mod rigid;
 pub mod sensitivity;
 pub mod solver;
-pub mod thrown;
+mod thrown;
 pub mod tilt_terms;
 
 pub use batch::{Batch, BodyFilter};
 pub use certificate::{Certificate, ProvenCounts, Stage};
-pub use certified::certify;
 pub use compensated::{compensated_cos_tilt, compensated_landing};
 pub use heads::HeadsPhases;
-pub use margin::{Margin, margin, speeds_of_heads};
-pub use motion::ExactMotion;
-pub use rigid::{RigidAngles, RigidMargin, RigidMotion, certify_rigid, margin_rigid, rigid_speeds_of_heads};
+pub use margin::{Margin, level_speeds_of_heads};
+pub use motion::CoinMotion;
+pub use rigid::{ExactMotion, RigidAngles, certify, margin, speeds_of_heads};
 pub use sensitivity::Sensitivity;
 pub use solver::ExactSolver;
-pub use thrown::thrown_speeds_of_heads;
 pub use tilt_terms::TiltTerms;

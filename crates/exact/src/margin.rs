@@ -22,15 +22,15 @@ mod time;
 
 use dynamics::phase::LARGEST_PHASE;
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
+use dynamics::{CoinToss, Outcome, SolveError, TimeOfFlight};
 use numerics::DoubleDouble;
 
 pub(crate) use self::flight::speed_and_gravity;
 use self::line::Line;
 use self::search::{MOST_WORK, Walk};
-use crate::certified::certify;
+use crate::certified::certify_coin;
 use crate::heads::HeadsPhases;
-use crate::motion::ExactMotion;
+use crate::motion::CoinMotion;
 
 /// The changes of one input alone, with their signs, to the nearest value that lands the other way; each is right to a
 /// relative 1e-12.
@@ -54,6 +54,10 @@ pub struct Margin {
     /// that is more, but no further turn than 2000 rad and no phase that is too large to have an outcome. Less where the
     /// motion touches the edge so often that the search was ended.
     pub rate_range: [f64; 3],
+    /// The largest changes of the time of flight that were searched: earlier, down to 0 at most, and later (s). Infinite
+    /// for a coin, of which all times are searched. Of another body the changes of the time, the speed and gravity are
+    /// `None` also where no flip is in the range, or where the nearest of them might lie beyond it.
+    pub time_range: [f64; 2],
 }
 
 /// Changes of a rate that are searched (rad/s): 160 turns a second, four times what a hand gives a coin.
@@ -62,12 +66,12 @@ const RATE_RANGE: f64 = 1000.0;
 /// Changes of the turn that are searched (rad), which bounds the work. Flips further away than some turns are rare.
 const TURN_RANGE: f64 = 2000.0;
 
-/// The margin of a toss.
+/// The margin of the toss of a coin.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
-    let outcome = match certify(toss)?.outcome() {
+pub(crate) fn margin_coin(toss: &CoinToss) -> Result<Margin, SolveError> {
+    let outcome = match certify_coin(toss)?.outcome() {
         Outcome::Heads => 1.0,
         Outcome::Tails => -1.0,
         Outcome::Undecided => return Ok(on_edge(toss)),
@@ -76,16 +80,17 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     let [time, speed, gravity] = of_flight(toss, outcome)?;
     let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, turn, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
-    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range })
+    let time_range = [f64::INFINITY; 2];
+    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss, turn), rate, rate_range, time_range })
 }
 
 /// The largest change of a rate that is searched (rad/s).
-fn rate_range(toss: &Toss) -> f64 {
+fn rate_range(toss: &CoinToss) -> f64 {
     (10.0 * toss.launch.rate().amax()).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX)
 }
 
 /// The margin of an undecided toss.
-fn on_edge(toss: &Toss) -> Margin {
+fn on_edge(toss: &CoinToss) -> Margin {
     let zero = Some(0.0);
     let thrown = if matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { zero };
     Margin {
@@ -95,6 +100,7 @@ fn on_edge(toss: &Toss) -> Margin {
         tilt: zero,
         rate: [zero; 3],
         rate_range: [rate_range(toss); 3],
+        time_range: [f64::INFINITY; 2],
     }
 }
 
@@ -102,8 +108,8 @@ fn on_edge(toss: &Toss) -> Margin {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-fn of_flight(toss: &Toss, outcome: f64) -> Result<[Option<f64>; 3], SolveError> {
-    let motion = ExactMotion::new(toss);
+fn of_flight(toss: &CoinToss, outcome: f64) -> Result<[Option<f64>; 3], SolveError> {
+    let motion = CoinMotion::new(toss);
     let flight = toss.launch.time_of_flight();
     let (phase, _) = motion.phases(flight)?;
     if motion.precession_rate() == 0.0 {
@@ -134,7 +140,7 @@ fn smaller(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 /// Of a rate, with the `turn` Φ of the landing; and the largest change that was searched.
-fn of_rate(toss: &Toss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
+fn of_rate(toss: &CoinToss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
     let flight = toss.launch.time_of_flight();
     let (time, range) = (ExactTime::from(flight), rate_range(toss));
     let k = toss.coin.exact_inertia_ratio();
@@ -164,7 +170,7 @@ fn of_rate(toss: &Toss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (
 }
 
 /// Of the tilt.
-fn of_tilt(toss: &Toss, turn: [DoubleDouble; 3]) -> Option<f64> {
+fn of_tilt(toss: &CoinToss, turn: [DoubleDouble; 3]) -> Option<f64> {
     let mut change = f64::NAN;
     for stage in 0..3 {
         let [height, turned] =
@@ -183,12 +189,12 @@ fn of_tilt(toss: &Toss, turn: [DoubleDouble; 3]) -> Option<f64> {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-pub fn speeds_of_heads(
-    toss: &Toss,
+pub fn level_speeds_of_heads(
+    toss: &CoinToss,
     slowest: f64,
 ) -> Result<Option<impl Iterator<Item = [f64; 2]> + use<>>, SolveError> {
     let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return Ok(None) };
-    let motion = ExactMotion::new(toss);
+    let motion = CoinMotion::new(toss);
     let fastest_phase = motion.phases(toss.launch.time_of_flight())?.0.hi();
     let slowest_phase = motion.phases(TimeOfFlight::Ballistic { speed: slowest, gravity })?.0.hi();
     // Without a precession every speed has the outcome of the launch, and a phase of 0 no length.

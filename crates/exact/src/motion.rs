@@ -23,7 +23,7 @@
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{Attitude, EulerAngles, SolveError, State, Toss};
+use dynamics::{Attitude, CoinToss, EulerAngles, SolveError, State};
 use nalgebra::Vector3;
 use numerics::DoubleDouble;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
@@ -32,12 +32,12 @@ use crate::heads::HeadsPhases;
 use crate::polar::{continuous_polar, flat, half_turns};
 use crate::tilt_terms::terms;
 
-/// Error of [`ExactMotion::cos_tilt`], provided that std's sine and cosine are right to 0.6 ulp.
+/// Error of [`CoinMotion::cos_tilt`], provided that std's sine and cosine are right to 0.6 ulp.
 pub const COS_TILT_ERROR: f64 = 2.3e-16;
 
 /// The closed-form motion that follows a launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExactMotion {
+pub struct CoinMotion {
     launch: State,
     /// Exponent of the power of two (rad/s) that is the unit of the rates below.
     exponent: i32,
@@ -51,9 +51,9 @@ pub struct ExactMotion {
     tilt: [DoubleDouble; 3],
 }
 
-impl ExactMotion {
+impl CoinMotion {
     /// The motion of a toss.
-    pub fn new(toss: &Toss) -> Self {
+    pub fn new(toss: &CoinToss) -> Self {
         let (rate, attitude) = (toss.launch.rate(), toss.launch.attitude());
         let k = toss.coin.exact_inertia_ratio();
         let (scaled, scale) = scaled_rate(toss);
@@ -186,12 +186,12 @@ impl ExactMotion {
 }
 
 /// ŝ, the direction of S at the launch of a toss (BF); ẑ without a precession.
-pub(crate) fn momentum_direction(toss: &Toss) -> [DoubleDouble; 3] {
+pub(crate) fn momentum_direction(toss: &CoinToss) -> [DoubleDouble; 3] {
     unit_momentum(scaled_rate(toss).0, toss.coin.exact_inertia_ratio()).0
 }
 
 /// The rate of a toss (BF) as it was given, in a unit near its largest component: the second number (rad/s), a power of two.
-fn scaled_rate(toss: &Toss) -> ([DoubleDouble; 3], f64) {
+fn scaled_rate(toss: &CoinToss) -> ([DoubleDouble; 3], f64) {
     let scale = power_of_two_scale(toss.launch.rate().amax());
     (toss.launch.exact_rate().map(|part| part.in_unit(scale)), scale)
 }

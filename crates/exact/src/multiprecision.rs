@@ -23,7 +23,7 @@
 
 use std::iter::successors;
 
-use dynamics::{AngleUnit, Outcome, Toss};
+use dynamics::{AngleUnit, CoinToss, Outcome};
 use numerics::big::{Big, exactly};
 use numerics::{Elementary, WideBall};
 
@@ -37,12 +37,12 @@ const FEWEST_DIGITS: usize = 192;
 const MOST_DIGITS_OF_TURNS: usize = 12_288;
 
 /// The stage of a proof in as many digits as it takes. It always decides, but for exact ties.
-pub(crate) fn by_multiprecision(toss: &Toss) -> Outcome {
+pub(crate) fn by_multiprecision(toss: &CoinToss) -> Outcome {
     decided_cos_tilt(toss, WideBall::has_sign).map_or(Outcome::Undecided, |cos_tilt| Outcome::of(cos_tilt.sign(), 0.0))
 }
 
 /// cos θ at landing, rounded to f64 so that it keeps its sign. It is 0 for an exact tie alone.
-pub(crate) fn rounded_cos_tilt(toss: &Toss) -> f64 {
+pub(crate) fn rounded_cos_tilt(toss: &CoinToss) -> f64 {
     const SMALLEST: f64 = f64::from_bits(1);
     let Some(exact) = decided_cos_tilt(toss, |ball| ball.is_right_to(2f64.powi(-60))) else { return 0.0 };
     let rounded = exact.to_f64();
@@ -50,7 +50,7 @@ pub(crate) fn rounded_cos_tilt(toss: &Toss) -> f64 {
 }
 
 /// The first ball with cos θ at landing that has enough digits; `None` for an exact tie.
-fn decided_cos_tilt(toss: &Toss, has_enough: impl Fn(&WideBall) -> bool) -> Option<WideBall> {
+fn decided_cos_tilt(toss: &CoinToss, has_enough: impl Fn(&WideBall) -> bool) -> Option<WideBall> {
     if is_tie(toss) {
         return None;
     }
@@ -62,7 +62,7 @@ fn decided_cos_tilt(toss: &Toss, has_enough: impl Fn(&WideBall) -> bool) -> Opti
 }
 
 /// Whether cos θ = 0 exactly at landing.
-fn is_tie(toss: &Toss) -> bool {
+fn is_tie(toss: &CoinToss) -> bool {
     // Digits do not matter here: what is 0 is 0 in any number of them.
     const DIGITS: usize = 80;
     let ([m_x, m_y, m_z], _) = toss.launch.attitude().vertical_in_digits(DIGITS);
@@ -79,13 +79,13 @@ fn is_tie(toss: &Toss) -> bool {
 }
 
 /// A ball of `digits` binary digits with cos θ at landing.
-pub(crate) fn cos_tilt(toss: &Toss, digits: usize) -> WideBall {
+pub(crate) fn cos_tilt(toss: &CoinToss, digits: usize) -> WideBall {
     let (time, vertical) = in_digits(&toss.launch, digits);
     cos_tilt_in(toss, &time, vertical, right_to_roundings(toss.coin.inertia_ratio_in_digits(digits), digits))
 }
 
 /// (ωx, ωy, k ωz) in `digits` binary digits (rad/s).
-pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
+pub(crate) fn momentum(toss: &CoinToss, digits: usize) -> [Big; 3] {
     let big = |value: f64| exactly(value).with_precision(digits).value();
     let (rate, unit) = toss.launch.given_rate();
     let unit = unit.in_digits(digits);
@@ -93,7 +93,7 @@ pub(crate) fn momentum(toss: &Toss, digits: usize) -> [Big; 3] {
 }
 
 /// T in `digits` binary digits (s).
-pub(crate) fn flight_time(toss: &Toss, digits: usize) -> Big {
+pub(crate) fn flight_time(toss: &CoinToss, digits: usize) -> Big {
     toss.launch.time_of_flight().in_digits(digits)
 }
 
@@ -103,12 +103,12 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::certified::{certify, cos_tilt as landed_cos_tilt};
-    use crate::motion::ExactMotion;
+    use crate::certified::{certify_coin, cos_tilt as landed_cos_tilt};
+    use crate::motion::CoinMotion;
 
-    fn toss(coin: Coin, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
+    fn toss(coin: Coin, rate: [f64; 3], attitude: Attitude, time: f64) -> CoinToss {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        Toss { coin, launch: launch.with_attitude(attitude) }
+        CoinToss { coin, launch: launch.with_attitude(attitude) }
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
                     assert!(difference <= rough.error(), "{digits}, {time}");
                     // And the radius is what the phase's loss of digits makes of the last ones.
                     assert!(rough.is_right_to(2f64.powi(90 - i32::try_from(digits).unwrap())), "{digits}, {time}");
-                    let exact = ExactMotion::new(&toss).cos_tilt(time).unwrap();
+                    let exact = CoinMotion::new(&toss).cos_tilt(time).unwrap();
                     assert!((Elementary::to_f64(&fine) - exact).abs() < 1e-15, "{digits}, {time}");
                 }
             }
@@ -139,7 +139,7 @@ mod tests {
     fn a_coin_on_edge_ties_in_degrees_and_never_in_radians() {
         let landed = |rate, attitude, time| {
             let toss = toss(Coin::DISC, rate, attitude, time);
-            (certify(&toss).unwrap().outcome(), landed_cos_tilt(&toss).unwrap())
+            (certify_coin(&toss).unwrap().outcome(), landed_cos_tilt(&toss).unwrap())
         };
         let rad = std::f64::consts::FRAC_PI_2;
         for (rate, time) in [([1.0, 2.0, 3.0], 0.0), ([0.0, 0.0, 7.0], 1.0), ([0.0; 3], 1.0), ([0.0, 7.0, 0.0], 1.0)] {
@@ -159,7 +159,7 @@ mod tests {
         let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
         for (rate, outcome) in [(1e-300, Outcome::Tails), (-1e-300, Outcome::Heads)] {
             let toss = toss(Coin::DISC, [rate, 7.0, 0.0], edge, 1e-300);
-            assert_eq!(certify(&toss).unwrap().outcome(), outcome);
+            assert_eq!(certify_coin(&toss).unwrap().outcome(), outcome);
             assert_eq!(landed_cos_tilt(&toss), Ok(-rate.signum() * 5e-324));
         }
     }
@@ -176,8 +176,8 @@ mod tests {
             (1024.0, 1024.75 / 1024.0, Outcome::Undecided),
         ] {
             let launch = Launch::in_unit(Vector3::new(rate, 0.0, 0.0), turns, TimeOfFlight::Given(time)).unwrap();
-            let toss = Toss { coin: Coin::DISC, launch };
-            assert_eq!(certify(&toss).unwrap().outcome(), outcome, "{rate} {time}");
+            let toss = CoinToss { coin: Coin::DISC, launch };
+            assert_eq!(certify_coin(&toss).unwrap().outcome(), outcome, "{rate} {time}");
             assert_eq!(Outcome::of(landed_cos_tilt(&toss).unwrap(), 0.0), outcome, "{rate} {time}");
         }
     }
@@ -199,7 +199,7 @@ mod tests {
             for size in [1.0, 2f64.powi(1000), 2f64.powi(-1000)] {
                 let given = [w, x, y, z].map(|part| size * part);
                 let attitude = Attitude::from_components(given).unwrap();
-                let landed = certify(&toss(Coin::DISC, [0.0; 3], attitude, 1.0)).unwrap().outcome();
+                let landed = certify_coin(&toss(Coin::DISC, [0.0; 3], attitude, 1.0)).unwrap().outcome();
                 assert_eq!(landed, outcome(given), "{given:?}");
                 normalised_differs += u32::from(landed != outcome(attitude.components()));
             }

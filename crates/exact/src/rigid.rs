@@ -41,9 +41,9 @@
 //!
 //! [`RigidAngles`] are the Euler angles, continuous from launch on.
 //!
-//! [`RigidMotion::compensated`] is three to seven times as fast: its phases are in double-double, all else is in f64.
+//! [`ExactMotion::compensated`] is three to seven times as fast: its phases are in double-double, all else is in f64.
 //!
-//! [`certify_rigid`] proves outcomes by the same formulas in [`Ball`](numerics::Ball), numbers that carry a bound of
+//! [`certify`] proves outcomes by the same formulas in [`Ball`](numerics::Ball), numbers that carry a bound of
 //! every rounding.
 
 mod angles;
@@ -60,26 +60,27 @@ mod walk;
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{AngleUnit, Attitude, RigidToss, SolveError, State, Vector3};
+use dynamics::{AngleUnit, Attitude, SolveError, State, Toss, Vector3};
 use numerics::big::exactly;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Big, DoubleDouble, Elementary};
 
 pub use angles::RigidAngles;
-pub use certified::certify_rigid;
+pub use certified::certify;
+pub(crate) use certified::cos_tilt_with_error;
 use curve::Curve;
-pub use margin::{RigidMargin, margin_rigid, rigid_speeds_of_heads};
+pub use margin::{margin, speeds_of_heads};
 pub use regime::Regime;
 
 use crate::given::{components_are_close, scaled};
-use crate::motion::ExactMotion;
+use crate::motion::CoinMotion;
 
 /// Digits of the constants of a launch where double-double has too few.
 const MANY_DIGITS: usize = 1536;
 
 /// The motion of a rigid body after its launch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RigidMotion {
+pub struct ExactMotion {
     launch: State,
     kind: Kind,
 }
@@ -88,7 +89,7 @@ pub struct RigidMotion {
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
     /// By the closed form for coins.
-    Coin(Box<ExactMotion>),
+    Coin(Box<CoinMotion>),
     /// By that for any body, with the unit of the rates (rad/s): a power of two, and the factor of an angle's unit.
     Rigid { curve: Sums, exponent: i32, unit: DoubleDouble },
 }
@@ -102,9 +103,9 @@ enum Sums {
     DoubleDouble(Box<Curve<DoubleDouble>>),
 }
 
-impl RigidMotion {
-    /// The motion of a toss. One of a body with I1 = I2 is that of [`ExactMotion`], to the last bit.
-    pub fn new(toss: &RigidToss) -> Self {
+impl ExactMotion {
+    /// The motion of a toss. One of a body with I1 = I2 is that of [`CoinMotion`], to the last bit.
+    pub fn new(toss: &Toss) -> Self {
         Self::by(toss, |toss, rate| Sums::DoubleDouble(Box::new(curve_in_double_double(toss, rate))))
     }
 
@@ -113,8 +114,8 @@ impl RigidMotion {
     /// cos θ over 122 500 tosses with phases to 1e9 rad.
     ///
     /// Next to the separatrix, and for rates that differ by more than 2^200, all is in double-double as by
-    /// [`RigidMotion::new`].
-    pub fn compensated(toss: &RigidToss) -> Self {
+    /// [`ExactMotion::new`].
+    pub fn compensated(toss: &Toss) -> Self {
         Self::by(toss, |toss, rate| {
             let rounded = if components_are_close(&rate) {
                 Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO))
@@ -129,10 +130,10 @@ impl RigidMotion {
     }
 
     /// The motion of a toss by a curve for its body and its rate as given.
-    fn by(toss: &RigidToss, curve: impl Fn(&RigidToss, Vector3<f64>) -> Sums) -> Self {
+    fn by(toss: &Toss, curve: impl Fn(&Toss, Vector3<f64>) -> Sums) -> Self {
         let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-        if let Some(toss) = toss.symmetric() {
-            return Self { launch, kind: Kind::Coin(Box::new(ExactMotion::new(&toss))) };
+        if let Some(toss) = toss.coin() {
+            return Self { launch, kind: Kind::Coin(Box::new(CoinMotion::new(&toss))) };
         }
         let (rate, unit) = toss.launch.given_rate();
         let unit = if unit == AngleUnit::RADIAN { 1.0.into() } else { DoubleDouble::nearest(&unit.in_digits(160)) };
@@ -256,7 +257,7 @@ fn cos_tilt<N: Elementary>(turn: &quaternion::Quaternion<N>, vertical: &[N; 3]) 
 }
 
 /// The curve in double-double, from more digits if these are too few.
-fn curve_in_double_double(toss: &RigidToss, rate: Vector3<f64>) -> Curve<DoubleDouble> {
+fn curve_in_double_double(toss: &Toss, rate: Vector3<f64>) -> Curve<DoubleDouble> {
     let close =
         if components_are_close(&rate) { Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO)) } else { None };
     close.unwrap_or_else(|| {

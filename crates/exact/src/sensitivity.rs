@@ -12,10 +12,10 @@
 //! δ cos θ = (ẑ × v)·δϑ
 //! ```
 
-use dynamics::{SolveError, Toss};
+use dynamics::{CoinToss, SolveError};
 use nalgebra::{Matrix3, Matrix3x4, Rotation3, Vector3, Vector4};
 
-use crate::motion::ExactMotion;
+use crate::motion::CoinMotion;
 
 /// Derivatives of a landing with respect to ωx, ωy, ωz at launch (BF, rad/s) and the time of flight (s), in this order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,13 +27,13 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// The derivatives at the landing of `toss`.
+    /// The derivatives at the landing of the toss of a coin.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+    pub(crate) fn of_coin(toss: &CoinToss) -> Result<Self, SolveError> {
         let (k, rate, time) = (toss.coin.inertia_ratio(), toss.launch.rate(), toss.launch.flight_time());
-        let motion = ExactMotion::new(toss);
+        let motion = CoinMotion::new(toss);
         let landing = motion.state(toss.launch.time_of_flight())?;
         let (_, spin) = motion.phases(toss.launch.time_of_flight())?;
         let turn = Vector3::new(rate.x, rate.y, k * rate.z) * time;
@@ -65,9 +65,9 @@ mod tests {
 
     use super::*;
 
-    fn toss([x, y, z]: [f64; 3], time: f64, tilt: f64) -> Toss {
+    fn toss([x, y, z]: [f64; 3], time: f64, tilt: f64) -> CoinToss {
         let launch = Launch::new(Vector3::new(x, y, z), TimeOfFlight::Given(time)).unwrap();
-        Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
+        CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_tilt(tilt).unwrap() }
     }
 
     #[test]
@@ -79,9 +79,9 @@ mod tests {
                 let landing = |change: Vector4<f64>| {
                     let [x, y, z] = rate;
                     let toss = toss([x + change.x, y + change.y, z + change.z], 0.7 + change.w, tilt);
-                    ExactMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().attitude
+                    CoinMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().attitude
                 };
-                let found = Sensitivity::new(&toss(rate, 0.7, tilt)).unwrap();
+                let found = Sensitivity::of_coin(&toss(rate, 0.7, tilt)).unwrap();
                 for input in 0..4 {
                     let step = Vector4::ith(input, STEP);
                     let (before, after) = (landing(-step), landing(step));

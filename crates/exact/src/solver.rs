@@ -1,13 +1,13 @@
 //! This file makes the exact motion a [`Solver`], so that it can be named, compared and used like the integrators. It
 //! takes no steps, and its outcomes are proven.
 
-use dynamics::{Outcome, Propagation, RigidToss, Settings, SolveError, Solver, SolverEntry, Toss, Work};
+use dynamics::{Landing, Settings, SolveError, Solver, SolverEntry, Tilt, Toss, Work};
 
-use crate::certified::{certify, cos_tilt};
-use crate::motion::{COS_TILT_ERROR, ExactMotion};
-use crate::rigid::{RigidMotion, certify_rigid};
+use crate::motion::CoinMotion;
+use crate::rigid::{ExactMotion, cos_tilt_with_error};
 
-/// The solver that evaluates [`ExactMotion`]. It takes no steps, and its outcomes are those of [`certify`].
+/// The solver that evaluates the [exact motion](ExactMotion). It takes no steps, and its outcomes are those of
+/// [`certify`](crate::certify).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ExactSolver;
 
@@ -27,85 +27,65 @@ impl Solver for ExactSolver {
         Self::NAME
     }
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
-        Ok(Propagation::new(motion.state(time)?, Work::default()).with_cos_tilt(cos_tilt(toss)?))
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let time = toss.launch.time_of_flight();
+        // The motion of any body is on the heap, that of a coin is not.
+        let state = match toss.coin() {
+            Some(toss) => CoinMotion::new(&toss).state(time)?,
+            None => ExactMotion::new(toss).state(time)?,
+        };
+        let Tilt { cos_tilt, error } = self.tilt(toss)?;
+        Ok(Landing::new(state, Work::default()).with_cos_tilt(cos_tilt).with_error(error))
     }
 
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(COS_TILT_ERROR))
-    }
-
-    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        cos_tilt(toss)
-    }
-
-    fn outcome_at(&self, toss: &Toss, _: f64) -> Result<Outcome, SolveError> {
-        self.outcome(toss)
-    }
-
-    fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        Ok(certify(toss)?.outcome())
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        if let Some(toss) = toss.symmetric() {
-            return self.propagate(&toss);
-        }
-        let (motion, time) = (RigidMotion::new(toss), toss.launch.time_of_flight());
-        Ok(Propagation::new(motion.state(time)?, Work::default()).with_cos_tilt(motion.cos_tilt(time)?))
-    }
-
-    fn error_estimate_rigid(&self, _: &RigidToss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(COS_TILT_ERROR))
-    }
-
-    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
-        match toss.symmetric() {
-            Some(toss) => cos_tilt(&toss),
-            None => RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight()),
-        }
-    }
-
-    fn outcome_at_rigid(&self, toss: &RigidToss, _: f64) -> Result<Outcome, SolveError> {
-        self.outcome_rigid(toss)
-    }
-
-    fn outcome_rigid(&self, toss: &RigidToss) -> Result<Outcome, SolveError> {
-        Ok(certify_rigid(toss)?.outcome())
+    fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
+        let (cos_tilt, error) = cos_tilt_with_error(toss)?;
+        Ok(Tilt { cos_tilt, error: Some(error) })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Body, Coin, Launch, TimeOfFlight, Vector3};
+    use dynamics::{Attitude, Body, Coin, Launch, Outcome, TimeOfFlight, Vector3};
 
     use super::*;
+    use crate::motion::COS_TILT_ERROR;
+    use crate::rigid::{certify, margin};
 
-    #[test]
-    fn outcomes_are_proven_and_ignore_the_given_cos_theta() {
-        let launch = Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap();
-        let toss = Toss { coin: Coin::PAPER, launch };
-        assert_eq!(ExactSolver.outcome(&toss), Ok(Outcome::Heads));
-        assert_eq!(ExactSolver.outcome_at(&toss, -1.0), Ok(Outcome::Heads));
-        assert_eq!((ExactSolver.error_estimate(&toss), ExactSolver.name()), (Ok(Some(COS_TILT_ERROR)), "exact"));
-        let landing = ExactSolver.propagate(&toss).unwrap();
-        assert_eq!(Ok(landing.cos_tilt), ExactSolver.cos_tilt(&toss));
-        assert!((landing.state.attitude.cos_tilt() - landing.cos_tilt).abs() < 1e-15);
+    fn launch() -> Launch {
+        Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap()
     }
 
     #[test]
-    fn a_body_of_three_moments_has_proven_outcomes_and_a_coin_keeps_its_bits() {
-        let launch = Launch::new(Vector3::new(20.0, 3.0, 1.0), TimeOfFlight::Given(0.6)).unwrap();
-        let coin = Toss { coin: Coin::PAPER, launch };
-        assert_eq!(ExactSolver.propagate_rigid(&coin.into()), ExactSolver.propagate(&coin));
-        assert_eq!(ExactSolver.cos_tilt_rigid(&coin.into()), ExactSolver.cos_tilt(&coin));
-        let brick = RigidToss { body: Body::from_moments([1.0, 1.5, 2.0]).unwrap(), launch };
-        let landing = ExactSolver.propagate_rigid(&brick).unwrap();
-        assert_eq!(ExactSolver.cos_tilt_rigid(&brick), Ok(landing.cos_tilt));
-        assert!((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs() < 4.0 * f64::EPSILON);
-        let outcome = certify_rigid(&brick).unwrap().outcome();
-        assert_eq!(ExactSolver.outcome_at_rigid(&brick, -landing.cos_tilt), Ok(outcome));
-        assert_eq!(outcome, Outcome::of(landing.cos_tilt, COS_TILT_ERROR));
+    fn coins_and_other_bodies_land_with_proven_outcomes() {
+        for body in [Body::from(Coin::PAPER), Body::from_moments([1.0, 1.5, 2.0]).unwrap()] {
+            let toss = Toss::new(body, launch());
+            let landing = ExactSolver.land(&toss).unwrap();
+            assert_eq!((landing.error, ExactSolver.name()), (Some(COS_TILT_ERROR), "exact"));
+            assert_eq!(ExactSolver.tilt(&toss), Ok(landing.tilt()));
+            assert_eq!(landing.outcome(), certify(&toss).unwrap().outcome());
+            assert!((landing.state.attitude.cos_tilt() - landing.cos_tilt).abs() < 1e-15);
+        }
+    }
+
+    /// The time of the flip and its neighbours in f64, where |cos θ| is smaller than its error in f64.
+    #[test]
+    fn next_to_an_edge_the_outcome_is_that_of_the_certificate_and_the_bound_holds() {
+        for body in [Body::from(Coin::PAPER), Body::from_moments([1.0, 1.5, 2.0]).unwrap()] {
+            let at = |time| Toss::new(body, Launch::new([9.0, 3.0, 1.0], TimeOfFlight::Given(time)).unwrap());
+            let flip = 0.3 + margin(&at(0.3)).unwrap().time.unwrap();
+            let mut near = 0;
+            for ulp in -20..20 {
+                let toss = at(f64::from_bits(flip.to_bits().saturating_add_signed(ulp)));
+                let tilt = ExactSolver.tilt(&toss).unwrap();
+                assert_eq!(tilt.outcome(), certify(&toss).unwrap().outcome(), "{ulp}");
+                near += u32::from(tilt.cos_tilt.abs() < COS_TILT_ERROR);
+            }
+            assert!(near > 0, "{body:?}");
+        }
+        let edge = Launch::new([0.0; 3], TimeOfFlight::Given(1.0)).unwrap();
+        let edge = edge.with_attitude(Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap());
+        let tilt = ExactSolver.tilt(&Toss::new(Coin::PAPER, edge)).unwrap();
+        assert_eq!((tilt.cos_tilt, tilt.outcome()), (0.0, Outcome::Undecided));
     }
 }

@@ -12,7 +12,7 @@
 //!
 //! Below, Ω² = Lx² + Ly². The rate of the spin is q = (k - 1) ωz.
 
-use dynamics::Toss;
+use dynamics::CoinToss;
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 use numerics::{Number, UNIT_ROUNDOFF};
@@ -75,7 +75,7 @@ pub struct TiltTerms {
 impl TiltTerms {
     /// Computes the terms of a toss.
     #[inline]
-    pub fn new(toss: &Toss) -> Self {
+    pub fn new(toss: &CoinToss) -> Self {
         let rate = toss.launch.rate();
         let unit = power_of_two_scale(rate.amax());
         let momentum = Vector3::new(rate.x / unit, rate.y / unit, toss.coin.inertia_ratio() * (rate.z / unit));
@@ -85,7 +85,7 @@ impl TiltTerms {
 
     /// The terms of a toss from its `momentum` L (BF), |L|² and |L|, all measured in the `unit` (rad/s).
     #[inline]
-    pub(crate) fn of_momentum(toss: &Toss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
+    pub(crate) fn of_momentum(toss: &CoinToss, momentum: &Vector3<f64>, squared: f64, size: f64, unit: f64) -> Self {
         let (x, y, z) = (momentum.x, momentum.y, momentum.z);
         let across = x * x + y * y;
         let (vertical, norm) = toss.launch.attitude().vertical();
@@ -132,7 +132,7 @@ mod tests {
             [([0.0; 3], 0.3, std::f64::consts::PI), ([0.0; 3], 2.0, 0.0), ([1e-160, 0.0, 1.0], 2.0, 0.0)]
         {
             let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-            let terms = TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch });
+            let terms = TiltTerms::new(&CoinToss { coin: Coin::from_moments(1.0, 0.0).unwrap(), launch });
             assert_eq!((terms.phases(1.0)[0], terms.heads().half_width), (0.0, half_width), "{rate:?} {tilt}");
             assert!((terms.height(0.0) / terms.size - tilt.cos()).abs() < 1e-15);
         }
@@ -147,7 +147,7 @@ mod tests {
     fn phases_are_rates_of_precession_and_spin_times_the_time() {
         let terms = |k: f64, rate: [f64; 3]| {
             let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
-            TiltTerms::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
+            TiltTerms::new(&CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch })
         };
         assert_eq!(terms(0.5, [30.0, 0.0, -80.0]).phases(2.0), [100.0, 80.0]);
         assert_eq!(terms(1.5, [0.0; 3]).phases(f64::INFINITY), [0.0, 0.0]);
@@ -160,7 +160,7 @@ mod tests {
     fn heads_have_the_errors_of_the_terms() {
         let launch =
             Launch::new(Vector3::new(3.0, 1.0, 0.5), TimeOfFlight::Given(1.0)).unwrap().with_tilt(0.3).unwrap();
-        let terms = TiltTerms::new(&Toss { coin: Coin::PAPER, launch });
+        let terms = TiltTerms::new(&CoinToss { coin: Coin::PAPER, launch });
         let cos_tilt = [terms.mean, terms.cosine, terms.sine].map(|term| term / terms.size);
         assert_eq!(terms.heads(), HeadsPhases::new(cos_tilt, 13.0 * UNIT_ROUNDOFF));
     }

@@ -1,7 +1,7 @@
 //! These tests compare the batches of rigid bodies with single tosses: the outcomes must be the same, at every SIMD level.
 
 use dynamics::{Attitude, Body, Error, Outcome, Tosses};
-use exact::{Batch, Stage, certify_rigid};
+use exact::{Batch, Stage, certify};
 use numerics::lanes::SimdLevel;
 
 /// The part after the point of a multiple of a root.
@@ -40,7 +40,7 @@ impl Columns {
     /// Launches of which most are random, some are next to the separatrix, next to a principal axis or on it, and some
     /// are slow, fast or long.
     fn new(count: usize, body: &Body) -> Self {
-        let principal = body.principal();
+        let principal = *body.rigid().principal();
         let mut columns: [Vec<f64>; 4] = Default::default();
         for index in 0..count {
             let [mut x, mut y, mut z] = [2.0, 3.0, 5.0].map(|square| 120.0 * part(index, square) - 60.0);
@@ -93,8 +93,8 @@ fn outcomes_of_a_batch_are_those_of_single_tosses_at_every_level() {
         let tosses = columns.tosses(body, attitudes[number % 3]);
         let found = outcomes(&Batch::new(tosses), 4000);
         for (index, found) in found.iter().enumerate() {
-            let expected = tosses.solve_rigid(index, certify_rigid).unwrap().outcome();
-            assert_eq!(*found, expected, "{:?}", tosses.solve_rigid(index, |toss| Ok(*toss)));
+            let expected = tosses.solve(index, certify).unwrap().outcome();
+            assert_eq!(*found, expected, "{:?}", tosses.solve(index, |toss| Ok(*toss)));
         }
         for level in SimdLevel::all() {
             let found = &found[..400];

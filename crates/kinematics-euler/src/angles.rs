@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Propagation, RigidToss, Scheme, Settings, Singularity, SolveError, Solver,
+    Body, CoinToss, EulerAngles, Flight, Formulation, Landing, Scheme, Settings, Singularity, SolveError, Solver,
     SolverEntry, Stepping, Toss,
 };
 use nalgebra::SVector;
@@ -67,11 +67,17 @@ impl Solver for EulerAnglesSolver {
         Some(self.stepping)
     }
 
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let landing = match toss.body {
+            Body::Rigid(_) if self.formulation.is_guarded() => rigid::land(toss, &self.stepping, self.formulation)?,
+            _ => self.land_coin(&toss.of_coin(Self::NAME, RAW_IS_FOR_COINS)?)?,
+        };
+        Ok(landing.with_error(self.stepping.error_estimate(toss)?))
     }
+}
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+impl EulerAnglesSolver {
+    fn land_coin(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
         let flight = Flight::new(toss)?;
         let start = InitialConditions::new(toss, &flight.rate, self.formulation);
         let (k, rate_z) = (toss.coin.inertia_ratio(), flight.rate.z);
@@ -84,21 +90,6 @@ impl Solver for EulerAnglesSolver {
         };
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
         start.landing(&flight, &angles, [end[3], end[4]], work)
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        match toss.symmetric() {
-            Some(toss) => self.propagate(&toss),
-            None if self.formulation.is_guarded() => rigid::propagate(toss, &self.stepping, self.formulation),
-            None => self.propagate(&toss.require_symmetric(Self::NAME, RAW_IS_FOR_COINS)?),
-        }
-    }
-
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        if !self.formulation.is_guarded() {
-            toss.require_symmetric(Self::NAME, RAW_IS_FOR_COINS)?;
-        }
-        self.stepping.error_estimate_rigid(toss)
     }
 }
 
@@ -148,7 +139,7 @@ impl OdeSystem<5> for AnglesSystem {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
-    use exact::ExactMotion;
+    use exact::CoinMotion;
 
     use super::*;
 
@@ -158,7 +149,7 @@ mod tests {
         for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)]
         {
             let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-            let motion = ExactMotion::new(&Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch });
+            let motion = CoinMotion::new(&CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch });
             let h = 1e-4;
             for step in 1..10 {
                 let time = 0.1 * f64::from(step);
@@ -190,10 +181,10 @@ mod tests {
     #[test]
     fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
         let launch = Launch::new(Vector3::new(9.0, 4.0, 3.0), TimeOfFlight::Given(1.0)).unwrap();
-        let toss = Toss { coin: Coin::PAPER, launch };
-        let first_return = 2.0 * PI / ExactMotion::new(&toss).precession_rate();
+        let toss = Toss::new(Coin::PAPER, launch);
+        let first_return = 2.0 * PI / CoinMotion::new(&toss.coin().unwrap()).precession_rate();
         let stepping = Stepping::fixed(dynamics::Scheme::RK4, 1e-3).unwrap();
-        let error = EulerAnglesSolver::new(stepping, Formulation::VERTICAL).propagate(&toss).unwrap_err();
+        let error = EulerAnglesSolver::new(stepping, Formulation::VERTICAL).land(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 5e-3, "{time}, not {first_return}");
     }

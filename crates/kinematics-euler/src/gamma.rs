@@ -18,7 +18,7 @@
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    EulerAngles, Flight, Formulation, Propagation, RigidToss, Scheme, Settings, Singularity, SolveError, Solver,
+    CoinToss, EulerAngles, Flight, Formulation, Landing, Scheme, Settings, Singularity, SolveError, Solver,
     SolverEntry, Stepping, Toss,
 };
 use nalgebra::SVector;
@@ -72,11 +72,14 @@ impl Solver for GammaSolver {
         Some(self.stepping)
     }
 
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let landing = self.land_coin(&toss.of_coin(Self::NAME, FOR_COINS)?)?;
+        Ok(landing.with_error(self.stepping.error_estimate(toss)?))
     }
+}
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+impl GammaSolver {
+    fn land_coin(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
         let start = InitialConditions::new(toss, &rate, self.formulation);
@@ -93,14 +96,6 @@ impl Solver for GammaSolver {
         }
         let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        self.propagate(&toss.require_symmetric(Self::NAME, FOR_COINS)?)
-    }
-
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        self.error_estimate(&toss.require_symmetric(Self::NAME, FOR_COINS)?)
     }
 }
 

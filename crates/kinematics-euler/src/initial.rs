@@ -16,7 +16,7 @@
 use std::f64::consts::PI;
 
 use dynamics::{
-    Attitude, EulerAngles, Flight, Formulation, Frame, Propagation, SolveError, State, Toss, Vector3, Work,
+    Attitude, CoinToss, EulerAngles, Flight, Formulation, Frame, Landing, SolveError, State, Vector3, Work,
 };
 
 /// A launch with sin ½β or cos ½β at most this is taken as vertical (β = 0 or β = π), which changes its attitude by
@@ -38,7 +38,7 @@ pub(crate) struct InitialConditions {
 
 impl InitialConditions {
     /// The initial conditions of `toss`, whose body rate at launch is `rate` (BF, the body frame) in any unit.
-    pub(crate) fn new(toss: &Toss, rate: &Vector3<f64>, formulation: Formulation) -> Self {
+    pub(crate) fn new(toss: &CoinToss, rate: &Vector3<f64>, formulation: Formulation) -> Self {
         let momentum_z = toss.coin.inertia_ratio() * rate.z;
         let attitude = toss.launch.attitude();
         match (formulation.is_guarded(), formulation.frame()) {
@@ -55,13 +55,13 @@ impl InitialConditions {
         angles: &EulerAngles,
         [rate_x, rate_y]: [f64; 2],
         work: Work,
-    ) -> Result<Propagation, SolveError> {
+    ) -> Result<Landing, SolveError> {
         // β is NaN if the raw γ-ODE ends at D = u = 0.
         if !angles.beta.is_finite() {
             return Err(flight.not_finite());
         }
         let state = State { attitude: self.frame * angles.attitude(), rate: flight.rate_at(rate_x, rate_y) };
-        Ok(Propagation::new(state, work))
+        Ok(Landing::new(state, work))
     }
 
     /// Whether n is along the frame's z axis and stays there, as in pure spin or at rest.
@@ -112,7 +112,7 @@ mod tests {
     fn start(rate: [f64; 3], components: [f64; 4], formulation: Formulation) -> InitialConditions {
         let attitude = Attitude::from_components(components).unwrap();
         let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
-        InitialConditions::new(&Toss { coin: Coin::PAPER, launch }, &Vector3::from(rate), formulation)
+        InitialConditions::new(&CoinToss { coin: Coin::PAPER, launch }, &Vector3::from(rate), formulation)
     }
 
     #[test]

@@ -28,8 +28,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use dynamics::body_rate::principal_acceleration;
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    Attitude, EulerAngles, Formulation, Frame, Propagation, RigidFlight, RigidToss, Singularity, SolveError, State,
-    Stepping, Vector3,
+    Attitude, EulerAngles, Formulation, Frame, Landing, RigidFlight, Singularity, SolveError, State, Stepping, Toss,
+    Vector3,
 };
 use nalgebra::SVector;
 
@@ -43,12 +43,8 @@ const FASTEST_START: f64 = 1e6;
 /// The flight of `toss` in the frame of `formulation`.
 ///
 /// # Errors
-/// As [`Solver::propagate_rigid`](dynamics::Solver::propagate_rigid).
-pub(crate) fn propagate(
-    toss: &RigidToss,
-    stepping: &Stepping,
-    formulation: Formulation,
-) -> Result<Propagation, SolveError> {
+/// As [`Solver::land`](dynamics::Solver::land).
+pub(crate) fn land(toss: &Toss, stepping: &Stepping, formulation: Formulation) -> Result<Landing, SolveError> {
     let flight = RigidFlight::new(toss)?;
     let launched = toss.launch.attitude();
     let start = match formulation.frame() {
@@ -69,7 +65,7 @@ pub(crate) fn propagate(
             launched * turn.map_err(|_| flight.timing().not_finite())?
         }
     };
-    Ok(Propagation::new(State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) }, work))
+    Ok(Landing::new(State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) }, work))
 }
 
 /// The angles at launch, and their equations.
@@ -80,7 +76,7 @@ struct Start {
 
 impl Start {
     /// Angles of a principal axis from the angular momentum.
-    fn along_momentum(toss: &RigidToss, flight: &RigidFlight) -> Self {
+    fn along_momentum(toss: &Toss, flight: &RigidFlight) -> Self {
         let [i1, i2, i3] = toss.body.principal_moments();
         let (i1, i2) = (i1 / i3, i2 / i3);
         let [a, b, c] = flight.couplings.map(|coupling| coupling.abs().sqrt());

@@ -20,7 +20,7 @@ fn solvers(formulation: Formulation) -> [Box<dyn Solver>; 2] {
 /// A toss with this attitude at launch.
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).expect("valid");
-    Toss { coin: Coin::from_moments(1.0, k).expect("valid"), launch: launch.with_attitude(attitude) }
+    Toss::new(Coin::from_moments(1.0, k).expect("valid"), launch.with_attitude(attitude))
 }
 
 /// The attitude at the Euler angles α, β, γ (rad).
@@ -30,7 +30,7 @@ fn at(alpha: f64, beta: f64, gamma: f64) -> Attitude {
 
 /// Errors of the attitude (rad) and of the body rate (rad/s) at landing.
 fn errors(solver: &dyn Solver, toss: &Toss) -> Result<(f64, f64), SolveError> {
-    let landing = solver.propagate(toss)?.state;
+    let landing = solver.land(toss)?.state;
     let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
     Ok((exact.attitude.angle_to(&landing.attitude), (exact.rate - landing.rate).norm()))
 }
@@ -119,11 +119,11 @@ fn as_printed_a_horizontal_launch_is_0_over_0() {
         let horizontal = toss(0.5, [1.0, 1.0, 2.5], Attitude::IDENTITY, 0.5);
         assert!(
             matches!(
-                solver.propagate(&horizontal),
+                solver.land(&horizontal),
                 Err(SolveError::NotFinite { .. } | SolveError::StepSizeUnderflow { .. })
             ),
             "{:?}",
-            solver.propagate(&horizontal)
+            solver.land(&horizontal)
         );
     }
 }

@@ -20,7 +20,7 @@ fn tosses() -> Vec<Toss> {
         let rate =
             Vector3::new(part(n, 0.618_034), part(n, 0.414_214), part(n, 0.732_051)).map(|part| 1.0 + 59.0 * part);
         let thrown = TimeOfFlight::Ballistic { speed: 3.0 + 2.0 * part(n, 0.236_068), gravity: 9.81 };
-        Toss { coin: Coin::PAPER, launch: Launch::new(rate, thrown).expect("a valid launch") }
+        Toss::new(Coin::PAPER, Launch::new(rate, thrown).expect("a valid launch"))
     };
     (0..1000).map(toss).collect()
 }
@@ -36,14 +36,14 @@ fn launches(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(tosses.len() as u64));
     for level in SimdLevel::all() {
         let name = format!("taylor in lanes, {}", level.name());
-        group.bench_function(name, |bencher| bencher.iter(|| taylor.propagate_all(black_box(&tosses), level)));
+        group.bench_function(name, |bencher| bencher.iter(|| taylor.land_all(black_box(&tosses), level)));
     }
     for tolerance in [TAYLOR_TOLERANCE, 1e-12] {
         let (solver, level) = (solver(TAYLOR, tolerance), SimdLevel::widest());
         for (name, number) in [("plain", 0), ("proven", 1), ("outcomes proven", 2)] {
             group.bench_function(format!("taylor in lanes, {tolerance:e}, {name}"), |bencher| {
                 bencher.iter(|| match number {
-                    0 => solver.propagate_all(black_box(&tosses), level).len(),
+                    0 => solver.land_all(black_box(&tosses), level).len(),
                     1 => solver.certify_all(black_box(&tosses), level).len(),
                     _ => solver.prove_outcomes(black_box(&tosses), level).len(),
                 });
@@ -51,7 +51,7 @@ fn launches(criterion: &mut Criterion) {
         }
     }
     for (name, solver) in [("taylor", taylor), ("dop853", dop853)] {
-        let fly = || black_box(&tosses).iter().filter(|toss| solver.propagate(toss).is_ok()).count();
+        let fly = || black_box(&tosses).iter().filter(|toss| solver.land(toss).is_ok()).count();
         group.bench_function(name, |bencher| bencher.iter(fly));
     }
     group.finish();

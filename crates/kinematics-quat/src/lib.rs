@@ -18,10 +18,9 @@ mod prove;
 mod system;
 mod taylor;
 
-use dynamics::phase::RoughPhases;
 use dynamics::{
-    Attitude, Error, Flight, Formulation, Propagation, RigidFlight, RigidPhase, RigidToss, Scheme, Settings,
-    SolveError, Solver, SolverEntry, State, StepControl, Stepping, Toss, Tosses, Vector3, Work,
+    Attitude, Body, Error, Flight, Formulation, Landing, RigidFlight, RigidPhase, Scheme, Settings, SolveError, Solver,
+    SolverEntry, State, StepControl, Stepping, Tilt, Toss, Vector3, Work,
 };
 use nalgebra::SVector;
 use numerics::lanes::SimdLevel;
@@ -34,7 +33,7 @@ use crate::prove::rigid_lanes::Bound;
 pub use crate::system::QuaternionSystem;
 use crate::system::half_product;
 use crate::taylor::coin::Coins;
-use crate::taylor::lockstep::{by_kind, fly};
+use crate::taylor::lockstep::fly;
 use crate::taylor::plan::Plans;
 use crate::taylor::rigid::Bodies;
 pub use crate::taylor::rigid::RigidSystem;
@@ -87,37 +86,54 @@ impl QuaternionSolver {
         Self { stepping, projects: formulation.is_guarded(), taylor }
     }
 
-    /// The landings of `tosses`, in their order, each with the same bits as from [`Solver::propagate`]. With [`TAYLOR`]
-    /// as many flights are computed at once as a register at the SIMD `level` has lanes; with the other schemes, one
-    /// after the other.
-    pub fn propagate_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
-        let Some(taylor) = &self.taylor else {
-            return tosses.iter().map(|toss| self.propagate(toss)).collect();
-        };
+    /// The landings of `tosses`, in their order, each with the same bits as from [`Solver::land`]. With [`TAYLOR`] as many
+    /// flights are computed at once as a register at the SIMD `level` has lanes; with the other schemes, one after the
+    /// other.
+    pub fn land_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Landing, SolveError>> {
+        let Some(taylor) = &self.taylor else { return tosses.iter().map(|toss| self.land(toss)).collect() };
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        fly::<Coins>(&taylor.coins, tosses, level, |index, landed| {
-            landings[index] = landed.and_then(|landed| self.landing(tosses[index].launch.attitude(), &landed));
-        });
+        self.fly(taylor, tosses, level, |index, landing| landings[index] = landing);
         landings
     }
 
-    /// The landings of any rigid bodies, as [`QuaternionSolver::propagate_all`] returns those of coins.
-    pub fn propagate_all_rigid(&self, tosses: &[RigidToss], level: SimdLevel) -> Vec<Result<Propagation, SolveError>> {
-        let Some(taylor) = &self.taylor else {
-            return tosses.iter().map(|toss| self.propagate_rigid(toss)).collect();
-        };
-        let bodies = |flown: &[RigidToss]| {
-            let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); flown.len()];
-            fly::<Bodies>(&taylor.bodies, flown, level, |index, landed| {
-                landings[index] = landed.and_then(|landed| self.landing(flown[index].launch.attitude(), &landed));
+    /// Flies `tosses` by Taylor series, and calls `land` with the index and the landing of each. Memory is allocated by `land`
+    /// alone.
+    fn fly(
+        &self,
+        taylor: &Taylor,
+        tosses: &[Toss],
+        level: SimdLevel,
+        mut land: impl FnMut(usize, Result<Landing, SolveError>),
+    ) {
+        let mut landed = |index: usize, landed: Result<Landed, SolveError>| {
+            let toss: &Toss = &tosses[index];
+            let landing = landed.and_then(|landed| {
+                let landing = self.landing(toss.launch.attitude(), &landed)?;
+                Ok(landing.with_error(of_series(taylor.tolerance, toss, &landed.flight)?))
             });
-            landings
+            land(index, landing);
         };
-        by_kind(tosses, |coins| self.propagate_all(coins, level), bodies)
+        fly::<Coins>(&taylor.coins, (tosses.len(), |index: usize| tosses[index].coin()), level, &mut landed);
+        let body = |index: usize| Some(tosses[index]).filter(|toss| matches!(toss.body, Body::Rigid(_)));
+        fly::<Bodies>(&taylor.bodies, (tosses.len(), body), level, &mut landed);
+    }
+
+    /// The landing by a Runge-Kutta scheme, without its error estimate.
+    fn stepped(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let launched = toss.launch.attitude();
+        if let Some(toss) = toss.coin() {
+            let flight = Flight::new(&toss)?;
+            let (system, start) = QuaternionSystem::launching(&toss, &flight);
+            let (end, work) = flight.integrate(&system, start, &self.stepping)?;
+            return self.landing(launched, &Landed::at(&flight, &end, work));
+        }
+        let flight = RigidFlight::new(toss)?;
+        let (end, work) = RigidSystem::integrated(&flight, &self.stepping)?;
+        self.landing(launched, &Landed::at_rigid(&flight, &end, work))
     }
 
     /// The landing of a launch with the attitude `launched` from the integrated end state.
-    fn landing(&self, launched: Attitude, landed: &Landed) -> Result<Propagation, SolveError> {
+    fn landing(&self, launched: Attitude, landed: &Landed) -> Result<Landing, SolveError> {
         let &Landed { flight, turn, rate, work, .. } = landed;
         // Rounding and truncation change the norm, but the attitude is the direction of the quaternion alone. One
         // projection at the end is enough: the equation is linear in the quaternion, and so each step keeps a wrong
@@ -126,7 +142,7 @@ impl QuaternionSolver {
         let turn = Attitude::from_components(turn).map_err(|_| flight.not_finite())?;
         let state = State { attitude: launched * turn, rate };
         let cos_tilt = state.attitude.cos_tilt() * if self.projects { 1.0 } else { norm * norm };
-        Ok(Propagation::new(state, work).with_cos_tilt(cos_tilt).with_norm_error((norm - 1.0).abs()))
+        Ok(Landing::new(state, work).with_cos_tilt(cos_tilt).with_norm_error((norm - 1.0).abs()))
     }
 }
 
@@ -139,78 +155,35 @@ impl Solver for QuaternionSolver {
         Some(self.stepping)
     }
 
-    /// That of the [stepping](Stepping::error_estimate); by Taylor series (tolerance + ε (1 + φ)) × (1 + φ), with the
-    /// phase φ (rad). Series keep all omitted terms together below the tolerance, and take less than a step in a radian, so
-    /// that rounding is less, too.
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        let Some(Taylor { tolerance, .. }) = self.taylor else { return self.stepping.error_estimate(toss).map(Some) };
-        Ok(Some(of_series(tolerance, RoughPhases::new(toss).largest()?)))
-    }
-
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         if let Some(taylor) = &self.taylor {
-            let mut landing = Err(SolveError::NotFinite { time: 0.0 });
-            fly::<Coins>(&taylor.coins, std::slice::from_ref(toss), SimdLevel::for_one_lane(), |_, landed| {
-                landing = landed.and_then(|landed| self.landing(toss.launch.attitude(), &landed));
-            });
-            return landing;
+            let mut only = Err(SolveError::NotFinite { time: 0.0 });
+            self.fly(taylor, std::slice::from_ref(toss), SimdLevel::for_one_lane(), |_, landing| only = landing);
+            return only;
         }
-        let flight = Flight::new(toss)?;
-        let (system, start) = QuaternionSystem::launching(toss, &flight);
-        let (end, work) = flight.integrate(&system, start, &self.stepping)?;
-        self.landing(toss.launch.attitude(), &Landed::at(&flight, &end, work))
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        if let Some(toss) = toss.symmetric() {
-            return self.propagate(&toss);
-        }
-        if let Some(taylor) = &self.taylor {
-            let mut landing = Err(SolveError::NotFinite { time: 0.0 });
-            fly::<Bodies>(&taylor.bodies, std::slice::from_ref(toss), SimdLevel::for_one_lane(), |_, landed| {
-                landing = landed.and_then(|landed| self.landing(toss.launch.attitude(), &landed));
-            });
-            return landing;
-        }
-        let flight = RigidFlight::new(toss)?;
-        let (end, work) = RigidSystem::integrated(&flight, &self.stepping)?;
-        self.landing(toss.launch.attitude(), &Landed::at_rigid(&flight, &end, work))
-    }
-
-    /// That of the [stepping](Stepping::error_estimate_rigid), or by Taylor series as for coins, times the
-    /// [growth](RigidPhase::growth) of a disturbance.
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        if let Some(toss) = toss.symmetric() {
-            return self.error_estimate(&toss);
-        }
-        let Some(Taylor { tolerance, .. }) = self.taylor else { return self.stepping.error_estimate_rigid(toss) };
-        let RigidPhase { angle, growth } = RigidPhase::new(toss)?;
-        // From 1 on an estimate says nothing about a cosine.
-        Ok(Some(growth * of_series(tolerance, angle)).filter(|estimate| *estimate < 1.0))
+        Ok(self.stepped(toss)?.with_error(self.stepping.error_estimate(toss)?))
     }
 
     /// With Taylor series, computes as many flights at once as a register has lanes.
-    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
+    fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
-        for (index, landing) in self.propagate_all(&tosses.each()?, SimdLevel::widest()).into_iter().enumerate() {
-            out[index] = tosses.solve(index, |_| landing.clone())?.cos_tilt;
-        }
-        Ok(())
-    }
-
-    /// As [`Solver::cos_tilts`].
-    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
-        assert_eq!(out.len(), tosses.len(), "one result a toss");
-        for (index, landing) in self.propagate_all_rigid(tosses, SimdLevel::widest()).into_iter().enumerate() {
-            out[index] = landing.map_err(|source| Error::of_launch(index, &tosses[index], source))?.cos_tilt;
+        for (index, landing) in self.land_all(tosses, SimdLevel::widest()).into_iter().enumerate() {
+            out[index] = landing.map_err(|source| Error::of_launch(index, &tosses[index], source))?.tilt();
         }
         Ok(())
     }
 }
 
-/// The error estimate of a flight by Taylor series that turns by `phase` (rad).
-fn of_series(tolerance: f64, phase: f64) -> f64 {
-    (tolerance + f64::EPSILON * (1.0 + phase)) * (1.0 + phase)
+/// The estimate of the error of cos θ after a `flight` by Taylor series: (tolerance + ε (1 + φ)) × (1 + φ), with the phase φ
+/// (rad), for a body that is no coin times the [growth](RigidPhase::growth) of a disturbance. Series keep all omitted terms
+/// together below the tolerance, and take less than a step in a radian, so that rounding is less than that of Runge-Kutta
+/// schemes. `None` from 1 on for a body that is no coin: such an estimate says nothing about a cosine.
+fn of_series(tolerance: f64, toss: &Toss, flight: &Flight) -> Result<Option<f64>, SolveError> {
+    let estimate = (tolerance + f64::EPSILON * (1.0 + flight.phase())) * (1.0 + flight.phase());
+    Ok(match toss.body {
+        Body::Coin(_) => Some(estimate),
+        Body::Rigid(_) => Some(RigidPhase::new(toss)?.growth * estimate).filter(|estimate| *estimate < 1.0),
+    })
 }
 
 /// The end state of an integrated flight.

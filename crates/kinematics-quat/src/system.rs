@@ -2,7 +2,7 @@
 
 use dynamics::body_rate::{body_precession_rate, transverse_acceleration};
 use dynamics::integrate::OdeSystem;
-use dynamics::{Flight, Toss};
+use dynamics::{CoinToss, Flight};
 use nalgebra::SVector;
 
 /// The system over the state (w, x, y, z, ωx, ωy), where (w, x, y, z) is P. Rates may be in any unit; its inverse is
@@ -22,7 +22,7 @@ impl QuaternionSystem {
     }
 
     /// The system of `toss` with this `flight`, and its state at launch.
-    pub(crate) fn launching(toss: &Toss, flight: &Flight) -> (Self, SVector<f64, 6>) {
+    pub(crate) fn launching(toss: &CoinToss, flight: &Flight) -> (Self, SVector<f64, 6>) {
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         (Self::new(toss.coin.inertia_ratio(), flight.rate.z), start)
     }

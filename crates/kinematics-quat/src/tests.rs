@@ -1,6 +1,6 @@
 //! Tests of the quaternion solver by Runge-Kutta schemes and Taylor series.
 
-use dynamics::{Coin, Launch, Scheme, TimeOfFlight, Vector3};
+use dynamics::{Body, Coin, Launch, Scheme, TimeOfFlight, Tosses, Vector3};
 use exact::ExactMotion;
 
 use dynamics::integrate::OdeSystem;
@@ -9,7 +9,7 @@ use super::*;
 
 fn toss(tilt: f64) -> Toss {
     let launch = Launch::new(Vector3::new(9.0, -4.0, 3.0), TimeOfFlight::Given(0.8)).unwrap();
-    Toss { coin: Coin::PAPER, launch: launch.with_tilt(tilt).unwrap() }
+    Toss::new(Coin::PAPER, launch.with_tilt(tilt).unwrap())
 }
 
 /// Compares Q' = ½ Q ⊗ (0, ω) with central differences of the exact attitude.
@@ -35,9 +35,9 @@ fn the_derivative_is_that_of_the_exact_motion() {
 #[test]
 fn neither_work_nor_error_depends_on_the_tilt() {
     let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
-    let horizontal = solver.propagate(&toss(0.0)).unwrap();
+    let horizontal = solver.land(&toss(0.0)).unwrap();
     for tilt in [1e-300, 1e-16, 1e-4, 1.0, 3.0] {
-        let tilted = solver.propagate(&toss(tilt)).unwrap();
+        let tilted = solver.land(&toss(tilt)).unwrap();
         assert_eq!(tilted.work, horizontal.work);
         assert_eq!(tilted.norm_error, horizontal.norm_error);
     }
@@ -48,21 +48,26 @@ fn the_norm_error_is_the_sum_of_the_norms_lost_in_the_steps() {
     // In a steady turn, RK4 loses the fraction (ωh/2)⁶/144 of the norm in each step of length h.
     let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
     let solver = QuaternionSolver::new(Stepping::fixed(Scheme::RK4, 0.05).unwrap(), Formulation::default());
-    let landing = solver.propagate(&Toss { coin: Coin::DISC, launch }).unwrap();
+    let landing = solver.land(&Toss::new(Coin::DISC, launch)).unwrap();
     let lost = 20.0 * (4.0 * 0.05 / 2.0_f64).powi(6) / 144.0;
     assert!((landing.norm_error / lost - 1.0).abs() < 0.01, "{:e}, not {lost:e}", landing.norm_error);
 }
 
 #[test]
 fn raw_computes_cos_theta_without_dividing_by_the_norm() {
-    let launch = Launch::new(Vector3::new(4.0, 0.0, 0.0), TimeOfFlight::Given(1.0)).unwrap();
-    let toss = Toss { coin: Coin::DISC, launch };
-    let method = Stepping::fixed(Scheme::RK4, 0.05).unwrap();
-    let landing = |formulation| QuaternionSolver::new(method, formulation).propagate(&toss).unwrap();
-    let (projected, raw) = (landing(Formulation::MOMENTUM), landing(Formulation::RAW));
-    assert_eq!(projected.cos_tilt, projected.state.attitude.cos_tilt());
-    let norm = 1.0 - raw.norm_error;
-    assert!(raw.norm_error > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
+    let thrown = |rate: [f64; 3]| Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
+    let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+    for (toss, step) in [
+        (Toss::new(Coin::DISC, thrown([4.0, 0.0, 0.0])), 0.05),
+        (Toss::new(body, thrown([2.0, 3.0, -1.0]).with_tilt(0.3).unwrap()), 0.02),
+    ] {
+        let method = Stepping::fixed(Scheme::RK4, step).unwrap();
+        let landing = |formulation| QuaternionSolver::new(method, formulation).land(&toss).unwrap();
+        let (projected, raw) = (landing(Formulation::MOMENTUM), landing(Formulation::RAW));
+        assert_eq!(projected.cos_tilt, projected.state.attitude.cos_tilt());
+        let norm = 1.0 - raw.norm_error;
+        assert!(raw.norm_error > 1e-9 && (raw.cos_tilt - norm * norm * projected.cos_tilt).abs() < 1e-15);
+    }
 }
 
 #[test]
@@ -71,10 +76,11 @@ fn many_tosses_land_as_they_do_one_by_one_in_their_order() {
     let tosses = Tosses::new(Coin::PAPER, Attitude::IDENTITY, 9.81, [&x, &y, &z], &speed).unwrap();
     for scheme in [TAYLOR, Scheme::DOP853] {
         let solver = QuaternionSolver::new(Stepping::adaptive(scheme, 1e-9).unwrap(), Formulation::default());
-        let mut found = [f64::NAN; 3];
-        solver.cos_tilts(&tosses, &mut found).unwrap();
-        let alone = [0, 1, 2].map(|index| solver.cos_tilt(&tosses.toss(index).unwrap()).unwrap());
-        assert_eq!(found, alone);
+        let each = tosses.each().unwrap();
+        let mut found = [Tilt { cos_tilt: f64::NAN, error: None }; 3];
+        solver.tilts(&each, &mut found).unwrap();
+        let alone: Vec<Tilt> = each.iter().map(|toss| solver.tilt(toss).unwrap()).collect();
+        assert_eq!(found[..], alone);
         assert_eq!((solver.name(), solver.stepping().map(|by| by.scheme())), ("quaternion", Some(scheme)));
     }
 }

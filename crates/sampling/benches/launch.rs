@@ -7,8 +7,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dynamics::{Formulation, RigidToss, Solver, Stepping, Toss};
-use exact::ExactMotion;
+use dynamics::{CoinToss, Formulation, Solver, Stepping, Toss};
+use exact::CoinMotion;
 use kinematics_quat::QuaternionSolver;
 use sampling::{Found, Plan, Sampler, Space, named_space, random_tosses};
 
@@ -22,9 +22,9 @@ fn heads(space: &Space, plan: Plan, sampler: &Sampler<'_>) -> u64 {
 fn fig4(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").expect("it exists");
     // Phases of launches from the same space, because the cost of a sine depends on their range.
-    let phase = |toss: &Toss| ExactMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
+    let phase = |toss: &CoinToss| CoinMotion::new(toss).phases(toss.launch.flight_time()).expect("small").0.hi();
     let phases: Vec<f64> =
-        random_tosses(&space, 1, 0..250_000).iter().filter_map(RigidToss::symmetric).map(|toss| phase(&toss)).collect();
+        random_tosses(&space, 1, 0..250_000).iter().filter_map(Toss::coin).map(|toss| phase(&toss)).collect();
     let mut group = criterion.benchmark_group("fig4 grid");
     group.sample_size(20);
     group.bench_function("exact", |bencher| bencher.iter(|| heads(black_box(&space), Plan::Grid, &Sampler::exact())));
@@ -38,12 +38,12 @@ fn quaternion(criterion: &mut Criterion) {
     let space = named_space("paper-fig4").and_then(|space| space.with_grid_of(400)).expect("it exists");
     let solver = QuaternionSolver::new(Stepping::DEFAULT, Formulation::default());
     let plan = Plan::Random { points: 400, seed: 1 };
-    let tosses: Vec<Toss> = random_tosses(&space, 1, 0..400).iter().filter_map(RigidToss::symmetric).collect();
+    let tosses = random_tosses(&space, 1, 0..400);
     let mut group = criterion.benchmark_group("quaternion");
     group.sample_size(50);
     group.bench_function("estimate", |bencher| bencher.iter(|| heads(black_box(&space), plan, &Sampler::by(&solver))));
     group.bench_function("bare loop", |bencher| {
-        bencher.iter(|| tosses.iter().filter(|toss| solver.outcome(black_box(toss)).is_ok()).count());
+        bencher.iter(|| tosses.iter().filter(|toss| solver.tilt(black_box(toss)).is_ok()).count());
     });
     group.finish();
 }

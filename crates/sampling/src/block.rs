@@ -1,7 +1,7 @@
 //! This file holds a block of launches as columns, one for each coordinate. This is the layout that the batch kernels
 //! of the crate `exact` read, and threads reuse the memory from block to block.
 
-use dynamics::{Attitude, Tosses};
+use dynamics::{Attitude, Body, Tosses};
 
 use crate::coordinate::Coordinate;
 use crate::space::{Space, Values};
@@ -71,14 +71,9 @@ impl Block {
 }
 
 impl Space {
-    /// The launches of a block as tosses of the coin for a batch; `None` if the body is no coin, if gravity or tilt vary
-    /// in this space, or if the coins land at another height than that of their launch.
-    pub(crate) fn tosses<'a>(&self, block: &'a Block) -> Option<Tosses<'a>> {
-        self.tosses_of(self.coin()?, block)
-    }
-
-    /// As [`Space::tosses`], of a `body`.
-    pub(crate) fn tosses_of<'a, B: Copy>(&self, body: B, block: &'a Block) -> Option<Tosses<'a, B>> {
+    /// The launches of a block as tosses of `body` for a batch; `None` if gravity or tilt vary in this space, or if bodies
+    /// land at another height than that of their launch.
+    pub(crate) fn tosses_of<'a, B: Copy + Into<Body>>(&self, body: B, block: &'a Block) -> Option<Tosses<'a, B>> {
         if self.drop().is_some() {
             return None;
         }

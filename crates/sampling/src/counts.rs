@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Checked, Error, Outcome, RigidToss, Solver, Toss};
+use dynamics::{Body, Checked, Error, Outcome, Solver, Tilt, Toss};
 use exact::{Batch, BodyFilter, ProvenCounts};
 
 use crate::block::Block;
@@ -145,36 +145,23 @@ fn filter_of(space: &Space) -> Option<BodyFilter> {
 
 /// Proves the outcomes of a block: as a batch if its launches differ in rates and speed alone, else one by one.
 fn proven(space: &Space, block: &Block, filter: Option<&BodyFilter>) -> Result<ProvenCounts, Error> {
-    if let Some(coin) = space.coin() {
-        return match space.tosses_of(coin, block) {
-            Some(tosses) => Batch::new(tosses).count(),
-            None => ProvenCounts::of(block.all_values().map(|values| Toss { coin, launch: space.launch(&values) })),
-        };
-    }
-    match space.tosses_of(*space.body(), block).zip(filter) {
-        Some((tosses, filter)) => Batch::new(tosses).count_by(filter),
-        None => ProvenCounts::of_rigid(block.all_values().map(|values| space.toss(&values))),
-    }
+    let batch = match space.body() {
+        Body::Coin(coin) => space.tosses_of(*coin, block).map(|tosses| Batch::new(tosses).count()),
+        body @ Body::Rigid(_) => {
+            let tosses = space.tosses_of(*body, block).zip(filter);
+            tosses.map(|(tosses, filter)| Batch::new(tosses).count_by(filter))
+        }
+    };
+    batch.unwrap_or_else(|| ProvenCounts::of(block.all_values().map(|values| space.toss(&values))))
 }
 
 /// Decides the outcomes of a block by `solver`.
 fn estimated(space: &Space, block: &Block, solver: &dyn Solver) -> Result<Counts, Error> {
+    let tosses: Vec<Toss> = block.all_values().map(|values| space.toss(&values)).collect();
+    let mut tilts = vec![Tilt { cos_tilt: 0.0, error: None }; tosses.len()];
+    solver.tilts(&tosses, &mut tilts)?;
     let mut counts = Counts::default();
-    if let Some(tosses) = space.tosses(block) {
-        let mut cos_tilts = vec![0.0; tosses.len()];
-        solver.cos_tilts(&tosses, &mut cos_tilts)?;
-        for (index, cos_tilt) in cos_tilts.into_iter().enumerate() {
-            counts.add(tosses.solve(index, |toss| solver.outcome_at(toss, cos_tilt))?);
-        }
-        return Ok(counts);
-    }
-    let tosses: Vec<RigidToss> = block.all_values().map(|values| space.toss(&values)).collect();
-    let mut cos_tilts = vec![0.0; tosses.len()];
-    solver.cos_tilts_rigid(&tosses, &mut cos_tilts)?;
-    for (index, (toss, cos_tilt)) in tosses.iter().zip(cos_tilts).enumerate() {
-        let outcome = solver.outcome_at_rigid(toss, cos_tilt);
-        counts.add(outcome.map_err(|source| Error::of_launch(index, toss, source))?);
-    }
+    tilts.into_iter().for_each(|tilt| counts.add(tilt.outcome()));
     Ok(counts)
 }
 
@@ -228,11 +215,8 @@ mod tests {
             fn name(&self) -> &str {
                 "for coins"
             }
-            fn propagate(&self, toss: &Toss) -> Result<dynamics::Propagation, dynamics::SolveError> {
-                ExactSolver.propagate(toss)
-            }
-            fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, dynamics::SolveError> {
-                ExactSolver.error_estimate(toss)
+            fn land(&self, toss: &Toss) -> Result<dynamics::Landing, dynamics::SolveError> {
+                ExactSolver.land(&toss.of_coin(self.name(), "it has no method for other rigid bodies")?.into())
             }
         }
         let texts = [(RateX, "1:20:7"), (RateY, "2"), (RateZ, "3"), (Speed, "3:5:5")];

@@ -1,7 +1,7 @@
 //! This file lists the launches of a plan one by one, with the values of their coordinates. Programs print or solve them
 //! without counting; blocks keep the memory small however many launches there are.
 
-use dynamics::{InputError, RigidToss};
+use dynamics::{InputError, Toss};
 
 use crate::block::{BLOCK, Block};
 use crate::coordinate::Coordinate;
@@ -15,7 +15,7 @@ pub struct Drawn {
     /// The values of its coordinates, in the order of [`Coordinate::ALL`]. A tied coordinate has the value of its partner.
     pub values: [f64; Coordinate::COUNT],
     /// The toss with these values.
-    pub toss: RigidToss,
+    pub toss: Toss,
 }
 
 impl Space {
@@ -48,7 +48,7 @@ impl Space {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Outcome};
-    use exact::certify_rigid;
+    use exact::certify;
 
     use super::*;
     use crate::coordinate::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
@@ -83,10 +83,8 @@ mod tests {
             for drop in [None, Some(0.7)] {
                 let space = space().with_drop(drop).unwrap();
                 let drawn = all(&space, plan);
-                let heads = drawn
-                    .iter()
-                    .filter(|drawn| certify_rigid(&drawn.toss).unwrap().outcome() == Outcome::Heads)
-                    .count();
+                let heads =
+                    drawn.iter().filter(|drawn| certify(&drawn.toss).unwrap().outcome() == Outcome::Heads).count();
                 let found = Sampler::exact().estimate(&space, plan).unwrap();
                 assert_eq!(drawn.len() as u64, found.points);
                 assert_eq!(heads as f64 / drawn.len() as f64, found.probability, "{plan:?}");

@@ -18,7 +18,7 @@ pub(crate) mod lanes;
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use dynamics::phase::require_phase;
-use dynamics::{Coin, Outcome, SolveError, Toss};
+use dynamics::{Coin, CoinToss, Outcome, SolveError, Toss};
 use exact::{HeadsPhases, TiltTerms, certify};
 use numerics::UNIT_ROUNDOFF;
 
@@ -86,16 +86,16 @@ pub(crate) struct Motion {
     pub(crate) heads: HeadsPhases,
     /// The phases at landing of the slowest and of the fastest launch (rad).
     pub(crate) phases: [f64; 2],
-    fastest: Toss,
+    fastest: CoinToss,
 }
 
 impl Motion {
     /// The motion of the launches of `space`, which is of `coin`, with all coordinates but the speed as in `values`.
-    pub(crate) fn new(space: &Space, coin: Coin, values: &Values) -> Result<Self, (Box<Toss>, SolveError)> {
+    pub(crate) fn new(space: &Space, coin: Coin, values: &Values) -> Result<Self, (Box<CoinToss>, SolveError)> {
         let toss = |speed: f64| {
             let mut values = *values;
             values[Coordinate::Speed as usize] = speed;
-            Toss { coin, launch: space.launch(&values) }
+            CoinToss { coin, launch: space.launch(&values) }
         };
         let [slowest, fastest] = space.axis(Coordinate::Speed).bounds().map(toss);
         let terms = TiltTerms::new(&fastest);
@@ -106,11 +106,11 @@ impl Motion {
     }
 
     /// The share of heads over the speeds of `space`.
-    pub(crate) fn share(&self, space: &Space) -> Result<Share, (Box<Toss>, SolveError)> {
+    pub(crate) fn share(&self, space: &Space) -> Result<Share, (Box<CoinToss>, SolveError)> {
         let Self { heads, phases: [from, to], fastest, .. } = self;
         // There is but one launch, or none turns.
         if space.axis(Coordinate::Speed).value().is_some() || *to == 0.0 {
-            return Share::of_one(fastest).map_err(|error| (Box::new(*fastest), error));
+            return Share::of_one(&(*fastest).into()).map_err(|error| (Box::new(*fastest), error));
         }
         // The coin shows heads always or never.
         if heads.half_width_error == 0.0 {
@@ -130,7 +130,7 @@ impl Motion {
 }
 
 /// The share of heads over the speeds of `space`, which is of `coin`, with all other coordinates as in `values`.
-pub(crate) fn share(space: &Space, coin: Coin, values: &Values) -> Result<Share, (Box<Toss>, SolveError)> {
+pub(crate) fn share(space: &Space, coin: Coin, values: &Values) -> Result<Share, (Box<CoinToss>, SolveError)> {
     Motion::new(space, coin, values)?.share(space)
 }
 

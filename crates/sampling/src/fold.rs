@@ -92,21 +92,21 @@ fn index_of(error: &Error) -> u64 {
 mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-    use dynamics::{Coin, Launch, RigidToss, SolveError, TimeOfFlight, Toss};
+    use dynamics::{Coin, CoinToss, Launch, SolveError, TimeOfFlight, Toss};
 
     use super::*;
     use crate::counts::Counts;
     use crate::space::Cube;
     use crate::space_file::named_space;
 
-    fn failed(index: u64, toss: impl Into<RigidToss>) -> Error {
+    fn failed(index: u64, toss: impl Into<Toss>) -> Error {
         Error::Launch { index, toss: Box::new(toss.into()), source: SolveError::NotFinite { time: 0.0 } }
     }
 
     #[test]
     fn of_two_failures_the_earlier_launch_is_reported() {
         let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.0)).unwrap();
-        let failure = |index| failed(index, Toss { coin: Coin::PAPER, launch });
+        let failure = |index| failed(index, CoinToss { coin: Coin::PAPER, launch });
         assert_eq!((first(failure(3), failure(7)), first(failure(7), failure(3))), (failure(3), failure(3)));
     }
 

@@ -74,7 +74,7 @@ fn long_flights(coin: Coin, cone_angle: f64) -> Result<Space, InputError> {
 
 #[cfg(test)]
 mod tests {
-    use exact::ExactMotion;
+    use exact::CoinMotion;
 
     use super::*;
     use crate::{Coordinate, Found, clopper_pearson};
@@ -97,7 +97,7 @@ mod tests {
         let precessions = [300.0, 600.0].map(|speed| {
             let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Coordinate::Speed, speed).unwrap();
             let toss = space.coin_toss(&space.fixed_values()).unwrap();
-            ExactMotion::new(&toss).precession_rate() * toss.launch.flight_time() / (2.0 * PI)
+            CoinMotion::new(&toss).precession_rate() * toss.launch.flight_time() / (2.0 * PI)
         });
         for (found, expected) in LONG_FLIGHT_TURNS.into_iter().zip(precessions) {
             assert!((found - expected).abs() < 1e-9, "{found}, not {expected}");

@@ -6,7 +6,7 @@
 //! angle between S and the vertical. The line is where it is 0; for launches from horizontal, φ = ψ, this is ψ = 45°.
 
 use dynamics::{Error, InputError};
-use exact::ExactMotion;
+use exact::CoinMotion;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -109,7 +109,7 @@ fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
 /// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies, or for a body that is no coin.
 fn least_cos_tilt(space: &Space) -> Option<f64> {
     let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
-    let motion = ExactMotion::new(&space.coin_toss(&space.fixed_values())?);
+    let motion = CoinMotion::new(&space.coin_toss(&space.fixed_values())?);
     (!motion_varies).then(|| (motion.momentum_tilt() + motion.cone_angle()).cos())
 }
 
@@ -141,7 +141,7 @@ mod tests {
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
                 let toss = space.coin_toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]).unwrap();
-                ExactMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
+                CoinMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
             });
             assert!((node.probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {node:?}");
         }
@@ -164,7 +164,7 @@ mod tests {
         for (index, node) in tilted.nodes.iter().enumerate() {
             let rates = [tilted.across.1[index % 5], 7.0, tilted.up.1[index / 5]];
             let motion =
-                ExactMotion::new(&space(&texts).coin_toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]).unwrap());
+                CoinMotion::new(&space(&texts).coin_toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]).unwrap());
             let turn = std::f64::consts::TAU / motion.precession_rate();
             let heights = (0..10_000).map(|part| motion.cos_tilt(turn * f64::from(part) / 1e4).unwrap());
             let least = heights.fold(1.0, f64::min);

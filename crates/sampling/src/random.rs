@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use numerics::lanes::{Philox, Simd, SimdLevel, WithSimd};
 
 use crate::axis::{Axis, Distribution};
@@ -86,7 +86,7 @@ pub(crate) fn between_0_and_1(word: u64) -> f64 {
 }
 
 /// The launches with the numbers `range` of the random sequence with this `seed` over `space`.
-pub fn random_tosses(space: &Space, seed: u64, range: Range<u64>) -> Vec<RigidToss> {
+pub fn random_tosses(space: &Space, seed: u64, range: Range<u64>) -> Vec<Toss> {
     let cube = Cube::new(space, space.free());
     let mut block = Block::new(space);
     let mut tosses = Vec::new();

@@ -8,7 +8,7 @@
 use std::fmt;
 
 use dynamics::error::require;
-use dynamics::{Body, Coin, InputError, Launch, RigidToss, TimeOfFlight, Toss, Vector3};
+use dynamics::{Body, Coin, CoinToss, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -114,7 +114,7 @@ impl Space {
 
     /// The coin; `None` for a body with I1 ≠ I2.
     pub fn coin(&self) -> Option<Coin> {
-        self.body.symmetric()
+        self.body.coin()
     }
 
     /// The axis of a coordinate, or its tie.
@@ -147,13 +147,13 @@ impl Space {
     }
 
     /// The toss of the body with these values. The value of a tied coordinate is taken from its partner.
-    pub(crate) fn toss(&self, values: &Values) -> RigidToss {
-        RigidToss { body: self.body, launch: self.launch(values) }
+    pub(crate) fn toss(&self, values: &Values) -> Toss {
+        Toss { body: self.body, launch: self.launch(values) }
     }
 
     /// The toss of the coin with these values; `None` for a body with I1 ≠ I2.
-    pub(crate) fn coin_toss(&self, values: &Values) -> Option<Toss> {
-        self.coin().map(|coin| Toss { coin, launch: self.launch(values) })
+    pub(crate) fn coin_toss(&self, values: &Values) -> Option<CoinToss> {
+        self.coin().map(|coin| CoinToss { coin, launch: self.launch(values) })
     }
 
     /// The launch with these values. The value of a tied coordinate is taken from its partner.

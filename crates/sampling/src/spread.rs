@@ -27,7 +27,7 @@
 
 use dynamics::error::require;
 use dynamics::{Error, InputError, Outcome};
-use exact::certify_rigid;
+use exact::certify;
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -120,7 +120,7 @@ impl Sampler<'_> {
                 InputError::Malformed { field, value, expected: "a single value, around which it spreads" }.into()
             );
         }
-        let landing = certify_rigid(&space.toss(&space.fixed_values()))?.outcome();
+        let landing = certify(&space.toss(&space.fixed_values()))?.outcome();
         if landing != Outcome::Heads {
             return Ok(LargestSpread::TossIsNotHeads(landing));
         }

@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use dynamics::{Coin, Error, Propagation, SolveError, Solver, Toss};
+use dynamics::{Coin, Error, Landing, SolveError, Solver, Toss};
 use exact::ExactSolver;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::{Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space, named_space};
@@ -132,12 +132,9 @@ impl Solver for Fragile {
     fn name(&self) -> &str {
         "fragile"
     }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(1e-15))
-    }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let time = toss.launch.flight_time();
-        if time > 8.0 / 9.81 { Err(SolveError::NotFinite { time }) } else { ExactSolver.propagate(toss) }
+        if time > 8.0 / 9.81 { Err(SolveError::NotFinite { time }) } else { ExactSolver.land(toss) }
     }
 }
 
@@ -158,12 +155,9 @@ impl Solver for Worn {
     fn name(&self) -> &str {
         "worn"
     }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(1e-15))
-    }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let tosses = self.0.fetch_add(1, Ordering::Relaxed);
-        if tosses == 9 { Err(SolveError::NotFinite { time: 0.0 }) } else { ExactSolver.propagate(toss) }
+        if tosses == 9 { Err(SolveError::NotFinite { time: 0.0 }) } else { ExactSolver.land(toss) }
     }
 }
 

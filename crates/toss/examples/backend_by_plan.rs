@@ -21,13 +21,13 @@ use toss::{Answer, Coin, Launch, Scene, TimeOfFlight, Toss, Vector3, Want};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let thrown = TimeOfFlight::thrown(3.0, 9.81, Some(0.3));
-    let toss = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)? };
+    let toss = Toss::new(Coin::PAPER, Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown)?);
     let scenes = [
-        Scene::new(Want::Outcome(toss.into()), 1e-6),
-        Scene::new(Want::Tilt(toss.into()), 1e-6),
-        Scene::new(Want::Attitude(toss.into()), 1e-6),
-        Scene::new(Want::Trace { toss: toss.into(), points: 25 }, 1e-6),
-        Scene::new(Want::Attitude(toss.into()), 1e-6).by("gamma", None),
+        Scene::new(Want::Outcome(toss), 1e-6),
+        Scene::new(Want::Tilt(toss), 1e-6),
+        Scene::new(Want::Attitude(toss), 1e-6),
+        Scene::new(Want::Trace { toss, points: 25 }, 1e-6),
+        Scene::new(Want::Attitude(toss), 1e-6).by("gamma", None),
         Scene::new(Want::Probability(named_space("paper-fig4")?), 1e-3),
     ];
     for scene in scenes {

@@ -18,7 +18,7 @@ use toss::{
 fn heads_by<S: Solver>(solver: &S, tosses: &[Toss]) -> Result<usize, SolveError> {
     let mut heads = 0;
     for toss in tosses {
-        heads += usize::from(solver.cos_tilt(toss)? > 0.0);
+        heads += usize::from(solver.tilt(toss)?.cos_tilt > 0.0);
     }
     Ok(heads)
 }
@@ -28,7 +28,7 @@ fn tosses() -> Result<Vec<Toss>, InputError> {
     let thrown = TimeOfFlight::thrown(4.0, 9.81, None);
     let toss = |spin: u32| {
         let launch = Launch::new(Vector3::new(10.0, 10.0, f64::from(spin)), thrown)?;
-        Ok(Toss { coin: Coin::PAPER, launch })
+        Ok(Toss::new(Coin::PAPER, launch))
     };
     (0..50).map(toss).collect()
 }

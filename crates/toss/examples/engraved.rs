@@ -20,7 +20,7 @@
 
 use toss::catalogue::named_body;
 use toss::sampling::{HAND, Plan, Space};
-use toss::{Outcome, RigidToss, certify_rigid};
+use toss::{Outcome, Toss, certify};
 
 /// Number of launches for each spread.
 const LAUNCHES: u64 = 4096;
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (mut heads, mut differ) = ([0_u32; 2], 0_u32);
         for drawn in space.drawn(Plan::Random { points: LAUNCHES, seed: 1 })?.flatten() {
             let launch = drawn.toss.launch;
-            let lands = |body| certify_rigid(&RigidToss { body, launch }).map(toss::Certificate::outcome);
+            let lands = |body| certify(&Toss { body, launch }).map(toss::Certificate::outcome);
             let outcomes = [lands(cylinder)?, lands(engraved)?];
             for (heads, outcome) in heads.iter_mut().zip(outcomes) {
                 *heads += u32::from(outcome == Outcome::Heads);

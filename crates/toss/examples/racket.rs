@@ -28,7 +28,7 @@
 
 use std::f64::consts::TAU;
 
-use toss::{Body, ExactSolver, Launch, Outcome, RigidToss, Solver, TimeOfFlight, certify_rigid};
+use toss::{Body, ExactSolver, Launch, Outcome, Solver, TimeOfFlight, Toss, certify};
 
 /// ωy (rad/s).
 const TURN: f64 = 12.0;
@@ -39,9 +39,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut outcomes = Vec::new();
     for twist in [0.0, 1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.3, 1.0] {
         let launch = Launch::new([twist * TURN, TURN, 0.0], TimeOfFlight::Given(TAU / TURN))?;
-        let toss = RigidToss { body, launch };
-        let outcome = certify_rigid(&toss)?.outcome();
-        println!("{twist:<12}  {:+.4}, {outcome}", ExactSolver.cos_tilt_rigid(&toss)?);
+        let toss = Toss { body, launch };
+        let outcome = certify(&toss)?.outcome();
+        println!("{twist:<12}  {:+.4}, {outcome}", ExactSolver.tilt(&toss)?.cos_tilt);
         outcomes.push(outcome);
     }
     // Smaller twists need more turns to grow.

@@ -17,14 +17,14 @@
 use std::f64::consts::TAU;
 
 use toss::catalogue::named_coin;
-use toss::{ExactMotion, ExactSolver, InputError, Launch, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
+use toss::{CoinMotion, ExactSolver, InputError, Launch, Solver, TimeOfFlight, Toss, Vector3, certify, margin};
 
 const SPEED: f64 = 2.4;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let toss = thrown(SPEED)?;
     let proven = certify(&toss)?;
-    let landing = ExactSolver.propagate(&toss)?;
+    let landing = ExactSolver.land(&toss)?;
     let [w, x, y, z] = landing.state.attitude.components();
     let nearest = margin(&toss)?;
     let change = nearest.speed.ok_or("no speed changes the outcome")?;
@@ -33,7 +33,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cos θ     {:.12}", landing.cos_tilt);
     println!("attitude  w {w:+.9}  x {x:+.9}  y {y:+.9}  z {z:+.9}");
     println!("margin    {:+.4} mm/s in v0, {:+.4} turns/s in ωx", 1e3 * change, change_of_rate / TAU);
-    println!("ψ         {:.4}°, heads for ever below 45°", ExactMotion::new(&toss).cone_angle().to_degrees());
+    let motion = CoinMotion::new(&toss.coin().ok_or("a quarter is a coin")?);
+    println!("ψ         {:.4}°, heads for ever below 45°", motion.cone_angle().to_degrees());
 
     // A change slightly below the margin keeps the outcome, and one slightly above flips it.
     assert_eq!(certify(&thrown(SPEED + change * (1.0 - 1e-9))?)?.outcome(), proven.outcome());
@@ -45,5 +46,5 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn thrown(speed: f64) -> Result<Toss, InputError> {
     let up = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
     let launch = Launch::new(Vector3::new(38.0 * TAU, 0.0, 50.0), up)?;
-    Ok(Toss { coin: named_coin("us-quarter")?, launch })
+    Ok(Toss::new(named_coin("us-quarter")?, launch))
 }

@@ -95,12 +95,12 @@ mod tests {
     use crate::trace::trace;
 
     fn toss() -> Toss {
-        Toss { coin: Coin::PAPER, launch: Launch::new([9.0, 4.0, 3.0], TimeOfFlight::Given(1.5)).unwrap() }
+        Toss::new(Coin::PAPER, Launch::new([9.0, 4.0, 3.0], TimeOfFlight::Given(1.5)).unwrap())
     }
 
     #[test]
     fn traces_are_read_back_to_the_bit_and_what_contradicts_the_attitude_is_refused() {
-        let points = trace(&ExactSolver, toss(), 50).unwrap();
+        let points = trace(&ExactSolver, &toss(), 50).unwrap();
         let written = to_value(&points).unwrap();
         assert_eq!(from_value::<Vec<TracePoint>>(written.clone()).unwrap(), points);
         for (field, value, message) in [

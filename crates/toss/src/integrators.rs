@@ -6,9 +6,7 @@
 //! An outcome needs more than a small error, because the integrator decides it by its own error estimate: this has to be
 //! within the accuracy, too.
 
-use dynamics::{
-    Error, InputError, RigidToss, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight,
-};
+use dynamics::{Error, InputError, Scheme, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss};
 use exact::ExactSolver;
 use exact::motion::COS_TILT_ERROR;
 
@@ -98,7 +96,7 @@ pub(crate) fn model() -> &'static Model {
 pub(crate) fn integrated(entry: &SolverEntry, stepping: Stepping, want: &Want) -> Result<Answer, Error> {
     let solver = solver(entry, stepping)?;
     Ok(match want {
-        Want::Outcome(toss) => Answer::Outcome(Verdict::Estimated(solver.outcome_rigid(toss)?)),
+        Want::Outcome(toss) => Answer::Outcome(Verdict::Estimated(solver.tilt(toss)?.outcome())),
         want => values(solver.as_ref(), want)?,
     })
 }
@@ -110,8 +108,8 @@ fn solver(entry: &SolverEntry, stepping: Stepping) -> Result<Box<dyn Solver>, In
 /// The answer of `solver` to `want`; to an outcome, cos θ.
 fn values(solver: &dyn Solver, want: &Want) -> Result<Answer, Error> {
     Ok(match want {
-        Want::Outcome(toss) | Want::Tilt(toss) => Answer::Tilt(solver.cos_tilt_rigid(toss)?),
-        Want::Attitude(toss) => Answer::Attitude(solver.propagate_rigid(toss)?.state),
+        Want::Outcome(toss) | Want::Tilt(toss) => Answer::Tilt(solver.tilt(toss)?.cos_tilt),
+        Want::Attitude(toss) => Answer::Attitude(solver.land(toss)?.state),
         Want::Trace { toss, points } => Answer::Trace(trace(solver, toss, *points)?),
         Want::Probability(_) => return Err(no_integrator_for_a_space().into()),
     })
@@ -157,7 +155,7 @@ fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tol
     let solver = solver(entry, stepping)?;
     let mut error = distance(&values(solver.as_ref(), &scene.want)?, exact);
     if let Want::Outcome(toss) = &scene.want {
-        error = error.max(solver.error_estimate_rigid(toss)?.unwrap_or(f64::INFINITY));
+        error = error.max(solver.tilt(toss)?.error.unwrap_or(f64::INFINITY));
     }
     if error > scene.accuracy {
         return Ok(Flown::IsOffBy(error));
@@ -187,14 +185,13 @@ fn distance(found: &Answer, exact: &Answer) -> f64 {
 fn cost_ns(solver: &dyn Solver, [flight_ns, call_ns]: [f64; 2], want: &Want) -> Result<f64, Error> {
     let Some(toss) = want.toss() else { return Err(no_integrator_for_a_space().into()) };
     #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
-    let flight = |toss: &RigidToss| -> Result<f64, Error> {
-        Ok(flight_ns + call_ns * solver.propagate_rigid(toss)?.work.rhs_calls as f64)
-    };
+    let flight =
+        |toss: &Toss| -> Result<f64, Error> { Ok(flight_ns + call_ns * solver.land(toss)?.work.rhs_calls as f64) };
     let Want::Trace { points, .. } = want else { return flight(toss) };
     #[expect(clippy::cast_precision_loss, reason = "at most a million points")]
     let points = *points as f64;
     let time = TimeOfFlight::Given(toss.launch.flight_time() / (points - 1.0));
-    let leg = RigidToss { launch: toss.launch.with_time_of_flight(time)?, ..*toss };
+    let leg = Toss { launch: toss.launch.with_time_of_flight(time)?, ..*toss };
     Ok(flight(&leg)? * (points - 1.0) + POINT_NS * points)
 }
 

@@ -24,16 +24,16 @@
 //! use toss::{Coin, ExactSolver, Launch, Registry, Settings, Solver, TimeOfFlight, Toss, certify, margin};
 //!
 //! let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //! assert_eq!(certify(&toss)?.outcome().name(), "heads");
-//! assert_eq!(format!("{:.8}", ExactSolver.cos_tilt(&toss)?), "0.66566129");
+//! assert_eq!(format!("{:.8}", ExactSolver.tilt(&toss)?.cos_tilt), "0.66566129");
 //! let nearest = margin(&toss)?;
 //! assert_eq!(nearest.speed.map(|change| format!("{change:+.4} m/s")).as_deref(), Some("+3.4123 m/s"));
 //! assert_eq!(nearest.rate[0].map(|change| format!("{change:+.4} rad/s")).as_deref(), Some("+1.4587 rad/s"));
 //!
 //! // The same flight, solved by an integrator that is chosen at run time.
 //! let gamma = Registry::standard().named("gamma")?.solver(&Settings::default())?;
-//! assert!((gamma.cos_tilt(&toss)? - ExactSolver.cos_tilt(&toss)?).abs() < 1e-9);
+//! assert!((gamma.tilt(&toss)?.cos_tilt - ExactSolver.tilt(&toss)?.cos_tilt).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -44,7 +44,7 @@
 //! ```
 //! # use toss::{Coin, ExactSolver, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //! let flight = toss::trace(&ExactSolver, &toss, 4)?;
 //! let shown: Vec<String> = flight.iter().map(|point| format!("{:.2} s {:.3}", point.time, point.cos_tilt)).collect();
 //! assert_eq!(shown, ["0.00 s 1.000", "0.20 s 0.959", "0.41 s 0.842", "0.61 s 0.666"]);
@@ -76,15 +76,15 @@
 //!
 //! # Any rigid body
 //! A [`Body`] is a coin, or any other rigid body by its three moments or its inertia tensor; the [`catalogue`] has some by
-//! name. A [`RigidToss`] is its toss, which solvers, traces, spaces and scenes take. This racket is thrown flat and turns
+//! name. A [`Toss`] is its toss, which solvers, traces, spaces and scenes take. This racket is thrown flat and turns
 //! twice about its middle axis, and then its other face is up.
 //!
 //! ```
-//! use toss::{Body, Launch, RigidToss, TimeOfFlight, certify_rigid};
+//! use toss::{Body, Launch, TimeOfFlight, Toss, certify};
 //!
 //! let body: Body = "racket".parse()?;
-//! let toss = RigidToss { body, launch: Launch::new([0.12, 12.0, 0.0], TimeOfFlight::Given(1.0472))? };
-//! assert_eq!(certify_rigid(&toss)?.outcome().name(), "tails");
+//! let toss = Toss { body, launch: Launch::new([0.12, 12.0, 0.0], TimeOfFlight::Given(1.0472))? };
+//! assert_eq!(certify(&toss)?.outcome().name(), "tails");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -96,11 +96,11 @@
 //! use toss::{Answer, Scene, Want};
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //!
-//! let outcome = Scene::new(Want::Outcome(toss.into()), 1e-9).solve()?;
+//! let outcome = Scene::new(Want::Outcome(toss), 1e-9).solve()?;
 //! assert!(matches!(outcome.answer, Answer::Outcome(verdict) if verdict.is_proven()));
-//! let tilt = Scene::new(Want::Tilt(toss.into()), 1e-9);
+//! let tilt = Scene::new(Want::Tilt(toss), 1e-9);
 //! assert_eq!(tilt.plan()?.choice.model.name, "tilt");
 //! assert!(matches!(tilt.solve()?.answer, Answer::Tilt(cos_tilt) if (cos_tilt - 0.665_661_287).abs() < 1e-9));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -116,11 +116,11 @@
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //!
 //! fn lands_heads(solver: &impl Solver, toss: &Toss) -> Result<bool, SolveError> {
-//!     Ok(solver.cos_tilt(toss)? > 0.0)
+//!     Ok(solver.tilt(toss)?.cos_tilt > 0.0)
 //! }
 //!
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! let toss = Toss { coin: "us-quarter".parse()?, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! let toss = Toss::new("us-quarter".parse::<Coin>()?, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //! let quaternion = QuaternionSolver::new(Stepping::adaptive(Scheme::DOP853, 1e-9)?, Formulation::default());
 //! assert_eq!((lands_heads(&ExactSolver, &toss)?, lands_heads(&quaternion, &toss)?), (true, true));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -132,7 +132,7 @@
 //! use toss::{Registry, Settings};
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //!
 //! let settings = Settings { stepping: "dopri5 tolerance=1e-9".parse()?, ..Settings::default() };
 //! let backend = Registry::standard().backend("euler", &settings)?;
@@ -184,9 +184,9 @@
 //! use toss::{How, Scene, Want};
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-//! # let toss = Toss { coin: Coin::PAPER, launch: Launch::new([1.0, 1.0, 2.5], thrown)? };
+//! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
 //!
-//! let choice = Scene::new(Want::Attitude(toss.into()), 1e-6).by("quaternion", None).plan()?.choice;
+//! let choice = Scene::new(Want::Attitude(toss), 1e-6).by("quaternion", None).plan()?.choice;
 //! let How::Integrator(solver, stepping) = &choice.how else { panic!("an integrator was asked for") };
 //! assert_eq!((solver.name(), stepping.scheme().name()), ("quaternion", "taylor"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -236,14 +236,14 @@ mod trace;
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Angle, AngleUnit, Attitude, Body, Coin, Dimension, EulerAngles, Launch, Outcome, Quantity, RigidToss, State,
+    Angle, AngleUnit, Attitude, Body, Coin, CoinToss, Dimension, EulerAngles, Launch, Outcome, Quantity, State,
     TimeOfFlight, Toss, Tosses, Unit, Vector3, nalgebra,
 };
 
 // Solvers: to choose one, or to write your own.
 pub use dynamics::{
-    Checked, ForeignError, Formulation, FreeRotation, Propagation, Scheme, Settings, Solver, SolverConfig, SolverEntry,
-    StepControl, Stepping, Work,
+    Checked, ForeignError, Formulation, FreeRotation, Landing, Scheme, Settings, Solver, SolverConfig, SolverEntry,
+    StepControl, Stepping, Tilt, Work,
 };
 pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 pub use kinematics_quat::{IntegratedCertificate, IntegratedCounts, Integration, Proving, QuaternionSolver, TAYLOR};
@@ -251,8 +251,8 @@ pub use registry::{Backend, Registry};
 
 // The exact motion, and what follows from it.
 pub use exact::{
-    Batch, Certificate, ExactMotion, ExactSolver, Margin, RigidAngles, RigidMargin, RigidMotion, Sensitivity, Stage,
-    certify, certify_rigid, margin, margin_rigid, rigid_speeds_of_heads, speeds_of_heads, thrown_speeds_of_heads,
+    Batch, Certificate, CoinMotion, ExactMotion, ExactSolver, Margin, RigidAngles, Sensitivity, Stage, certify,
+    level_speeds_of_heads, margin, speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
 

@@ -14,8 +14,8 @@
 //! outcome goes through stages of its own and says which of them decided.
 
 use dynamics::coin::NO_COIN;
-use dynamics::{Body, Error, InputError, RigidToss, Solver, Toss};
-use exact::{ExactSolver, certify, certify_rigid, compensated_cos_tilt, compensated_landing};
+use dynamics::{Body, CoinToss, Error, InputError, Solver, Toss};
+use exact::{ExactSolver, certify, compensated_cos_tilt, compensated_landing};
 use sampling::{Coordinate, Plan, Rest, Scrambled, Space};
 
 use crate::answer::{Answer, Verdict};
@@ -50,7 +50,7 @@ pub(crate) enum Of {
 impl Of {
     /// Which of them `body` is.
     pub(crate) fn body(body: &Body) -> Self {
-        if body.symmetric().is_some() { Self::Coins } else { Self::Others }
+        if body.coin().is_some() { Self::Coins } else { Self::Others }
     }
 }
 
@@ -62,7 +62,7 @@ pub(crate) enum Kind {
         /// The kind of question that it answers.
         serves: WantKind,
         /// Computes the answer for a toss; the number is that of the points of a trace.
-        answer: fn(&RigidToss, usize) -> Result<Answer, Error>,
+        answer: fn(&Toss, usize) -> Result<Answer, Error>,
         /// Its largest error, of cos θ or of the attitude (rad).
         error: f64,
         /// Its cost (ns); for a trace, the cost of each point.
@@ -111,7 +111,7 @@ const fn closed_form(
     gives: &'static str,
     serves: WantKind,
     [error, cost_ns]: [f64; 2],
-    answer: fn(&RigidToss, usize) -> Result<Answer, Error>,
+    answer: fn(&Toss, usize) -> Result<Answer, Error>,
 ) -> Model {
     Model { name, assumes: "I1 = I2", gives, of: Of::Coins, kind: Kind::ClosedForm { serves, answer, error, cost_ns } }
 }
@@ -122,8 +122,8 @@ const fn of_others(model: Model) -> Model {
 }
 
 /// The coin's toss of a model for coins.
-fn coin(toss: &RigidToss) -> Result<Toss, InputError> {
-    toss.symmetric().ok_or(NO_COIN)
+fn coin(toss: &Toss) -> Result<CoinToss, InputError> {
+    toss.coin().ok_or(NO_COIN)
 }
 
 const fn sample(
@@ -141,7 +141,7 @@ const fn sample(
 /// with those for bodies that are no coins behind those for coins.
 pub static MODELS: [Model; 18] = [
     closed_form("outcome", "outcome, proven", WantKind::Outcome, [0.0, 41.3], |toss, _| {
-        Ok(Answer::Outcome(Verdict::Proven(certify(&coin(toss)?)?)))
+        Ok(Answer::Outcome(Verdict::Proven(certify(toss)?)))
     }),
     closed_form("tilt", "cos θ to the last bits", WantKind::Tilt, [7.62e-16, 87.2], |toss, _| {
         Ok(Answer::Tilt(compensated_cos_tilt(&coin(toss)?)?))
@@ -154,7 +154,7 @@ pub static MODELS: [Model; 18] = [
         |toss, _| Ok(Answer::Attitude(compensated_landing(&coin(toss)?)?)),
     ),
     closed_form("tilt-exact", "cos θ to the last bit", WantKind::Tilt, [2.07e-16, 289.0], |toss, _| {
-        Ok(Answer::Tilt(ExactSolver.cos_tilt(&coin(toss)?)?))
+        Ok(Answer::Tilt(ExactSolver.tilt(toss)?.cos_tilt))
     }),
     closed_form("trace", "the flight at equally spaced times", WantKind::Trace, [1.13e-15, 958.0], |toss, points| {
         Ok(Answer::Trace(trace(&ExactSolver, toss, points)?))
@@ -167,17 +167,17 @@ pub static MODELS: [Model; 18] = [
         kind: Kind::Integrator,
     },
     of_others(closed_form("body-outcome", "outcome, proven", WantKind::Outcome, [0.0, 2000.0], |toss, _| {
-        Ok(Answer::Outcome(Verdict::Proven(certify_rigid(toss)?)))
+        Ok(Answer::Outcome(Verdict::Proven(certify(toss)?)))
     })),
     of_others(closed_form("body-tilt", "cos θ to the last bit", WantKind::Tilt, [1.11e-16, 5100.0], |toss, _| {
-        Ok(Answer::Tilt(ExactSolver.cos_tilt_rigid(toss)?))
+        Ok(Answer::Tilt(ExactSolver.tilt(toss)?.cos_tilt))
     })),
     of_others(closed_form(
         "body-attitude",
         "attitude and body rate to the last bits",
         WantKind::Attitude,
         [6.64e-16, 6340.0],
-        |toss, _| Ok(Answer::Attitude(ExactSolver.propagate_rigid(toss)?.state)),
+        |toss, _| Ok(Answer::Attitude(ExactSolver.land(toss)?.state)),
     )),
     of_others(closed_form(
         "body-trace",

@@ -6,8 +6,8 @@
 //! are [flown](crate::integrators) for that.
 
 use dynamics::error::require;
-use dynamics::{Error, InputError, RigidToss, RoughPhases};
-use exact::{RigidMotion, certify};
+use dynamics::{Body, Error, InputError, RoughPhases, Toss};
+use exact::{ExactMotion, certify};
 use sampling::Progress;
 
 use crate::answer::{Answer, Verdict};
@@ -118,12 +118,9 @@ impl Scene {
     pub fn solve_with(&self, registry: &Registry) -> Result<Solution, Error> {
         match &self.want {
             // A shortcut: an outcome has one model, and planning would cost more than the answer.
-            Want::Outcome(toss) if self.by.is_none() && self.accuracy > 0.0 => match toss.symmetric() {
-                Some(toss) => {
-                    Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(&toss)?)), model: &MODELS[0] })
-                }
-                None => self.solve_as_planned(registry),
-            },
+            Want::Outcome(toss @ Toss { body: Body::Coin(_), .. }) if self.by.is_none() && self.accuracy > 0.0 => {
+                Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(toss)?)), model: &MODELS[0] })
+            }
             _ => self.solve_as_planned(registry),
         }
     }
@@ -173,11 +170,11 @@ impl Scene {
         if let Want::Trace { points, .. } = self.want { require_points(points) } else { Ok(()) }
     }
 
-    fn first_closed_form(&self, toss: &RigidToss) -> Result<Decision, Error> {
+    fn first_closed_form(&self, toss: &Toss) -> Result<Decision, Error> {
         // No model has an answer beyond a phase of 2^53 rad; this returns the error.
-        match toss.symmetric() {
+        match toss.coin() {
             Some(toss) => _ = RoughPhases::new(&toss).largest()?,
-            None => _ = RigidMotion::new(toss).phase(toss.launch.time_of_flight())?,
+            None => _ = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?,
         }
         let of = Of::body(&toss.body);
         let mut passed_over = Vec::new();

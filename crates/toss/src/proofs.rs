@@ -1,7 +1,7 @@
 //! Plans an integration that proves how far cos θ or an attitude can be off. The plan flies, as that of any integrator
 //! does, and takes the coarsest of the same tolerances whose proven bound is within the accuracy.
 
-use dynamics::{Error, Formulation, InputError, RigidToss, Stepping};
+use dynamics::{Error, Formulation, InputError, Stepping, Toss};
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver, TAYLOR};
 
 use crate::answer::Answer;
@@ -21,7 +21,7 @@ fn refused(why: &'static str) -> InputError {
 }
 
 /// The toss of `want` and what its bound is of, if a plan can prove it.
-fn question(want: &Want) -> Result<(&RigidToss, Of), InputError> {
+fn question(want: &Want) -> Result<(&Toss, Of), InputError> {
     match want {
         Want::Tilt(toss) => Ok((toss, IntegratedCertificate::error_bound)),
         Want::Attitude(toss) => Ok((toss, IntegratedCertificate::angle_bound)),
@@ -58,11 +58,11 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
     let [cost_ns, call_ns] = costs(entry.name(), scheme);
     for tolerance in TOLERANCES {
         let stepping = Stepping::adaptive(scheme, tolerance)?;
-        let found = QuaternionSolver::new(stepping, Formulation::default()).enclose_rigid(toss)?;
+        let found = QuaternionSolver::new(stepping, Formulation::default()).enclose(toss)?;
         if bound(&found) <= accuracy {
             #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
             let flight_ns = cost_ns + call_ns * found.work().rhs_calls as f64;
-            let expected_cost_ns = COSTS[usize::from(toss.symmetric().is_none())] * flight_ns;
+            let expected_cost_ns = COSTS[usize::from(toss.coin().is_none())] * flight_ns;
             let how = How::Integrator(entry.clone(), stepping);
             let choice = Choice { model: model(), how, expected_error: bound(&found), expected_cost_ns };
             return Ok(Decision { choice, passed_over: Vec::new() });
@@ -79,7 +79,7 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
 pub(crate) fn run(stepping: Stepping, want: &Want) -> Result<Answer, Error> {
     let (toss, _) = question(want)?;
     let solver = QuaternionSolver::new(stepping, Formulation::default());
-    Ok(Answer::Enclosed(Box::new(solver.enclose_rigid(toss)?)))
+    Ok(Answer::Enclosed(Box::new(solver.enclose(toss)?)))
 }
 
 #[cfg(test)]

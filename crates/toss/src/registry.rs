@@ -5,10 +5,8 @@ use std::fmt;
 use std::sync::LazyLock;
 
 use dynamics::error::find_named;
-use dynamics::{
-    Checked, InputError, Outcome, RigidToss, Settings, SolveError, Solver, SolverConfig, SolverEntry, Toss,
-};
-use exact::{ExactSolver, certify, certify_rigid};
+use dynamics::{Checked, InputError, Outcome, Settings, SolveError, Solver, SolverConfig, SolverEntry, Tilt, Toss};
+use exact::{ExactSolver, certify};
 use kinematics_euler::{EulerAnglesSolver, GammaSolver};
 use kinematics_quat::QuaternionSolver;
 use sampling::Sampler;
@@ -129,35 +127,24 @@ impl Backend {
         }
     }
 
-    /// How the toss lands. The exact motion proves it; another solver decides by its own `cos_tilt` (cos θ at landing)
-    /// and its error estimate.
+    /// How the toss lands. The exact motion proves it; another solver decides by its own `tilt`, cos θ at landing with its
+    /// error estimate.
     ///
     /// # Errors
-    /// As for [`Solver::outcome_at`].
-    pub fn verdict(&self, toss: &Toss, cos_tilt: f64) -> Result<Verdict, SolveError> {
+    /// As for [`certify`].
+    pub fn verdict(&self, toss: &Toss, tilt: Tilt) -> Result<Verdict, SolveError> {
         match self {
             Self::Exact(_) => certify(toss).map(Verdict::Proven),
-            Self::Solver(solver) => solver.outcome_at(toss, cos_tilt).map(Verdict::Estimated),
-        }
-    }
-
-    /// As [`Backend::verdict`], for any rigid body.
-    ///
-    /// # Errors
-    /// As for [`Solver::outcome_at_rigid`].
-    pub fn verdict_rigid(&self, toss: &RigidToss, cos_tilt: f64) -> Result<Verdict, SolveError> {
-        match self {
-            Self::Exact(_) => certify_rigid(toss).map(Verdict::Proven),
-            Self::Solver(solver) => solver.outcome_at_rigid(toss, cos_tilt).map(Verdict::Estimated),
+            Self::Solver(_) => Ok(Verdict::Estimated(tilt.outcome())),
         }
     }
 
     /// The outcome without its proof or estimate.
     ///
     /// # Errors
-    /// As for [`Solver::outcome`].
+    /// As for [`Solver::tilt`].
     pub fn outcome(&self, toss: &Toss) -> Result<Outcome, SolveError> {
-        self.solver().outcome(toss)
+        self.solver().tilt(toss).map(Tilt::outcome)
     }
 
     /// A sampler that solves its launches by this backend.

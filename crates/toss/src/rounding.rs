@@ -2,9 +2,9 @@
 //! numbers after that. [`Rounding`] judges whether it is also the outcome of the numbers as they were typed.
 
 use dynamics::quantity::{Given, common_unit};
-use dynamics::{Body, InputError, Outcome, RigidToss, SolveError, TimeOfFlight};
+use dynamics::{Body, InputError, Outcome, SolveError, TimeOfFlight, Toss};
 use exact::certified::holds_within;
-use exact::{ExactMotion, certify_rigid};
+use exact::{CoinMotion, certify};
 
 /// What was rounded when the numbers of a toss were converted to SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +54,7 @@ impl Rounding {
 
     /// Whether the time of flight was rounded so that its error has no bound: a landing above the launch may end the flight
     /// near its top, where the time depends on the speed without a bound.
-    fn time_is_unbounded(&self, toss: &RigidToss) -> bool {
+    fn time_is_unbounded(&self, toss: &Toss) -> bool {
         self.flight && matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0)
     }
 
@@ -68,12 +68,12 @@ impl Rounding {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    pub fn error_bound(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
+    pub fn error_bound(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
         if self.is_none() {
             return Ok(Some(0.0));
         }
-        let Some(coin_toss) = toss.symmetric().filter(|_| !self.time_is_unbounded(toss)) else { return Ok(None) };
-        let (turn, spin) = ExactMotion::new(&coin_toss).phases(toss.launch.time_of_flight())?;
+        let Some(coin_toss) = toss.coin().filter(|_| !self.time_is_unbounded(toss)) else { return Ok(None) };
+        let (turn, spin) = CoinMotion::new(&coin_toss).phases(toss.launch.time_of_flight())?;
         Ok(Some(RELATIVE * (6.3 * turn.hi() + 3.1 * spin.hi().abs())))
     }
 
@@ -82,11 +82,11 @@ impl Rounding {
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
-    pub fn keeps(&self, toss: &RigidToss, outcome: Outcome) -> Result<bool, SolveError> {
+    pub fn keeps(&self, toss: &Toss, outcome: Outcome) -> Result<bool, SolveError> {
         if self.is_none() {
             return Ok(true);
         }
-        let Some(coin_toss) = toss.symmetric() else { return self.keeps_rigid(toss, outcome) };
+        let Some(coin_toss) = toss.coin() else { return self.keeps_rigid(toss, outcome) };
         if self.time_is_unbounded(toss) {
             return Ok(false);
         }
@@ -94,12 +94,12 @@ impl Rounding {
     }
 
     /// As [`Rounding::keeps`], for a body with I1 ≠ I2.
-    fn keeps_rigid(&self, toss: &RigidToss, outcome: Outcome) -> Result<bool, SolveError> {
+    fn keeps_rigid(&self, toss: &Toss, outcome: Outcome) -> Result<bool, SolveError> {
         match self.body {
             // How much a rounding of the launch changes has no simple bound next to the separatrix.
             _ if self.flight || self.rate => Ok(false),
             BodyRounding::Exact => Ok(true),
-            BodyRounding::InOneUnit(body) => Ok(certify_rigid(&RigidToss { body, ..*toss })?.outcome() == outcome),
+            BodyRounding::InOneUnit(body) => Ok(certify(&Toss { body, ..*toss })?.outcome() == outcome),
             BodyRounding::Rounded => Ok(false),
         }
     }
@@ -108,14 +108,14 @@ impl Rounding {
 #[cfg(test)]
 mod tests {
     use dynamics::{Coin, Dimension, Launch};
-    use exact::RigidMotion;
+    use exact::ExactMotion;
 
     use super::*;
 
     const NONE: Rounding = Rounding { flight: false, rate: false, body: BodyRounding::Exact };
 
-    fn toss(body: impl Into<Body>, x: f64, time_of_flight: TimeOfFlight) -> RigidToss {
-        RigidToss { body: body.into(), launch: Launch::new([x, 0.0, 0.0], time_of_flight).unwrap() }
+    fn toss(body: impl Into<Body>, x: f64, time_of_flight: TimeOfFlight) -> Toss {
+        Toss { body: body.into(), launch: Launch::new([x, 0.0, 0.0], time_of_flight).unwrap() }
     }
 
     fn moments(texts: [&str; 3]) -> Vec<Given> {
@@ -147,10 +147,10 @@ mod tests {
             let rate = [2.0, 3.0, 5.0].map(part);
             let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit();
             let (unit, time) = (degrees.angle_unit(), TimeOfFlight::Given(1e5));
-            let toss = |launch: Launch| RigidToss { body: Coin::DISC.into(), launch };
+            let toss = |launch: Launch| Toss { body: Coin::DISC.into(), launch };
             let typed = toss(Launch::in_unit(rate, unit, time).unwrap());
             let rounded = toss(Launch::new(rate.map(|part| degrees.to_si(part)), time).unwrap());
-            let landed = |toss: &RigidToss| RigidMotion::new(toss).state(time).unwrap().attitude;
+            let landed = |toss: &Toss| ExactMotion::new(toss).state(time).unwrap().attitude;
             let off = landed(&typed).angle_to(&landed(&rounded));
             let bound = Rounding { rate: true, ..NONE }.error_bound(&rounded).unwrap().unwrap();
             assert!(off <= bound, "{rate:?}: {off:e}, not {bound:e}");
@@ -169,7 +169,7 @@ mod tests {
     fn a_catch_above_the_launch_is_kept_only_if_its_time_was_not_rounded() {
         for (drop, expected) in [(-0.1, false), (0.1, true)] {
             let caught = toss(Coin::PAPER, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop });
-            let certificate = certify_rigid(&caught).unwrap();
+            let certificate = certify(&caught).unwrap();
             let keeps = |rounded: Rounding| rounded.keeps(&caught, certificate.outcome());
             assert_eq!(keeps(Rounding { flight: true, ..NONE }), Ok(expected));
             assert_eq!(keeps(Rounding { rate: true, ..NONE }), Ok(true));

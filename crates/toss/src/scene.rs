@@ -11,7 +11,7 @@
 //!
 //! The coin may be any rigid body.
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use sampling::Space;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
@@ -35,15 +35,15 @@ pub struct Scene {
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize), serde(rename_all = "kebab-case", deny_unknown_fields))]
 pub enum Want {
     /// Heads or tails.
-    Outcome(RigidToss),
+    Outcome(Toss),
     /// cos θ at landing.
-    Tilt(RigidToss),
+    Tilt(Toss),
     /// Attitude and body rate at landing.
-    Attitude(RigidToss),
+    Attitude(Toss),
     /// The flight at equally spaced times.
     Trace {
         /// The toss whose flight it is.
-        toss: RigidToss,
+        toss: Toss,
         /// Number of times, launch and landing included.
         points: usize,
     },
@@ -112,7 +112,7 @@ impl Want {
     }
 
     /// The toss of the question; `None` for a space.
-    pub fn toss(&self) -> Option<&RigidToss> {
+    pub fn toss(&self) -> Option<&Toss> {
         match self {
             Self::Outcome(toss) | Self::Tilt(toss) | Self::Attitude(toss) | Self::Trace { toss, .. } => Some(toss),
             Self::Probability(_) => None,
@@ -121,7 +121,7 @@ impl Want {
 
     /// The same question about another toss. A question about a space is returned unchanged.
     #[must_use]
-    pub fn of(&self, toss: impl Into<RigidToss>) -> Self {
+    pub fn of(&self, toss: impl Into<Toss>) -> Self {
         let toss = toss.into();
         match self {
             Self::Outcome(_) => Self::Outcome(toss),

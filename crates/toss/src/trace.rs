@@ -6,8 +6,7 @@
 
 use dynamics::error::require;
 use dynamics::{
-    Attitude, Checked, Error, EulerAngles, InputError, Launch, RigidToss, SolveError, Solver, State, TimeOfFlight,
-    Vector3,
+    Attitude, Checked, Error, EulerAngles, InputError, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3,
 };
 use exact::RigidAngles;
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
@@ -41,8 +40,7 @@ pub struct TracePoint {
 ///
 /// # Errors
 /// [`Error::Input`] for fewer than 2 or more than [`MOST_POINTS`] points; else the error of the solver.
-pub fn trace(solver: &dyn Solver, toss: impl Into<RigidToss>, points: usize) -> Result<Vec<TracePoint>, Error> {
-    let toss = &toss.into();
+pub fn trace(solver: &dyn Solver, toss: &Toss, points: usize) -> Result<Vec<TracePoint>, Error> {
     trace_at(solver, toss, spaced(&toss.launch, points)?.into_iter())
 }
 
@@ -60,8 +58,7 @@ fn spaced(launch: &Launch, points: usize) -> Result<Vec<f64>, InputError> {
 /// # Errors
 /// [`Error`]: a step that is not positive, or so small that there would be more than [`MOST_POINTS`] points; or what the
 /// solver says.
-pub fn trace_every(solver: &dyn Solver, toss: impl Into<RigidToss>, step: f64) -> Result<Vec<TracePoint>, Error> {
-    let toss = &toss.into();
+pub fn trace_every(solver: &dyn Solver, toss: &Toss, step: f64) -> Result<Vec<TracePoint>, Error> {
     trace_at(solver, toss, stepped(&toss.launch, step)?.into_iter())
 }
 
@@ -89,34 +86,24 @@ pub struct EnclosedPoint {
 /// As [`trace`], with proven bounds of the errors at each point. Each point is a flight from the launch.
 ///
 /// # Errors
-/// As [`trace`] and [`QuaternionSolver::enclose_rigid`].
-pub fn trace_enclosed(
-    solver: &QuaternionSolver,
-    toss: impl Into<RigidToss>,
-    points: usize,
-) -> Result<Vec<EnclosedPoint>, Error> {
-    let toss = &toss.into();
+/// As [`trace`] and [`QuaternionSolver::enclose`].
+pub fn trace_enclosed(solver: &QuaternionSolver, toss: &Toss, points: usize) -> Result<Vec<EnclosedPoint>, Error> {
     enclosed_at(solver, toss, &spaced(&toss.launch, points)?)
 }
 
 /// As [`trace_every`], with proven bounds of the errors at each point.
 ///
 /// # Errors
-/// As [`trace_every`] and [`QuaternionSolver::enclose_rigid`].
-pub fn trace_enclosed_every(
-    solver: &QuaternionSolver,
-    toss: impl Into<RigidToss>,
-    step: f64,
-) -> Result<Vec<EnclosedPoint>, Error> {
-    let toss = &toss.into();
+/// As [`trace_every`] and [`QuaternionSolver::enclose`].
+pub fn trace_enclosed_every(solver: &QuaternionSolver, toss: &Toss, step: f64) -> Result<Vec<EnclosedPoint>, Error> {
     enclosed_at(solver, toss, &stepped(&toss.launch, step)?)
 }
 
-fn enclosed_at(solver: &QuaternionSolver, toss: &RigidToss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
+fn enclosed_at(solver: &QuaternionSolver, toss: &Toss, times: &[f64]) -> Result<Vec<EnclosedPoint>, Error> {
     let mut branch = Branch::new(toss);
     let mut at = |time: f64| -> Result<EnclosedPoint, Error> {
-        let flown = RigidToss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?, ..*toss };
-        let certificate = solver.enclose_rigid(&flown)?;
+        let flown = Toss { launch: toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?, ..*toss };
+        let certificate = solver.enclose(&flown)?;
         let point = TracePoint::new(time, certificate.landing().state.attitude, &branch.at(time)?);
         branch.before = point.angles;
         Ok(EnclosedPoint { point: TracePoint { cos_tilt: certificate.cos_tilt(), ..point }, certificate })
@@ -125,7 +112,7 @@ fn enclosed_at(solver: &QuaternionSolver, toss: &RigidToss, times: &[f64]) -> Re
 }
 
 /// The flight of `toss` by `solver` at `times`, which ascend from 0.
-fn trace_at(solver: &dyn Solver, toss: &RigidToss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
+fn trace_at(solver: &dyn Solver, toss: &Toss, times: impl Iterator<Item = f64>) -> Result<Vec<TracePoint>, Error> {
     let solver = Checked::new(solver);
     let mut branch = Branch::new(toss);
     let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
@@ -139,8 +126,8 @@ fn trace_at(solver: &dyn Solver, toss: &RigidToss, times: impl Iterator<Item = f
             None if time == toss.launch.flight_time() => (0.0, toss.launch),
             None => (0.0, toss.launch.with_time_of_flight(TimeOfFlight::Given(time))?),
         };
-        let leg = RigidToss { launch: leg, ..*toss };
-        let state = solver.propagate_rigid(&leg).map_err(|error| error.later(since))?.state;
+        let leg = Toss { launch: leg, ..*toss };
+        let state = solver.land(&leg).map_err(|error| error.later(since))?.state;
         // A closed form leaves a turn of 1e-33 at launch, which would say where n goes.
         let attitude = if time == 0.0 { branch.launched(&state) } else { state.attitude };
         let point = TracePoint::new(time, attitude, &branch.at(time)?);
@@ -160,8 +147,8 @@ struct Branch {
 }
 
 impl Branch {
-    fn new(toss: &RigidToss) -> Self {
-        let launched = toss.symmetric().is_none().then(|| toss.launch.attitude());
+    fn new(toss: &Toss) -> Self {
+        let launched = toss.coin().is_none().then(|| toss.launch.attitude());
         Self { exact: RigidAngles::new(toss), before: EulerAngles::principal(&toss.launch.attitude()), launched }
     }
 

@@ -16,7 +16,7 @@ fn solvers(criterion: &mut Criterion) {
             group.bench_function(entry.name(), |bencher| {
                 bencher.iter(|| {
                     for case in &problem.cases {
-                        let _ = black_box(black_box(case).propagate(&*solver));
+                        let _ = black_box(black_box(case).land(&*solver));
                     }
                 });
             });

@@ -6,7 +6,7 @@
 
 use std::process::ExitCode;
 
-use toss::{Attitude, Propagation, Registry, SolveError, Solver, SolverEntry, State, Toss, Vector3, Work};
+use toss::{Attitude, Landing, Registry, SolveError, Solver, SolverEntry, State, Toss, Vector3, Work};
 use verify::Suite;
 
 struct TwoTurns;
@@ -15,7 +15,8 @@ impl Solver for TwoTurns {
     fn name(&self) -> &str {
         "two-turns"
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let toss = toss.of_coin(self.name(), "its turns are those of I1 = I2")?;
         let (rate, time, k) = (toss.launch.rate(), toss.launch.flight_time(), toss.coin.inertia_ratio());
         // The turns by precession and by spin (rad). Rates times the time first: the square of a slow rate may be 0.
         let (precession, spin) = (Vector3::new(rate.x, rate.y, k * rate.z) * time, (1.0 - k) * rate.z * time);
@@ -24,10 +25,8 @@ impl Solver for TwoTurns {
         let attitude = toss.launch.attitude() * about_momentum * Attitude::about_z(spin);
         let (sin, cos) = (-spin).sin_cos();
         let rate = Vector3::new(cos * rate.x - sin * rate.y, sin * rate.x + cos * rate.y, rate.z);
-        Ok(Propagation::new(State { attitude, rate }, Work::default()))
-    }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some((3e-16 * (4.0 + 2.0 * toss.launch.turn_rate() * toss.launch.flight_time())).min(2.0)))
+        let error = (3e-16 * (4.0 + 2.0 * toss.launch.turn_rate() * time)).min(2.0);
+        Ok(Landing::new(State { attitude, rate }, Work::default()).with_error(error))
     }
 }
 

@@ -6,7 +6,7 @@ use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use toss::{
-    Angle, AngleUnit, Attitude, Batch, Coin, Launch, Outcome, Quantity, Solver, TimeOfFlight, Toss, Tosses, Unit,
+    Angle, AngleUnit, Attitude, Batch, Coin, CoinToss, Launch, Outcome, Quantity, Solver, TimeOfFlight, Tosses, Unit,
     Vector3, certify,
 };
 use verify::measure::reference::Reference;
@@ -123,7 +123,7 @@ impl Inputs {
     }
 
     /// The toss, if there is one.
-    fn toss(&self) -> Option<Toss> {
+    fn toss(&self) -> Option<CoinToss> {
         let v = self.values;
         let millimetres = |metres: f64| Quantity::new(1e3 * metres, Unit::ratio(1, 1000).expect("a unit"));
         let coin = match self.coin {
@@ -146,7 +146,7 @@ impl Inputs {
             Start::Degrees => Attitude::about_x(Angle::Turns(degrees(v[TILT]))),
             Start::Quaternion => Attitude::from_components(std::array::from_fn(|at| v[COMPONENTS + at])).ok()?,
         };
-        Some(Toss { coin: coin.ok()?, launch: launch.with_attitude(attitude) })
+        Some(CoinToss { coin: coin.ok()?, launch: launch.with_attitude(attitude) })
     }
 
     fn with(self, moved: usize, value: f64) -> Self {
@@ -181,17 +181,17 @@ impl Inputs {
 }
 
 /// Whether everything that proves an outcome says `outcome`, and cos θ has its sign.
-fn is_right(toss: &Toss, outcome: Outcome) -> bool {
-    let proven = certify(toss).expect("an ordinary phase").outcome();
-    let cos_tilt = toss::ExactSolver.cos_tilt(toss).expect("an ordinary phase");
-    let landed = toss::ExactSolver.propagate(toss).expect("an ordinary phase").cos_tilt;
+fn is_right(toss: &CoinToss, outcome: Outcome) -> bool {
+    let proven = certify(&(*toss).into()).expect("an ordinary phase").outcome();
+    let cos_tilt = toss::ExactSolver.tilt(&(*toss).into()).expect("an ordinary phase").cos_tilt;
+    let landed = toss::ExactSolver.land(&(*toss).into()).expect("an ordinary phase").cos_tilt;
     let of_sign = Outcome::of(cos_tilt, 0.0);
     let batched = batched(toss);
     proven == outcome && of_sign == outcome && landed == cos_tilt && batched.is_none_or(|batched| batched == outcome)
 }
 
 /// The outcome of a batch of one toss, by its outcomes and by its counts, if there is a batch of its kind.
-fn batched(toss: &Toss) -> Option<Outcome> {
+fn batched(toss: &CoinToss) -> Option<Outcome> {
     let TimeOfFlight::Ballistic { speed, gravity } = toss.launch.time_of_flight() else { return None };
     let (rate, AngleUnit::RADIAN) = toss.launch.given_rate() else { return None };
     let (rates, speeds) = ([[rate.x], [rate.y], [rate.z]], [speed]);

@@ -6,7 +6,7 @@ use dynamics::integrate::OdeSystem;
 use kinematics_quat::QuaternionSystem;
 use nalgebra::SVector;
 use toss::{
-    ExactSolver, Formulation, Launch, Propagation, QuaternionSolver, Settings, SolveError, Solver, SolverEntry, State,
+    ExactSolver, Formulation, Landing, Launch, QuaternionSolver, Settings, SolveError, Solver, SolverEntry, State,
     StepControl, Stepping, TimeOfFlight, Toss,
 };
 use verify::judge::baseline::{Baseline, Direction, Move};
@@ -95,17 +95,16 @@ impl Solver for PerturbedSolver {
     fn stepping(&self) -> Option<Stepping> {
         Some(self.0)
     }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss).map(Some)
-    }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let flight = Flight::new(toss)?;
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let error = self.0.error_estimate(toss)?;
+        let toss = toss.of_coin(self.name(), "it is made for coins")?;
+        let flight = Flight::new(&toss)?;
         let system = Perturbed(QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z));
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.0)?;
         let turn = toss::Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
         let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
-        Ok(Propagation::new(state, work))
+        Ok(Landing::new(state, work).with_error(error))
     }
 }
 
@@ -135,16 +134,13 @@ impl Solver for OtherGravity {
     fn stepping(&self) -> Option<Stepping> {
         self.0.stepping()
     }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss)
-    }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let time = match toss.launch.time_of_flight() {
             TimeOfFlight::Ballistic { speed, .. } => TimeOfFlight::Ballistic { speed, gravity: 9.80665 },
             other => other,
         };
         let launch = Launch::new(toss.launch.rate(), time).expect("valid").with_attitude(toss.launch.attitude());
-        self.0.propagate(&Toss { launch, ..*toss })
+        self.0.land(&Toss { launch, ..*toss })
     }
 }
 

@@ -8,7 +8,7 @@ use dynamics::Flight;
 use dynamics::integrate::OdeSystem;
 use nalgebra::SVector;
 use toss::{
-    Attitude, Coin, EulerAngles, ExactSolver, Formulation, Propagation, QuaternionSolver, RigidToss, Scheme, Settings,
+    Attitude, Coin, CoinToss, EulerAngles, ExactSolver, Formulation, Landing, QuaternionSolver, Scheme, Settings,
     SolveError, Solver, SolverEntry, State, Stepping, Toss, Vector3, Work,
 };
 use verify::judge::bounds::Bounds;
@@ -52,10 +52,14 @@ impl Solver for GammaCopy {
     fn stepping(&self) -> Option<Stepping> {
         Some(self.stepping)
     }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let landing = self.land_coin(&toss.of_coin(self.name(), "it is made for coins")?)?;
+        Ok(landing.with_error(self.stepping.error_estimate(toss)?))
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+}
+
+impl GammaCopy {
+    fn land_coin(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
         let k = toss.coin.inertia_ratio();
@@ -72,21 +76,19 @@ impl Solver for GammaCopy {
         let beta = if d == 0.0 && u == 0.0 { 0.0 } else { d.atan2(u) };
         let angles = EulerAngles { alpha: end[2], beta, gamma: end[0] };
         let attitude = toss.launch.attitude() * start.attitude().inverse() * angles.attitude();
-        Ok(Propagation::new(State { attitude, rate: flight.rate_at(end[3], end[4]) }, work))
+        Ok(Landing::new(State { attitude, rate: flight.rate_at(end[3], end[4]) }, work))
     }
-}
 
-impl GammaCopy {
-    fn seen_from_the_other_face(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn seen_from_the_other_face(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
         let mirror = Vector3::new(1.0, -1.0, -1.0);
         let half_turn = Attitude::from_components([0.0, 1.0, 0.0, 0.0]).expect("a unit quaternion");
         let turned =
             State { attitude: toss.launch.attitude() * half_turn, rate: toss.launch.rate().component_mul(&mirror) };
         let launch = toss::Launch::from_state(&turned, toss.launch.time_of_flight()).expect("a launch");
-        let landing = self.propagate(&Toss { launch, ..*toss })?;
+        let landing = self.land_coin(&CoinToss { launch, ..*toss })?;
         let state =
             State { attitude: landing.state.attitude * half_turn, rate: landing.state.rate.component_mul(&mirror) };
-        Ok(Propagation::new(state, landing.work))
+        Ok(Landing::new(state, landing.work))
     }
 }
 
@@ -123,11 +125,13 @@ impl Solver for QuaternionCopy {
     fn stepping(&self) -> Option<Stepping> {
         Some(self.stepping)
     }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
-    }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let flight = Flight::new(toss)?;
+    // The copy is of the flights of coins; other bodies fly by the library's solver.
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let error = self.stepping.error_estimate(toss)?;
+        let Some(toss) = toss.coin() else {
+            return QuaternionSolver::new(self.stepping, Formulation::default()).land(toss);
+        };
+        let flight = Flight::new(&toss)?;
         let rate = flight.rate;
         let q = (toss.coin.inertia_ratio() - 1.0) * rate.z;
         let system = QuaternionCopySystem { rate_z: rate.z, q, half: self.half };
@@ -135,17 +139,8 @@ impl Solver for QuaternionCopy {
         let (end, work) = flight.integrate(&system, first, &self.stepping)?;
         let turn = Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
         let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
-        Ok(Propagation::new(state, work).with_norm_error((end.fixed_rows::<4>(0).norm() - 1.0).abs()))
-    }
-    // The copy is of the flights of coins; other bodies fly by the library's solver.
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        match toss.symmetric() {
-            Some(toss) => self.propagate(&toss),
-            None => QuaternionSolver::new(self.stepping, Formulation::default()).propagate_rigid(toss),
-        }
-    }
-    fn error_estimate_rigid(&self, toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate_rigid(toss)
+        let norm_error = (end.fixed_rows::<4>(0).norm() - 1.0).abs();
+        Ok(Landing::new(state, work).with_norm_error(norm_error).with_error(error))
     }
 }
 
@@ -159,18 +154,17 @@ impl<S: Solver> Solver for Swapped<S> {
     fn stepping(&self) -> Option<Stepping> {
         self.0.stepping()
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        match Coin::from_moments(toss.coin.i3(), toss.coin.i1()) {
-            Ok(coin) => self.0.propagate(&Toss { coin, ..*toss }),
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let coin = toss.of_coin(self.name(), "it is made for coins")?.coin;
+        let error = self.0.tilt(toss)?.error;
+        match Coin::from_moments(coin.i3(), coin.i1()) {
+            Ok(coin) => Ok(self.0.land(&Toss::new(coin, toss.launch))?.with_error(error)),
             // Some coins have no valid twin with swapped moments. For them any wrong answer will do.
             Err(_) => {
                 let state = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-                Ok(Propagation::new(state, Work::default()))
+                Ok(Landing::new(state, Work::default()).with_error(error))
             }
         }
-    }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss)
     }
 }
 

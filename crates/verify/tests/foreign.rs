@@ -4,8 +4,8 @@
 use std::sync::LazyLock;
 
 use toss::{
-    Attitude, ExactSolver, Formulation, Propagation, QuaternionSolver, Registry, Scheme, SolveError, Solver,
-    SolverEntry, State, StepControl, Stepping, Toss,
+    Attitude, ExactSolver, Formulation, Landing, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry,
+    State, StepControl, Stepping, Toss,
 };
 use verify::judge::bounds::Bounds;
 use verify::{CHECKS, Context, Effort, Judges, Row, Status, judge};
@@ -14,22 +14,20 @@ use verify::{CHECKS, Context, Effort, Judges, Row, Status, judge};
 struct Foreign {
     name: &'static str,
     claim: Option<f64>,
-    change: fn(Propagation) -> Propagation,
+    change: fn(Landing) -> Landing,
 }
 
 impl Solver for Foreign {
     fn name(&self) -> &str {
         self.name
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        ExactSolver.propagate(toss).map(self.change)
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(self.claim)
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let toss = toss.of_coin(self.name, "it is made for coins")?;
+        ExactSolver.land(&toss.into()).map(self.change).map(|landing| landing.with_error(self.claim))
     }
 }
 
-fn closed_form(name: &'static str, claim: Option<f64>, change: fn(Propagation) -> Propagation) -> SolverEntry {
+fn closed_form(name: &'static str, claim: Option<f64>, change: fn(Landing) -> Landing) -> SolverEntry {
     SolverEntry::new(name, "", move |_| Box::new(Foreign { name, claim, change }))
 }
 
@@ -46,20 +44,19 @@ impl Solver for Stepper {
     fn stepping(&self) -> Option<Stepping> {
         Some(self.0)
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let StepControl::Tolerance(tolerance) = self.0.control() else { panic!("it takes no steps of a given length") };
         let stepping = Stepping::adaptive(Scheme::DOP853, tolerance).expect("a valid tolerance");
-        QuaternionSolver::new(stepping, Formulation::default()).propagate(toss)
-    }
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss).map(Some)
+        let toss = Toss::from(toss.of_coin(self.name(), "it is made for coins")?);
+        let landing = QuaternionSolver::new(stepping, Formulation::default()).land(&toss)?;
+        Ok(landing.with_error(self.0.error_estimate(&toss)?))
     }
 }
 
 /// The landing with its attitude turned by 1 mrad, and cos θ accordingly.
-fn turned(landing: Propagation) -> Propagation {
+fn turned(landing: Landing) -> Landing {
     let State { attitude, rate } = landing.state;
-    Propagation::new(State { attitude: Attitude::about_x(1e-3) * attitude, rate }, landing.work)
+    Landing::new(State { attitude: Attitude::about_x(1e-3) * attitude, rate }, landing.work)
 }
 
 /// The message of the panics that these tests cause.

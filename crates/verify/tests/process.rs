@@ -7,7 +7,7 @@ mod programs;
 use std::time::{Duration, Instant};
 
 use toss::{
-    Coin, ExactSolver, Launch, Propagation, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
+    Coin, ExactSolver, Landing, Launch, Settings, SolveError, Solver, SolverEntry, Stepping, TimeOfFlight, Toss,
     Vector3,
 };
 use verify::process::{Limits, OWN, Program};
@@ -30,12 +30,12 @@ fn made(entry: &SolverEntry) -> Box<dyn Solver> {
 /// A toss that lasts so many seconds.
 fn toss(time: f64) -> Toss {
     let launch = Launch::new(Vector3::new(3.0, -1.0, 2.0), TimeOfFlight::Given(time)).expect("a valid launch");
-    Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.3).expect("a valid tilt") }
+    Toss::new(Coin::PAPER, launch.with_tilt(0.3).expect("a valid tilt"))
 }
 
 /// What `solver` answers on tosses of 1, 2, … s.
-fn landings(solver: &dyn Solver, count: u32) -> Vec<Result<Propagation, String>> {
-    let land = |time| solver.propagate(&toss(f64::from(time))).map_err(|error| error.to_string());
+fn landings(solver: &dyn Solver, count: u32) -> Vec<Result<Landing, String>> {
+    let land = |time| solver.land(&toss(f64::from(time))).map_err(|error| error.to_string());
     (1..=count).map(land).collect()
 }
 
@@ -95,7 +95,7 @@ fn a_process_that_takes_more_and_more_memory_is_ended() {
     // It looks for the last lines of an input without an end.
     let limits = Limits { answer: Duration::from_secs(10), ..SHORT };
     let solver = made(&Program::new("tail /dev/zero").with_limits(limits).entry("program"));
-    let error = solver.propagate(&toss(1.0)).unwrap_err().to_string();
+    let error = solver.land(&toss(1.0)).unwrap_err().to_string();
     assert!(error.contains("of memory, and 200 MB are its limit"), "{error}");
 }
 
@@ -112,7 +112,7 @@ fn answers_that_are_no_attitude_are_errors_of_their_toss_alone() {
         let body = format!("case $time in 2.0) echo $id,{answer};; *) echo $id,$w,$x,$y,$z,error=1e-9;; esac");
         let only = answering(&body);
         let solver = made(&entry(&only));
-        let outcomes: Vec<Result<_, SolveError>> = [1.0, 2.0, 3.0].map(|time| solver.outcome(&toss(time))).into();
+        let outcomes: Vec<Result<_, SolveError>> = [1.0, 2.0, 3.0].map(|time| solver.tilt(&toss(time))).into();
         assert!(outcomes[0].is_ok() && outcomes[2].is_ok(), "{answer}: {outcomes:?}");
         let error = outcomes[1].as_ref().unwrap_err().to_string();
         // An answer without the field `error` where the others have it is refused before its numbers are.
@@ -170,7 +170,7 @@ fn the_limit_of_all_answers_ends_a_slow_program() {
 fn processes_and_their_children_end_with_the_solver() {
     let marker = format!("999{}", std::process::id());
     let solver = made(&entry(&answering(&format!("sleep {marker} & echo $id,$w,$x,$y,$z; wait"))));
-    assert!(solver.propagate(&toss(1.0)).is_ok());
+    assert!(solver.land(&toss(1.0)).is_ok());
     let asleep = || {
         let is_it = |entry: &std::fs::DirEntry| {
             let line = std::fs::read(entry.path().join("cmdline")).unwrap_or_default();
@@ -196,23 +196,23 @@ fn a_program_is_judged_by_its_claim_or_by_the_tolerance_or_by_its_own_error() {
     let repeats = answering("echo $id,$w,$x,$y,$z");
     let solver = made(&entry(&repeats));
     let by_tolerance = Stepping::adaptive(OWN, 1e-10).unwrap().error_estimate(&toss).unwrap();
-    assert_eq!(solver.error_estimate(&toss), Ok(Some(by_tolerance)));
+    assert_eq!(solver.land(&toss).unwrap().error, by_tolerance);
     assert!(entry(&repeats).integrates());
     let own = made(&entry(&answering("echo $id,$w,$x,$y,$z,error=$tolerance,calls=7")));
-    assert_eq!(own.error_estimate(&toss), Ok(Some(1e-10)));
-    assert_eq!(own.propagate(&toss).unwrap().work.rhs_calls, 7);
+    let landing = own.land(&toss).unwrap();
+    assert_eq!((landing.error, landing.work.rhs_calls), (Some(1e-10), 7));
     let claims = Program::new(repeats.clone()).with_claim(0.25).unwrap().with_limits(SHORT).entry("program");
     assert!(!claims.integrates());
     let claims = made(&claims);
-    assert_eq!((claims.error_estimate(&toss), claims.stepping()), (Ok(Some(0.25)), None));
+    assert_eq!((claims.land(&toss).unwrap().error, claims.stepping()), (Some(0.25), None));
     for claim in [0.0, -1.0, 1.0, f64::NAN] {
         assert_eq!(Program::new("true").with_claim(claim).unwrap_err().field(), "claim");
     }
     // The coin lands as it was launched, so that the body rate is not that of the motion, but its momentum is.
-    let landing = solver.propagate(&toss).unwrap();
+    let landing = solver.land(&toss).unwrap();
     assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15);
     assert!((landing.state.rate - toss.launch.rate()).norm() < 1e-14);
-    assert!((landing.cos_tilt - ExactSolver.cos_tilt(&toss).unwrap()).abs() > 1e-3);
+    assert!((landing.cos_tilt - ExactSolver.tilt(&toss).unwrap().cos_tilt).abs() > 1e-3);
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn the_program_of_the_documentation_lands_as_the_exact_motion() {
     let solver = made(&program.entry("program"));
     for time in 0..200 {
         let toss = toss(0.1 * f64::from(time));
-        let (found, exact) = (solver.propagate(&toss).unwrap(), ExactSolver.propagate(&toss).unwrap());
+        let (found, exact) = (solver.land(&toss).unwrap(), ExactSolver.land(&toss).unwrap());
         assert!((found.cos_tilt - exact.cos_tilt).abs() < 1e-13, "{found:?}, not {exact:?}");
         assert!((found.state.rate - exact.state.rate).norm() < 1e-12);
     }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
-use toss::{Coin, ExactSolver, Propagation, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
+use toss::{Coin, ExactSolver, Landing, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
 use verify::judge::baseline::Baseline;
 use verify::judge::bounds::Bounds;
 use verify::judge::time::Timing;
@@ -140,12 +140,9 @@ impl Solver for Refuses {
     fn name(&self) -> &str {
         "refuses"
     }
-    fn propagate(&self, _: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, _: &Toss) -> Result<Landing, SolveError> {
         let reason = Coin::from_moments(-1.0, 1.0).expect_err("a negative moment");
         Err(SolveError::failed(self.name(), reason))
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(1e-9))
     }
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use chart::{Axis, ChartError, Drawn, Panel, frame, pixel};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use plotters::prelude::*;
-use toss::{Attitude, RigidToss, TimeOfFlight, TracePoint, Vector3};
+use toss::{Attitude, TimeOfFlight, Toss, TracePoint, Vector3};
 
 use crate::chart::layout::{COINS, FACE, NORMAL, RIGHT, times};
 use crate::chart::projection::{end_of, project};
@@ -16,7 +16,7 @@ use crate::chart::solid::{EDGE, Solid, TAILS, draw_cuboid};
 const LAYERS: u32 = 6;
 
 /// Draws the coins of `flight`, the trace of `toss`.
-pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &RigidToss) -> Drawn {
+pub(super) fn draw_coins(panel: &Panel<'_>, flight: &[TracePoint], toss: &Toss) -> Drawn {
     let thrown = Thrown::new(toss.launch.time_of_flight());
     let heights: Vec<f64> = flight.iter().map(|point| thrown.height(point.time)).collect();
     let (lowest, highest) = heights.iter().fold((0.0_f64, 0.0_f64), |(lo, hi), at| (lo.min(*at), hi.max(*at)));

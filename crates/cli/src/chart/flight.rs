@@ -4,7 +4,7 @@
 use chart::{Axis, ChartError, Drawn, Panel, TEXT, centred, frame, pixel, svg};
 use plotters::prelude::*;
 use toss::catalogue::{BODIES, CATALOGUE};
-use toss::{Body, Outcome, RigidToss, TracePoint};
+use toss::{Body, Outcome, Toss, TracePoint};
 
 use crate::chart::coin::draw_coins;
 use crate::chart::layout::{NORMAL, RIGHT, is_too_fast, times};
@@ -24,7 +24,7 @@ const COINS: u32 = 570;
 const SPHERE: u32 = 760;
 
 /// The chart of `flight`, the trace of `toss`, as SVG.
-pub(crate) fn flight(flight: &[TracePoint], toss: &RigidToss, outcome: Outcome) -> Result<String, ChartError> {
+pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(TITLE);
         let (over_time, beside) = body.split_horizontally(LEFT);
@@ -39,13 +39,13 @@ pub(crate) fn flight(flight: &[TracePoint], toss: &RigidToss, outcome: Outcome) 
 }
 
 /// The body, its launch and its landing.
-fn title(toss: &RigidToss, outcome: Outcome) -> String {
+fn title(toss: &Toss, outcome: Outcome) -> String {
     let attitude = toss.launch.attitude();
     let [w, x, ..] = attitude.components();
     let tilt =
         if x == 0.0 { "horizontal".to_owned() } else { format!("at a tilt of {} rad", rounded(2.0 * x.atan2(w))) };
     let rate = toss.launch.rate();
-    let (body, what) = (named(&toss.body), if toss.body.symmetric().is_some() { "the coin" } else { "it" });
+    let (body, what) = (named(&toss.body), if toss.body.coin().is_some() { "the coin" } else { "it" });
     let landing = match outcome {
         Outcome::Heads => format!("{what} lands heads"),
         Outcome::Tails => format!("{what} lands tails"),
@@ -60,7 +60,7 @@ fn rounded(value: f64) -> f64 {
 
 /// The body's name in the catalogue, if it has one, and what decides its motion.
 fn named(body: &Body) -> String {
-    if let Some(coin) = body.symmetric() {
+    if let Some(coin) = body.coin() {
         let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|other| other == coin));
         let name = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));
         return format!("{name} (k = {})", rounded(coin.inertia_ratio()));

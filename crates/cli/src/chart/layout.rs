@@ -3,7 +3,7 @@
 
 use chart::Axis;
 use plotters::style::RGBColor;
-use toss::{ExactMotion, RigidMotion, RigidToss, TracePoint};
+use toss::{CoinMotion, ExactMotion, Toss, TracePoint};
 
 /// The colour of n.
 pub(super) const NORMAL: RGBColor = chart::BLUE;
@@ -31,25 +31,25 @@ pub(super) fn times(label: &str, flight: &[TracePoint]) -> Axis {
 
 /// How many points the curves of `toss` are drawn by. The coins are at points of the curve, at equal times.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30 000")]
-pub(crate) fn points_to_draw(toss: &RigidToss) -> usize {
+pub(crate) fn points_to_draw(toss: &Toss) -> usize {
     let between_coins = POINTS_PER_TURN * turns(toss).clamp(FEWEST_TURNS, MOST_TURNS) / (COINS - 1) as f64;
     between_coins.ceil() as usize * (COINS - 1) + 1
 }
 
 /// Whether the flight has more turns than can be drawn.
-pub(super) fn is_too_fast(toss: &RigidToss) -> bool {
+pub(super) fn is_too_fast(toss: &Toss) -> bool {
     turns(toss) > MOST_TURNS
 }
 
 /// Turns of the fastest motion of a flight: n goes round S at ωL, and the coin spins about n at (1 - k) ωz as well. Of
 /// another body they are twice the larger one of its two phases.
-fn turns(toss: &RigidToss) -> f64 {
-    let Some(toss) = toss.symmetric() else {
-        let phase = RigidMotion::new(toss).phase(toss.launch.time_of_flight());
+fn turns(toss: &Toss) -> f64 {
+    let Some(toss) = toss.coin() else {
+        let phase = ExactMotion::new(toss).phase(toss.launch.time_of_flight());
         return phase.map_or(f64::INFINITY, |phase| 2.0 * phase / std::f64::consts::TAU);
     };
     let spin = (1.0 - toss.coin.inertia_ratio()) * toss.launch.rate().z;
-    let rate = ExactMotion::new(&toss).precession_rate() + spin.abs();
+    let rate = CoinMotion::new(&toss).precession_rate() + spin.abs();
     let turns = rate * toss.launch.flight_time() / std::f64::consts::TAU;
     // An infinite rate for no time at all.
     if turns.is_nan() { 0.0 } else { turns }
@@ -61,15 +61,15 @@ mod tests {
 
     use super::*;
 
-    fn toss(rate: [f64; 3], time: f64) -> RigidToss {
+    fn toss(rate: [f64; 3], time: f64) -> Toss {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        RigidToss { body: Coin::PAPER.into(), launch }
+        Toss { body: Coin::PAPER.into(), launch }
     }
 
     #[test]
     fn a_body_of_three_moments_has_points_for_each_of_its_turns() {
         let body: Body = "racket".parse().unwrap();
-        let drawn = |rate, time| points_to_draw(&RigidToss { body, ..toss(rate, time) });
+        let drawn = |rate, time| points_to_draw(&Toss { body, ..toss(rate, time) });
         // About y for sixteen turns, which the racket does not do for ever, and about its handle.
         assert!((1900..2000).contains(&drawn([0.0, 10.0, 0.0], 10.0)), "{}", drawn([0.0, 10.0, 0.0], 10.0));
         assert!((950..4000).contains(&drawn([0.01, 10.0, 0.01], 10.0)), "{}", drawn([0.01, 10.0, 0.01], 10.0));

@@ -32,7 +32,7 @@ impl Solid {
     pub(super) fn new(body: &Body) -> Self {
         let [xx, yy, zz, ..] = body.inertia();
         let is_flat = zz > xx.max(yy);
-        if body.symmetric().is_some() || (is_flat && (xx - yy).abs() < NEARLY_ROUND * zz) {
+        if body.coin().is_some() || (is_flat && (xx - yy).abs() < NEARLY_ROUND * zz) {
             return Self::Disc;
         }
         // Of a cuboid Jyy + Jzz - Jxx = m a²/6 with the edge a along x; in halves, so that the sums do not overflow.

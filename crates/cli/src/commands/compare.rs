@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use toss::{
-    Dimension, ExactSolver, Formulation, InputError, Nanoseconds, Propagation, Registry, RigidToss, Scheme, Settings,
-    SolveError, Solver, Stepping,
+    Dimension, ExactSolver, Formulation, InputError, Landing, Nanoseconds, Registry, Scheme, Settings, SolveError,
+    Solver, Stepping, Toss,
 };
 
 use crate::failure::Failure;
@@ -74,7 +74,7 @@ struct FailureOfSolver {
 impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let toss = self.toss.toss()?;
-        let exact = ExactSolver.propagate_rigid(&toss)?;
+        let exact = ExactSolver.land(&toss)?;
         let candidates = self.candidates(registry)?;
         let rows = candidates.iter().map(|candidate| self.row(registry, candidate, &toss, &exact));
         let flight_time = toss.launch.flight_time();
@@ -127,18 +127,18 @@ impl Args {
         &self,
         registry: &Registry,
         candidate: &Candidate<'_>,
-        toss: &RigidToss,
-        exact: &Propagation,
+        toss: &Toss,
+        exact: &Landing,
     ) -> Result<Row, Failure> {
         let backend = registry.backend(candidate.solver, &candidate.settings)?;
         let mut row = Row::new(candidate);
-        let answered = backend.solver().propagate_rigid(toss);
-        let answered = answered.and_then(|landing| Ok((landing, backend.verdict_rigid(toss, landing.cos_tilt)?)));
+        let landed = backend.solver().land(toss);
+        let answered = landed.and_then(|landing| Ok((landing, backend.verdict(toss, landing.tilt())?)));
         match answered {
             Ok((landing, verdict)) => {
                 row.answered(&landing, exact, candidate.solver != ExactSolver::NAME);
                 row.outcome = Some(verdict.outcome().name());
-                row.time_ns = median_ns(self.repeats, || backend.solver().propagate_rigid(toss).is_ok());
+                row.time_ns = median_ns(self.repeats, || backend.solver().land(toss).is_ok());
             }
             Err(error) => row.failure = Some(FailureOfSolver::new(&error)),
         }
@@ -180,7 +180,7 @@ impl Row {
     }
 
     /// Adds where the toss `landed`. The exact motion has no errors here, because they are measured from it, and no work.
-    fn answered(&mut self, landed: &Propagation, exact: &Propagation, is_other: bool) {
+    fn answered(&mut self, landed: &Landing, exact: &Landing, is_other: bool) {
         self.cos_tilt = Some(landed.cos_tilt);
         if is_other {
             self.cos_tilt_error = Some((landed.cos_tilt - exact.cos_tilt).abs());

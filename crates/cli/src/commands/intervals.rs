@@ -5,7 +5,7 @@ use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{Coin, Dimension, RigidMotion, RigidToss, TimeOfFlight, rigid_speeds_of_heads, thrown_speeds_of_heads};
+use toss::{Coin, Dimension, ExactMotion, TimeOfFlight, Toss, speeds_of_heads};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input, table};
@@ -60,16 +60,13 @@ impl Args {
         let thrown = |speed: f64| TimeOfFlight::thrown(speed, self.gravity, self.drop);
         // The slowest throw has to reach the landing, too.
         let launch = self.rate.launch(&body, thrown(slowest))?.with_tilt(self.tilt.angle())?;
-        let toss = RigidToss { body, launch: launch.with_time_of_flight(thrown(fastest))? };
-        let phase = RigidMotion::new(&toss).phase(toss.launch.time_of_flight())?;
+        let toss = Toss { body, launch: launch.with_time_of_flight(thrown(fastest))? };
+        let phase = ExactMotion::new(&toss).phase(toss.launch.time_of_flight())?;
         if phase > MOST_TURNS * std::f64::consts::TAU {
             let message = format!("the coin turns more than {MOST_TURNS} times; ask for a shorter range");
             return Err(Failure::usage("speed", message));
         }
-        let heads: Vec<[f64; 2]> = match toss.symmetric() {
-            Some(toss) => thrown_speeds_of_heads(&toss, slowest)?.unwrap_or_default(),
-            None => rigid_speeds_of_heads(&toss, slowest)?.unwrap_or_default(),
-        };
+        let heads = speeds_of_heads(&toss, slowest)?.unwrap_or_default();
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
         let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };

@@ -7,7 +7,7 @@ use std::io::Read;
 
 use rayon::prelude::*;
 use sampling::{Coordinate, Drawn, Plan, Scrambled, Space};
-use toss::{Backend, Coin, Error, Registry, RigidToss};
+use toss::{Backend, Coin, Error, Registry, Toss};
 
 use crate::Streams;
 use crate::commands::sample_rows::{Given, Row, Writer};
@@ -164,10 +164,9 @@ fn answer(backend: &Backend, launches: &[Given], writer: &mut Writer) -> Result<
 /// A launch with its landing. Launches are solved one by one: cos θ of a batch is not right to the last bit, so that near
 /// 0 its sign could contradict the outcome.
 fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
-    let toss: &RigidToss = &given.toss;
-    let cos_tilt = backend.solver().cos_tilt_rigid(toss);
-    let landed = cos_tilt.and_then(|cos_tilt| Ok((cos_tilt, backend.verdict_rigid(toss, cos_tilt)?)));
+    let toss: &Toss = &given.toss;
+    let landed = backend.solver().tilt(toss).and_then(|tilt| Ok((tilt, backend.verdict(toss, tilt)?)));
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
-    let (cos_tilt, verdict) = landed.map_err(failed)?;
-    Ok(Row::new(given, cos_tilt, verdict))
+    let (tilt, verdict) = landed.map_err(failed)?;
+    Ok(Row::new(given, tilt.cos_tilt, verdict))
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use serde::Serialize;
-use toss::{RigidToss, Verdict};
+use toss::{Toss, Verdict};
 
 use crate::failure::Failure;
 use crate::output::{DataFormat, plain_json, without_sign_of_zero};
@@ -17,7 +17,7 @@ pub(crate) struct Given {
     pub(crate) gravity: Option<f64>,
     pub(crate) drop: Option<f64>,
     pub(crate) tilt: f64,
-    pub(crate) toss: RigidToss,
+    pub(crate) toss: Toss,
 }
 
 /// A row: body rate (rad/s), speed (m/s) or time of flight (s), gravity (m/s²), drop (m) and tilt (rad), all as they were

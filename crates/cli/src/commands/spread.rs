@@ -4,7 +4,7 @@
 
 use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread};
 use serde::Serialize;
-use toss::{Error, RigidToss, TimeOfFlight};
+use toss::{Error, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
 use crate::output::{self, Format, Input};
@@ -71,7 +71,7 @@ impl Args {
 
     /// The space that consists of the toss alone.
     fn space(&self) -> Result<Space, Failure> {
-        let RigidToss { body, launch } = self.toss.toss()?;
+        let Toss { body, launch } = self.toss.toss()?;
         let (speed, gravity, drop) = match launch.time_of_flight() {
             TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, None),
             TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, Some(drop)),

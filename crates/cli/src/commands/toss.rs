@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use toss::{
-    Backend, Body, IntegratedCertificate, Margin, Outcome, Propagation, QuaternionSolver, Registry, RigidMargin,
-    RigidToss, Sensitivity, SolveError, Solver, TimeOfFlight, Work, margin_rigid,
+    Backend, Body, IntegratedCertificate, Landing, Margin, Outcome, QuaternionSolver, Registry, Sensitivity,
+    SolveError, Solver, TimeOfFlight, Toss, Work, margin,
 };
 
 use crate::failure::Failure;
@@ -129,10 +129,10 @@ impl Args {
 }
 
 impl Answer {
-    fn new(toss: &RigidToss, backend: &Backend, with_margin: bool) -> Result<(Outcome, Self), Failure> {
+    fn new(toss: &Toss, backend: &Backend, with_margin: bool) -> Result<(Outcome, Self), Failure> {
         let solver = backend.solver();
-        let landing = solver.propagate_rigid(toss)?;
-        let verdict = backend.verdict_rigid(toss, landing.cos_tilt)?;
+        let landing = solver.land(toss)?;
+        let verdict = backend.verdict(toss, landing.tilt())?;
         let mut answer = Self::of(toss, &landing, solver, with_margin)?;
         (answer.outcome, answer.certified) = (verdict.outcome().name(), verdict.is_proven());
         if answer.certified {
@@ -142,8 +142,8 @@ impl Answer {
     }
 
     /// The outcome and the answer that are proven by integration, with their bounds.
-    fn integrated(toss: &RigidToss, solver: &QuaternionSolver) -> Result<(Outcome, Self), Failure> {
-        let certificate: IntegratedCertificate = solver.certify_rigid(toss)?;
+    fn integrated(toss: &Toss, solver: &QuaternionSolver) -> Result<(Outcome, Self), Failure> {
+        let certificate: IntegratedCertificate = solver.certify(toss)?;
         let mut answer = Self::of(toss, certificate.landing(), solver, false)?;
         let outcome = certificate.outcome();
         (answer.outcome, answer.certified) = (outcome.name(), outcome != Outcome::Undecided);
@@ -157,10 +157,10 @@ impl Answer {
     }
 
     /// The answer of `solver` with this `landing`, whose outcome is not known yet.
-    fn of(toss: &RigidToss, landing: &Propagation, solver: &dyn Solver, with_margin: bool) -> Result<Self, Failure> {
-        let &Propagation { state, cos_tilt, norm_error, work, .. } = landing;
+    fn of(toss: &Toss, landing: &Landing, solver: &dyn Solver, with_margin: bool) -> Result<Self, Failure> {
+        let &Landing { state, cos_tilt, norm_error, work, .. } = landing;
         let Work { rhs_calls, accepted_steps, rejected_steps } = work;
-        let is_coin = toss.body.symmetric().is_some();
+        let is_coin = toss.body.coin().is_some();
         let sensitivity = if is_coin { None } else { Slopes::new(toss)? };
         let scheme = solver.stepping().map(|stepping| stepping.scheme().name());
         Ok(Self {
@@ -241,7 +241,7 @@ impl Moments {
 
     fn text(&self, body: &Body) -> String {
         let Self { i1, i2, i3, inertia } = self;
-        match (body.symmetric(), inertia) {
+        match (body.coin(), inertia) {
             (Some(coin), _) => format!("coin         I1 {i1:e} kg m², I3 {i3:e} kg m², k = {}", coin.inertia_ratio()),
             (None, None) => format!("body         I1 {i1:e} kg m², I2 {i2:e} kg m², I3 {i3:e} kg m²"),
             (None, Some(_)) => format!("body         principal moments {i1:e}, {i2:e} and {i3:e} kg m²"),
@@ -251,8 +251,8 @@ impl Moments {
 
 impl Slopes {
     /// `None` where they leave the range of f64, which the landing does not.
-    fn new(toss: &RigidToss) -> Result<Option<Self>, Failure> {
-        let derivatives = match Sensitivity::of_rigid(toss) {
+    fn new(toss: &Toss) -> Result<Option<Self>, Failure> {
+        let derivatives = match Sensitivity::new(toss) {
             Err(SolveError::NotFinite { .. }) => return Ok(None),
             derivatives => derivatives?,
         };
@@ -267,11 +267,10 @@ fn shortest(number: f64) -> String {
 }
 
 impl MarginAnswer {
-    fn new(toss: &RigidToss) -> Result<Self, Failure> {
-        let RigidMargin { margin, time_range } = margin_rigid(toss)?;
-        let Margin { time, speed, gravity, tilt, rate, rate_range } = margin;
+    fn new(toss: &Toss) -> Result<Self, Failure> {
+        let Margin { time, speed, gravity, tilt, rate, rate_range, time_range } = margin(toss)?;
         let thrown = !matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_));
-        let time_range = if toss.body.symmetric().is_some() { None } else { Some(time_range) };
+        let time_range = if toss.body.coin().is_some() { None } else { Some(time_range) };
         Ok(Self { time, speed, gravity, tilt, rate, rate_range, time_range, thrown })
     }
 

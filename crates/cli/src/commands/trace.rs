@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 use toss::{
-    Dimension, EnclosedPoint, MOST_POINTS, Registry, RigidToss, Solver, TracePoint, trace, trace_enclosed,
+    Dimension, EnclosedPoint, MOST_POINTS, Registry, Solver, Toss, TracePoint, trace, trace_enclosed,
     trace_enclosed_every, trace_every,
 };
 
@@ -96,15 +96,15 @@ impl Args {
         };
         self.series.answer(data, || {
             // As many points as the motion needs, whatever number is printed.
-            let drawn = trace(backend.solver(), toss, chart::points_to_draw(&toss))?;
-            Ok(chart::flight(&drawn, &toss, backend.solver().outcome_rigid(&toss)?)?)
+            let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
+            Ok(chart::flight(&drawn, &toss, backend.solver().tilt(&toss)?.outcome())?)
         })
     }
 }
 
 impl Args {
     /// The points, with their bounds if they are asked for.
-    fn flight(&self, registry: &Registry, toss: &RigidToss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
+    fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
         let missing = || Failure::usage("points", "one of --points N and --dt H is needed");
         if self.prove {
             let solver = self.flight.prover(registry)?;
@@ -118,8 +118,8 @@ impl Args {
             return Ok(enclosed.into_iter().map(bounds).collect());
         }
         let flight = match (self.points, self.dt) {
-            (_, Some(step)) => trace_every(solver, *toss, step)?,
-            (points, None) => trace(solver, *toss, points.ok_or_else(missing)?)?,
+            (_, Some(step)) => trace_every(solver, toss, step)?,
+            (points, None) => trace(solver, toss, points.ok_or_else(missing)?)?,
         };
         Ok(flight.into_iter().map(|point| (point, None)).collect())
     }

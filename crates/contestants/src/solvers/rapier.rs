@@ -3,7 +3,8 @@
 
 use rapier3d_f64::prelude::{MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, Rotation, Vector};
 use toss::{
-    Attitude, Propagation, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping, Toss, Vector3, Work,
+    Attitude, CoinToss, Landing, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping, Toss, Vector3,
+    Work,
 };
 
 /// More steps than this are refused.
@@ -28,12 +29,9 @@ impl Solver for Engine {
         Some(self.0)
     }
 
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.0.error_estimate(toss).map(Some)
-    }
-
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        self.error_estimate(toss)?;
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let coin = toss.of_coin(self.name(), "only coins are given to the engine")?;
+        let error = self.0.error_estimate(toss)?;
         let StepControl::Step(step) = self.0.control() else {
             return Err(SolveError::NotOffered { scheme: self.0.scheme().name() });
         };
@@ -42,24 +40,24 @@ impl Solver for Engine {
         if steps > f64::from(STEP_LIMIT) {
             return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
         }
-        let (mut world, coin) = launched(toss);
+        let (mut world, body) = launched(&coin);
         world.integration_parameters.dt = time / steps;
         for _ in 0..steps as u64 {
             world.step();
         }
-        let body = &world.bodies[coin];
+        let body = &world.bodies[body];
         let turn = body.position().rotation;
         let attitude = Attitude::from_components([turn.w, turn.x, turn.y, turn.z]);
         let attitude = attitude.map_err(|error| SolveError::failed(self.name(), error))?;
         let rate = body.angvel();
         let rate = attitude.lab_to_body(&Vector3::new(rate.x, rate.y, rate.z));
         let work = Work { accepted_steps: steps as u64, ..Work::default() };
-        Ok(Propagation::new(State { attitude, rate }, work))
+        Ok(Landing::new(State { attitude, rate }, work).with_error(error))
     }
 }
 
 /// A world with the coin alone, as it leaves the hand.
-fn launched(toss: &Toss) -> (PhysicsWorld, rapier3d_f64::prelude::RigidBodyHandle) {
+fn launched(toss: &CoinToss) -> (PhysicsWorld, rapier3d_f64::prelude::RigidBodyHandle) {
     let (coin, launch) = (toss.coin, toss.launch);
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::ZERO;

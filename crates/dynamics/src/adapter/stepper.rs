@@ -3,14 +3,14 @@
 
 use std::borrow::Cow;
 
-use super::{ForeignError, failed};
+use super::{COINS_ALONE, ForeignError, failed};
 use crate::entry::{Settings, SolverEntry};
 use crate::error::SolveError;
 use crate::free_rotation::FreeRotation;
-use crate::launch::Toss;
 use crate::scheme::Scheme;
-use crate::solver::{Propagation, Solver, Work};
+use crate::solver::{Landing, Solver, Work};
 use crate::stepping::Stepping;
+use crate::toss::Toss;
 
 impl SolverEntry {
     /// An entry for a stepper from elsewhere, which integrates a [`FreeRotation`] by one of `schemes`.
@@ -52,19 +52,16 @@ where
         Some(self.stepping)
     }
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let system = FreeRotation::new(toss)?;
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let system = FreeRotation::new(&toss.of_coin(&self.name, COINS_ALONE)?)?;
+        let error = self.stepping.error_estimate(toss)?;
         // Steppers differ in what they do with no time, and with one so short that a step of it is 0.
         if system.duration() < f64::MIN_POSITIVE {
-            return system.landing(&system.start(), Work::default());
+            return Ok(system.landing(&system.start(), Work::default())?.with_error(error));
         }
         let stepping = system.stepping(&self.stepping)?;
         let (end, work) = (self.step)(&system, &stepping).map_err(|error| failed(&self.name, error))?;
-        system.landing(&end, work)
-    }
-
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        self.stepping.error_estimate(toss).map(Some)
+        Ok(system.landing(&end, work)?.with_error(error))
     }
 }
 
@@ -77,15 +74,14 @@ mod tests {
 
     fn toss(rate: [f64; 3], time: f64) -> Toss {
         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-        Toss { coin: Coin::PAPER, launch: launch.with_tilt(0.4).unwrap() }
+        Toss::new(Coin::PAPER, launch.with_tilt(0.4).unwrap())
     }
 
     #[test]
     fn a_stepper_is_not_asked_beyond_the_largest_phase() {
         let entry = SolverEntry::from_stepper("mine", "", &[Scheme::DOP853], |_, _| panic!("out of order"));
         let (far, solver) = (toss([1e20, 0.0, 0.0], 1.0), entry.solver(&Settings::default()).unwrap());
-        assert_eq!(solver.propagate(&far).unwrap_err().kind(), "phase_too_large");
-        assert_eq!(solver.error_estimate(&far).unwrap_err().kind(), "phase_too_large");
+        assert_eq!(solver.land(&far).unwrap_err().kind(), "phase_too_large");
     }
 
     #[test]
@@ -97,10 +93,10 @@ mod tests {
         let stepping = Stepping::fixed(Scheme::RK4, 0.2).unwrap();
         let solver = entry.solver(&Settings { stepping, ..Settings::default() }).unwrap();
         let toss = toss([3.0, 1.0, 2.0], 0.8);
-        let landing = solver.propagate(&toss).unwrap();
+        let landing = solver.land(&toss).unwrap();
         assert_eq!((landing.work.accepted_steps, solver.stepping()), (4, Some(stepping)));
-        assert_eq!(solver.error_estimate(&toss).unwrap(), stepping.error_estimate(&toss).ok());
+        assert_eq!(Ok(landing.error), stepping.error_estimate(&toss));
         // Without time the stepper is not called.
-        assert_eq!(solver.propagate(&self::toss([3.0, 1.0, 2.0], 0.0)).unwrap().work, Work::default());
+        assert_eq!(solver.land(&self::toss([3.0, 1.0, 2.0], 0.0)).unwrap().work, Work::default());
     }
 }

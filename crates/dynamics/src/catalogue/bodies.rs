@@ -179,12 +179,12 @@ mod tests {
     fn every_entry_is_a_body_of_three_moments_and_its_name_is_unique() {
         for (index, entry) in BODIES.iter().enumerate() {
             let body = entry.body().unwrap();
-            assert_eq!((body.symmetric(), Ok(body)), (None, entry.name.parse()), "{}", entry.name);
+            assert_eq!((body.coin(), Ok(body)), (None, entry.name.parse()), "{}", entry.name);
             let others = BODIES[..index].iter().map(|other| other.name);
             assert!(others.chain(CATALOGUE.iter().map(|coin| coin.name)).all(|other| other != entry.name));
         }
         let quarter: Body = "us-quarter".parse().unwrap();
-        assert_eq!(quarter.symmetric(), "us-quarter".parse().ok());
+        assert_eq!(quarter.coin(), "us-quarter".parse().ok());
         let unknown = "groat".parse::<Body>().unwrap_err().to_string();
         assert!(unknown.contains("us-dollar") && unknown.ends_with("us-quarter-engraved, racket, book, nasa-brick"));
     }

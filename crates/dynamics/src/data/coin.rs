@@ -104,7 +104,7 @@ impl FromBody for Coin {
     }
 
     fn from_body(body: Body) -> Result<Self, InputError> {
-        body.symmetric().ok_or(NO_COIN)
+        body.coin().ok_or(NO_COIN)
     }
 }
 
@@ -132,7 +132,7 @@ impl Serialize for Coin {
 /// A body with I1 = I2 is written as the coin that it is.
 impl Serialize for Body {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        if let Some(coin) = self.symmetric() {
+        if let Self::Coin(coin) = self {
             return coin.serialize(to);
         }
         let moments = self.moments().map(|moments| moments.map(Number::Si).into());

@@ -167,7 +167,7 @@ impl SolveError {
         Self::Failed { solver: solver.to_owned(), source: Reason::new(reason) }
     }
 
-    /// The same error with its time counted from launch, for a propagation that began `seconds` after launch.
+    /// The same error with its time counted from launch, for a flight that began `seconds` after launch.
     #[must_use]
     pub fn later(mut self, seconds: f64) -> Self {
         match &mut self {

@@ -1,7 +1,7 @@
 //! This kernel computes the attitudes at landing, Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ), of all tosses of a batch. ŝ is
 //! the direction of the angular momentum at launch and q = (k - 1) ωz the rate of the spin.
 
-use dynamics::{Error, SolveError, Toss};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, sin_cos_to_sign};
 
 use super::Batch;
@@ -66,7 +66,7 @@ impl Kernel<7, 4> for Attitudes {
         }
     }
 
-    fn solve_one(&self, toss: &Toss) -> Result<[f64; 4], SolveError> {
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 4], SolveError> {
         compensated_landing(toss).map(|landing| landing.attitude.components())
     }
 }

@@ -7,7 +7,7 @@
 //! cos θ = (A + B cos φ + C sin φ)/(|Q|² |L|²)         from any attitude
 //! ```
 
-use dynamics::{Error, SolveError, Toss};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
 
 use super::Batch;
@@ -56,7 +56,7 @@ impl Kernel<4, 1> for Flat {
         [((height + height) * half_inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
         compensated_cos_tilt(toss).map(|cos| [cos])
     }
 }
@@ -90,7 +90,7 @@ impl Kernel<6, 1> for Tilted {
         [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, toss: &Toss) -> Result<[f64; 1], SolveError> {
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
         compensated_cos_tilt(toss).map(|cos| [cos])
     }
 }

@@ -9,7 +9,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use dynamics::{Error, SolveError, Toss};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{ATAN2_ERROR, Real, Simd, atan2};
 
@@ -105,7 +105,7 @@ impl Kernel<4, 5> for Heads {
         ]
     }
 
-    fn solve_one(&self, _: &Toss) -> Result<[f64; 5], SolveError> {
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 5], SolveError> {
         Ok([0.0, 0.0, 0.0, UNSOLVED, 0.0])
     }
 }
@@ -156,7 +156,7 @@ mod tests {
                     continue;
                 }
                 let toss = tosses.toss(index).unwrap();
-                let terms = OneToss::new(&toss);
+                let terms = OneToss::new(&toss.coin().unwrap());
                 let expected = terms.heads();
                 let apart = (crest[index] - expected.crest).abs();
                 let within = crest_error[index] + expected.crest_error;
@@ -178,7 +178,7 @@ mod tests {
     }
 
     /// The phases of heads in double-double numbers, in which nothing is lost: the crest and the half-width.
-    fn precise(toss: &Toss) -> [DoubleDouble; 2] {
+    fn precise(toss: &CoinToss) -> [DoubleDouble; 2] {
         let rate = toss.launch.rate();
         let vertical = toss.launch.attitude().vertical().0.map(DoubleDouble::exactly);
         let [x, y, z] = [rate.x, rate.y, rate.z].map(DoubleDouble::exactly);
@@ -202,7 +202,7 @@ mod tests {
             let [crest, half_width, crest_error, half_width_error, _] = found(tosses, SimdLevel::widest());
             for index in (0..NUMBER).filter(|index| half_width_error[*index] != UNSOLVED) {
                 let toss = tosses.toss(index).unwrap();
-                let [expected_crest, expected] = precise(&toss);
+                let [expected_crest, expected] = precise(&toss.coin().unwrap());
                 let apart = (DoubleDouble::exactly(crest[index]) - expected_crest).hi().abs();
                 let apart = apart.min((apart - 2.0 * PI).abs());
                 assert!(apart <= crest_error[index], "{toss:?}: {apart:e} > {:e}", crest_error[index]);

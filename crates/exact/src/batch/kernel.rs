@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Error, SolveError, Toss, Tosses};
+use dynamics::{CoinToss, Error, SolveError, Tosses};
 use numerics::lanes::{Real, Simd, WithSimd};
 
 use super::momentum::{Constants, Extent};
@@ -29,7 +29,7 @@ pub(super) trait Kernel<const MID: usize, const OUT: usize> {
     fn end<S: Simd>(&self, begun: [Real<S>; MID]) -> [Real<S>; OUT];
 
     /// Solves a single toss that is not ordinary.
-    fn solve_one(&self, toss: &Toss) -> Result<[f64; OUT], SolveError>;
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; OUT], SolveError>;
 }
 
 /// A kernel, the tosses that it is run over, and the columns for its results.
@@ -85,7 +85,7 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> Run<'_, '_, K, MID
             if self.kernel.constants().is_ordinary(launch) {
                 continue;
             }
-            let results = self.tosses.solve(index, |toss| self.kernel.solve_one(toss))?;
+            let results = self.tosses.solve_coin(index, |toss| self.kernel.solve_one(toss))?;
             for (out, result) in self.out.iter_mut().zip(results) {
                 out[index] = result;
             }

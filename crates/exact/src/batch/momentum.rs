@@ -72,7 +72,7 @@ pub(super) struct Extent<S: Simd> {
 
 impl Constants {
     pub(super) fn new(tosses: &Tosses<'_>) -> Self {
-        let k = tosses.coin().exact_inertia_ratio();
+        let k = tosses.body().exact_inertia_ratio();
         let inverse_pi = DoubleDouble::exactly(INVERSE_PI[0]) + INVERSE_PI[1].into();
         let turns = inverse_pi / tosses.gravity().into();
         let spin_turns = turns * (k - 1.0.into());

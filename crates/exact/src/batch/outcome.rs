@@ -24,7 +24,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Error, Outcome, SolveError, Toss};
+use dynamics::{CoinToss, Error, Outcome, SolveError};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{ROUGH_ERROR, Real, Simd, SimdLevel, rough_cos_of_half, rough_sin_of_half};
 
@@ -33,7 +33,7 @@ use super::kernel::{Kernel, Run};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
 use super::proving::{self, Proving};
 use crate::certificate::{Certificate, ProvenCounts};
-use crate::certified::certify;
+use crate::rigid::certify;
 
 /// |G|/size up to which the filter leaves a toss undecided, for a phase of 0.
 const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
@@ -145,7 +145,7 @@ impl Kernel<4, 1> for Flat {
         [beyond(squared - twice_across_squared * (sin * sin), threshold)]
     }
 
-    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 1], SolveError> {
         Ok([0.0])
     }
 }
@@ -170,7 +170,7 @@ impl Kernel<5, 1> for Tilted {
         [beyond((mean + cosine) + (change + change), threshold)]
     }
 
-    fn solve_one(&self, _: &Toss) -> Result<[f64; 1], SolveError> {
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 1], SolveError> {
         Ok([0.0])
     }
 }

@@ -1,14 +1,15 @@
 //! These tests cover exact ties, the agreement of the stages with each other, and the error bounds of the derivations.
 
-use dynamics::{AngleUnit, Attitude, Coin, Launch, TimeOfFlight, Unit};
+use dynamics::{AngleUnit, Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
 use nalgebra::Vector3;
 
 use super::*;
+use crate::certificate::ProvenCounts;
 use crate::multiprecision::cos_tilt as in_more_digits;
 
-fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
+fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> CoinToss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-    Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
+    CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch: launch.with_attitude(attitude) }
 }
 
 /// Digits by mpmath, from the tilt and the cylinder as exact numbers. The quaternion of the tilt and the moments of the
@@ -17,21 +18,21 @@ fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> Toss {
 fn what_is_proven_is_the_toss_as_it_was_given() {
     let toss = |coin, rate: [f64; 3], speed| {
         let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
-        Toss { coin, launch: Launch::new(rate, thrown).unwrap() }
+        CoinToss { coin, launch: Launch::new(rate, thrown).unwrap() }
     };
     let rate = [-24.064_598_567_199_237, -26.566_903_895_330_363, 49.564_483_551_046_28];
     let flat = toss(Coin::PAPER, rate, 2.410_790_522_567_343_6);
-    let tilted = Toss { launch: flat.launch.with_tilt(2.515_084_104_129_282_4).unwrap(), ..flat };
+    let tilted = CoinToss { launch: flat.launch.with_tilt(2.515_084_104_129_282_4).unwrap(), ..flat };
     let cylinder = Coin::from_cylinder(0.003, 0.018_74, 0.001_14).unwrap();
     let rate = [-3.217_900_789_583_893_6, 169.214_640_584_066_1, -44.331_380_741_625_6];
     let thick = toss(cylinder, rate, 2.050_038_069_869_439);
     for (given, cos) in [(tilted, 1.083_048_700_603_535_2e-17), (thick, 5.367_562_989_044_33e-16)] {
-        assert_eq!(certify(&given).unwrap().outcome(), Outcome::Heads);
+        assert_eq!(certify_coin(&given).unwrap().outcome(), Outcome::Heads);
         assert!((cos_tilt(&given).unwrap() - cos).abs() < 1e-31);
         let attitude = Attitude::from_components(given.launch.attitude().components()).unwrap();
         let coin = Coin::from_moments(given.coin.i1(), given.coin.i3()).unwrap();
-        let rounded = Toss { coin, launch: given.launch.with_attitude(attitude) };
-        assert_eq!(certify(&rounded).unwrap().outcome(), Outcome::Tails);
+        let rounded = CoinToss { coin, launch: given.launch.with_attitude(attitude) };
+        assert_eq!(certify_coin(&rounded).unwrap().outcome(), Outcome::Tails);
     }
 }
 
@@ -44,7 +45,7 @@ fn on_edge() -> Attitude {
 
 #[test]
 fn exact_ties_are_undecided_and_nothing_else_is() {
-    let certified = |k, rate, time| certify(&toss(k, rate, on_edge(), time)).unwrap();
+    let certified = |k, rate, time| certify_coin(&toss(k, rate, on_edge(), time)).unwrap();
     let tie = Certificate::new(Outcome::Undecided, Stage::Multiprecision);
     // A coin at rest, one that lands at once, two in pure spin, and two whose S is vertical and in the coin's plane.
     for (k, rate, time) in [
@@ -62,7 +63,7 @@ fn exact_ties_are_undecided_and_nothing_else_is() {
     // No tie for a coin that is dropped from a height: it has speed 0, but does not land at once.
     let dropped = TimeOfFlight::BallisticTo { speed: 0.0, gravity: 9.81, drop: 1.0 };
     let launch = Launch::new(Vector3::new(1.0, 2.0, 3.0), dropped).unwrap().with_attitude(on_edge());
-    assert_ne!(by_multiprecision(&Toss { coin: Coin::PAPER, launch }), Outcome::Undecided);
+    assert_ne!(by_multiprecision(&CoinToss { coin: Coin::PAPER, launch }), Outcome::Undecided);
     // cos θ = (mx Ly - my Lx) t to first order, here -ωx t.
     for (rate, time, outcome) in [
         ([1e-300, 7.0, 0.0], 1.0, Outcome::Tails),
@@ -90,7 +91,7 @@ fn every_stage_gives_the_same_outcome_where_it_decides() {
             _ => TimeOfFlight::BallisticTo { speed, gravity, drop: 2.0 },
         };
         let launch = Launch::new(rate, time).unwrap().with_attitude(attitude);
-        let toss = Toss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
+        let toss = CoinToss { coin: Coin::from_moments(1.7, 0.8 * f64::from(index % 5)).unwrap(), launch };
         let exact = by_multiprecision(&toss);
         let double = cos_tilt_in_double_double(&toss).filter(Ball::has_sign).map(|ball| Outcome::of(ball.sign(), 0.0));
         for (stage, outcome) in [by_f64(&toss), double].into_iter().enumerate() {
@@ -104,23 +105,23 @@ fn every_stage_gives_the_same_outcome_where_it_decides() {
 #[test]
 fn a_phase_above_two_to_the_53_is_refused() {
     let fast = toss(0.5, [1e10, 0.0, 0.0], Attitude::IDENTITY, 1e6);
-    assert!(matches!(certify(&fast), Err(SolveError::PhaseTooLarge { .. })));
+    assert!(matches!(certify_coin(&fast), Err(SolveError::PhaseTooLarge { .. })));
     let spinning = toss(0.0, [0.0, 0.0, 1e300], Attitude::IDENTITY, 1.0);
-    assert!(matches!(certify(&spinning), Err(SolveError::PhaseTooLarge { .. })));
+    assert!(matches!(certify_coin(&spinning), Err(SolveError::PhaseTooLarge { .. })));
 }
 
 #[test]
 fn the_cheapest_stage_that_can_decides() {
-    let stage = |rate, time| certify(&toss(1.0, rate, Attitude::IDENTITY, time)).unwrap().stage();
+    let stage = |rate, time| certify_coin(&toss(1.0, rate, Attitude::IDENTITY, time)).unwrap().stage();
     assert_eq!(stage([20.0, 3.0, 0.0], 0.6), Stage::F64);
     // cos θ is -10^-15, 6·10^-17, and 10^-20.
     let quarter = std::f64::consts::FRAC_PI_2;
     assert_eq!(stage([1.0, 0.0, 0.0], quarter + 1e-15), Stage::DoubleDouble);
     assert_eq!(stage([1.0, 0.0, 0.0], quarter), Stage::DoubleDouble);
-    let near_edge = |tilt| certify(&toss(1.0, [0.0; 3], Attitude::about_x(tilt), 1.0)).unwrap().stage();
+    let near_edge = |tilt| certify_coin(&toss(1.0, [0.0; 3], Attitude::about_x(tilt), 1.0)).unwrap().stage();
     assert_eq!(near_edge(quarter), Stage::DoubleDouble);
     let tiny = toss(1.0, [1e-20, 7.0, 0.0], on_edge(), 1.0);
-    assert_eq!(certify(&tiny).unwrap().stage(), Stage::Multiprecision);
+    assert_eq!(certify_coin(&tiny).unwrap().stage(), Stage::Multiprecision);
 }
 
 /// 40 neighbouring times around each of 200 landings on edge, and launches that are not flat or leave the range.
@@ -162,7 +163,7 @@ fn balls_in_double_double_contain_those_of_more_digits() {
         let attitude = Attitude::from_components([7f64, 11.0, 13.0, 17.0].map(|square| part(square.sqrt()))).unwrap();
         let launch = TimeOfFlight::Ballistic { speed: 10f64.powi(index % 14), gravity: 9.81 };
         let coin = Coin::from_cylinder(0.003, 0.018_74, 0.001_14).unwrap();
-        let toss = Toss { coin, launch: Launch::new(rate, launch).unwrap().with_attitude(attitude) };
+        let toss = CoinToss { coin, launch: Launch::new(rate, launch).unwrap().with_attitude(attitude) };
         let (ball, fine) = (cos_tilt_in_double_double(&toss).unwrap(), in_more_digits(&toss, 192));
         let off = (ball.to_big() - fine.to_big()).to_f64().value().abs();
         assert!(off <= ball.radius() && ball.radius() < 1e-11, "{toss:?}: {off:e} {:e}", ball.radius());
@@ -243,7 +244,7 @@ fn an_outcome_that_holds_within_a_part_of_the_numbers_is_that_of_all_tosses_arou
         let outcome_of = |signs: [f64; 5]| {
             let [x, y, z, of_k, of_time] = signs.map(|sign| 1.0 + sign * RELATIVE);
             let rate = [rate[0] * x, rate[1] * y, rate[2] * z];
-            certify(&toss(k * of_k, rate, attitude, time * of_time)).unwrap().outcome()
+            certify_coin(&toss(k * of_k, rate, attitude, time * of_time)).unwrap().outcome()
         };
         let own = outcome_of([0.0; 5]);
         // The corners in which all numbers grow, all shrink, and each grows or shrinks against the others.
@@ -264,7 +265,8 @@ fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
     let launch = |rate, unit| Launch::in_unit(rate, unit, TimeOfFlight::Given(time)).unwrap();
     let in_turns = launch([rate, 0.0, 0.0], AngleUnit::Turns(Unit::ONE));
     let in_radians = launch(in_turns.rate().into(), AngleUnit::RADIAN);
-    let [given, rounded] = [in_turns, in_radians].map(|launch| cos_tilt(&Toss { coin: Coin::PAPER, launch }).unwrap());
+    let [given, rounded] =
+        [in_turns, in_radians].map(|launch| cos_tilt(&CoinToss { coin: Coin::PAPER, launch }).unwrap());
     let expected = (std::f64::consts::TAU * (rate * time).fract()).cos();
     assert!((given - expected).abs() < 1e-15, "{given}, not {expected}");
     assert!((rounded - expected).abs() > 1e-12);
@@ -275,10 +277,10 @@ fn tosses_are_counted_by_face_and_the_first_without_an_outcome_is_named() {
     let heads = toss(1.5, [1.0, 0.0, 0.0], Attitude::IDENTITY, 1.0);
     let tails = toss(1.5, [3.0, 0.0, 0.0], Attitude::IDENTITY, 1.0);
     let tie = toss(1.5, [0.0, 0.0, 7.0], on_edge(), 1.0);
-    let counts = ProvenCounts::of([tails, heads, tie, heads, heads]).unwrap();
+    let counts = ProvenCounts::of([tails, heads, tie, heads, heads].map(Toss::from)).unwrap();
     assert_eq!((counts.heads(), counts.tails(), counts.ties()), (3, 1, 1));
     assert_eq!(counts.by(Stage::Multiprecision), 1);
     let too_long = toss(1.5, [1e16, 0.0, 0.0], Attitude::IDENTITY, 1.0);
-    let error = ProvenCounts::of([heads, too_long, too_long]).unwrap_err();
+    let error = ProvenCounts::of([heads, too_long, too_long].map(Toss::from)).unwrap_err();
     assert!(matches!(error, Error::Launch { index: 1, .. }), "{error}");
 }

@@ -2,7 +2,7 @@
 //!
 //! The formula is that of [`height`](super::height), the inputs are those of the toss without a rounding.
 
-use dynamics::Toss;
+use dynamics::CoinToss;
 use numerics::big::{Big, exactly};
 use numerics::{Elementary, UNIT_ROUNDOFF};
 
@@ -18,13 +18,13 @@ const MOST_DIGITS: usize = 3072;
 const LOST_DIGITS: usize = 80;
 
 /// f and f' of a toss whose turn is `change` (rad) further on the line of the rate `axis`.
-pub(super) fn height_in_digits(toss: &Toss, axis: usize, change: f64) -> Height {
+pub(super) fn height_in_digits(toss: &CoinToss, axis: usize, change: f64) -> Height {
     decided(|digits| height_and_slope(landing(toss, axis, change, vertical(toss, digits), digits), digits))
 }
 
 /// cos θ of a toss, and what it becomes after a quarter of a turn of the launch about the lab's x axis.
-pub(super) fn tilted_heights(toss: &Toss) -> [Height; 2] {
-    let of = |vertical: fn(&Toss, usize) -> [Big; 3]| {
+pub(super) fn tilted_heights(toss: &CoinToss) -> [Height; 2] {
+    let of = |vertical: fn(&CoinToss, usize) -> [Big; 3]| {
         decided(|digits| height_and_slope(landing(toss, 0, 0.0, vertical(toss, digits), digits), digits))
     };
     [of(vertical), of(quarter_turned_vertical)]
@@ -50,7 +50,7 @@ fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
 }
 
 /// The landing `change` (rad) further on the line of the rate `axis`, in `digits` binary digits.
-fn landing(toss: &Toss, axis: usize, change: f64, vertical: [Big; 3], digits: usize) -> Landing<Big> {
+fn landing(toss: &CoinToss, axis: usize, change: f64, vertical: [Big; 3], digits: usize) -> Landing<Big> {
     let big = |value: f64| exactly(value).with_precision(digits).value();
     let time = flight_time(toss, digits);
     let mut turn = momentum(toss, digits).map(|part| part * &time);
@@ -70,12 +70,12 @@ fn height_and_slope(landing: Landing<Big>, digits: usize) -> [Big; 2] {
 }
 
 /// The vertical seen from the body, of size 1.
-fn vertical(toss: &Toss, digits: usize) -> [Big; 3] {
+fn vertical(toss: &CoinToss, digits: usize) -> [Big; 3] {
     normalised(toss.launch.attitude().vertical_in_digits(digits), digits)
 }
 
 /// The vertical seen from the body after a quarter of a turn about the lab's x axis.
-fn quarter_turned_vertical(toss: &Toss, digits: usize) -> [Big; 3] {
+fn quarter_turned_vertical(toss: &CoinToss, digits: usize) -> [Big; 3] {
     normalised(toss.launch.attitude().quarter_turned_vertical_in_digits(digits), digits)
 }
 

@@ -28,7 +28,7 @@
 //!
 //! That is 50 + 70 u φ, of which [`error`] makes 64 + 80 u φ; the slope has twice as many operations and twice the bound.
 
-use dynamics::Toss;
+use dynamics::CoinToss;
 use dynamics::time_of_flight::ExactTime;
 use numerics::scale::mantissa_and_exponent;
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
@@ -39,7 +39,7 @@ use super::sine::sine_and_cosine;
 
 /// The turns Φ + u e of one input.
 pub(super) struct Line<'a> {
-    toss: &'a Toss,
+    toss: &'a CoinToss,
     /// The input, ωx, ωy or ωz, by its index.
     axis: usize,
     /// m.
@@ -55,7 +55,7 @@ pub(super) struct Line<'a> {
 
 impl<'a> Line<'a> {
     /// The line of a rate.
-    pub(super) fn of_rate(toss: &'a Toss, axis: usize, turn: [DoubleDouble; 3]) -> Self {
+    pub(super) fn of_rate(toss: &'a CoinToss, axis: usize, turn: [DoubleDouble; 3]) -> Self {
         let mut direction = [DoubleDouble::ZERO; 3];
         direction[axis] = 1.0.into();
         let mut across = turn;
@@ -181,7 +181,7 @@ impl<'a> Line<'a> {
 }
 
 /// Φ at landing (rad), in double-double.
-pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
+pub(super) fn turn(toss: &CoinToss) -> [DoubleDouble; 3] {
     let time = ExactTime::from(toss.launch.time_of_flight());
     let [x, y, z] = toss.launch.exact_rate();
     let k = toss.coin.exact_inertia_ratio();
@@ -193,7 +193,7 @@ pub(super) fn turn(toss: &Toss) -> [DoubleDouble; 3] {
 
 /// cos θ of a toss with the turn Φ at landing, and what it becomes after a quarter of a turn of the launch about the lab's x
 /// axis; in f64 or, at `stage` 1, in double-double.
-pub(super) fn tilted_heights(toss: &Toss, turn: [DoubleDouble; 3], stage: usize) -> [Height; 2] {
+pub(super) fn tilted_heights(toss: &CoinToss, turn: [DoubleDouble; 3], stage: usize) -> [Height; 2] {
     let attitude = toss.launch.attitude();
     [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()].map(|vertical| {
         let line = Line { vertical, ..Line::of_rate(toss, 0, turn) };

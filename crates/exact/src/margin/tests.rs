@@ -5,12 +5,12 @@ use nalgebra::Vector3;
 
 use super::height::Height;
 use super::*;
-use crate::certified::certify;
+use crate::certified::certify_coin;
 
-fn toss(rate: Vector3<f64>, tilt: f64, speed: f64) -> Toss {
+fn toss(rate: Vector3<f64>, tilt: f64, speed: f64) -> CoinToss {
     let thrown = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
     let launch = Launch::new(rate, thrown).unwrap().with_tilt(tilt).unwrap();
-    Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
+    CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
 }
 
 const RATES: [[f64; 3]; 6] =
@@ -22,8 +22,8 @@ fn the_change_of_speed_flips_the_outcome_and_none_smaller_does() {
     let mut flips = 0;
     for rate in RATES.map(Vector3::from) {
         for (tilt, speed) in TILTS.into_iter().flat_map(|tilt| [0.3, 3.0, 4.1].map(|speed| (tilt, speed))) {
-            let outcome = |speed| certify(&toss(rate, tilt, speed)).unwrap().outcome();
-            let Some(change) = margin(&toss(rate, tilt, speed)).unwrap().speed else { continue };
+            let outcome = |speed| certify_coin(&toss(rate, tilt, speed)).unwrap().outcome();
+            let Some(change) = margin_coin(&toss(rate, tilt, speed)).unwrap().speed else { continue };
             flips += 1;
             assert_ne!(outcome(speed + change * (1.0 + 1e-9)), outcome(speed), "{rate:?} {tilt} {speed}");
             for part in [-0.999_999, -0.5, 0.5, 0.999_999] {
@@ -42,10 +42,10 @@ fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
         for (drop, now) in [-0.4, 0.2, 1.5].into_iter().flat_map(|drop| [3.0, 4.1].map(|now| (drop, now))) {
             let toss = |speed| {
                 let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop };
-                Toss { coin: Coin::DISC, launch: Launch::new(rate, thrown).unwrap().with_tilt(0.6).unwrap() }
+                CoinToss { coin: Coin::DISC, launch: Launch::new(rate, thrown).unwrap().with_tilt(0.6).unwrap() }
             };
-            let outcome = |speed| certify(&toss(speed)).unwrap().outcome();
-            let Some(change) = margin(&toss(now)).unwrap().speed else { continue };
+            let outcome = |speed| certify_coin(&toss(speed)).unwrap().outcome();
+            let Some(change) = margin_coin(&toss(now)).unwrap().speed else { continue };
             flips += 1;
             assert_ne!(outcome(now + change * (1.0 + 1e-9)), outcome(now), "{rate:?} {drop}");
             assert_eq!(outcome(now + change * (1.0 - 1e-9)), outcome(now), "{rate:?} {drop}");
@@ -58,8 +58,8 @@ fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
 #[test]
 fn the_cheated_toss_flips_where_the_exact_motion_does() {
     let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-    let cheated = Toss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown).unwrap() };
-    let Margin { rate, rate_range, gravity, tilt, .. } = margin(&cheated).unwrap();
+    let cheated = CoinToss { coin: Coin::PAPER, launch: Launch::new(Vector3::new(1.0, 1.0, 2.5), thrown).unwrap() };
+    let Margin { rate, rate_range, gravity, tilt, .. } = margin_coin(&cheated).unwrap();
     let digits = |value: Option<f64>| value.map(|value| format!("{value:+.4}"));
     let found = [rate[0], rate[1], gravity, tilt].map(digits).map(Option::unwrap);
     assert_eq!(found, ["+1.4587", "+1.4587", "-5.2204", "+1.1783"]);
@@ -71,17 +71,17 @@ fn the_cheated_toss_flips_where_the_exact_motion_does() {
 fn margins_of_any_size_flip_the_outcome_and_none_smaller_does() {
     // Nearer and nearer to an edge, down to the last bit of the speed.
     let start = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, 3.0);
-    let edge = 3.0 + margin(&start).unwrap().speed.unwrap();
+    let edge = 3.0 + margin_coin(&start).unwrap().speed.unwrap();
     for from_edge in [0.3, 1e-4, 1e-8, 1e-12, 4e-16] {
         let near = toss(Vector3::new(2.0, 3.0, 1.0), 0.4, edge - from_edge);
-        let outcome = certify(&near).unwrap().outcome();
-        let Margin { rate, gravity, tilt, .. } = margin(&near).unwrap();
+        let outcome = certify_coin(&near).unwrap().outcome();
+        let Margin { rate, gravity, tilt, .. } = margin_coin(&near).unwrap();
         assert!(
             [rate[0], rate[1], rate[2], gravity, tilt].iter().all(|change| change.unwrap().abs() < 40.0 * from_edge)
         );
         for (axis, change) in rate.into_iter().enumerate() {
             let changed = |part: f64| near.launch.rate() + Vector3::ith(axis, part * change.unwrap());
-            let outcome_of = |part| certify(&toss(changed(part), 0.4, edge - from_edge)).unwrap().outcome();
+            let outcome_of = |part| certify_coin(&toss(changed(part), 0.4, edge - from_edge)).unwrap().outcome();
             // Where the change is some bits of the rate, so is what is tried.
             let slack = 1e-12 + 1e-15 / change.unwrap().abs();
             assert_eq!(outcome_of((1.0 - slack).max(0.0)), outcome, "{axis} {from_edge}");
@@ -94,8 +94,8 @@ fn margins_of_any_size_flip_the_outcome_and_none_smaller_does() {
 fn the_change_of_tilt_flips_the_outcome_and_none_smaller_does() {
     for (rate, tilt) in RATES.into_iter().flat_map(|rate| TILTS.map(|tilt| (rate, tilt))) {
         let toss = |tilt| toss(rate.into(), tilt, 3.0);
-        let change = margin(&toss(tilt)).unwrap().tilt.unwrap();
-        let outcome = |part: f64| certify(&toss(tilt + part * change)).unwrap().outcome();
+        let change = margin_coin(&toss(tilt)).unwrap().tilt.unwrap();
+        let outcome = |part: f64| certify_coin(&toss(tilt + part * change)).unwrap().outcome();
         assert!(change.abs() <= std::f64::consts::FRAC_PI_2);
         assert_ne!(outcome(1.0 + 1e-12), outcome(0.0), "{rate:?} {tilt}: {change}");
         assert!([-0.999_999, -0.5, 0.5, 1.0 - 1e-12].iter().all(|part| outcome(*part) == outcome(0.0)));
@@ -106,11 +106,12 @@ fn the_change_of_tilt_flips_the_outcome_and_none_smaller_does() {
 fn speeds_inside_the_intervals_land_heads_and_others_tails() {
     for rate in RATES.map(Vector3::from) {
         for tilt in TILTS {
-            let intervals: Vec<[f64; 2]> = speeds_of_heads(&toss(rate, tilt, 9.0), 1.0).unwrap().unwrap().collect();
+            let intervals: Vec<[f64; 2]> =
+                level_speeds_of_heads(&toss(rate, tilt, 9.0), 1.0).unwrap().unwrap().collect();
             for part in 0..500 {
                 let speed = 1.0 + 8.0 * (f64::from(part) + 0.5) / 500.0;
                 let inside = intervals.iter().any(|[slow, fast]| *slow < speed && speed < *fast);
-                let heads = certify(&toss(rate, tilt, speed)).unwrap().outcome() == dynamics::Outcome::Heads;
+                let heads = certify_coin(&toss(rate, tilt, speed)).unwrap().outcome() == dynamics::Outcome::Heads;
                 assert_eq!(inside, heads, "{rate:?} {tilt} {speed}: {intervals:?}");
             }
         }
@@ -119,10 +120,10 @@ fn speeds_inside_the_intervals_land_heads_and_others_tails() {
 
 #[test]
 fn what_never_flips_has_no_margin_in_speed() {
-    let certain = margin(&toss(Vector3::new(1.0, 0.0, 9.0), 0.0, 3.0)).unwrap();
+    let certain = margin_coin(&toss(Vector3::new(1.0, 0.0, 9.0), 0.0, 3.0)).unwrap();
     assert_eq!((certain.speed, certain.time), (None, None));
     let launch = Launch::new(Vector3::new(9.0, 0.0, 0.0), TimeOfFlight::Given(0.1)).unwrap();
-    let given = margin(&Toss { coin: Coin::PAPER, launch }).unwrap();
+    let given = margin_coin(&CoinToss { coin: Coin::PAPER, launch }).unwrap();
     assert_eq!(given.speed, None);
     assert!((given.time.unwrap() - (std::f64::consts::FRAC_PI_2 / 9.0 - 0.1)).abs() < 1e-15);
 }
@@ -136,11 +137,11 @@ fn a_coin_next_to_its_edge_has_its_flips_in_time_in_closed_form() {
         [-10, -40, -80, -300].into_iter().flat_map(|exponent| [0.3, 1.3, 7.9].map(|time| (exponent, time)))
     {
         let launch = Launch::new(Vector3::new(10f64.powi(exponent), 0.0, 2.0), TimeOfFlight::Given(time)).unwrap();
-        let toss = Toss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch: launch.with_tilt(quarter).unwrap() };
+        let toss = CoinToss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch: launch.with_tilt(quarter).unwrap() };
         let [later, earlier] = [(time / PI).ceil() * PI - time, time - (time / PI).floor() * PI];
         // At the launch itself the coin is on edge, which is no flip.
         let expected = if earlier < later && time > PI { -earlier } else { later };
-        let found = margin(&toss).unwrap().time.unwrap();
+        let found = margin_coin(&toss).unwrap().time.unwrap();
         assert!((found - expected).abs() < 1e-12, "1e{exponent} {time}: {found}, not {expected}");
     }
 }
@@ -151,24 +152,27 @@ fn a_coin_next_to_its_edge_has_its_flips_in_time_in_closed_form() {
 fn a_flip_before_the_shortest_flight_is_none() {
     let toss = |speed| {
         let thrown = TimeOfFlight::BallisticTo { speed, gravity: 9.81, drop: 1.5 };
-        Toss { coin: Coin::DISC, launch: Launch::new(Vector3::new(std::f64::consts::PI, 0.0, 0.0), thrown).unwrap() }
+        CoinToss {
+            coin: Coin::DISC,
+            launch: Launch::new(Vector3::new(std::f64::consts::PI, 0.0, 0.0), thrown).unwrap(),
+        }
     };
-    let change = margin(&toss(0.1)).unwrap().speed.unwrap();
+    let change = margin_coin(&toss(0.1)).unwrap().speed.unwrap();
     let flight = toss(0.1 + change).launch.flight_time();
     assert!((flight - 1.5).abs() < 1e-12, "{change}: {flight}");
 }
 
 /// On the edge by exact arithmetic: w = x.
-fn on_edge(rate: [f64; 3], time: f64) -> Toss {
+fn on_edge(rate: [f64; 3], time: f64) -> CoinToss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
     let attitude = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
-    Toss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_attitude(attitude) }
+    CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch: launch.with_attitude(attitude) }
 }
 
 #[test]
 fn an_undecided_toss_has_a_margin_of_0() {
     for (rate, time) in [([0.0; 3], 1.0), ([0.0, 0.0, 7.0], 1.0), ([1.0, 2.0, 3.0], 0.0)] {
-        let Margin { time, tilt, rate, speed, .. } = margin(&on_edge(rate, time)).unwrap();
+        let Margin { time, tilt, rate, speed, .. } = margin_coin(&on_edge(rate, time)).unwrap();
         assert_eq!((time, tilt, rate, speed), (Some(0.0), Some(0.0), [Some(0.0); 3], None));
     }
 }
@@ -177,7 +181,7 @@ fn an_undecided_toss_has_a_margin_of_0() {
 #[test]
 fn a_touch_is_no_flip() {
     for [y, z] in [[5.0, 3.0], [-5.0, 3.0], [0.1, 60.0]] {
-        let found = margin(&on_edge([0.0, y, z], 1.0)).unwrap();
+        let found = margin_coin(&on_edge([0.0, y, z], 1.0)).unwrap();
         assert_eq!(found.time, None, "{y} {z}");
         for (axis, rate) in [(1, y), (2, z)] {
             let change = found.rate[axis].unwrap_or_else(|| panic!("{y} {z}: {found:?}"));
@@ -191,13 +195,13 @@ fn what_cannot_flip_has_no_margin() {
     // A rod's spin does not matter, nor does any rate to a coin that lands at once.
     let rod = Coin::from_moments(1.0, 0.0).unwrap();
     let launch = Launch::new(Vector3::new(3.0, 0.0, 9.0), TimeOfFlight::Given(1.0)).unwrap();
-    let found = margin(&Toss { coin: rod, launch }).unwrap();
+    let found = margin_coin(&CoinToss { coin: rod, launch }).unwrap();
     assert!(found.rate[2].is_none() && found.rate[0].is_some(), "{found:?}");
-    let found = margin(&toss(Vector3::new(3.0, 2.0, 1.0), 0.3, 0.0)).unwrap();
+    let found = margin_coin(&toss(Vector3::new(3.0, 2.0, 1.0), 0.3, 0.0)).unwrap();
     assert_eq!((found.rate, found.gravity), ([None; 3], None));
     assert!(found.time.is_some() && found.speed.is_some());
     // At rest, time does not matter, and half a turn about x or y is as good as any.
-    let found = margin(&toss(Vector3::zeros(), 0.3, 3.0)).unwrap();
+    let found = margin_coin(&toss(Vector3::zeros(), 0.3, 3.0)).unwrap();
     assert_eq!((found.time, found.speed, found.gravity, found.rate[2]), (None, None, None, None));
     assert!((found.tilt.unwrap() - (std::f64::consts::FRAC_PI_2 - 0.3)).abs() < 1e-15);
     let expected = found.tilt.unwrap() / (6.0 / 9.81);
@@ -213,8 +217,8 @@ fn inputs_of_any_size_have_finite_margins() {
             {
                 let launch = Launch::new(Vector3::from(rate) * size, TimeOfFlight::Given(time)).unwrap();
                 let launch = launch.with_tilt(tilt).unwrap();
-                let toss = Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
-                let Ok(Margin { time, tilt, rate, rate_range: range, .. }) = margin(&toss) else { continue };
+                let toss = CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+                let Ok(Margin { time, tilt, rate, rate_range: range, .. }) = margin_coin(&toss) else { continue };
                 let all = [time, tilt, rate[0], rate[1], rate[2], Some(range[0]), Some(range[1]), Some(range[2])];
                 assert!(all.iter().flatten().all(|value| value.is_finite()), "{toss:?}: {all:?}");
                 let within = |axis: usize| rate[axis].is_none_or(|change| change.abs() <= 1.000_001 * range[axis]);
@@ -228,7 +232,7 @@ fn inputs_of_any_size_have_finite_margins() {
 fn a_scaled_toss_has_scaled_margins() {
     let scaled = |scale: f64| {
         let launch = Launch::new(Vector3::new(2e3, -5e3, 1e3) * scale, TimeOfFlight::Given(1e-3 / scale)).unwrap();
-        let found = margin(&Toss { coin: Coin::PAPER, launch: launch.with_tilt(1.2).unwrap() }).unwrap();
+        let found = margin_coin(&CoinToss { coin: Coin::PAPER, launch: launch.with_tilt(1.2).unwrap() }).unwrap();
         (found.rate.map(|change| change.unwrap() / scale), found.time.unwrap() * scale, found.tilt)
     };
     assert_eq!(scaled(1.0), scaled(f64::exp2(900.0)));

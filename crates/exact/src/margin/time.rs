@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dynamics::Toss;
+use dynamics::CoinToss;
 use numerics::big::Big;
 use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
@@ -35,7 +35,7 @@ const MOST_DIGITS: usize = 12_288;
 const LOST_DIGITS: usize = 80;
 
 /// The changes of the `phase` of the landing (rad) to the next flip and to the last one before, if the motion flips at all.
-pub(super) fn flips(toss: &Toss, phase: DoubleDouble) -> Option<[f64; 2]> {
+pub(super) fn flips(toss: &CoinToss, phase: DoubleDouble) -> Option<[f64; 2]> {
     let halves = in_double_double(toss, phase).unwrap_or_else(|| in_digits(toss))?;
     // Each flip is one of the turn after the landing, and one of the turn before.
     let later = halves.map(|half| if half.is_sign_positive() { 2.0 * half } else { 2.0 * half + TAU });
@@ -51,7 +51,7 @@ fn halves<N: Elementary>([f, slope, g, root]: [&N; 4]) -> [N; 2] {
 }
 
 /// h/2 of both flips, none if there are none; `None` if more digits are needed.
-fn in_double_double(toss: &Toss, phase: DoubleDouble) -> Option<Option<[f64; 2]>> {
+fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64; 2]>> {
     const SQUARED: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
     let attitude = toss.launch.attitude();
     // The vertical seen from a tilted coin is right to 2^-67.
@@ -83,7 +83,7 @@ fn in_double_double(toss: &Toss, phase: DoubleDouble) -> Option<Option<[f64; 2]>
 }
 
 /// h/2 of both flips in as many digits as it takes.
-fn in_digits(toss: &Toss) -> Option<[f64; 2]> {
+fn in_digits(toss: &CoinToss) -> Option<[f64; 2]> {
     let mut digits = DIGITS;
     while digits <= MOST_DIGITS {
         let round = |value: Big| value.with_precision(digits).value();

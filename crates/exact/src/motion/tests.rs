@@ -7,12 +7,12 @@ use dynamics::{Coin, Launch, TimeOfFlight};
 
 use super::*;
 
-fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> ExactMotion {
+fn motion(coin: Coin, rate: [f64; 3], tilt: f64) -> CoinMotion {
     let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-    ExactMotion::new(&Toss { coin, launch })
+    CoinMotion::new(&CoinToss { coin, launch })
 }
 
-fn samples() -> Vec<ExactMotion> {
+fn samples() -> Vec<CoinMotion> {
     let rates = [[1.0, 1.0, 2.5], [2.0, 2.0, 0.5], [3.0, -4.0, 0.0], [0.0, 0.0, 7.0], [-5.0, 2.0, -9.0]];
     let tilts = [0.0, 1e-9, 0.7, FRAC_PI_2, 2.8];
     let coins = [0.5, 2.0, 1.0, 0.0].map(|k| Coin::from_moments(1.0, k).unwrap());
@@ -110,8 +110,8 @@ fn huge_and_subnormal_rates_give_accurate_results() {
 fn rates_in_degrees_are_taken_as_they_were_given() {
     let degrees = Dimension::TurnRate.given("", "1deg/s").unwrap().unit().angle_unit();
     let launch = Launch::in_unit([36_000.1, 200.3, 300.7], degrees, TimeOfFlight::Given(1e6)).unwrap();
-    let toss = Toss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch };
-    let motion = ExactMotion::new(&toss);
+    let toss = CoinToss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch };
+    let motion = CoinMotion::new(&toss);
     for (time, expected) in [
         (1e6, [-0.541_482_405_829_914_6, 0.765_601_124_820_789_9, 0.283_489_819_344_987_1, 0.200_711_843_640_417_8]),
         (5e5, [0.156_108_869_475_303_09, -0.082_330_976_949_412_4, 0.452_195_387_255_056_8, 0.874_283_113_671_393_8]),
@@ -120,12 +120,12 @@ fn rates_in_degrees_are_taken_as_they_were_given() {
         let expected = Attitude::from_components(expected).unwrap();
         let found = motion.state(time).unwrap().attitude;
         assert!(found.angle_to(&expected) < 1e-15, "{time}: {found:?}");
-        let landed = Toss { launch: launch.with_time_of_flight(TimeOfFlight::Given(time)).unwrap(), ..toss };
+        let landed = CoinToss { launch: launch.with_time_of_flight(TimeOfFlight::Given(time)).unwrap(), ..toss };
         let compensated = crate::compensated_landing(&landed).unwrap().attitude;
         assert!(compensated.angle_to(&expected) < 1e-15, "{time}: {compensated:?}");
         assert!((crate::compensated_cos_tilt(&landed).unwrap() - expected.cos_tilt()).abs() < 1e-15, "{time}");
     }
     assert!((motion.cos_tilt(1e6).unwrap() + 0.333_023_119_998_224_26).abs() < 2e-16);
-    let change = crate::margin(&toss).unwrap().time.unwrap();
+    let change = crate::margin::margin_coin(&toss).unwrap().time.unwrap();
     assert!((change / 5.403_405_092_509_659e-4 - 1.0).abs() < 1e-12, "{change}");
 }

@@ -21,12 +21,12 @@
 
 use std::f64::consts::E;
 
-use dynamics::{Attitude, EulerAngles, RigidToss, SolveError, State};
+use dynamics::{Attitude, EulerAngles, SolveError, State, Toss};
 
 use numerics::scale::power_of_two_scale;
 
-use super::RigidMotion;
-use crate::motion::ExactMotion;
+use super::ExactMotion;
+use crate::motion::CoinMotion;
 
 /// Size of p or r below which it has no argument: some hundred roundings of an attitude.
 const NO_ARGUMENT: f64 = 1e-13;
@@ -46,15 +46,15 @@ pub struct RigidAngles {
 
 #[derive(Debug, Clone)]
 enum Kind {
-    Coin(Box<ExactMotion>),
+    Coin(Box<CoinMotion>),
     Rigid(Box<Walk>),
 }
 
 impl RigidAngles {
     /// The angles of a toss at its launch. From horizontal α(0) = -γ(0) = atan2(ωy, ωx), the limit for t → 0.
-    pub fn new(toss: &RigidToss) -> Self {
-        let kind = match toss.symmetric() {
-            Some(toss) => Kind::Coin(Box::new(ExactMotion::new(&toss))),
+    pub fn new(toss: &Toss) -> Self {
+        let kind = match toss.coin() {
+            Some(toss) => Kind::Coin(Box::new(CoinMotion::new(&toss))),
             None => Kind::Rigid(Box::new(Walk::new(toss))),
         };
         Self { kind }
@@ -77,7 +77,7 @@ impl RigidAngles {
 /// A walk along the motion.
 #[derive(Debug, Clone)]
 struct Walk {
-    motion: RigidMotion,
+    motion: ExactMotion,
     launch: Point,
     /// An upper bound of |ω| (rad/s).
     speed: f64,
@@ -98,14 +98,14 @@ struct Point {
 }
 
 impl Walk {
-    fn new(toss: &RigidToss) -> Self {
+    fn new(toss: &Toss) -> Self {
         let rate = toss.launch.rate();
         let across = rate.x.hypot(rate.y);
         let launch = Point { time: 0.0, attitude: toss.launch.attitude(), across, angles: departure(toss) };
         let scale = power_of_two_scale(rate.amax());
-        let speed = toss.body.largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
+        let speed = toss.body.rigid().largest_growth_of_rate() * (rate / scale).norm() * scale * (1.0 + 1e-9);
         let is_principal = toss.body.moments().is_some();
-        Self { motion: RigidMotion::compensated(toss), launch, speed, is_principal, last: launch, steps: 0 }
+        Self { motion: ExactMotion::compensated(toss), launch, speed, is_principal, last: launch, steps: 0 }
     }
 
     /// Goes on to `time` (s).
@@ -142,7 +142,7 @@ impl Walk {
 
 /// The angles at launch. Where sin β = 0, the argument that the attitude does not tell is that with which p or r departs
 /// from 0: by Q' = ½ Q ω.
-fn departure(toss: &RigidToss) -> EulerAngles {
+fn departure(toss: &Toss) -> EulerAngles {
     let attitude = toss.launch.attitude();
     let [w, x, y, z] = attitude.components();
     let rate = toss.launch.rate();
@@ -161,13 +161,13 @@ fn departure(toss: &RigidToss) -> EulerAngles {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Body, Coin, Launch, TimeOfFlight, Toss};
+    use dynamics::{Body, Coin, CoinToss, Launch, TimeOfFlight};
 
     use super::*;
 
-    fn toss(moments: [f64; 3], rate: [f64; 3], tilt: f64) -> RigidToss {
+    fn toss(moments: [f64; 3], rate: [f64; 3], tilt: f64) -> Toss {
         let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-        RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+        Toss { body: Body::from_moments(moments).unwrap(), launch }
     }
 
     fn assert_near(found: EulerAngles, expected: EulerAngles, allowed: f64) {
@@ -183,9 +183,9 @@ mod tests {
         {
             let coin = Coin::PAPER;
             let launch = toss([1.0, 2.0, 2.5], rate, tilt).launch;
-            let motion = ExactMotion::new(&Toss { coin, launch });
+            let motion = CoinMotion::new(&CoinToss { coin, launch });
             let body = Body::from_moments([coin.i1(), coin.i1() * (1.0 - f64::EPSILON), coin.i3()]).unwrap();
-            let mut angles = RigidAngles::new(&RigidToss { body, launch });
+            let mut angles = RigidAngles::new(&Toss { body, launch });
             for time in [0.0, 0.01, 1.0, 10.0] {
                 assert_near(angles.at(time).unwrap(), motion.euler_angles(time).unwrap(), 1e-10);
             }
@@ -201,7 +201,7 @@ mod tests {
             ([2.5, 1.0, 2.0], [3.0, 1.0, -20.0], 2.0),
         ] {
             let toss = toss(moments, rate, tilt);
-            let (motion, mut dense) = (RigidMotion::new(&toss), EulerAngles::principal(&toss.launch.attitude()));
+            let (motion, mut dense) = (ExactMotion::new(&toss), EulerAngles::principal(&toss.launch.attitude()));
             for step in 1..=100_000 {
                 dense = EulerAngles::nearest(&motion.state(f64::from(step) * 1e-4).unwrap().attitude, &dense);
             }

@@ -5,13 +5,14 @@
 //! speed, gravity and drop. They are exact, or balls contain them. The sign of E, and with it the formula, is exact for
 //! a body given by its moments; of a tensor it is proven, or more digits are tried.
 
-use dynamics::{Error, Outcome, RigidToss, SolveError};
-use numerics::{Ball, Elementary};
+use dynamics::{Error, Outcome, SolveError, Toss};
+use numerics::{Ball, Elementary, WideBall};
 
-use super::{RigidMotion, cos_tilt};
+use super::{ExactMotion, cos_tilt};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
-use crate::certified::certify;
+use crate::certified::{self, certify_coin};
 use crate::given::{in_digits, in_double_double, rounded, scaled};
+use crate::motion::COS_TILT_ERROR;
 use crate::rigid::curve::Curve;
 
 /// Digits of the stages after double-double. The last are for rates that differ by more than 1e135.
@@ -20,21 +21,21 @@ const DIGITS: [usize; 3] = [256, 448, 960];
 /// Phases (rad) from which on f64 is not tried.
 const LARGEST_PHASE_IN_F64: f64 = 1e12;
 
-/// Proves the outcome of a toss of any body. That of a coin is proven by [`certify`].
+/// Proves the outcome of a toss.
 ///
 /// An outcome is undecided, without a proof, if cos θ is 0, as far as 960 digits can tell; or if two principal moments of a
 /// tensor are equal, for its axes are then not known. No ratio of rates leaves it undecided.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
-pub fn certify_rigid(toss: &RigidToss) -> Result<Certificate, SolveError> {
-    if let Some(toss) = toss.symmetric() {
-        return certify(&toss);
+pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
+    if let Some(toss) = toss.coin() {
+        return certify_coin(&toss);
     }
     if let Some(outcome) = by_f64(toss) {
         return Ok(Certificate::new(outcome, Stage::F64));
     }
-    RigidMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
     if let Some(outcome) = by_double_double(toss) {
         return Ok(Certificate::new(outcome, Stage::DoubleDouble));
     }
@@ -43,23 +44,44 @@ pub fn certify_rigid(toss: &RigidToss) -> Result<Certificate, SolveError> {
     Ok(outcome.map_or_else(Certificate::without_proof, proven))
 }
 
+/// cos θ at landing and a bound of its error. cos θ has the sign of the proven outcome, and where an outcome is proven the
+/// bound is smaller than |cos θ|: near 0, where f64 would lose the leading digits, cos θ is rounded from more digits.
+///
+/// # Errors
+/// As [`certify`].
+pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
+    let rounded = |cos_tilt: f64| (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()));
+    if let Some(toss) = toss.coin() {
+        return certified::cos_tilt(&toss).map(|cos_tilt| match cos_tilt.abs() > COS_TILT_ERROR {
+            true => (cos_tilt, COS_TILT_ERROR),
+            false => rounded(cos_tilt),
+        });
+    }
+    let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
+    if cos_tilt.abs() > COS_TILT_ERROR {
+        return Ok((cos_tilt, COS_TILT_ERROR));
+    }
+    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits));
+    let with_digits = with_digits.filter(|cos_tilt| cos_tilt.is_right_to(2f64.powi(-60)));
+    Ok(with_digits.map_or((0.0, COS_TILT_ERROR), |cos_tilt| rounded(cos_tilt.to_f64())))
+}
+
 impl ProvenCounts {
     /// Proves and counts the outcomes of `tosses` of any bodies.
     ///
     /// # Errors
     /// [`Error::Launch`] for the first toss that has no outcome.
-    pub fn of_rigid(tosses: impl IntoIterator<Item = RigidToss>) -> Result<Self, Error> {
+    pub fn of(tosses: impl IntoIterator<Item = Toss>) -> Result<Self, Error> {
         let mut counts = Self::default();
-        for (index, toss) in (0..).zip(tosses) {
-            let certificate = certify_rigid(&toss);
-            counts.add(certificate.map_err(|source| Error::Launch { index, toss: Box::new(toss), source })?);
+        for (index, toss) in tosses.into_iter().enumerate() {
+            counts.add(certify(&toss).map_err(|source| Error::of_launch(index, &toss, source))?);
         }
         Ok(counts)
     }
 }
 
 /// The outcome that cos θ proves, if it has a sign.
-fn outcome<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Outcome> {
+fn outcome<N: Elementary>(toss: &Toss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Outcome> {
     let cos_tilt = cos_tilt_in_ball(toss, vertical, time)?;
     match Outcome::of(cos_tilt.midpoint().to_f64(), cos_tilt.radius()) {
         Outcome::Undecided => None,
@@ -68,7 +90,7 @@ fn outcome<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], time: &Ball
 }
 
 /// A ball with cos θ; `None` if the numbers have too few digits.
-fn cos_tilt_in_ball<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Ball<N>> {
+fn cos_tilt_in_ball<N: Elementary>(toss: &Toss, vertical: &[Ball<N>; 3], time: &Ball<N>) -> Option<Ball<N>> {
     let (rate, _) = toss.launch.given_rate();
     let curve = Curve::new(&toss.body, &scaled(&rate, time))?;
     // A large phase is left to its check. In f64 nothing would be decided by it.
@@ -80,22 +102,26 @@ fn cos_tilt_in_ball<N: Elementary>(toss: &RigidToss, vertical: &[Ball<N>; 3], ti
 }
 
 /// The outcome in f64, for phases whose rounding leaves digits.
-fn by_f64(toss: &RigidToss) -> Option<Outcome> {
+fn by_f64(toss: &Toss) -> Option<Outcome> {
     let (time, vertical) = in_double_double(&toss.launch)?;
     outcome(toss, &vertical.each_ref().map(rounded), &rounded(&time))
 }
 
-fn by_double_double(toss: &RigidToss) -> Option<Outcome> {
+fn by_double_double(toss: &Toss) -> Option<Outcome> {
     let (time, vertical) = in_double_double(&toss.launch)?;
     outcome(toss, &vertical, &time)
 }
 
 /// The outcome in this number of digits, for rates of any ratio.
-fn by_digits(toss: &RigidToss, digits: usize) -> Option<Outcome> {
+fn by_digits(toss: &Toss, digits: usize) -> Option<Outcome> {
+    cos_tilt_in_digits(toss, digits).map(|cos_tilt| Outcome::of(cos_tilt.sign(), 0.0))
+}
+
+/// A ball with cos θ in this number of digits, if it has a sign.
+fn cos_tilt_in_digits(toss: &Toss, digits: usize) -> Option<WideBall> {
     let (time, vertical) = in_digits(&toss.launch, digits);
     let curve = Curve::new(&toss.body, &scaled(&toss.launch.given_rate().0, &time))?;
-    let cos_tilt = cos_tilt(&curve.turn(&time), &vertical);
-    cos_tilt.has_sign().then(|| Outcome::of(cos_tilt.sign(), 0.0))
+    Some(cos_tilt(&curve.turn(&time), &vertical)).filter(WideBall::has_sign)
 }
 
 #[cfg(test)]
@@ -106,7 +132,7 @@ mod tests {
     use super::*;
 
     /// Tosses of four bodies, from horizontal and tilted, with phases of up to some thousand rad.
-    fn tosses() -> impl Iterator<Item = RigidToss> {
+    fn tosses() -> impl Iterator<Item = Toss> {
         let bodies = [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 1.001, 2.0], [1.0, 2.0, 2.25]];
         (0..2000).map(move |index| {
             let part = |square: f64| (f64::from(index) * square.sqrt()).fract();
@@ -115,7 +141,7 @@ mod tests {
             let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
             let launch =
                 if index % 2 == 0 { launch } else { launch.with_attitude(Attitude::about_x(3.0 * part(11.0))) };
-            RigidToss { body: Body::from_moments(bodies[index as usize % 4]).unwrap(), launch }
+            Toss { body: Body::from_moments(bodies[index as usize % 4]).unwrap(), launch }
         })
     }
 
@@ -147,9 +173,9 @@ mod tests {
             let rate = [part(7.0), part(11.0), part(13.0)].map(|part| 3e3 * part);
             let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
             let launch = Launch::in_unit(rate, degree, TimeOfFlight::Given(0.7)).unwrap();
-            let toss = RigidToss { body, launch };
-            let cos_tilt = RigidMotion::new(&toss).cos_tilt(0.7).unwrap();
-            assert_eq!(certify_rigid(&toss).unwrap().outcome(), Outcome::of(cos_tilt, 1e-12), "{toss:?}: {cos_tilt}");
+            let toss = Toss { body, launch };
+            let cos_tilt = ExactMotion::new(&toss).cos_tilt(0.7).unwrap();
+            assert_eq!(certify(&toss).unwrap().outcome(), Outcome::of(cos_tilt, 1e-12), "{toss:?}: {cos_tilt}");
         }
     }
 
@@ -160,7 +186,7 @@ mod tests {
             let degree = AngleUnit::Turns(numerics::Unit::ratio(1, 360).unwrap());
             let thrown = TimeOfFlight::Ballistic { speed: 1.0 + toss.launch.flight_time(), gravity: 9.81 };
             let launch = Launch::in_unit([1.0, 2.0, 3.0], degree, thrown).unwrap();
-            let toss = RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };
+            let toss = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..toss };
             let ((time, vertical), (finer_time, finer)) = (in_digits(&toss.launch, 256), in_digits(&toss.launch, 448));
             for (ball, fine) in vertical.iter().chain([&time]).zip(finer.iter().chain([&finer_time])) {
                 let off = (fine.midpoint() - ball.midpoint()).to_f64().value().abs();
@@ -171,14 +197,14 @@ mod tests {
 
     #[test]
     fn counts_are_of_each_toss_and_the_first_without_an_outcome_is_named() {
-        let few: Vec<RigidToss> = tosses().take(40).collect();
-        let counts = ProvenCounts::of_rigid(few.iter().copied()).unwrap();
-        let heads = few.iter().filter(|toss| certify_rigid(toss).unwrap().outcome() == Outcome::Heads).count() as u64;
+        let few: Vec<Toss> = tosses().take(40).collect();
+        let counts = ProvenCounts::of(few.iter().copied()).unwrap();
+        let heads = few.iter().filter(|toss| certify(toss).unwrap().outcome() == Outcome::Heads).count() as u64;
         assert!((5..35).contains(&heads));
         assert_eq!((counts.heads(), counts.tails(), counts.total()), (heads, 40 - heads, 40));
         let turning = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
-        let endless = RigidToss { launch: turning, ..few[0] };
-        let failed = ProvenCounts::of_rigid([few[0], few[1], endless, few[2], endless]).unwrap_err();
+        let endless = Toss { launch: turning, ..few[0] };
+        let failed = ProvenCounts::of([few[0], few[1], endless, few[2], endless]).unwrap_err();
         assert!(matches!(failed, Error::Launch { index: 2, .. }), "{failed}");
     }
 
@@ -199,11 +225,11 @@ mod tests {
     /// From 1e12 rad on f64 is not tried: the phase of a body that always shows heads would not be checked then.
     #[test]
     fn flights_of_large_phases_are_decided_in_double_double() {
-        let spinning = |time: f64| RigidToss {
+        let spinning = |time: f64| Toss {
             body: Body::from_moments([1.0, 1.2, 2.0]).unwrap(),
             launch: Launch::new([0.01, 0.01, 1.9], TimeOfFlight::Given(time)).unwrap(),
         };
-        let certified = |time: f64| certify_rigid(&spinning(time)).map(|found| (found.outcome(), found.stage()));
+        let certified = |time: f64| certify(&spinning(time)).map(|found| (found.outcome(), found.stage()));
         assert_eq!(certified(1e11), Ok((Outcome::Heads, Stage::F64)));
         // A rate of more than 1 rad/s, so that the time alone is below 1e12.
         for time in [0.8e12, 1e13, 1e15] {
@@ -236,7 +262,7 @@ mod tests {
     fn the_vertical_of_a_quaternion_of_any_norm_has_length_1() {
         let attitude = Attitude::from_components([3e9, 1e9, -2e9, 0.5e9]).unwrap();
         let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1.0)).unwrap().with_attitude(attitude);
-        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+        let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
         let (_, vertical) = in_digits(&toss.launch, 256);
         let squares: f64 = vertical.iter().map(|part| part.midpoint().to_f64().value().powi(2)).sum();
         assert!((squares - 1.0).abs() < 1e-12, "{squares}");
@@ -265,15 +291,15 @@ mod tests {
                     let toss = |rate: [f64; 3]| {
                         let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
                         let launch = launch.with_attitude(Attitude::about_x(tilt));
-                        RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+                        Toss { body: Body::from_moments(moments).unwrap(), launch }
                     };
-                    let [found, expected] = [toss(rate), toss(still)].map(|toss| certify_rigid(&toss).unwrap());
+                    let [found, expected] = [toss(rate), toss(still)].map(|toss| certify(&toss).unwrap());
                     assert!(
                         found.is_proven() && found.outcome() == expected.outcome(),
                         "{rate:?} {moments:?}: {found:?}"
                     );
                     let [one, other] =
-                        [toss(rate), toss(still)].map(|toss| RigidMotion::new(&toss).cos_tilt(time).unwrap());
+                        [toss(rate), toss(still)].map(|toss| ExactMotion::new(&toss).cos_tilt(time).unwrap());
                     assert!((one - other).abs() < 1e-15, "{rate:?} {moments:?}: {one} {other}");
                 }
             }
@@ -281,8 +307,8 @@ mod tests {
         for (rate, time) in [([1e-140, 5.0, 0.0], 200.0), ([1e-200, 5.0, -1e-201], 200.0), ([1e-200, 5.0, 0.0], 1000.0)]
         {
             let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(0.3).unwrap();
-            let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
-            let (found, cos_tilt) = (certify_rigid(&toss).unwrap(), RigidMotion::new(&toss).cos_tilt(time).unwrap());
+            let toss = Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+            let (found, cos_tilt) = (certify(&toss).unwrap(), ExactMotion::new(&toss).cos_tilt(time).unwrap());
             assert!(found.is_proven() && found.outcome() == Outcome::of(cos_tilt, 1e-15), "{rate:?} {cos_tilt}");
         }
     }
@@ -292,10 +318,10 @@ mod tests {
     fn an_undecided_outcome_of_a_body_is_not_called_proven() {
         let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
         let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.7)).unwrap().with_tilt(quarter).unwrap();
-        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
-        let certificate = certify_rigid(&toss).unwrap();
+        let toss = Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+        let certificate = certify(&toss).unwrap();
         assert_eq!((certificate.outcome(), certificate.is_proven()), (Outcome::Undecided, false));
-        let toss = RigidToss { launch: launch.with_tilt(1.0).unwrap(), ..toss };
-        assert!(certify_rigid(&toss).unwrap().is_proven());
+        let toss = Toss { launch: launch.with_tilt(1.0).unwrap(), ..toss };
+        assert!(certify(&toss).unwrap().is_proven());
     }
 }

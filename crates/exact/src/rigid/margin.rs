@@ -6,27 +6,16 @@
 //! form there; cos θ of a given time is continuous, and a shortest step between two tosses that are decided passes it as it
 //! passes a touch. A search that ends before its limit, for want of work or digits, says how far it went.
 
-use dynamics::{Outcome, RigidToss, SolveError, TimeOfFlight};
+use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
 use super::walk::{End, Input, Line, RESOLUTION, Walk};
-use super::{RigidMotion, certify_rigid, cos_tilt};
-use crate::margin::{Margin, margin, speed_and_gravity};
+use super::{ExactMotion, certify, cos_tilt};
+use crate::margin::{Margin, margin_coin, speed_and_gravity};
 
 /// Changes of a rate that are searched (rad/s), and of the turn (rad), as for coins.
 const RATE_RANGE: f64 = 1000.0;
 const TURN_RANGE: f64 = 2000.0;
-
-/// The margin of the toss of any body, with the range that was searched in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigidMargin {
-    /// The changes to the nearest flips. Those of the time, the speed and gravity are `None` also where no flip is in
-    /// the range, or where the nearest of them might lie beyond it.
-    pub margin: Margin,
-    /// The largest changes of the time of flight that were searched: earlier, down to 0 at most, and later (s).
-    /// Infinite where all times were.
-    pub time_range: [f64; 2],
-}
 
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
@@ -35,33 +24,32 @@ pub struct RigidMargin {
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
-pub fn margin_rigid(toss: &RigidToss) -> Result<RigidMargin, SolveError> {
-    if let Some(toss) = toss.symmetric() {
-        return Ok(RigidMargin { margin: margin(&toss)?, time_range: [f64::INFINITY; 2] });
+pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
+    if let Some(toss) = toss.coin() {
+        return margin_coin(&toss);
     }
-    let outcome = certify_rigid(toss)?.outcome();
+    let outcome = certify(toss)?.outcome();
     if outcome == Outcome::Undecided {
         return Ok(on_edge(toss));
     }
     let (time, speed, gravity, time_range) = of_flight(toss, outcome);
     let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
-    let margin = Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range };
-    Ok(RigidMargin { margin, time_range })
+    Ok(Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range, time_range })
 }
 
 /// The margin of an undecided toss: 0 of each input.
-fn on_edge(toss: &RigidToss) -> RigidMargin {
+fn on_edge(toss: &Toss) -> Margin {
     let thrown = if matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { Some(0.0) };
-    let margin = Margin {
+    Margin {
         time: Some(0.0),
         speed: thrown,
         gravity: thrown,
         tilt: Some(0.0),
         rate: [Some(0.0); 3],
         rate_range: [0.0; 3],
-    };
-    RigidMargin { margin, time_range: [0.0; 2] }
+        time_range: [0.0; 2],
+    }
 }
 
 /// The first flip in the direction of `sense` up to `limit`, and how far the search went.
@@ -75,7 +63,7 @@ fn first(line: &Line<'_>, outcome: Outcome, sense: f64, limit: f64) -> (Option<f
 }
 
 /// Of the time of flight, the speed and gravity, and the range of times that was searched.
-fn of_flight(toss: &RigidToss, outcome: Outcome) -> (Option<f64>, Option<f64>, Option<f64>, [f64; 2]) {
+fn of_flight(toss: &Toss, outcome: Outcome) -> (Option<f64>, Option<f64>, Option<f64>, [f64; 2]) {
     let flight = toss.launch.time_of_flight();
     let turn_rate = toss.launch.turn_rate();
     if turn_rate == 0.0 {
@@ -99,7 +87,7 @@ fn of_flight(toss: &RigidToss, outcome: Outcome) -> (Option<f64>, Option<f64>, O
 }
 
 /// Of a rate, and the largest change that was searched.
-fn of_rate(toss: &RigidToss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
+fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
     let line = Line::new(toss, Input::Rate(axis));
     let largest = toss.launch.rate().amax();
     let range = (10.0 * largest).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX);
@@ -114,8 +102,8 @@ fn of_rate(toss: &RigidToss, axis: usize, outcome: Outcome) -> (Option<f64>, f64
 }
 
 /// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
-fn of_tilt(toss: &RigidToss) -> Result<Option<f64>, SolveError> {
-    let motion = RigidMotion::new(toss);
+fn of_tilt(toss: &Toss) -> Result<Option<f64>, SolveError> {
+    let motion = ExactMotion::new(toss);
     let (turn, attitude) = (motion.turn(toss.launch.time_of_flight().into())?, toss.launch.attitude());
     let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
         .map(|vertical| cos_tilt(&turn, &vertical));
@@ -128,16 +116,16 @@ fn of_tilt(toss: &RigidToss) -> Result<Option<f64>, SolveError> {
 /// # Errors
 /// [`SolveError::PhaseTooLarge`]; [`SolveError::StepLimit`] if the motion stays so near to cos θ = 0, or so near to the
 /// separatrix, that the search ended before the last speed.
-pub fn rigid_speeds_of_heads(toss: &RigidToss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
+pub fn speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
     let (speed, gravity, drop) = match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } => (speed, gravity, 0.0),
         TimeOfFlight::BallisticTo { speed, gravity, drop } => (speed, gravity, drop),
         TimeOfFlight::Given(_) => return Ok(None),
     };
-    if let Some(toss) = toss.symmetric() {
-        return crate::thrown_speeds_of_heads(&toss, slowest);
+    if let Some(toss) = toss.coin() {
+        return crate::thrown::thrown_speeds_of_heads(&toss, slowest);
     }
-    RigidMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
     let to = toss.launch.flight_time();
     let from = TimeOfFlight::BallisticTo { speed: slowest, gravity, drop }.seconds();
     let speed_of = |time: f64| (0.5 * gravity * time - drop / time).clamp(slowest.min(speed), speed);

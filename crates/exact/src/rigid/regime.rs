@@ -40,7 +40,7 @@ impl<N: Elementary> Start<N> {
     /// The launch of `body` at the `rate` (BF) in a unit near its largest component. `None` if the numbers have too few
     /// digits to tell the regime.
     pub(super) fn new(body: &Body, rate: &[N; 3]) -> Option<Self> {
-        let principal = body.scaled_principal(&rate[0]);
+        let principal = body.rigid().scaled_principal(&rate[0]);
         let axes = principal.axes;
         let rate = axes.each_ref().map(|axis| along(axis, rate));
         let excess = excess(body, &principal.moments, &rate)?;

@@ -15,7 +15,7 @@
 //! and the turn ε (BF) follows from the change of the angular momentum, which is fixed in space:
 //! ε × L = R⁻¹ δL(0) - δL(T), ε_a = T δω_a.
 
-use dynamics::{Launch, RigidToss, SolveError};
+use dynamics::{Launch, SolveError, Toss};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
 use numerics::{Ball, DoubleDouble, Dual, Elementary};
@@ -23,7 +23,7 @@ use numerics::{Ball, DoubleDouble, Dual, Elementary};
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
 use super::regime::{Regime, along};
-use super::{MANY_DIGITS, RigidMotion, cos_tilt};
+use super::{ExactMotion, MANY_DIGITS, cos_tilt};
 use crate::given::{components_are_close, in_digits, scaled};
 use crate::sensitivity::Sensitivity;
 
@@ -52,24 +52,24 @@ const SHORT: f64 = 1e-14;
 type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
-    /// The derivatives at the landing of a toss of any body. Each column of the attitude, and each derivative of cos θ by a
+    /// The derivatives at the landing of `toss`. Of a body that is no coin, each column of the attitude, and each derivative of cos θ by a
     /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. On the separatrix itself
     /// both hold for turns of up to 30 rad.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] where a derivative leaves the range of f64, and of turns above
     /// 300 rad with a component of the rate below 1e-241 of the largest.
-    pub fn of_rigid(toss: &RigidToss) -> Result<Self, SolveError> {
-        if let Some(toss) = toss.symmetric() {
-            return Self::new(&toss);
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        if let Some(toss) = toss.coin() {
+            return Self::of_coin(&toss);
         }
-        let (motion, at) = (RigidMotion::new(toss), toss.launch.time_of_flight());
+        let (motion, at) = (ExactMotion::new(toss), toss.launch.time_of_flight());
         let landing = motion.state(at)?;
         if let Some(without) = without_vanishing(toss) {
             if motion.phase(at)? > LARGEST_PHASE_WITHOUT {
                 return Err(SolveError::NotFinite { time: at.seconds() });
             }
-            return Self::of_rigid(&without);
+            return Self::new(&without);
         }
         let (_, unit) = motion.time_and_unit(at.into())?;
         let up = landing.attitude.lab_to_body(&Vector3::z());
@@ -93,7 +93,7 @@ impl Sensitivity {
 }
 
 /// The toss without the components of its rate that vanish beside the largest; `None` if it has none.
-fn without_vanishing(toss: &RigidToss) -> Option<RigidToss> {
+fn without_vanishing(toss: &Toss) -> Option<Toss> {
     let (rate, unit) = toss.launch.given_rate();
     let vanishes = |part: f64| part != 0.0 && (part / rate.amax()).abs() < VANISHING;
     if !rate.iter().any(|part| vanishes(*part)) {
@@ -101,11 +101,11 @@ fn without_vanishing(toss: &RigidToss) -> Option<RigidToss> {
     }
     let rest = rate.map(|part| if vanishes(part) { 0.0 } else { part });
     let launch = Launch::in_unit(rest, unit, toss.launch.time_of_flight()).ok()?;
-    Some(RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
 }
 
 /// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
-fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
+fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
     let (rate, _) = toss.launch.given_rate();
     // Without an error bound: beside a motion that has a form of its own, and of a tensor whose regime no ball tells.
     let without_bound = |aside: f64| {
@@ -143,7 +143,7 @@ fn changes(toss: &RigidToss, motion: &RigidMotion) -> Option<[Change<f64>; 3]> {
 }
 
 /// The changes in one kind of number. `None` if it has too few digits.
-fn changes_in<N: Elementary>(toss: &RigidToss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
+fn changes_in<N: Elementary>(toss: &Toss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
     let vertical = vertical.clone().map(Dual::constant);
     let change = |input: usize| {
         let mut inputs = rate.clone().map(Dual::constant);
@@ -180,14 +180,14 @@ fn in_f64<N: Elementary>(changes: &[Change<N>; 3]) -> [Change<f64>; 3] {
 /// # Errors
 /// [`SolveError::PhaseTooLarge`].
 fn spun(
-    toss: &RigidToss,
-    motion: &RigidMotion,
+    toss: &Toss,
+    motion: &ExactMotion,
     unit: f64,
     up: &Vector3<f64>,
 ) -> Result<Option<[Change<f64>; 3]>, SolveError> {
     let (given, _) = toss.launch.given_rate();
     let like = DoubleDouble::ZERO;
-    let principal = toss.body.scaled_principal(&like);
+    let principal = toss.body.rigid().scaled_principal(&like);
     let with_slope = |turn: [f64; 3]| (turn, Vector3::z().cross(up).dot(&Vector3::from(turn)));
     // A body at rest is turned by the change of its rate times the time, as is one that has not turned yet.
     if motion.phase(toss.launch.time_of_flight())? < SHORT {
@@ -259,13 +259,13 @@ mod tests {
                 let [x, y, z] = rate;
                 let rate = Vector3::new(x + change.x, y + change.y, z + change.z);
                 let launch = Launch::new(rate, TimeOfFlight::Given(1.7 + change.w)).unwrap().with_tilt(0.6).unwrap();
-                RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+                Toss { body: Body::from_moments(moments).unwrap(), launch }
             };
             let landing = |change: Vector4<f64>| {
                 let toss = toss(change);
-                RigidMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().attitude
+                ExactMotion::new(&toss).state(toss.launch.time_of_flight()).unwrap().attitude
             };
-            let found = Sensitivity::of_rigid(&toss(Vector4::zeros())).unwrap();
+            let found = Sensitivity::new(&toss(Vector4::zeros())).unwrap();
             for input in 0..4 {
                 let step = Vector4::ith(input, STEP);
                 let (before, after) = (landing(-step), landing(step));
@@ -330,8 +330,8 @@ mod tests {
             ),
         ] {
             let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
-            let toss = RigidToss { body: Body::from_moments(moments).unwrap(), launch };
-            let found = Sensitivity::of_rigid(&toss).unwrap().cos_tilt;
+            let toss = Toss { body: Body::from_moments(moments).unwrap(), launch };
+            let found = Sensitivity::new(&toss).unwrap().cos_tilt;
             for (found, expected) in found.iter().zip(expected) {
                 let off = (found - expected).abs();
                 assert!(off <= 1e-13 * expected.abs(), "{moments:?} {rate:?} {tilt}: {found:e}, not {expected:e}");
@@ -344,7 +344,7 @@ mod tests {
     fn derivatives_of_vanishing_components_are_those_of_the_motion_without_them() {
         let of = |rate: [f64; 3], time: f64| {
             let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(0.3).unwrap();
-            Sensitivity::of_rigid(&RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch })
+            Sensitivity::new(&Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch })
         };
         for tiny in [1e-140, 1e-200, 1e-245, 1e-260, 1e-320] {
             for (rate, without) in [
@@ -363,8 +363,8 @@ mod tests {
         assert!((0..3).all(|axis| shortest.attitude[(axis, axis)] == 8e-320), "{shortest:?}");
         // By 1e-200 beside the middle axis, the motion is another one after 577 e-folds; along ωx cos θ stays as it is.
         let launch = Launch::new([1e-200, 5.0, 0.0], TimeOfFlight::Given(1000.0)).unwrap();
-        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
-        let grown = Sensitivity::of_rigid(&toss).unwrap();
+        let toss = Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch };
+        let grown = Sensitivity::new(&toss).unwrap();
         assert!(grown.cos_tilt.x == 0.0 && grown.attitude.column(0).norm() > 1e40, "{grown:?}");
         // Next to the middle axis, what is so small grows in 10^3 rad to a motion that is not that without it.
         assert_eq!(of([1e-320, 5.0, 0.0], 1000.0).unwrap_err().kind(), "not_finite");
@@ -374,8 +374,8 @@ mod tests {
     #[test]
     fn the_derivative_next_to_the_separatrix_tells_that_an_ulp_counts() {
         let launch = Launch::new(Vector3::new(0.75, 1.0, 1.0), TimeOfFlight::Given(100.0)).unwrap();
-        let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
-        let found = Sensitivity::of_rigid(&toss).unwrap();
+        let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
+        let found = Sensitivity::new(&toss).unwrap();
         assert!(found.attitude.column(0).norm() * f64::EPSILON > 1.0, "{found:?}");
     }
 }

@@ -1,12 +1,12 @@
 //! Tests of the motion of any body: attitudes and rates from outside, the motion of coins, and outcomes.
 
-use dynamics::{Body, Coin, Launch, Outcome, TimeOfFlight, Toss};
+use dynamics::{Body, Coin, CoinToss, Launch, Outcome, TimeOfFlight};
 
 use super::*;
 
-fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> RigidToss {
+fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> Toss {
     let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(time)).unwrap();
-    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+    Toss { body: Body::from_moments(moments).unwrap(), launch }
 }
 
 /// Attitudes by theta functions and by an integration with 128 bits, right to the last digit printed.
@@ -26,7 +26,7 @@ fn attitudes_are_those_of_an_independent_integration_in_every_regime() {
         ([1.0, 1.000_001, 1.000_003], [0.3, -0.5, 0.8], 1e4, AroundLargest, [0.167_447_373_038_000, -0.302_165_606_992_909, 0.493_810_898_872_256, -0.798_002_581_053_629]),
     ];
     for (moments, rate, time, regime, expected) in cases {
-        let motion = RigidMotion::new(&toss(moments, rate, time));
+        let motion = ExactMotion::new(&toss(moments, rate, time));
         let found = motion.state(time).unwrap();
         let sign = found.attitude.components()[0].signum();
         for (part, digits) in found.attitude.components().into_iter().zip(expected) {
@@ -44,7 +44,7 @@ fn the_compensated_motion_is_right_at_any_phase_and_next_to_the_separatrix_the_s
     for moments in [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 1.000_000_001, 2.0], [0.1, 0.7, 0.8], [1.0, 2.0, 2.0]] {
         for rate in rates() {
             let toss = toss(moments, rate, 1.0);
-            let [fine, rough] = [RigidMotion::new(&toss), RigidMotion::compensated(&toss)];
+            let [fine, rough] = [ExactMotion::new(&toss), ExactMotion::compensated(&toss)];
             assert_eq!(fine.regime(), rough.regime());
             for time in [0.0, 0.7, 31.0, 1e9] {
                 let [fine, rough] = [&fine, &rough].map(|motion| motion.state(time).unwrap());
@@ -56,7 +56,7 @@ fn the_compensated_motion_is_right_at_any_phase_and_next_to_the_separatrix_the_s
     }
     for rate in [[0.75, 1.0, 1.0], [0.750_000_007_5, 1.0, 1.0], [1e-70, 1.0, 1e-70]] {
         let toss = toss([1.0, 2.0, 2.25], rate, 1.0);
-        assert_eq!(RigidMotion::compensated(&toss), RigidMotion::new(&toss), "{rate:?}");
+        assert_eq!(ExactMotion::compensated(&toss), ExactMotion::new(&toss), "{rate:?}");
     }
 }
 
@@ -64,7 +64,7 @@ fn the_compensated_motion_is_right_at_any_phase_and_next_to_the_separatrix_the_s
 #[test]
 fn a_brick_tumbles_as_in_nasas_check_case_2() {
     let toss = toss([0.001_894_220, 0.006_211_019, 0.007_194_665], [10.0, 20.0, 30.0].map(f64::to_radians), 30.0);
-    let motion = RigidMotion::new(&toss);
+    let motion = ExactMotion::new(&toss);
     for (time, expected) in [
         (10.0, [-2.418_902_221_692_9, -23.552_569_519_560_5, 28.128_592_630_041_4]),
         (30.0, [12.618_390_775_914_2, -17.397_474_761_611_4, 31.119_588_886_944_3]),
@@ -93,7 +93,7 @@ fn the_attitude_at_launch_is_that_of_the_launch_and_so_are_the_rates() {
         [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [2.0, 2.5, 1.0], [1.0, 2.0, 2.0], [0.0, 1.0, 1.0], [0.1, 0.7, 0.8]]
     {
         for rate in rates() {
-            let state = RigidMotion::new(&toss(moments, rate, 1.0)).state(0.0).unwrap();
+            let state = ExactMotion::new(&toss(moments, rate, 1.0)).state(0.0).unwrap();
             assert!(state.attitude.angle_to(&Attitude::IDENTITY) < 1e-15, "{moments:?} {rate:?}: {state:?}");
             assert!((state.rate - Vector3::from(rate)).amax() < 3e-16, "{moments:?} {rate:?}: {state:?}");
         }
@@ -105,10 +105,10 @@ fn the_attitude_at_launch_is_that_of_the_launch_and_so_are_the_rates() {
 fn a_flight_in_legs_is_the_flight_in_one() {
     for moments in [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [2.0, 2.5, 1.0], [1.0, 2.0, 2.0], [1.0, 1.0, 1.0]] {
         for rate in rates() {
-            let whole = RigidMotion::new(&toss(moments, rate, 1.0));
+            let whole = ExactMotion::new(&toss(moments, rate, 1.0));
             let middle = whole.state(2.0).unwrap();
             let launch = Launch::from_state(&middle, TimeOfFlight::Given(1.0)).unwrap();
-            let rest = RigidMotion::new(&RigidToss { body: Body::from_moments(moments).unwrap(), launch });
+            let rest = ExactMotion::new(&Toss { body: Body::from_moments(moments).unwrap(), launch });
             let (one, two) = (whole.state(5.0).unwrap(), rest.state(3.0).unwrap());
             assert!(one.attitude.angle_to(&two.attitude) < 2e-14, "{moments:?} {rate:?}: {one:?} {two:?}");
             assert!((one.rate - two.rate).amax() < 2e-14, "{moments:?} {rate:?}: {one:?} {two:?}");
@@ -121,13 +121,13 @@ fn a_coin_keeps_every_bit_and_a_nearly_symmetric_body_moves_like_one() {
     for coin in [Coin::PAPER, Coin::DISC, Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()] {
         for rate in rates() {
             let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(0.6)).unwrap().with_tilt(0.7).unwrap();
-            let exact = ExactMotion::new(&Toss { coin, launch });
-            let rigid = RigidMotion::new(&Toss { coin, launch }.into());
+            let exact = CoinMotion::new(&CoinToss { coin, launch });
+            let rigid = ExactMotion::new(&CoinToss { coin, launch }.into());
             assert_eq!((rigid.state(0.6), rigid.cos_tilt(0.6)), (exact.state(0.6), exact.cos_tilt(0.6)));
             let body = Body::from_moments([coin.i1(), coin.i1() * (1.0 - f64::EPSILON), coin.i3()]);
             // A flat disc has no room below I1 = I2.
             let Ok(body) = body else { continue };
-            let near = RigidMotion::new(&RigidToss { body, launch });
+            let near = ExactMotion::new(&Toss { body, launch });
             let (one, two) = (near.state(0.6).unwrap(), exact.state(0.6).unwrap());
             assert!(one.attitude.angle_to(&two.attitude) < 1.5e-15, "{coin:?} {rate:?}: {one:?} {two:?}");
             assert!((one.rate - two.rate).amax() < 1e-15, "{coin:?} {rate:?}: {one:?} {two:?}");
@@ -140,8 +140,8 @@ fn a_coin_keeps_every_bit_and_a_nearly_symmetric_body_moves_like_one() {
 fn a_body_symmetric_about_another_axis_is_a_coin_with_other_names() {
     for (own, across) in [(1.5, 1.0), (0.4, 1.0), (0.0, 1.0)] {
         for [x, y, z] in rates() {
-            let lying = RigidMotion::new(&toss([own, across, across], [z, x, y], 1.0)).state(1.0).unwrap();
-            let standing = RigidMotion::new(&toss([across, across, own], [x, y, z], 1.0)).state(1.0).unwrap();
+            let lying = ExactMotion::new(&toss([own, across, across], [z, x, y], 1.0)).state(1.0).unwrap();
+            let standing = ExactMotion::new(&toss([across, across, own], [x, y, z], 1.0)).state(1.0).unwrap();
             let ([w, a, b, c], [w2, x2, y2, z2]) = (lying.attitude.components(), standing.attitude.components());
             let cos = (w * w2 + b * x2 + c * y2 + a * z2).abs();
             assert!(cos > 1.0 - 1e-15, "{own}: {lying:?} {standing:?}");
@@ -153,7 +153,7 @@ fn a_body_symmetric_about_another_axis_is_a_coin_with_other_names() {
 /// A perturbation of 1e-160 grows by e in each time 1/λ and flips the body after some four hundred of them.
 #[test]
 fn a_tiny_perturbation_of_the_spin_about_the_middle_axis_flips_the_body_in_time() {
-    let motion = |tiny: f64| RigidMotion::new(&toss([1.0, 2.0, 3.0], [tiny, 1.0, tiny], 1.0));
+    let motion = |tiny: f64| ExactMotion::new(&toss([1.0, 2.0, 3.0], [tiny, 1.0, tiny], 1.0));
     // λ = G √(α12 α23) = √(1/3), and the first flip is when sinh λt reaches the inverse of the perturbation.
     let lambda = (1.0f64 / 3.0).sqrt();
     for tiny in [1e-5, 1e-60, 1e-160, 1e-300, 5e-324] {
@@ -170,16 +170,16 @@ fn a_tiny_perturbation_of_the_spin_about_the_middle_axis_flips_the_body_in_time(
 
 #[test]
 fn units_of_any_size_change_no_bit_of_the_attitude() {
-    let base = RigidMotion::new(&toss([1.0, 2.0, 2.5], [0.3, -0.7, 1.1], 1.0)).state(3.0).unwrap();
+    let base = ExactMotion::new(&toss([1.0, 2.0, 2.5], [0.3, -0.7, 1.1], 1.0)).state(3.0).unwrap();
     for (rates, moments) in [(300, -800), (-300, 700), (1000, 0)] {
         let [rates, moments] = [rates, moments].map(|exponent| 2f64.powi(exponent));
         let scaled = toss([1.0, 2.0, 2.5].map(|part| part * moments), [0.3, -0.7, 1.1].map(|part| part * rates), 1.0);
-        assert_eq!(RigidMotion::new(&scaled).state(3.0 / rates).unwrap().attitude, base.attitude);
+        assert_eq!(ExactMotion::new(&scaled).state(3.0 / rates).unwrap().attitude, base.attitude);
     }
-    let still = RigidMotion::new(&toss([1.0, 2.0, 2.5], [0.0; 3], 1.0));
+    let still = ExactMotion::new(&toss([1.0, 2.0, 2.5], [0.0; 3], 1.0));
     assert_eq!(still.state(1e308).unwrap().attitude, Attitude::IDENTITY);
-    assert!(RigidMotion::new(&toss([1.0, 2.0, 2.5], [1e3, 1.0, 2.0], 1.0)).state(1e16).is_err());
-    assert!(RigidMotion::new(&toss([1.0, 2.0, 2.5], [1e300, 1e290, 1e300], 1.0)).cos_tilt(1e300).is_err());
+    assert!(ExactMotion::new(&toss([1.0, 2.0, 2.5], [1e3, 1.0, 2.0], 1.0)).state(1e16).is_err());
+    assert!(ExactMotion::new(&toss([1.0, 2.0, 2.5], [1e300, 1e290, 1e300], 1.0)).cos_tilt(1e300).is_err());
 }
 
 #[test]
@@ -215,9 +215,9 @@ fn a_tensor_gives_the_motion_of_its_moments_also_next_to_the_separatrix() {
         let turned = |[x, y, z]: [f64; 3]| Vector3::new(0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z);
         let by_tensor = |rate: Vector3<f64>| {
             let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap();
-            RigidMotion::new(&RigidToss { body: Body::from_tensor(tensor).unwrap(), launch })
+            ExactMotion::new(&Toss { body: Body::from_tensor(tensor).unwrap(), launch })
         };
-        let (one, two) = (RigidMotion::new(&toss(moments, rate, 1.0)), by_tensor(turned(rate)));
+        let (one, two) = (ExactMotion::new(&toss(moments, rate, 1.0)), by_tensor(turned(rate)));
         let (one, two) = (one.state(9.0).unwrap(), two.state(9.0).unwrap());
         // The turned rate is rounded, which is all that differs.
         assert!((turned(one.rate.into()) - two.rate).amax() < 1e-12, "{one:?} {two:?}");
@@ -231,8 +231,7 @@ fn outcomes_are_proven_and_undecided_for_ties_alone() {
     for moments in [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [0.1, 0.7, 0.8], [1.0, 2.0, 2.0]] {
         for rate in rates() {
             let toss = toss(moments, rate, 7.5);
-            let (certificate, cos_tilt) =
-                (certify_rigid(&toss).unwrap(), RigidMotion::new(&toss).cos_tilt(7.5).unwrap());
+            let (certificate, cos_tilt) = (certify(&toss).unwrap(), ExactMotion::new(&toss).cos_tilt(7.5).unwrap());
             assert_eq!(certificate.outcome(), Outcome::of(cos_tilt, 0.0), "{moments:?} {rate:?}: {cos_tilt:e}");
             counts[match certificate.outcome() {
                 Outcome::Heads => 0,
@@ -250,7 +249,7 @@ fn outcomes_next_to_an_edge_change_between_neighbouring_numbers_and_never_back()
     for (moments, rate) in
         [([1.0, 2.0, 2.5], [0.3, 1.7, 0.4]), ([1.0, 2.0, 2.25], [0.75, 1.0, 1.0]), ([2.5, 1.0, 2.0], [1.3, 0.2, 0.4])]
     {
-        let motion = RigidMotion::new(&toss(moments, rate, 1.0));
+        let motion = ExactMotion::new(&toss(moments, rate, 1.0));
         let (mut before, mut after) = (0.0_f64, 0.0_f64);
         for step in 1..4000 {
             after = f64::from(step) * 0.01;
@@ -259,7 +258,7 @@ fn outcomes_next_to_an_edge_change_between_neighbouring_numbers_and_never_back()
             }
             before = after;
         }
-        let outcome = |time: f64| certify_rigid(&toss(moments, rate, time)).unwrap().outcome();
+        let outcome = |time: f64| certify(&toss(moments, rate, time)).unwrap().outcome();
         assert_eq!((outcome(before), outcome(after)), (Outcome::Heads, Outcome::Tails), "{moments:?}");
         while before.next_up() < after {
             let middle = 0.5 * (before + after);
@@ -275,9 +274,9 @@ fn the_outcome_of_a_needle_is_proven_after_a_long_flight() {
     let moments = [5.013_432_253_748_628_6e-8, 0.715_763_998_524_255, 0.715_764_043_645_145_2];
     let rate = [0.010_402_776_325_362_652, -0.008_696_632_080_549_693, -0.003_814_738_162_276_736];
     let toss = toss(moments, rate, 623_945_565.369_074_3);
-    let motion = RigidMotion::new(&toss);
+    let motion = ExactMotion::new(&toss);
     let cos_tilt = motion.cos_tilt(623_945_565.369_074_3).unwrap();
-    let certificate = certify_rigid(&toss).unwrap();
+    let certificate = certify(&toss).unwrap();
     println!("{cos_tilt:e} {certificate:?} {:?} {:e}", motion.regime(), motion.phase(623_945_565.369_074_3).unwrap());
     assert_eq!(certificate.outcome(), Outcome::of(cos_tilt, 0.0));
     assert_ne!(certificate.outcome(), Outcome::Undecided);

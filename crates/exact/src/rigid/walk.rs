@@ -7,7 +7,7 @@
 
 use std::cell::OnceCell;
 
-use dynamics::{Outcome, RigidToss};
+use dynamics::{Outcome, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{Ball, DoubleDouble, Elementary, WideBall};
 
@@ -38,7 +38,7 @@ pub(super) enum Input {
 
 /// The tosses that differ from one in a single input.
 pub(super) struct Line<'a> {
-    toss: &'a RigidToss,
+    toss: &'a Toss,
     input: Input,
     rough: Stage<Ball<f64>>,
     fine: Stage<Ball<DoubleDouble>>,
@@ -58,7 +58,7 @@ struct Stage<B> {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn new(toss: &'a RigidToss, input: Input) -> Self {
+    pub(super) fn new(toss: &'a Toss, input: Input) -> Self {
         // The vertical to 2^-67, and the time to 2^-97 of itself.
         const VERTICAL: f64 = 6.776_263_578_034_403e-21;
         const TIME: f64 = 6.310_887_241_768_095e-30;
@@ -127,7 +127,7 @@ impl<'a> Line<'a> {
 }
 
 impl<B: Elementary> Stage<B> {
-    fn new(toss: &RigidToss, input: Input, vertical: [B; 3], mantissa: B, exponent: i32) -> Self {
+    fn new(toss: &Toss, input: Input, vertical: [B; 3], mantissa: B, exponent: i32) -> Self {
         let mut stage = Self { vertical, mantissa, exponent, fixed: None };
         if input == Input::Time {
             stage.fixed = stage.curve(toss, input, 0.0, 0.0);
@@ -136,12 +136,12 @@ impl<B: Elementary> Stage<B> {
     }
 
     /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven.
-    fn sign(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> f64 {
+    fn sign(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> f64 {
         self.height(toss, input, [change, radius]).filter(B::has_known_sign).map_or(0.0, |height| height.sign())
     }
 
     /// The motion for a ball of changes.
-    fn curve(&self, toss: &RigidToss, input: Input, change: f64, radius: f64) -> Option<Curve<B>> {
+    fn curve(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> Option<Curve<B>> {
         let exponent = unit_exponent(toss, input, change);
         let number = |value: f64| self.mantissa.like(value).times_power_of_two(-exponent);
         // A rate that was not given in rad/s has a second part, and an error of 16 u²; a tiny one has lost digits.
@@ -162,7 +162,7 @@ impl<B: Elementary> Stage<B> {
     }
 
     /// cos θ for all changes within `radius` of `change`.
-    fn height(&self, toss: &RigidToss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
+    fn height(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
         let exponent = unit_exponent(toss, input, change);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let turn = if input == Input::Time {
@@ -176,13 +176,13 @@ impl<B: Elementary> Stage<B> {
 }
 
 impl Stage<WideBall> {
-    fn in_digits(toss: &RigidToss, input: Input, digits: usize) -> Self {
+    fn in_digits(toss: &Toss, input: Input, digits: usize) -> Self {
         Self::new(toss, input, vertical_in_digits(&toss.launch, digits), time_in_digits(&toss.launch, digits), 0)
     }
 }
 
 /// Exponent of the unit of the rates, a power of two near the largest.
-fn unit_exponent(toss: &RigidToss, input: Input, change: f64) -> i32 {
+fn unit_exponent(toss: &Toss, input: Input, change: f64) -> i32 {
     let moved = if let Input::Rate(_) = input { change.abs() } else { 0.0 };
     mantissa_and_exponent(power_of_two_scale(toss.launch.rate().amax().max(moved))).1
 }
@@ -311,7 +311,7 @@ mod tests {
             rates.into_iter().flat_map(|rate| [0.0, 1.0, std::f64::consts::FRAC_PI_2].map(|tilt| (rate, tilt)))
         {
             let launch = Launch::new(rate, TimeOfFlight::Given(0.8)).unwrap().with_tilt(tilt).unwrap();
-            let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
+            let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch };
             for (input, limit) in [(Input::Time, 20.0), (Input::Rate(0), 1000.0), (Input::Rate(2), 1000.0)] {
                 let line = Line::new(&toss, input);
                 let outcome = line.outcome_at(0.0);

@@ -7,7 +7,7 @@ mod levels;
 mod outcomes;
 
 use dynamics::{Attitude, Error, Outcome, Tosses};
-use exact::{Batch, ExactMotion, certify};
+use exact::{Batch, CoinMotion, certify};
 
 use columns::{Columns, attitudes, coins, mixed};
 
@@ -33,7 +33,7 @@ fn a_batch_matches_its_single_tosses_to_the_last_bits() {
             let (cos_tilts, attitudes, outcomes) = solved(Batch::new(tosses), &tosses).unwrap();
             for index in 0..tosses.len() {
                 let toss = tosses.toss(index).unwrap();
-                let (motion, time) = (ExactMotion::new(&toss), toss.launch.time_of_flight());
+                let (motion, time) = (CoinMotion::new(&toss.coin().unwrap()), toss.launch.time_of_flight());
                 assert!(cos_tilts[index].abs() <= 1.0, "{toss:?}: {}", cos_tilts[index]);
                 let error = cos_tilts[index] - motion.cos_tilt(time).unwrap();
                 assert!(error.abs() <= 2.75 * f64::EPSILON, "{toss:?}: cos θ is off by {error:e}");

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dynamics::{Coin, Outcome};
-use exact::{Batch, ExactMotion, certify};
+use exact::{Batch, CoinMotion, certify};
 use numerics::lanes::SimdLevel;
 
 use super::columns::{Columns, attitudes, coins, mixed};
@@ -17,7 +17,7 @@ fn near_an_edge_the_filter_decides_rightly_or_not_at_all() {
             let mut columns = Columns::new(4000, 60.0, 5.0);
             for index in 0..4000 {
                 let toss = columns.tosses(coin, attitude).toss(index).unwrap();
-                let motion = ExactMotion::new(&toss);
+                let motion = CoinMotion::new(&toss.coin().unwrap());
                 let heads = motion.heads();
                 let away = 10f64.powi(-2 - (index % 15) as i32) * if index % 2 == 0 { 1.0 } else { -1.0 };
                 let edge = (heads.crest + heads.half_width).rem_euclid(TAU) + TAU * turns + away;

@@ -4,8 +4,8 @@
 mod reference;
 mod tosses;
 
-use dynamics::{Coin, Launch, TimeOfFlight, Toss, Vector3};
-use exact::{ExactMotion, Margin, margin};
+use dynamics::{Coin, CoinToss, Launch, TimeOfFlight, Vector3};
+use exact::{CoinMotion, Margin, margin};
 
 use reference::{Input, big, cos_tilt};
 use tosses::random_tosses;
@@ -33,9 +33,9 @@ fn of(margin: &Margin, input: Input) -> Option<f64> {
 }
 
 /// Values of an input (least, launch, most) that exist and are searched, and by how many radians one unit of it turns the coin.
-fn domain(toss: &Toss, input: Input, range: [f64; 3]) -> ([f64; 3], f64) {
+fn domain(toss: &CoinToss, input: Input, range: [f64; 3]) -> ([f64; 3], f64) {
     let time = toss.launch.flight_time();
-    let phase = ExactMotion::new(toss).phase(time).expect("a small phase");
+    let phase = CoinMotion::new(toss).phase(time).expect("a small phase");
     let turn = 1.05 * std::f64::consts::TAU * time / phase.max(1e-300);
     let (speed, gravity, drop) = match toss.launch.time_of_flight() {
         TimeOfFlight::Given(_) => (f64::NAN, f64::NAN, 0.0),
@@ -58,7 +58,7 @@ fn domain(toss: &Toss, input: Input, range: [f64; 3]) -> ([f64; 3], f64) {
 }
 
 /// Checks one input of a toss; says what is wrong.
-fn check(toss: &Toss, input: Input, found: &Margin, scan: &Scan) -> Result<(), String> {
+fn check(toss: &CoinToss, input: Input, found: &Margin, scan: &Scan) -> Result<(), String> {
     let wrong = |what: &str, change: f64| Err(format!("{input:?} of {toss:?}: {what} at {change:e}; {found:?}"));
     let height = |change: f64| cos_tilt(toss, input, &big(change));
     let heads = height(0.0) > big(0.0);
@@ -121,10 +121,10 @@ fn flip_in_a_dip(end: f64, step: f64, height: &impl Fn(f64) -> numerics::Big, he
 }
 
 /// Checks all inputs; returns how many flip and how many do not.
-fn check_all(tosses: impl Iterator<Item = Toss>, scan: &Scan) -> [u32; 2] {
+fn check_all(tosses: impl Iterator<Item = CoinToss>, scan: &Scan) -> [u32; 2] {
     let mut counts = [0; 2];
     for toss in tosses {
-        let found = margin(&toss).expect("small phases");
+        let found = margin(&toss.into()).expect("small phases");
         for input in INPUTS {
             counts[usize::from(of(&found, input).is_none())] += 1;
             if let Err(wrong) = check(&toss, input, &found, scan) {
@@ -148,9 +148,9 @@ fn on_both_sides_of_a_touch_no_flip_is_nearer() {
     let thrown = |speed| {
         let time_of_flight = TimeOfFlight::Ballistic { speed, gravity: 9.81 };
         let launch = Launch::new(Vector3::new(6.0, 5.0, 9.0), time_of_flight).and_then(|launch| launch.with_tilt(0.5));
-        Toss { coin: Coin::from_moments(1.0, 1.3).expect("a valid coin"), launch: launch.expect("a valid launch") }
+        CoinToss { coin: Coin::from_moments(1.0, 1.3).expect("a valid coin"), launch: launch.expect("a valid launch") }
     };
-    let of_rate = |speed, axis: usize| margin(&thrown(speed)).expect("small phases").rate[axis].unwrap_or(1e300);
+    let of_rate = |speed, axis: usize| margin(&thrown(speed).into()).expect("small phases").rate[axis].unwrap_or(1e300);
     let jumps = |speeds: [f64; 2], axis| {
         let [from, to] = speeds.map(|speed| of_rate(speed, axis));
         from.signum() == to.signum() && (to - from).abs() > 0.1 * from.abs().min(to.abs())
@@ -166,7 +166,7 @@ fn on_both_sides_of_a_touch_no_flip_is_nearer() {
         if speeds[0].next_up() == speeds[1] && jumps(speeds, axis) {
             touches += 1;
             for toss in speeds.map(thrown) {
-                let found = margin(&toss).expect("small phases");
+                let found = margin(&toss.into()).expect("small phases");
                 let scan = Scan { step: 0.1, least: 20.0, most: 300.0 };
                 check(&toss, Input::Rate(axis), &found, &scan).unwrap_or_else(|wrong| panic!("{wrong}"));
             }

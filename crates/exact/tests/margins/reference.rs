@@ -2,7 +2,7 @@
 //!
 //! It turns the launch as a quaternion, Q = Q0 ⊗ exp(½ T (ωx, ωy, k ωz)), and shares neither formula nor code with the search.
 
-use dynamics::{TimeOfFlight, Toss};
+use dynamics::{CoinToss, TimeOfFlight};
 use numerics::Big;
 use numerics::big::exactly;
 
@@ -23,7 +23,7 @@ pub(crate) fn big(value: f64) -> Big {
 }
 
 /// cos θ at landing, with `change` added to the input.
-pub(crate) fn cos_tilt(toss: &Toss, input: Input, change: &Big) -> Big {
+pub(crate) fn cos_tilt(toss: &CoinToss, input: Input, change: &Big) -> Big {
     let k = toss.coin.inertia_ratio_in_digits(DIGITS);
     let with_change = |value: f64, changed: bool| if changed { big(value) + change } else { big(value) };
     let rate = toss.launch.rate();
@@ -47,7 +47,7 @@ pub(crate) fn cos_tilt(toss: &Toss, input: Input, change: &Big) -> Big {
     (&up - &down) / (up + down)
 }
 
-fn time(toss: &Toss, input: Input, change: &Big) -> Big {
+fn time(toss: &CoinToss, input: Input, change: &Big) -> Big {
     let with_change = |value: f64, of: Input| if input == of { big(value) + change } else { big(value) };
     let time = match toss.launch.time_of_flight() {
         TimeOfFlight::Given(time) => big(time),

@@ -1,10 +1,10 @@
 //! Tosses on which margins are checked.
 
-use dynamics::{Attitude, Coin, Launch, TimeOfFlight, Toss, Vector3};
+use dynamics::{Attitude, Coin, CoinToss, Launch, TimeOfFlight, Vector3};
 
 /// Tosses of rods, spheres, real coins and flat discs, from horizontal, from a tilt and from any attitude, caught at the same
 /// height, below and above, or flying for a given time; by Weyl's sequence.
-pub(crate) fn random_tosses() -> impl Iterator<Item = Toss> {
+pub(crate) fn random_tosses() -> impl Iterator<Item = CoinToss> {
     (1..).map(|index| {
         let part = |root: f64| (f64::from(index) * root.sqrt()).fract();
         let signed = |root: f64| 2.0 * part(root) - 1.0;
@@ -25,6 +25,6 @@ pub(crate) fn random_tosses() -> impl Iterator<Item = Toss> {
             _ => launch,
         };
         let ratio = [0.5, 1.0, 1.98, 2.0, 0.03, 0.0, 2.0 * part(37.0)][index as usize % 11 % 7];
-        Toss { coin: Coin::from_moments(1.0, ratio).expect("a valid toss"), launch }
+        CoinToss { coin: Coin::from_moments(1.0, ratio).expect("a valid toss"), launch }
     })
 }

@@ -2,13 +2,13 @@
 //! guard that fails shows as a wrong answer without an error, which no other test would notice.
 
 use dynamics::{Coin, Launch, TimeOfFlight, Vector3};
-use exact::ExactMotion;
+use exact::{CoinMotion, ExactMotion};
 
 use super::*;
 
 fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-    Toss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
+    Toss::new(Coin::from_moments(1.0, k).unwrap(), launch)
 }
 
 /// Compares (10) and (11) with central differences of the exact γ, on flights where the vertical frame is regular.
@@ -16,7 +16,7 @@ fn toss(k: f64, rate: [f64; 3], tilt: f64) -> Toss {
 fn the_acceleration_is_that_of_the_exact_motion() {
     for (k, rate, tilt) in [(0.5, [0.8, 1.6, 0.9], 1.3), (1.98, [0.5, 2.0, -0.5], 1.2), (1.0, [1.0, 2.0, 1.0], 1.4)] {
         let toss = toss(k, rate, tilt);
-        let motion = ExactMotion::new(&toss);
+        let motion = CoinMotion::new(&toss.coin().unwrap());
         let h = 1e-3;
         let gamma = |time: f64| motion.euler_angles(time).unwrap().gamma;
         for step in 1..10 {
@@ -37,7 +37,7 @@ fn the_acceleration_is_that_of_the_exact_motion() {
 fn from_horizontal_it_starts_on_the_regular_solution() {
     let toss = toss(0.5, [1.0, 1.0, 2.5], 0.0);
     let rate = toss.launch.rate();
-    let start = InitialConditions::new(&toss, &rate, Formulation::VERTICAL);
+    let start = InitialConditions::new(&toss.coin().unwrap(), &rate, Formulation::VERTICAL);
     assert_eq!((start.angles.beta, start.angles.gamma), (0.0, (-1.0_f64).atan2(1.0)));
     assert_eq!(rate.z - start.u, rate.z * (1.0 - 0.5 / 2.0), "γ'(0) = ωz (1 - k/2)");
     let system = GammaSystem::new(0.5, rate.z, start.precession);
@@ -49,9 +49,9 @@ fn from_horizontal_it_starts_on_the_regular_solution() {
 fn along_the_momentum_the_angles_turn_steadily() {
     for rate in [[1.0, 1.0, 2.5], [1.0, -2.0, -3.0], [1e-12, 0.0, -1.0]] {
         let toss = toss(1.98, rate, 0.4);
-        let start = InitialConditions::new(&toss, &toss.launch.rate(), Formulation::MOMENTUM);
+        let start = InitialConditions::new(&toss.coin().unwrap(), &toss.launch.rate(), Formulation::MOMENTUM);
         assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&start.angles.beta));
-        let precession = ExactMotion::new(&toss).precession_rate();
+        let precession = CoinMotion::new(&toss.coin().unwrap()).precession_rate();
         assert!((start.precession.abs() - precession).abs() < 1e-15 * precession);
         let system = GammaSystem::new(1.98, rate[2], start.precession);
         let y = SVector::from([start.angles.gamma, rate[2] - start.u, 0.0, rate[0], rate[1]]);
@@ -67,14 +67,14 @@ fn along_the_momentum_the_angles_turn_steadily() {
 #[test]
 fn a_precession_that_turns_back_is_an_error_with_its_time() {
     let launch = Launch::new(Vector3::new(0.3, 0.3, 5.0), TimeOfFlight::Given(5.0)).unwrap().with_tilt(1.0).unwrap();
-    let tilted = Toss { coin: Coin::PAPER, launch };
+    let tilted = Toss::new(Coin::PAPER, launch);
     for scheme in [dynamics::Scheme::DOP853, dynamics::Scheme::DOPRI5] {
         let stepping = Stepping::adaptive(scheme, 1e-10).unwrap();
-        let error = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&tilted).unwrap_err();
+        let error = GammaSolver::new(stepping, Formulation::VERTICAL).land(&tilted).unwrap_err();
         let SolveError::Singular { point: Singularity::PrecessionTooSlow, time } = error else { panic!("{error}") };
         assert!(time > 0.0 && time < 5.0, "{time}");
         // In the momentum frame the same flight is regular.
-        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).propagate(&tilted).unwrap();
+        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).land(&tilted).unwrap();
         let exact = ExactMotion::new(&tilted).cos_tilt(5.0).unwrap();
         assert!((landing.state.attitude.cos_tilt() - exact).abs() < 1e-8);
     }
@@ -83,10 +83,10 @@ fn a_precession_that_turns_back_is_an_error_with_its_time() {
 #[test]
 fn a_fixed_step_across_the_pole_is_an_error_with_its_time() {
     let toss = toss(0.5, [9.0, 4.0, 3.0], 0.0);
-    let first_return = std::f64::consts::TAU / ExactMotion::new(&toss).precession_rate();
+    let first_return = std::f64::consts::TAU / CoinMotion::new(&toss.coin().unwrap()).precession_rate();
     for step in [1e-3, 3e-4, 1e-4] {
         let stepping = Stepping::fixed(dynamics::Scheme::RK4, step).unwrap();
-        let error = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&toss).unwrap_err();
+        let error = GammaSolver::new(stepping, Formulation::VERTICAL).land(&toss).unwrap_err();
         let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
         assert!((time - first_return).abs() < 0.02, "{time}, not {first_return}");
     }
@@ -176,15 +176,15 @@ fn accepts_a_rod_in_pure_spin_at_the_pole_and_refuses_other_rods_without_precess
     for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
         let solver = GammaSolver::new(stepping, formulation);
         for rate_z in [5.0, -5.0] {
-            let spun = solver.propagate(&toss(0.0, [0.0, 0.0, rate_z], 0.0)).unwrap().state.attitude;
+            let spun = solver.land(&toss(0.0, [0.0, 0.0, rate_z], 0.0)).unwrap().state.attitude;
             assert!(spun.angle_to(&dynamics::Attitude::about_z(rate_z)) < 1e-9);
             for rate in [[1e-3, 0.0, rate_z], [0.0, 1e-3, rate_z]] {
-                let error = solver.propagate(&toss(0.0, rate, 0.0)).unwrap_err();
+                let error = solver.land(&toss(0.0, rate, 0.0)).unwrap_err();
                 assert_eq!(error, SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 });
             }
         }
     }
-    let tilted = GammaSolver::new(stepping, Formulation::VERTICAL).propagate(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
+    let tilted = GammaSolver::new(stepping, Formulation::VERTICAL).land(&toss(0.0, [0.0, 0.0, 5.0], 1.0));
     assert_eq!(tilted, Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 }));
 }
 
@@ -205,7 +205,7 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
     let stepping = Stepping::adaptive(Scheme::DOP853, 1e-9).unwrap();
     for rest in [[0.0; 3], [-0.0; 3], [0.0, -0.0, -0.0]] {
         let toss = toss(1.0, rest, PI);
-        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).propagate(&toss).unwrap();
+        let landing = GammaSolver::new(stepping, Formulation::MOMENTUM).land(&toss).unwrap();
         assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
     }
 }

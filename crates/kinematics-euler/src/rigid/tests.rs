@@ -1,7 +1,7 @@
 //! Tests of the three angles of any rigid body against the exact motion, in both frames, and of their singular points.
 
 use dynamics::{Body, Launch, Scheme, Solver, TimeOfFlight};
-use exact::RigidMotion;
+use exact::ExactMotion;
 
 use super::*;
 use crate::{EulerAnglesSolver, GammaSolver};
@@ -14,7 +14,7 @@ fn solver(formulation: Formulation) -> EulerAnglesSolver {
     EulerAnglesSolver::new(stepping(), formulation)
 }
 
-fn tosses(time: f64) -> Vec<RigidToss> {
+fn tosses(time: f64) -> Vec<Toss> {
     let moments = [
         [1.0, 2.0, 2.5],
         [2.5, 1.0, 2.0],
@@ -37,16 +37,14 @@ fn tosses(time: f64) -> Vec<RigidToss> {
     ];
     let each = |body: &Body| {
         let body = *body;
-        rates
-            .into_iter()
-            .map(move |rate| RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() })
+        rates.into_iter().map(move |rate| Toss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() })
     };
     bodies.iter().flat_map(each).collect()
 }
 
-fn errors(toss: &RigidToss, formulation: Formulation) -> Result<(f64, f64), SolveError> {
-    let landing = solver(formulation).propagate_rigid(toss)?.state;
-    let exact = RigidMotion::new(toss).state(toss.launch.time_of_flight())?;
+fn errors(toss: &Toss, formulation: Formulation) -> Result<(f64, f64), SolveError> {
+    let landing = solver(formulation).land(toss)?.state;
+    let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
     Ok((exact.attitude.angle_to(&landing.attitude), (exact.rate - landing.rate).norm()))
 }
 
@@ -54,9 +52,9 @@ fn errors(toss: &RigidToss, formulation: Formulation) -> Result<(f64, f64), Solv
 fn along_the_momentum_no_launch_is_singular() {
     for toss in tosses(3.0) {
         for tilt in [0.0, 1.0, PI] {
-            let toss = RigidToss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
+            let toss = Toss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
             let (attitude, rate) = errors(&toss, Formulation::MOMENTUM).unwrap();
-            let allowed = solver(Formulation::MOMENTUM).error_estimate_rigid(&toss).unwrap().unwrap_or(1.0);
+            let allowed = stepping().error_estimate(&toss).unwrap().unwrap_or(1.0);
             assert!(attitude < allowed && rate < 10.0 * allowed, "{toss:?}: {attitude:e}, {rate:e}, {allowed:e}");
         }
     }
@@ -67,12 +65,12 @@ fn along_the_momentum_no_launch_is_singular() {
 fn a_turn_about_one_axis_is_as_accurate_as_the_tolerance_asks() {
     let body = Body::from_moments([0.906, 0.9073, 1.491]).unwrap();
     let launch = Launch::new([27.9, -0.22, 0.0], TimeOfFlight::Given(0.75)).unwrap();
-    let toss = RigidToss { body, launch };
-    let exact = RigidMotion::new(&toss).state(launch.time_of_flight()).unwrap().attitude;
+    let toss = Toss { body, launch };
+    let exact = ExactMotion::new(&toss).state(launch.time_of_flight()).unwrap().attitude;
     for scheme in [Scheme::DOP853, Scheme::DOPRI5] {
         for tolerance in [1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
             let stepping = Stepping::adaptive(scheme, tolerance).unwrap();
-            let landing = EulerAnglesSolver::new(stepping, Formulation::MOMENTUM).propagate_rigid(&toss).unwrap();
+            let landing = EulerAnglesSolver::new(stepping, Formulation::MOMENTUM).land(&toss).unwrap();
             let error = exact.angle_to(&landing.state.attitude);
             assert!(error < 10.0 * tolerance, "{scheme}, {tolerance:e}: {error:e}");
         }
@@ -85,10 +83,10 @@ fn along_the_momentum_the_angle_stays_away_from_both_poles() {
     for toss in tosses(20.0) {
         let flight = RigidFlight::new(&toss).unwrap();
         let start = Start::along_momentum(&toss, &flight);
-        let motion = RigidMotion::new(&toss);
+        let motion = ExactMotion::new(&toss);
         let momentum = |time: f64| {
             let momentum = toss.body.angular_momentum(&motion.state(time).unwrap().rate);
-            let along = toss.body.principal().to_principal(&momentum);
+            let along = toss.body.rigid().principal().to_principal(&momentum);
             Vector3::from(along).dot(&Vector3::from(start.system.axes[2])) / momentum.norm()
         };
         for step in 0..100 {
@@ -103,7 +101,7 @@ fn along_the_momentum_the_angle_stays_away_from_both_poles() {
 fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
     for toss in tosses(0.3) {
         for tilt in [0.0, 0.9, PI] {
-            let toss = RigidToss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
+            let toss = Toss { launch: toss.launch.with_tilt(tilt).unwrap(), ..toss };
             match errors(&toss, Formulation::VERTICAL) {
                 Ok((attitude, rate)) => assert!(attitude < 2e-10 && rate < 2e-10, "{toss:?}: {attitude:e}, {rate:e}"),
                 // A tensor whose rate is along n for one moment, and a rod without momentum at a pole of its frame.
@@ -122,9 +120,9 @@ fn in_the_vertical_frame_a_launch_may_start_at_a_pole() {
 #[test]
 fn a_return_to_the_vertical_is_an_error_with_its_time() {
     let launch = Launch::new([3.0, 0.0, 0.0], TimeOfFlight::Given(2.0)).unwrap().with_tilt(0.5).unwrap();
-    let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+    let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
     let fixed = Stepping::fixed(Scheme::RK4, 1e-3).unwrap();
-    let error = EulerAnglesSolver::new(fixed, Formulation::VERTICAL).propagate_rigid(&toss).unwrap_err();
+    let error = EulerAnglesSolver::new(fixed, Formulation::VERTICAL).land(&toss).unwrap_err();
     let SolveError::Singular { point: Singularity::NormalAlongAxis, time } = error else { panic!("{error}") };
     assert!((time - (PI - 0.5) / 3.0).abs() < 2e-3, "{time}");
 }
@@ -137,9 +135,8 @@ fn equations_for_coins_refuse_other_bodies_and_say_why() {
         .into();
     let raw: Box<dyn Solver> = Box::new(solver(Formulation::RAW));
     for solver in gamma.into_iter().chain([raw]) {
-        for error in [solver.propagate_rigid(&toss).unwrap_err(), solver.error_estimate_rigid(&toss).unwrap_err()] {
-            let SolveError::NotSymmetric { solver: name, why } = error else { panic!("{error}") };
-            assert!(name == solver.name() && why.contains("I1 = I2 and a constant ωz"), "{name}: {why}");
-        }
+        let error = solver.land(&toss).unwrap_err();
+        let SolveError::NotSymmetric { solver: name, why } = error else { panic!("{error}") };
+        assert!(name == solver.name() && why.contains("I1 = I2 and a constant ωz"), "{name}: {why}");
     }
 }

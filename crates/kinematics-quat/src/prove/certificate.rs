@@ -3,12 +3,12 @@
 
 use std::fmt;
 
-use dynamics::{Outcome, Propagation, Work};
+use dynamics::{Landing, Outcome, Work};
 use numerics::UNIT_ROUNDOFF;
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
 ///
-/// Nothing but [`QuaternionSolver::certify`] and its like make one:
+/// Nothing but [`QuaternionSolver::certify`](crate::QuaternionSolver::certify) and its like make one:
 ///
 /// ```compile_fail,E0451
 /// fn forged(one: kinematics_quat::IntegratedCertificate) -> kinematics_quat::IntegratedCertificate {
@@ -18,7 +18,7 @@ use numerics::UNIT_ROUNDOFF;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntegratedCertificate {
     pub(super) outcome: Outcome,
-    pub(super) landing: Propagation,
+    pub(super) landing: Landing,
     pub(super) error_bound: f64,
     pub(super) attitude_error_bound: f64,
     pub(super) integration: Integration,
@@ -42,7 +42,7 @@ impl IntegratedCertificate {
     }
 
     /// State and cos θ at landing, with the work of all flights that it took.
-    pub fn landing(&self) -> &Propagation {
+    pub fn landing(&self) -> &Landing {
         &self.landing
     }
 

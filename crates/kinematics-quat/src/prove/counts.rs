@@ -3,7 +3,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use dynamics::{Error, Outcome, Propagation, RigidToss, SolveError, Solver, Stepping, Toss, Tosses};
+use dynamics::{Error, Landing, Outcome, SolveError, Solver, Stepping, Tilt, Toss};
 use numerics::lanes::SimdLevel;
 
 use crate::QuaternionSolver;
@@ -57,9 +57,9 @@ impl IntegratedCounts {
     }
 }
 
-/// A solver whose outcomes are those of [`QuaternionSolver::prove_outcomes`] and, of bodies, of
-/// [`QuaternionSolver::certify_all_rigid`]. Counting code decides an outcome by the sign of cos θ, which is proven here: it
-/// is that of the flight that decided, which may be a coarse one, and an undecided toss has cos θ = 0.
+/// A solver whose outcomes are those of [`QuaternionSolver::prove_outcomes`]. Counting code decides an outcome by cos θ and
+/// its error, which is proven here: both are those of the flight that decided, which may be a coarse one, and an undecided
+/// toss has cos θ = 0.
 #[derive(Debug)]
 pub struct Proving {
     solver: QuaternionSolver,
@@ -84,32 +84,6 @@ impl Proving {
     fn lock(&self) -> MutexGuard<'_, IntegratedCounts> {
         self.counts.lock().unwrap_or_else(PoisonError::into_inner)
     }
-
-    /// Writes the cos θ of tosses that have been `found` into `out` and counts them, if all have an answer. `failed` says
-    /// which toss has none.
-    fn counted(
-        &self,
-        found: Vec<Result<Decided, SolveError>>,
-        out: &mut [f64],
-        failed: impl Fn(usize, SolveError) -> Error,
-    ) -> Result<(), Error> {
-        assert_eq!(out.len(), found.len(), "one result a toss");
-        let mut counts = IntegratedCounts::default();
-        for (index, (found, out)) in found.into_iter().zip(out).enumerate() {
-            let found = found.map_err(|source| failed(index, source))?;
-            counts.add(&found);
-            *out = found.cos_tilt;
-        }
-        self.lock().merge(&counts);
-        Ok(())
-    }
-
-    /// cos θ of the only toss that has been `found`, which is counted.
-    fn one(&self, found: Vec<Result<Decided, SolveError>>) -> Result<f64, SolveError> {
-        let found = found.into_iter().next().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))?;
-        self.lock().add(&found);
-        Ok(found.cos_tilt)
-    }
 }
 
 impl Solver for Proving {
@@ -122,57 +96,38 @@ impl Solver for Proving {
     }
 
     /// The landing, which is not counted.
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        self.solver.certify(toss).map(|certificate| *certificate.landing())
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        self.solver.certify(toss).map(|certificate| certificate.landing().with_error(certificate.error_bound()))
     }
 
-    /// `None`: outcomes are proven, not estimated.
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(None)
+    fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
+        let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).pop();
+        let found = found.unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))?;
+        self.lock().add(&found);
+        Ok(found.tilt())
     }
 
-    fn cos_tilt(&self, toss: &Toss) -> Result<f64, SolveError> {
-        self.one(self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()))
-    }
-
-    fn cos_tilts(&self, tosses: &Tosses<'_>, out: &mut [f64]) -> Result<(), Error> {
-        let each = tosses.each()?;
-        let failed = |index, source| Error::of_launch(index, &each[index].into(), source);
-        self.counted(self.solver.decide(&each, SimdLevel::widest()), out, failed)
-    }
-
-    fn outcome_at(&self, _: &Toss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        Ok(Outcome::of(cos_tilt, 0.0))
-    }
-
-    fn propagate_rigid(&self, toss: &RigidToss) -> Result<Propagation, SolveError> {
-        self.solver.certify_rigid(toss).map(|certificate| *certificate.landing())
-    }
-
-    fn error_estimate_rigid(&self, _: &RigidToss) -> Result<Option<f64>, SolveError> {
-        Ok(None)
-    }
-
-    /// A flight without a bound counts as an undecided one.
-    fn cos_tilt_rigid(&self, toss: &RigidToss) -> Result<f64, SolveError> {
-        self.one(self.solver.decide_rigid(std::slice::from_ref(toss), SimdLevel::for_one_lane()))
-    }
-
-    fn cos_tilts_rigid(&self, tosses: &[RigidToss], out: &mut [f64]) -> Result<(), Error> {
-        let failed = |index: usize, source| Error::of_launch(index, &tosses[index], source);
-        self.counted(self.solver.decide_rigid(tosses, SimdLevel::widest()), out, failed)
-    }
-
-    fn outcome_at_rigid(&self, _: &RigidToss, cos_tilt: f64) -> Result<Outcome, SolveError> {
-        Ok(Outcome::of(cos_tilt, 0.0))
+    fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
+        assert_eq!(out.len(), tosses.len(), "one result a toss");
+        let mut counts = IntegratedCounts::default();
+        for (index, found) in self.solver.decide(tosses, SimdLevel::widest()).into_iter().enumerate() {
+            let found = found.map_err(|source| Error::of_launch(index, &tosses[index], source))?;
+            counts.add(&found);
+            out[index] = found.tilt();
+        }
+        self.lock().merge(&counts);
+        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Body, Coin, Formulation, Launch, Scheme, TimeOfFlight};
+    use dynamics::{Attitude, Body, Coin, Formulation, Launch, Scheme, TimeOfFlight, Tosses};
 
     use super::*;
+
+    /// What no solver answers.
+    const UNSET: Tilt = Tilt { cos_tilt: f64::NAN, error: None };
 
     #[test]
     fn outcomes_are_those_of_the_certificates_and_are_counted() {
@@ -182,28 +137,27 @@ mod tests {
         let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
         let solver = QuaternionSolver::new(taylor, Formulation::default());
         for attitude in [Attitude::IDENTITY, edge] {
-            let (proving, mut found) = (Proving::new(solver).unwrap(), [f64::NAN; 4]);
+            let (proving, mut found) = (Proving::new(solver).unwrap(), [UNSET; 4]);
             let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&x, &y, &z], &speed).unwrap();
-            proving.cos_tilts(&tosses, &mut found).unwrap();
-            let each = [0, 1, 2, 3].map(|index| tosses.toss(index).unwrap());
-            let certificates = each.map(|toss| solver.certify(&toss).unwrap());
-            assert_eq!(each.map(|toss| proving.cos_tilt(&toss).unwrap()), found);
+            let each = tosses.each().unwrap();
+            proving.tilts(&each, &mut found).unwrap();
+            let certificates: Vec<_> = each.iter().map(|toss| solver.certify(toss).unwrap()).collect();
+            let alone: Vec<Tilt> = each.iter().map(|toss| proving.tilt(toss).unwrap()).collect();
+            assert_eq!(found[..], alone);
             for (index, certificate) in certificates.iter().enumerate() {
-                assert_eq!(proving.outcome_at(&each[index], found[index]), Ok(certificate.outcome()));
-                assert_eq!(proving.propagate(&each[index]).as_ref(), Ok(certificate.landing()));
-                assert!((found[index] - certificate.cos_tilt()).abs() < 1e-2);
+                assert_eq!(found[index].outcome(), certificate.outcome());
+                let landing = proving.land(&each[index]).unwrap();
+                assert_eq!(landing, certificate.landing().with_error(certificate.error_bound()));
+                assert_eq!(landing.outcome(), certificate.outcome());
+                assert!((found[index].cos_tilt - certificate.cos_tilt()).abs() < 1e-2);
             }
-            let rigid = each.map(RigidToss::from);
-            let mut of_bodies = [f64::NAN; 4];
-            proving.cos_tilts_rigid(&rigid, &mut of_bodies).unwrap();
-            assert_eq!(of_bodies, found);
             let counts = proving.counts();
-            let of = |outcome| 3 * certificates.iter().filter(|each| each.outcome() == outcome).count() as u64;
+            let of = |outcome| 2 * certificates.iter().filter(|each| each.outcome() == outcome).count() as u64;
             let counted = [counts.heads(), counts.tails(), counts.undecided()];
             assert_eq!(counted, [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(of));
-            assert_eq!(Integration::ALL.map(|kind| counts.by(kind)).iter().sum::<u64>(), 12);
+            assert_eq!(Integration::ALL.map(|kind| counts.by(kind)).iter().sum::<u64>(), 8);
             let coarse = certificates.iter().filter(|each| each.outcome() != Outcome::Undecided).count() as u64;
-            assert_eq!(counts.by(Integration::Coarse), 3 * coarse, "none of these is near an edge");
+            assert_eq!(counts.by(Integration::Coarse), 2 * coarse, "none of these is near an edge");
             assert_eq!(counts.undecided() > 0, attitude == edge, "a coin that does not turn stays on its edge");
         }
         assert!(Proving::new(QuaternionSolver::new(taylor, Formulation::RAW)).is_err());
@@ -216,31 +170,28 @@ mod tests {
             let off = if index == 0 { 1e-9 } else { 0.3 };
             let rate = [1e-9, off, 9.0 + f64::from(index)];
             let (body, time) = if index == 4 { (Coin::PAPER.into(), 1.0) } else { (racket, time) };
-            RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() }
+            Toss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() }
         };
         // The last one starts next to a turn about the middle axis, and turns over often.
         let tosses = [(1, 0.1), (2, 0.7), (3, 1.0), (4, 0.0), (0, 400.0)].map(toss);
         let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
         let solver = QuaternionSolver::new(taylor, Formulation::default());
         let proving = Proving::new(solver).unwrap();
-        let mut found = [f64::NAN; 5];
-        proving.cos_tilts_rigid(&tosses, &mut found).unwrap();
-        assert_eq!(tosses.map(|toss| proving.cos_tilt_rigid(&toss).unwrap()), found);
-        let refused = solver.certify_rigid(&tosses[4]).unwrap_err();
-        assert!(matches!(refused, SolveError::NotProven { .. }) && found[4] == 0.0, "{refused}");
+        let mut found = [UNSET; 5];
+        proving.tilts(&tosses, &mut found).unwrap();
+        assert_eq!(tosses.map(|toss| proving.tilt(&toss).unwrap()), found);
+        let refused = solver.certify(&tosses[4]).unwrap_err();
+        assert!(matches!(refused, SolveError::NotProven { .. }) && found[4].cos_tilt == 0.0, "{refused}");
         for (toss, found) in tosses[..4].iter().zip(found) {
-            assert_eq!(proving.outcome_at_rigid(toss, found), Ok(exact::certify_rigid(toss).unwrap().outcome()));
+            assert_eq!(found.outcome(), exact::certify(toss).unwrap().outcome());
         }
         let counts = proving.counts();
         let by = Integration::ALL.map(|kind| counts.by(kind));
         assert_eq!((by, counts.undecided()), ([2, 6, 2, 0, 0], 2));
-        let plain: Vec<f64> = solver
-            .propagate_all_rigid(&tosses, SimdLevel::widest())
-            .into_iter()
-            .map(|landing| landing.unwrap().cos_tilt)
-            .collect();
-        let mut in_lanes = [f64::NAN; 5];
-        solver.cos_tilts_rigid(&tosses, &mut in_lanes).unwrap();
+        let plain: Vec<Tilt> =
+            solver.land_all(&tosses, SimdLevel::widest()).into_iter().map(|landing| landing.unwrap().tilt()).collect();
+        let mut in_lanes = [UNSET; 5];
+        solver.tilts(&tosses, &mut in_lanes).unwrap();
         assert_eq!(plain, in_lanes);
     }
 }

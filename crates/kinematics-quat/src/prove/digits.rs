@@ -6,7 +6,7 @@
 //! as the midpoints of balls, because balls would grow with each step; what that leaves out is added up.
 
 use dynamics::integrate::STEP_LIMIT;
-use dynamics::{Outcome, SolveError, Toss};
+use dynamics::{CoinToss, Outcome, SolveError};
 use numerics::big::exactly;
 use numerics::{Ball, Big, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
@@ -31,7 +31,7 @@ pub(crate) struct Landing {
 ///
 /// # Errors
 /// As [`fly`].
-pub(crate) fn in_double_double(toss: &Toss) -> Result<Landing, SolveError> {
+pub(crate) fn in_double_double(toss: &CoinToss) -> Result<Landing, SolveError> {
     fly(toss, &Ball::new(DoubleDouble::ZERO, 0.0))
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn in_double_double(toss: &Toss) -> Result<Landing, SolveError> {
 ///
 /// # Errors
 /// As [`fly`].
-pub(crate) fn in_digits(toss: &Toss, digits: usize) -> Result<Landing, SolveError> {
+pub(crate) fn in_digits(toss: &CoinToss, digits: usize) -> Result<Landing, SolveError> {
     fly(toss, &Ball::new(Big::ZERO.with_precision(digits).value(), 0.0))
 }
 
@@ -50,7 +50,7 @@ type Pair<T> = [T; 2];
 ///
 /// # Errors
 /// [`SolveError::StepLimit`] for more than a million steps.
-fn fly<N: Elementary>(toss: &Toss, like: &Ball<N>) -> Result<Landing, SolveError> {
+fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveError> {
     let given = Given::new(toss, like);
     let fastest = given.eta.to_f64() + given.half_z.to_f64().abs() + given.q.to_f64().abs();
     // Steps in which the terms of the series fall like those of e^½.
@@ -104,7 +104,7 @@ struct Given<N> {
 }
 
 impl<N: Elementary> Given<N> {
-    fn new(toss: &Toss, like: &Ball<N>) -> Self {
+    fn new(toss: &CoinToss, like: &Ball<N>) -> Self {
         let digits = usize::try_from(like.digits()).unwrap_or(106) + GUARD;
         let round = |value: Big| value.with_precision(digits).value();
         // Each number is right to some thirty roundings in the digits of the inputs.

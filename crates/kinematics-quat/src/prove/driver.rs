@@ -6,7 +6,7 @@
 //! A body with three different moments that passes next to a turn about the middle axis multiplies its errors; if the bound
 //! then decides nothing even at the finest tolerance, the outcome stays undecided, or nothing is stated.
 
-use dynamics::{Attitude, Outcome, Propagation, RigidToss, SolveError, State, Toss, Work};
+use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, State, Toss, Work};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::SimdLevel;
 
@@ -16,7 +16,7 @@ use crate::prove::digits::{self, in_digits, in_double_double};
 use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
 use crate::prove::rigid_lanes::Enclosed;
 use crate::taylor::coin::Coins;
-use crate::taylor::lockstep::{Motion, by_kind, fly};
+use crate::taylor::lockstep::{Motion, by_kind, fly_all};
 use crate::taylor::plan::Plans;
 use crate::{Landed, QuaternionSolver, Taylor};
 
@@ -71,14 +71,14 @@ impl Bounded for Coins {
 
     fn enclosed(
         solver: &QuaternionSolver,
-        (tosses, plans): (&[Toss], &Plans),
+        (tosses, plans): (&[CoinToss], &Plans),
         level: SimdLevel,
         by: Integration,
     ) -> Vec<Found> {
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        fly::<Self>(plans, tosses, level, |index, landed| landings[index] = landed);
+        fly_all::<Self>(plans, tosses, level, |index, landed| landings[index] = landed);
         let bounds = step_bounds(tosses, plans, level, &landings);
-        let stated = |((toss, landed), step): ((&Toss, Result<Landed, SolveError>), StepBound)| {
+        let stated = |((toss, landed), step): ((&CoinToss, Result<Landed, SolveError>), StepBound)| {
             let landed = landed?;
             let record = landed.record.as_ref().ok_or_else(|| landed.flight.not_finite())?;
             solver.stated(toss.launch.attitude(), &landed, attitude_bound(toss, &landed.flight, record, &step), by)
@@ -87,7 +87,7 @@ impl Bounded for Coins {
     }
 
     /// Decides by more and more digits.
-    fn undecided(toss: &Toss, mut found: IntegratedCertificate) -> Found {
+    fn undecided(toss: &CoinToss, mut found: IntegratedCertificate) -> Found {
         let double_double = || by_digits(toss, in_double_double(toss)?, Integration::DoubleDouble);
         let more = |digits| by_digits(toss, in_digits(toss, digits)?, Integration::MoreDigits);
         for stage in [None].into_iter().chain(DIGITS.map(Some)) {
@@ -111,12 +111,12 @@ impl Bounded for Enclosed {
 
     fn enclosed(
         solver: &QuaternionSolver,
-        (tosses, plans): (&[RigidToss], &Plans),
+        (tosses, plans): (&[Toss], &Plans),
         level: SimdLevel,
         by: Integration,
     ) -> Vec<Found> {
         let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        fly::<Self>(plans, tosses, level, |index, landed| {
+        fly_all::<Self>(plans, tosses, level, |index, landed| {
             found[index] = landed.and_then(|landed| {
                 let (launch, enclosed) = (&tosses[index].launch, landed.enclosed.as_ref());
                 let of = |bound| attitude_bound_of_body(launch, &landed.flight, bound);
@@ -126,7 +126,7 @@ impl Bounded for Enclosed {
         found
     }
 
-    fn undecided(_: &RigidToss, found: IntegratedCertificate) -> Found {
+    fn undecided(_: &Toss, found: IntegratedCertificate) -> Found {
         let refused = SolveError::NotProven { solver: QuaternionSolver::NAME.to_owned(), why: NO_BOUND };
         if found.error_bound < 2.0 { Ok(found) } else { Err(refused) }
     }
@@ -134,54 +134,39 @@ impl Bounded for Enclosed {
 
 impl QuaternionSolver {
     /// Proves the outcome of `toss` by integration, first with the solver's own tolerance, then with the finest one, then
-    /// with more digits.
+    /// with more digits; a body with three different moments is not flown in more digits.
     ///
     /// # Errors
-    /// [`SolveError::NotProven`] for a scheme other than [`TAYLOR`](crate::TAYLOR), whose steps have no bound, and for a
-    /// formulation that proves nothing; else as [`Solver::propagate`](dynamics::Solver::propagate).
+    /// [`SolveError::NotProven`] for a scheme other than [`TAYLOR`](crate::TAYLOR), whose steps have no bound, for a
+    /// formulation that proves nothing, and for a flight whose errors have no bound; else as
+    /// [`Solver::land`](dynamics::Solver::land).
     pub fn certify(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
         only(self.certify_all(std::slice::from_ref(toss), SimdLevel::for_one_lane()))
-    }
-
-    /// [`QuaternionSolver::certify`] of any rigid body; one with three different moments is not flown in more digits.
-    ///
-    /// # Errors
-    /// As [`QuaternionSolver::certify`], and [`SolveError::NotProven`] for a flight whose errors have no bound.
-    pub fn certify_rigid(&self, toss: &RigidToss) -> Result<IntegratedCertificate, SolveError> {
-        only(self.certify_all_rigid(std::slice::from_ref(toss), SimdLevel::for_one_lane()))
     }
 
     /// [`QuaternionSolver::certify`] of each of `tosses`, in their order and with the same bits. As many flights are
     /// computed at once as a register at the SIMD `level` has lanes.
     pub fn certify_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        self.decided_all::<Coins>(tosses, level)
+        by_kind(tosses, |coins| self.certify_coins(coins, level), |bodies| self.certify_bodies(bodies, level))
     }
 
-    /// [`QuaternionSolver::certify_rigid`] of each of `tosses`, as [`QuaternionSolver::certify_all`].
-    pub fn certify_all_rigid(
-        &self,
-        tosses: &[RigidToss],
-        level: SimdLevel,
-    ) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        let bodies = |bodies: &[RigidToss]| self.decided_all::<Enclosed>(bodies, level);
-        by_kind(tosses, |coins| self.certify_all(coins, level), bodies)
+    /// [`QuaternionSolver::certify_all`] of coins.
+    pub(crate) fn certify_coins(&self, coins: &[CoinToss], level: SimdLevel) -> Vec<Found> {
+        self.decided_all::<Coins>(coins, level)
+    }
+
+    /// [`QuaternionSolver::certify_all`] of other bodies.
+    pub(crate) fn certify_bodies(&self, bodies: &[Toss], level: SimdLevel) -> Vec<Found> {
+        self.decided_all::<Enclosed>(bodies, level)
     }
 
     /// The landing of `toss` with the bounds of its error at the solver's own tolerance, whether or not they decide the
-    /// outcome.
+    /// outcome. Without a bound it is 2.
     ///
     /// # Errors
     /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        self.enclosed::<Coins>(toss)
-    }
-
-    /// [`QuaternionSolver::enclose`] of any rigid body. Without a bound it is 2.
-    ///
-    /// # Errors
-    /// As [`QuaternionSolver::certify`].
-    pub fn enclose_rigid(&self, toss: &RigidToss) -> Result<IntegratedCertificate, SolveError> {
-        toss.symmetric().map_or_else(|| self.enclosed::<Enclosed>(toss), |toss| self.enclose(&toss))
+        toss.coin().map_or_else(|| self.enclosed::<Enclosed>(toss), |toss| self.enclosed::<Coins>(&toss))
     }
 
     /// The plans of a solver that proves, which is one by Taylor series with guards.
@@ -251,7 +236,7 @@ fn only(found: Vec<Found>) -> Found {
 
 /// The bounds of the steps of each flight that has landed.
 fn step_bounds(
-    tosses: &[Toss],
+    tosses: &[CoinToss],
     plans: &Plans,
     level: SimdLevel,
     landings: &[Result<Landed, SolveError>],
@@ -273,7 +258,7 @@ fn step_bounds(
 
 /// A landing in more digits than f64.
 fn by_digits(
-    toss: &Toss,
+    toss: &CoinToss,
     landing: digits::Landing,
     integration: Integration,
 ) -> Result<IntegratedCertificate, SolveError> {
@@ -286,7 +271,7 @@ fn by_digits(
     let state = State { attitude, rate };
     Ok(IntegratedCertificate {
         outcome: landing.outcome,
-        landing: Propagation::new(state, work).with_cos_tilt(landing.cos_tilt),
+        landing: Landing::new(state, work).with_cos_tilt(landing.cos_tilt),
         error_bound: landing.cos_bound,
         attitude_error_bound: (landing.attitude_bound + of_attitude(toss.launch.attitude())).min(2.0),
         integration,
@@ -308,6 +293,6 @@ fn of_attitude(launched: Attitude) -> f64 {
 }
 
 #[cfg(test)]
-pub(crate) mod rigid_tests;
+mod rigid_tests;
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;

@@ -7,7 +7,7 @@
 //! itself. An error of |η| is measured, because the true |η| never changes.
 
 use dynamics::body_rate::body_precession_rate;
-use dynamics::{Flight, Launch, Toss};
+use dynamics::{CoinToss, Flight, Launch};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
@@ -38,7 +38,7 @@ const LARGEST: f64 = 1e-3;
 const OF_DOUBLE_DOUBLE: f64 = 100.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// What the bound of the steps of a flight with this `record` depends on.
-pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
+pub(crate) fn steps(toss: &CoinToss, flight: &Flight, record: &Record) -> Steps {
     let [least, most] = record.moduli;
     if record.steps == 0 {
         return Steps::default();
@@ -54,7 +54,7 @@ pub(crate) fn steps(toss: &Toss, flight: &Flight, record: &Record) -> Steps {
 
 /// An upper bound of the distance between the computed quaternion P, divided by its norm, and that of the ideal flight;
 /// infinite where the theorem does not apply. It is the formula (4).
-pub(crate) fn attitude_bound(toss: &Toss, flight: &Flight, record: &Record, step: &StepBound) -> f64 {
+pub(crate) fn attitude_bound(toss: &CoinToss, flight: &Flight, record: &Record, step: &StepBound) -> f64 {
     let rate = flight.rate;
     let modulus = modulus(flight);
     let has_rate = modulus.hi() > NO_RATE;
@@ -104,7 +104,7 @@ struct Launched {
 }
 
 impl Launched {
-    fn new(toss: &Toss, flight: &Flight) -> Self {
+    fn new(toss: &CoinToss, flight: &Flight) -> Self {
         let (k, rate_z) = (toss.coin.exact_inertia_ratio(), flight.rate.z);
         let q = (k - 1.0.into()) * rate_z - body_precession_rate(k.hi(), rate_z).into();
         let rate = toss.launch.rate_error();

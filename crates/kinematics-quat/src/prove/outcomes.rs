@@ -1,7 +1,7 @@
 //! Proven outcomes of many tosses and nothing else. A coarse flight of a coin takes less time than a fine one, and has a
 //! bound, too. An outcome is undecided by it only where cos θ is as small as that bound.
 
-use dynamics::{Outcome, RigidToss, SolveError, Toss};
+use dynamics::{CoinToss, Outcome, SolveError, Tilt, Toss};
 use numerics::lanes::SimdLevel;
 
 use crate::prove::certificate::IntegratedCertificate;
@@ -10,7 +10,7 @@ use crate::prove::coin_step::bounds;
 use crate::prove::driver::{OF_COS_TILT, cos_tilt};
 use crate::prove::flight::{attitude_bound, steps};
 use crate::taylor::coin::Coins;
-use crate::taylor::lockstep::{by_kind, fly};
+use crate::taylor::lockstep::{by_kind, fly_all};
 use crate::taylor::plan::Plans;
 use crate::{Landed, QuaternionSolver};
 
@@ -22,66 +22,81 @@ const COARSE: f64 = 1e-3;
 pub(crate) struct Decided {
     pub(crate) outcome: Outcome,
     pub(crate) cos_tilt: f64,
+    /// The bound of its error, which is proven.
+    pub(crate) bound: f64,
     pub(crate) integration: Integration,
 }
 
 impl Decided {
     fn undecided(integration: Integration) -> Self {
-        Self { outcome: Outcome::Undecided, cos_tilt: 0.0, integration }
+        Self { outcome: Outcome::Undecided, cos_tilt: 0.0, bound: 2.0, integration }
     }
 
     fn by(certificate: &IntegratedCertificate) -> Self {
         let (outcome, integration) = (certificate.outcome(), certificate.integration());
         match outcome {
             Outcome::Undecided => Self::undecided(integration),
-            _ => Self { outcome, cos_tilt: certificate.cos_tilt(), integration },
+            _ => {
+                let (cos_tilt, bound) = (certificate.cos_tilt(), certificate.error_bound());
+                Self { outcome, cos_tilt, bound, integration }
+            }
         }
     }
 }
 
+impl Decided {
+    /// cos θ with the bound of its error.
+    pub(crate) fn tilt(&self) -> Tilt {
+        Tilt { cos_tilt: self.cos_tilt, error: Some(self.bound) }
+    }
+}
+
 impl QuaternionSolver {
-    /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Flights of a coarse tolerance
-    /// come first, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings
-    /// without a proof.
+    /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Coins are first flown with a coarse
+    /// tolerance, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings without
+    /// a proof. A flight without a bound is undecided.
     pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
         self.decide(tosses, level).into_iter().map(|found| found.map(|found| found.outcome)).collect()
     }
 
-    /// [`QuaternionSolver::prove_outcomes`], with what decided each.
+    /// [`QuaternionSolver::prove_outcomes`], with what decided each. Other bodies than coins have no coarse flight: next to
+    /// a turn about the middle axis, where flights take longest, those have no bound.
     pub(crate) fn decide(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
+        by_kind(tosses, |coins| self.decide_coins(coins, level), |bodies| self.decide_bodies(bodies, level))
+    }
+
+    fn decide_coins(&self, tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
         let is_finer = self.require_proofs().is_ok() && self.taylor.is_some_and(|taylor| taylor.tolerance < COARSE);
         let undecided = || vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
         let mut found = if is_finer { coarse(tosses, level) } else { undecided() };
         let is_open = |index: &usize| matches!(&found[*index], Ok(found) if found.outcome == Outcome::Undecided);
         let open: Vec<usize> = (0..found.len()).filter(is_open).collect();
-        let again: Vec<Toss> = open.iter().map(|index| tosses[*index]).collect();
-        for (index, certificate) in open.into_iter().zip(self.certify_all(&again, level)) {
+        let again: Vec<CoinToss> = open.iter().map(|index| tosses[*index]).collect();
+        for (index, certificate) in open.into_iter().zip(self.certify_coins(&again, level)) {
             found[index] = certificate.map(|certificate| Decided::by(&certificate));
         }
         found
     }
 
-    /// The outcomes of any bodies. A flight without a bound is an undecided one. Others than coins have no coarse
-    /// flight: next to a turn about the middle axis, where flights take longest, those have no bound.
-    pub(crate) fn decide_rigid(&self, tosses: &[RigidToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
+    fn decide_bodies(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
+        if let Err(refused) = self.require_proofs() {
+            return vec![Err(refused); tosses.len()];
+        }
         let last = if self.is_finest() { Integration::AsConfigured } else { Integration::Finest };
-        let bodies = |tosses: &[RigidToss]| {
-            let decided = |found: Result<IntegratedCertificate, SolveError>| match found {
-                Err(SolveError::NotProven { .. }) => Ok(Decided::undecided(last)),
-                found => found.map(|certificate| Decided::by(&certificate)),
-            };
-            self.certify_all_rigid(tosses, level).into_iter().map(decided).collect()
+        let decided = |found: Result<IntegratedCertificate, SolveError>| match found {
+            Err(SolveError::NotProven { .. }) => Ok(Decided::undecided(last)),
+            found => found.map(|certificate| Decided::by(&certificate)),
         };
-        by_kind(tosses, |coins| self.decide(coins, level), bodies)
+        self.certify_bodies(tosses, level).into_iter().map(decided).collect()
     }
 }
 
 /// The outcomes that coarse flights prove; the others are undecided.
-fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
+fn coarse(tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
     let plans = Plans::of_coarse_coins(COARSE);
     let mut found = vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
     let mut flown = Vec::with_capacity(tosses.len());
-    fly::<Coins>(&plans, tosses, level, |index, landed| match landed {
+    fly_all::<Coins>(&plans, tosses, level, |index, landed| match landed {
         Ok(Landed { flight, turn, record: Some(record), .. }) => {
             flown.push((index, cos_tilt(tosses[index].launch.attitude(), turn), flight, record));
         }
@@ -91,9 +106,10 @@ fn coarse(tosses: &[Toss], level: SimdLevel) -> Vec<Result<Decided, SolveError>>
     let each: Vec<_> = flown.iter().map(|(index, _, flight, record)| steps(&tosses[*index], flight, record)).collect();
     for ((index, cos_tilt, flight, record), bound) in flown.into_iter().zip(bounds(&plans.short, level, &each)) {
         let bound = attitude_bound(&tosses[index], &flight, &record, &bound);
-        let outcome = Outcome::of(cos_tilt, 2.0 * bound + OF_COS_TILT);
+        let bound = 2.0 * bound + OF_COS_TILT;
+        let outcome = Outcome::of(cos_tilt, bound);
         if outcome != Outcome::Undecided {
-            found[index] = Ok(Decided { outcome, cos_tilt, integration: Integration::Coarse });
+            found[index] = Ok(Decided { outcome, cos_tilt, bound, integration: Integration::Coarse });
         }
     }
     found
@@ -116,19 +132,19 @@ mod tests {
             let coin = Coin::from_moments(1.0, 2.0 * part(2.0)).unwrap();
             let at = |time| {
                 let launch = Launch::new([part(3.0) + 0.1, part(5.0), part(7.0)], TimeOfFlight::Given(time)).unwrap();
-                Toss { coin, launch: launch.with_tilt(3.0 * part(11.0)).unwrap() }
+                CoinToss { coin, launch: launch.with_tilt(3.0 * part(11.0)).unwrap() }
             };
             let cos_tilt = |time| exact::certified::cos_tilt(&at(time)).unwrap();
             let (mut before, mut after) = (phase * (0.5 + 0.5 * part(13.0)), phase * 1.5);
             let first = cos_tilt(before) > 0.0;
             if index.is_multiple_of(2) || (cos_tilt(after) > 0.0) == first {
-                return at(before);
+                return at(before).into();
             }
             while after - before > 10f64.powf(-9.0 * part(17.0)) {
                 let middle = f64::midpoint(before, after);
                 if (cos_tilt(middle) > 0.0) == first { before = middle } else { after = middle }
             }
-            at(before)
+            at(before).into()
         };
         (0..400).map(toss).collect()
     }
@@ -143,7 +159,8 @@ mod tests {
             for level in SimdLevel::all() {
                 assert_eq!(solver.prove_outcomes(&tosses, level), expected, "{}", level.name());
             }
-            let decided = coarse(&tosses, SimdLevel::widest());
+            let coins: Vec<CoinToss> = tosses.iter().filter_map(Toss::coin).collect();
+            let decided = coarse(&coins, SimdLevel::widest());
             let is_open = |found: &&Result<Decided, SolveError>| found.as_ref().unwrap().outcome == Outcome::Undecided;
             let open = decided.iter().filter(is_open).count();
             assert!((5..200).contains(&open), "phase {phase}: coarse flights leave {open} of 400 open");
@@ -154,7 +171,7 @@ mod tests {
     fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
         let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
         let launch = |time| Launch::new([0.0, 7.0, 0.0], TimeOfFlight::Given(time)).unwrap().with_attitude(edge);
-        let tosses = [1.0, 0.0, 1e17].map(|time| Toss { coin: Coin::DISC, launch: launch(time) });
+        let tosses = [1.0, 0.0, 1e17].map(|time| Toss::new(Coin::DISC, launch(time)));
         let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
         assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
         assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));

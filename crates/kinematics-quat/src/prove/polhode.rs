@@ -5,7 +5,7 @@
 mod errors;
 
 use dynamics::body::PrincipalAxes;
-use dynamics::{AngleUnit, RigidFlight, RigidToss};
+use dynamics::{AngleUnit, RigidFlight, Toss};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 pub(super) use self::errors::{Errors, Step};
@@ -55,9 +55,9 @@ const INVERSE_ROOT_3: f64 = 0.5774;
 impl Polhode {
     /// That of a `toss` with this `flight`. `None` if the numbers of the toss do not tell it: if its moments can't be told
     /// from equal ones, or underflow.
-    pub(super) fn new(toss: &RigidToss, flight: &RigidFlight) -> Option<Self> {
+    pub(super) fn new(toss: &Toss, flight: &RigidFlight) -> Option<Self> {
         let like = Ball::new(DoubleDouble::ZERO, 0.0);
-        let PrincipalAxes { moments, axes } = toss.body.scaled_principal(&like);
+        let PrincipalAxes { moments, axes } = toss.body.rigid().scaled_principal(&like);
         let [a, b, c] = couplings(&moments, flight)?;
         let rates = ideal_rates(toss, &axes, flight)?;
         let [x, y, z] = rates.map(|rate| rate * rate);
@@ -180,7 +180,7 @@ fn exp_above(x: f64) -> f64 {
 
 /// The ideal rates at launch about the principal axes, in the unit of the flight. `None` if they may have lost digits.
 fn ideal_rates(
-    toss: &RigidToss,
+    toss: &Toss,
     axes: &[[Ball<DoubleDouble>; 3]; 3],
     flight: &RigidFlight,
 ) -> Option<[Ball<DoubleDouble>; 3]> {

@@ -1,7 +1,7 @@
 //! The flights of bodies in the lanes of a vector, each with a bound of its error: the same steps with the same bits, and
 //! what they add to the bound.
 
-use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Work};
+use dynamics::{Flight, RigidFlight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd};
 
 use crate::Landed;
@@ -29,11 +29,11 @@ pub(crate) struct Bound {
 }
 
 impl Motion for Enclosed {
-    type Toss = RigidToss;
+    type Toss = Toss;
     type Flight = RigidFlight;
     type Series<S: Simd> = RigidSeries<S>;
 
-    fn flight(toss: &RigidToss) -> Result<RigidFlight, SolveError> {
+    fn flight(toss: &Toss) -> Result<RigidFlight, SolveError> {
         Bodies::flight(toss)
     }
 
@@ -47,7 +47,7 @@ impl Motion for Enclosed {
         Bodies::series(simd)
     }
 
-    fn launch(&mut self, lane: usize, toss: &RigidToss, flight: &RigidFlight) {
+    fn launch(&mut self, lane: usize, toss: &Toss, flight: &RigidFlight) {
         self.bodies.launch(lane, toss, flight);
         self.errors[lane] = Polhode::new(toss, flight).map(|polhode| Errors::at_launch(polhode, flight.rates));
     }

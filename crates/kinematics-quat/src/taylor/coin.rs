@@ -26,7 +26,7 @@
 //! Two convolutions replace the eight products of quaternion components. The closed form of the motion is not used:
 //! each step starts from the attitude and the rates that the step before it computed.
 
-use dynamics::{Flight, SolveError, Toss, Work};
+use dynamics::{CoinToss, Flight, SolveError, Work};
 use numerics::lanes::{Complex, Double, Real, Simd, compensated_product, complex_product, inverse, polar, sum, times};
 
 use crate::prove::flight::Record;
@@ -211,11 +211,11 @@ pub(crate) struct Coins {
 }
 
 impl Motion for Coins {
-    type Toss = Toss;
+    type Toss = CoinToss;
     type Flight = Flight;
     type Series<S: Simd> = Series<S>;
 
-    fn flight(toss: &Toss) -> Result<Flight, SolveError> {
+    fn flight(toss: &CoinToss) -> Result<Flight, SolveError> {
         Flight::new(toss)
     }
 
@@ -229,7 +229,7 @@ impl Motion for Coins {
         Series::new(simd)
     }
 
-    fn launch(&mut self, lane: usize, toss: &Toss, flight: &Flight) {
+    fn launch(&mut self, lane: usize, toss: &CoinToss, flight: &Flight) {
         let QuaternionSystem { rate_z, q } = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
         for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
             part[lane] = value;

@@ -8,7 +8,7 @@
 //! Coins and other bodies fly in the same way: what their steps compute is a [`Motion`].
 
 use dynamics::integrate::STEP_LIMIT;
-use dynamics::{Flight, RigidToss, SolveError, Toss, Work};
+use dynamics::{Body, CoinToss, Flight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use crate::Landed;
@@ -23,7 +23,7 @@ pub(crate) type PerLane = [f64; MOST_LANES];
 /// The states of the flights of one kind of body, one in each lane, in the unit of their [`Flight`].
 pub(crate) trait Motion: Default {
     /// What is solved.
-    type Toss;
+    type Toss: Copy;
     /// Its dimensionless form.
     type Flight: Copy;
     /// The coefficients of a step.
@@ -71,19 +71,34 @@ impl Clock {
     }
 }
 
-/// Solves `tosses`, first the short flights and then the long ones, and calls `land` with the index and the landing of
-/// each.
+/// Solves the tosses that `toss` has for the indices below `len`, first the short flights and then the long ones, and calls
+/// `land` with the index and the landing of each. Lanes without a toss cost time, too, so that nothing is done if there is
+/// none.
 pub(crate) fn fly<M: Motion>(
     plans: &Plans,
-    tosses: &[M::Toss],
+    (len, toss): (usize, impl Fn(usize) -> Option<M::Toss>),
     level: SimdLevel,
     mut land: impl FnMut(usize, Result<Landed, SolveError>),
 ) {
-    let mut run = |plan, long| level.run(Queue::<M> { plan, long, tosses, next: 0, skipped: false, land: &mut land });
+    if !(0..len).any(|index| toss(index).is_some()) {
+        return;
+    }
+    let mut run =
+        |plan, long| level.run(Queue::<M> { plan, long, toss: &toss, len, next: 0, skipped: false, land: &mut land });
     let skipped = run(&plans.short, false);
     if skipped {
         run(&plans.long, true);
     }
+}
+
+/// As [`fly`], all `tosses` of a slice.
+pub(crate) fn fly_all<M: Motion>(
+    plans: &Plans,
+    tosses: &[M::Toss],
+    level: SimdLevel,
+    land: impl FnMut(usize, Result<Landed, SolveError>),
+) {
+    fly::<M>(plans, (tosses.len(), |index: usize| Some(tosses[index])), level, land);
 }
 
 /// One pass through the tosses, for either the long flights or the short ones.
@@ -93,7 +108,9 @@ struct Queue<'a, M: Motion> {
     long: bool,
     /// Whether a toss was skipped.
     skipped: bool,
-    tosses: &'a [M::Toss],
+    /// The toss of an index below `len`, if there is one.
+    toss: &'a dyn Fn(usize) -> Option<M::Toss>,
+    len: usize,
     /// The index of the next toss.
     next: usize,
     land: &'a mut dyn FnMut(usize, Result<Landed, SolveError>),
@@ -136,12 +153,13 @@ impl<M: Motion> WithSimd for Queue<'_, M> {
 impl<M: Motion> Queue<'_, M> {
     /// Puts the next flight of this pass into `lane`. A flight of no duration or without rotation lands at once.
     fn start(&mut self, lanes: &mut Lanes<M>, lane: usize) {
-        while let Some(toss) = self.tosses.get(self.next) {
+        while self.next < self.len {
             let index = self.next;
             self.next += 1;
-            match M::flight(toss) {
+            let Some(toss) = (self.toss)(index) else { continue };
+            match M::flight(&toss) {
                 Ok(flight) if M::timing(&flight).is_long() == self.long => {
-                    lanes.launch(lane, self.plan, toss, &flight);
+                    lanes.launch(lane, self.plan, &toss, &flight);
                     if lanes.clock.left[lane] > 0.0 && M::timing(&flight).rate.amax() > 0.0 {
                         lanes.flying[lane] = Some((index, flight));
                         return;
@@ -205,16 +223,21 @@ impl<M: Motion> Lanes<M> {
 
 /// The results of `coins` for the tosses of coins and of `bodies` for the others, in the order of `tosses`.
 pub(crate) fn by_kind<T>(
-    tosses: &[RigidToss],
-    coins: impl FnOnce(&[Toss]) -> Vec<T>,
-    bodies: impl FnOnce(&[RigidToss]) -> Vec<T>,
+    tosses: &[Toss],
+    coins: impl FnOnce(&[CoinToss]) -> Vec<T>,
+    bodies: impl FnOnce(&[Toss]) -> Vec<T>,
 ) -> Vec<T> {
-    let kinds: Vec<Option<Toss>> = tosses.iter().map(RigidToss::symmetric).collect();
-    let flown: Vec<Toss> = kinds.iter().flatten().copied().collect();
-    let others: Vec<RigidToss> =
-        tosses.iter().zip(&kinds).filter(|(_, coin)| coin.is_none()).map(|(toss, _)| *toss).collect();
-    let (mut coins, mut bodies) = (coins(&flown).into_iter(), bodies(&others).into_iter());
-    kinds.iter().filter_map(|coin| if coin.is_some() { coins.next() } else { bodies.next() }).collect()
+    let of_coins: Vec<CoinToss> = tosses.iter().filter_map(Toss::coin).collect();
+    if of_coins.len() == tosses.len() {
+        return coins(&of_coins);
+    }
+    if of_coins.is_empty() {
+        return bodies(tosses);
+    }
+    let is_coin = |toss: &&Toss| matches!(toss.body, Body::Coin(_));
+    let others: Vec<Toss> = tosses.iter().filter(|toss| !is_coin(toss)).copied().collect();
+    let (mut coins, mut bodies) = (coins(&of_coins).into_iter(), bodies(&others).into_iter());
+    tosses.iter().filter_map(|toss| if is_coin(&toss) { coins.next() } else { bodies.next() }).collect()
 }
 
 #[inline(always)]

@@ -14,7 +14,7 @@
 
 use dynamics::body_rate::principal_acceleration;
 use dynamics::integrate::OdeSystem;
-use dynamics::{Flight, RigidFlight, RigidToss, SolveError, Stepping, Work};
+use dynamics::{Flight, RigidFlight, SolveError, Stepping, Toss, Work};
 use nalgebra::SVector;
 use numerics::lanes::{Real, Simd};
 
@@ -28,12 +28,12 @@ use crate::{Landed, half_product};
 /// unit of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidSystem {
-    /// The [couplings](dynamics::Body::couplings) of Euler's equations.
+    /// The [couplings](dynamics::RigidBody::couplings) of Euler's equations.
     couplings: [f64; 3],
 }
 
 impl RigidSystem {
-    /// The system for a body with these [couplings](dynamics::Body::couplings).
+    /// The system for a body with these [couplings](dynamics::RigidBody::couplings).
     pub fn new(couplings: [f64; 3]) -> Self {
         Self { couplings }
     }
@@ -132,11 +132,11 @@ pub(crate) struct Bodies {
 }
 
 impl Motion for Bodies {
-    type Toss = RigidToss;
+    type Toss = Toss;
     type Flight = RigidFlight;
     type Series<S: Simd> = RigidSeries<S>;
 
-    fn flight(toss: &RigidToss) -> Result<RigidFlight, SolveError> {
+    fn flight(toss: &Toss) -> Result<RigidFlight, SolveError> {
         RigidFlight::new(toss)
     }
 
@@ -150,7 +150,7 @@ impl Motion for Bodies {
         RigidSeries([[Real::splat(simd, 0.0); 7]; LARGEST_ORDER + 1])
     }
 
-    fn launch(&mut self, lane: usize, _: &RigidToss, flight: &RigidFlight) {
+    fn launch(&mut self, lane: usize, _: &Toss, flight: &RigidFlight) {
         for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
             part[lane] = value;
         }

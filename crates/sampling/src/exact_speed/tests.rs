@@ -19,7 +19,7 @@ fn counted(coin: Coin, rate: [&str; 3], tilt: &str, speed: &str) -> f64 {
     let heads = (0..PARTS).filter(|part| {
         let mut values = space.fixed_values();
         values[Speed as usize] = space.axis(Speed).quantile((f64::from(*part) + 0.5) / f64::from(PARTS));
-        certify(&space.coin_toss(&values).unwrap()).is_ok_and(|found| found.outcome() == Outcome::Heads)
+        certify(&space.toss(&values)).is_ok_and(|found| found.outcome() == Outcome::Heads)
     });
     heads.count() as f64 / f64::from(PARTS)
 }

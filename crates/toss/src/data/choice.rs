@@ -128,11 +128,11 @@ mod tests {
 
     fn scenes() -> [Scene; 3] {
         let launch = Launch::new([9.0, 4.0, 3.0], TimeOfFlight::Given(1.5)).unwrap();
-        let toss = Toss { coin: Coin::PAPER, launch };
+        let toss = Toss::new(Coin::PAPER, launch);
         let space = Space::builder(Coin::PAPER).rate_x(0.0..=50.0).rate_y(1.0).rate_z(3.0).speed(3.0..=5.0).build();
         [
-            Scene::new(Want::Tilt(toss.into()), 1e-9),
-            Scene::new(Want::Attitude(toss.into()), 1e-6).by("gamma", None),
+            Scene::new(Want::Tilt(toss), 1e-9),
+            Scene::new(Want::Attitude(toss), 1e-6).by("gamma", None),
             Scene::new(Want::Probability(space.unwrap()), 1e-3),
         ]
     }

@@ -1,6 +1,6 @@
 //! Tests of plans by an integrator.
 
-use dynamics::{Attitude, Coin, Launch, Propagation, State, StepControl, Toss, Vector3, Work};
+use dynamics::{Attitude, Coin, Landing, Launch, State, StepControl, Vector3, Work};
 use kinematics_quat::QuaternionSolver;
 
 use super::*;
@@ -19,8 +19,8 @@ fn tolerance(choice: &Choice) -> f64 {
 
 /// The error of an answer against the exact motion. The angle φ between attitudes is measured in another way than by the plan:
 /// the images of three axes are off by |Δ|² = 8 sin²(φ/2) together.
-fn error(answer: &Answer, toss: &RigidToss) -> f64 {
-    let motion = exact::RigidMotion::new(toss);
+fn error(answer: &Answer, toss: &Toss) -> f64 {
+    let motion = exact::ExactMotion::new(toss);
     let angle = |time: TimeOfFlight, attitude: &Attitude| {
         let exact = motion.state(time).unwrap().attitude;
         let off = |axis| (exact.body_to_lab(&axis) - attitude.body_to_lab(&axis)).norm_squared();
@@ -85,18 +85,16 @@ impl Solver for Off {
     fn stepping(&self) -> Option<Stepping> {
         self.0.stepping()
     }
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let toss = toss.of_coin(self.name(), "it is for coins alone")?;
         if toss.launch.rate().x == 0.0 {
             return Err(SolveError::NotFinite { time: 0.5 });
         }
-        let State { attitude, rate } = self.0.propagate(toss)?.state;
+        let State { attitude, rate } = self.0.land(&toss.into())?.state;
         let ([w, x, y, z], (sin, cos)) = (attitude.components(), (0.5 * self.1).sin_cos());
         let turned = [cos * w - sin * x, cos * x + sin * w, cos * y - sin * z, cos * z + sin * y];
         let turned = Attitude::from_components(turned).unwrap();
-        Ok(Propagation::new(State::new(turned, rate), Work::default()))
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(0.0))
+        Ok(Landing::new(State::new(turned, rate), Work::default()).with_error(0.0))
     }
 }
 
@@ -108,8 +106,8 @@ fn registry(angle: f64) -> Registry {
     Registry::standard().with(entry.with_schemes(&[Scheme::DOP853])).unwrap()
 }
 
-fn thrown(rate: [f64; 3]) -> RigidToss {
-    Toss { coin: Coin::PAPER, launch: Launch::new(rate, TimeOfFlight::Given(0.6)).unwrap() }.into()
+fn thrown(rate: [f64; 3]) -> Toss {
+    Toss::new(Coin::PAPER, Launch::new(rate, TimeOfFlight::Given(0.6)).unwrap())
 }
 
 /// The error estimate is 0, so that the error against the exact motion alone refuses what is off.
@@ -137,12 +135,12 @@ fn what_an_integrator_does_not_solve_is_refused_with_its_own_error() {
     assert_eq!(refused(about_z.clone().by("off", None)), SolveError::NotFinite { time: 0.5 }.into());
     let offers = about_z.candidates_with(&registry(0.0)).unwrap();
     assert!(offers.iter().any(|(_, offer)| matches!(offer, Err(Reason::Fails(Error::Solve(_))))));
-    let racket = RigidToss { body: "racket".parse().unwrap(), ..thrown([1.0, 12.0, 2.5]) };
+    let racket = Toss { body: "racket".parse().unwrap(), ..thrown([1.0, 12.0, 2.5]) };
     for solver in ["gamma", "off"] {
         let error = refused(Scene::new(Want::Attitude(racket), 1e-3).by(solver, None));
         assert!(matches!(error, Error::Solve(SolveError::NotSymmetric { .. })), "{error}");
     }
     let far = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
-    let far = Scene::new(Want::Tilt(RigidToss { launch: far, ..racket }), 1e-3).by("euler", None);
+    let far = Scene::new(Want::Tilt(Toss { launch: far, ..racket }), 1e-3).by("euler", None);
     assert!(matches!(refused(far), Error::Solve(SolveError::PhaseTooLarge { .. })));
 }

@@ -2,7 +2,7 @@
 
 use dynamics::catalogue::named_body;
 use dynamics::{Attitude, Body, Coin, Launch, SolveError, StepControl, TimeOfFlight};
-use exact::RigidMotion;
+use exact::ExactMotion;
 
 use super::*;
 use crate::scene::Scene;
@@ -24,7 +24,7 @@ impl Numbers {
 }
 
 /// A toss of a coin, a racket or a brick, of up to some hundred radians.
-pub(crate) fn toss(numbers: &mut Numbers) -> RigidToss {
+pub(crate) fn toss(numbers: &mut Numbers) -> Toss {
     let body = match (3.0 * numbers.next()) as usize {
         0 => Coin::from_moments(1.0, numbers.between(0.0, 2.0)).unwrap().into(),
         1 => named_body("racket").unwrap(),
@@ -32,7 +32,7 @@ pub(crate) fn toss(numbers: &mut Numbers) -> RigidToss {
     };
     let rate = [0; 3].map(|_| numbers.between(-30.0, 30.0));
     let time = TimeOfFlight::Given(10f64.powf(numbers.between(-2.0, 1.0)));
-    RigidToss { body, launch: Launch::new(rate, time).unwrap().with_tilt(numbers.between(-3.0, 3.0)).unwrap() }
+    Toss { body, launch: Launch::new(rate, time).unwrap().with_tilt(numbers.between(-3.0, 3.0)).unwrap() }
 }
 
 /// Whether `want` is proven to within `accuracy` at a tolerance.
@@ -61,7 +61,7 @@ fn planned_flights_prove_what_was_asked_for_at_the_coarsest_tolerance_that_does(
         };
         let How::Integrator(_, stepping) = &choice.how else { panic!("{choice:?}") };
         let Answer::Enclosed(answer) = choice.run(&scene).unwrap() else { panic!("{choice:?}") };
-        let motion = RigidMotion::new(&toss);
+        let motion = ExactMotion::new(&toss);
         let time = toss.launch.time_of_flight();
         let (bound, error) = if index % 2 == 0 {
             (answer.error_bound(), (answer.cos_tilt() - motion.cos_tilt(time).unwrap()).abs())
@@ -103,6 +103,6 @@ fn what_a_plan_cannot_prove_is_refused_with_a_sentence() {
     assert!(matches!(by("exact", None).plan(), Err(Error::Input(InputError::OutsideModel { .. }))));
     assert!(matches!(by("magic", None).plan(), Err(Error::Input(InputError::UnknownName { .. }))));
     let far = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(1e17)).unwrap();
-    let far = Want::Tilt(RigidToss { launch: far, ..toss });
+    let far = Want::Tilt(Toss { launch: far, ..toss });
     assert!(matches!(Scene::new(far, 1e-6).proven().plan(), Err(Error::Solve(SolveError::PhaseTooLarge { .. }))));
 }

@@ -1,7 +1,7 @@
 //! This file times the exact motion of a body with three moments: a launch with its landing, further times of the same
 //! launch, and the proof of an outcome, alone and in batches.
 
-use toss::{Attitude, Batch, Body, RigidMotion, RigidToss, SimdLevel, certify_rigid};
+use toss::{Attitude, Batch, Body, ExactMotion, SimdLevel, Toss, certify};
 
 use super::contest::Contest;
 use super::tosses::Columns;
@@ -15,11 +15,11 @@ pub(super) fn body() -> Body {
 }
 
 /// How to make the motion of a toss.
-type Motion = fn(&RigidToss) -> RigidMotion;
+type Motion = fn(&Toss) -> ExactMotion;
 
 /// The ways to compute the motion.
 const MOTIONS: [(&str, Motion); 2] =
-    [("compensated", RigidMotion::compensated), ("in double-double", RigidMotion::new)];
+    [("compensated", ExactMotion::compensated), ("in double-double", ExactMotion::new)];
 
 /// All ways to solve the launches of the columns.
 pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Contest<'a>> {
@@ -27,11 +27,11 @@ pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Conte
     let mut contests = Vec::new();
     for (name, motion) in MOTIONS {
         let launches = tosses.clone();
-        let cos_tilt = move |toss: &RigidToss| motion(toss).cos_tilt(toss.launch.time_of_flight()).unwrap_or(f64::NAN);
+        let cos_tilt = move |toss: &Toss| motion(toss).cos_tilt(toss.launch.time_of_flight()).unwrap_or(f64::NAN);
         let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(cos_tilt(toss)));
         contests.push(contest("cos θ", name, tosses.len(), None, run));
         let launches = tosses.clone();
-        let attitude = move |toss: &RigidToss| {
+        let attitude = move |toss: &Toss| {
             motion(toss).state(toss.launch.time_of_flight()).map_or(Attitude::IDENTITY, |state| state.attitude)
         };
         let error = tosses.iter().map(|toss| attitude(toss).angle_to(&exact(toss))).fold(0.0, f64::max);
@@ -40,7 +40,7 @@ pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Conte
         contests.push(further_times(&tosses, name, motion));
     }
     let launches = tosses.clone();
-    let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify_rigid(toss)));
+    let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(certify(toss)));
     contests.push(contest("proven outcome", "one by one", tosses.len(), None, run));
     contests.extend(SimdLevel::all().into_iter().map(|level| batch(many, level)));
     contests
@@ -54,8 +54,8 @@ fn batch(columns: &Columns, level: SimdLevel) -> Contest<'_> {
 }
 
 /// cos θ at many times of a few launches, whose constants are computed before.
-fn further_times<'a>(tosses: &[RigidToss], name: &str, motion: Motion) -> Contest<'a> {
-    let few: Vec<(RigidMotion, f64)> =
+fn further_times<'a>(tosses: &[Toss], name: &str, motion: Motion) -> Contest<'a> {
+    let few: Vec<(ExactMotion, f64)> =
         tosses.iter().take(TIMES).map(|toss| (motion(toss), toss.launch.flight_time())).collect();
     let solved = few.len() * TIMES;
     let run = move || {
@@ -70,8 +70,8 @@ fn further_times<'a>(tosses: &[RigidToss], name: &str, motion: Motion) -> Contes
 }
 
 /// The attitude in double-double.
-fn exact(toss: &RigidToss) -> Attitude {
-    let state = RigidMotion::new(toss).state(toss.launch.time_of_flight());
+fn exact(toss: &Toss) -> Attitude {
+    let state = ExactMotion::new(toss).state(toss.launch.time_of_flight());
     state.map_or(Attitude::IDENTITY, |state| state.attitude)
 }
 

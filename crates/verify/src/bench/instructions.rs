@@ -12,7 +12,7 @@ use anyhow::{Context, bail};
 use rayon::ThreadPoolBuilder;
 use sampling::{Plan, Rest, Sampler, Scrambled};
 use serde::{Deserialize, Serialize};
-use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR};
+use toss::{Batch, Formulation, QuaternionSolver, Registry, Settings, SimdLevel, Solver, Stepping, TAYLOR, Tilt};
 
 use super::tosses::Columns;
 use crate::files;
@@ -86,6 +86,7 @@ fn many(work: &str, level: &str, times: u32) -> anyhow::Result<()> {
         None if level == "default" => Batch::new(tosses),
         known => Batch::new(tosses).on(known.context("this machine has no such SIMD level")?),
     };
+    let mut tilts = vec![Tilt { cos_tilt: 0.0, error: None }; TOSSES];
     let (mut out, mut quaternions) = (vec![0.0; TOSSES], [(); 4].map(|()| vec![0.0; TOSSES]));
     let bodies = Batch::new(columns.tosses_of(super::bodies::body()));
     let each = columns.each();
@@ -96,8 +97,8 @@ fn many(work: &str, level: &str, times: u32) -> anyhow::Result<()> {
             ("count", _) => drop(std::hint::black_box(batch.count()?)),
             ("bodies", Some(level)) => drop(std::hint::black_box(bodies.on(level).count()?)),
             ("attitudes", _) => batch.attitudes(quaternions.each_mut().map(Vec::as_mut_slice))?,
-            ("taylor", Some(level)) => drop(taylor.propagate_all(&each, level)),
-            ("landings", None) => taylor.cos_tilts(&tosses, &mut out)?,
+            ("taylor", Some(level)) => drop(taylor.land_all(&each, level)),
+            ("landings", None) => taylor.tilts(&each, &mut tilts)?,
             _ => bail!("no such work"),
         }
     }
@@ -115,8 +116,8 @@ fn one_by_one(work: &str, by: &str, times: u32) -> anyhow::Result<()> {
     let each = Columns::new(FLOWN).each();
     for toss in (0..times).flat_map(|_| &each) {
         match work {
-            "cos-tilt" => _ = std::hint::black_box(solver.cos_tilt(toss)?),
-            _ => _ = std::hint::black_box(solver.outcome(toss)?),
+            "cos-tilt" => _ = std::hint::black_box(solver.tilt(toss)?.cos_tilt),
+            _ => _ = std::hint::black_box(solver.tilt(toss)?.outcome()),
         }
     }
     Ok(())

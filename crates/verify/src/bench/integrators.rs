@@ -4,8 +4,7 @@
 use std::rc::Rc;
 
 use toss::{
-    Attitude, Body, ExactMotion, Formulation, QuaternionSolver, RigidMotion, RigidToss, Scheme, SimdLevel, SolveError,
-    Solver, Stepping, TAYLOR, Toss,
+    Attitude, Body, ExactMotion, Formulation, QuaternionSolver, Scheme, SimdLevel, Solver, Stepping, TAYLOR, Toss,
 };
 
 use super::contest::Contest;
@@ -18,72 +17,29 @@ pub(super) const FLOWN: usize = 1024;
 const ERRORS: [f64; 4] = [1e-5, 1e-8, 1e-11, 5e-14];
 
 /// Solves all tosses and returns their attitudes at landing.
-type Fly<T> = Box<dyn Fn(&[T], Stepping) -> Vec<Attitude>>;
+type Fly = Box<dyn Fn(&[Toss], Stepping) -> Vec<Attitude>>;
 
-/// A toss that an integrator solves: of a coin, or of any body.
-trait Flown: Copy + 'static {
-    /// What is timed.
-    const GROUP: &'static str;
-
-    /// The attitude at landing by the exact motion.
-    fn exact(&self) -> Result<Attitude, SolveError>;
-
-    /// That by the integrator.
-    fn alone(&self, solver: &QuaternionSolver) -> Result<Attitude, SolveError>;
-
-    /// Those of many tosses by the integrator in lanes.
-    fn together(tosses: &[Self], solver: &QuaternionSolver, level: SimdLevel) -> Vec<Attitude>;
-}
-
-impl Flown for Toss {
-    const GROUP: &'static str = "attitude of a toss by integration, quaternion";
-
-    fn exact(&self) -> Result<Attitude, SolveError> {
-        Ok(ExactMotion::new(self).state(self.launch.time_of_flight())?.attitude)
-    }
-
-    fn alone(&self, solver: &QuaternionSolver) -> Result<Attitude, SolveError> {
-        Ok(solver.propagate(self)?.state.attitude)
-    }
-
-    fn together(tosses: &[Self], solver: &QuaternionSolver, level: SimdLevel) -> Vec<Attitude> {
-        let landings = solver.propagate_all(tosses, level).into_iter();
-        landings.map(|landing| landing.expect("an ordinary flight").state.attitude).collect()
-    }
-}
-
-impl Flown for RigidToss {
-    const GROUP: &'static str = "the same of a body with moments 1, 2, 2.25";
-
-    fn exact(&self) -> Result<Attitude, SolveError> {
-        Ok(RigidMotion::new(self).state(self.launch.time_of_flight())?.attitude)
-    }
-
-    fn alone(&self, solver: &QuaternionSolver) -> Result<Attitude, SolveError> {
-        Ok(solver.propagate_rigid(self)?.state.attitude)
-    }
-
-    fn together(tosses: &[Self], solver: &QuaternionSolver, level: SimdLevel) -> Vec<Attitude> {
-        let landings = solver.propagate_all_rigid(tosses, level).into_iter();
-        landings.map(|landing| landing.expect("an ordinary flight").state.attitude).collect()
-    }
-}
+/// What is timed of coins, and of a body.
+const GROUPS: [&str; 2] =
+    ["attitude of a toss by integration, quaternion", "the same of a body with moments 1, 2, 2.25"];
 
 /// Each integrator at each error: with the loosest tolerance that keeps it or, if none does, with the tolerance of its
 /// smallest error.
 pub(super) fn contests<'a>(columns: &Columns, body: Body) -> anyhow::Result<Vec<Contest<'a>>> {
-    let mut contests = contests_of(&columns.each())?;
-    contests.extend(contests_of(&columns.each_of(body))?);
+    let mut contests = contests_of(GROUPS[0], &columns.each())?;
+    contests.extend(contests_of(GROUPS[1], &columns.each_of(body))?);
     Ok(contests)
 }
 
-fn contests_of<'a, T: Flown>(tosses: &[T]) -> anyhow::Result<Vec<Contest<'a>>> {
-    let mut integrators: Vec<(String, Scheme, Fly<T>)> = [Scheme::DOPRI5, Scheme::DOP853, TAYLOR]
-        .map(|scheme| (format!("{}, one by one", scheme.name()), scheme, Box::new(one_by_one) as Fly<T>))
+fn contests_of<'a>(group: &'static str, tosses: &[Toss]) -> anyhow::Result<Vec<Contest<'a>>> {
+    let mut integrators: Vec<(String, Scheme, Fly)> = [Scheme::DOPRI5, Scheme::DOP853, TAYLOR]
+        .map(|scheme| (format!("{}, one by one", scheme.name()), scheme, Box::new(one_by_one) as Fly))
         .into();
     for level in SimdLevel::all() {
-        let fly = move |tosses: &[T], stepping: Stepping| {
-            T::together(tosses, &QuaternionSolver::new(stepping, Formulation::default()), level)
+        let fly = move |tosses: &[Toss], stepping: Stepping| {
+            let solver = QuaternionSolver::new(stepping, Formulation::default());
+            let landings = solver.land_all(tosses, level).into_iter();
+            landings.map(|landing| landing.expect("an ordinary flight").state.attitude).collect()
         };
         integrators.push((format!("taylor, lanes, {}", level.name()), TAYLOR, Box::new(fly)));
     }
@@ -95,7 +51,7 @@ fn contests_of<'a, T: Flown>(tosses: &[T]) -> anyhow::Result<Vec<Contest<'a>>> {
             let (tosses, fly) = (tosses.to_vec(), Rc::clone(&fly));
             let run = move || drop(std::hint::black_box(fly(&tosses, stepping)));
             contests.push(Contest {
-                group: T::GROUP,
+                group,
                 name: format!("{name}, asked {asked:.0e}"),
                 error: Some(error),
                 tosses: FLOWN,
@@ -108,7 +64,7 @@ fn contests_of<'a, T: Flown>(tosses: &[T]) -> anyhow::Result<Vec<Contest<'a>>> {
 
 /// The stepping with the loosest tolerance whose error is at most `asked`, and its error (rad); if there is none, that
 /// with the smallest error.
-fn loosest<T: Flown>(tosses: &[T], scheme: Scheme, fly: &Fly<T>, asked: f64) -> anyhow::Result<(Stepping, f64)> {
+fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Result<(Stepping, f64)> {
     const A_DECADE: i32 = 5;
     let mut best: Option<(Stepping, f64)> = None;
     for step in 3 * A_DECADE..=15 * A_DECADE {
@@ -124,13 +80,15 @@ fn loosest<T: Flown>(tosses: &[T], scheme: Scheme, fly: &Fly<T>, asked: f64) -> 
     anyhow::Context::context(best, "a tolerance was tried")
 }
 
-fn one_by_one<T: Flown>(tosses: &[T], stepping: Stepping) -> Vec<Attitude> {
+fn one_by_one(tosses: &[Toss], stepping: Stepping) -> Vec<Attitude> {
     let solver = QuaternionSolver::new(stepping, Formulation::default());
-    tosses.iter().map(|toss| toss.alone(&solver).expect("an ordinary flight")).collect()
+    tosses.iter().map(|toss| solver.land(toss).expect("an ordinary flight").state.attitude).collect()
 }
 
 /// The largest angle to the exact attitude (rad).
-fn error<T: Flown>(tosses: &[T], found: &[Attitude]) -> f64 {
-    let error = |(toss, found): (&T, &Attitude)| toss.exact().map_or(f64::NAN, |exact| found.angle_to(&exact));
+fn error(tosses: &[Toss], found: &[Attitude]) -> f64 {
+    let exact = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.time_of_flight());
+    let error =
+        |(toss, found): (&Toss, &Attitude)| exact(toss).map_or(f64::NAN, |exact| found.angle_to(&exact.attitude));
     tosses.iter().zip(found).map(error).fold(0.0, f64::max)
 }

@@ -2,7 +2,7 @@
 //! level of the machine. It shows what the batches gain, and that their errors are those of rounding.
 
 use exact::{compensated_cos_tilt, compensated_landing};
-use toss::{Attitude, Batch, ExactMotion, ExactSolver, Outcome, SimdLevel, Solver, Toss, certify};
+use toss::{Attitude, Batch, CoinMotion, CoinToss, ExactSolver, Outcome, SimdLevel, Solver, Toss, certify};
 
 use super::Row;
 use super::contest::Contest;
@@ -48,10 +48,10 @@ fn one_by_one<'a>(columns: &Columns) -> Vec<Contest<'a>> {
     };
     let cos_tilt =
         |solve: fn(&Toss) -> f64| Some(cos_tilt_error(columns, &tosses.iter().map(solve).collect::<Vec<_>>()));
-    let compensated = |toss: &Toss| compensated_cos_tilt(toss).unwrap_or(f64::NAN);
-    let exact = |toss: &Toss| ExactSolver.cos_tilt(toss).unwrap_or(f64::NAN);
+    let compensated = |toss: &Toss| compensated_cos_tilt(&coin(toss)).unwrap_or(f64::NAN);
+    let exact = |toss: &Toss| ExactSolver.tilt(toss).map_or(f64::NAN, |tilt| tilt.cos_tilt);
     let certified = |toss: &Toss| certify(toss).map_or(f64::NAN, |found| f64::from(found.outcome() as u8));
-    let landing = |toss: &Toss| compensated_landing(toss).map_or(f64::NAN, |landing| landing.rate.x);
+    let landing = |toss: &Toss| compensated_landing(&coin(toss)).map_or(f64::NAN, |landing| landing.rate.x);
     vec![
         contest(COS_TILT, "compensated, one by one", cos_tilt(compensated), over_all(compensated)),
         contest(COS_TILT, "to the last bit, one by one", cos_tilt(exact), over_all(exact)),
@@ -91,17 +91,21 @@ fn solve_attitudes(batch: &Batch<'_>, out: &mut [Vec<f64>; 4]) {
 /// The largest error of cos θ against the exact motion in double-double arithmetic.
 fn cos_tilt_error(columns: &Columns, found: &[f64]) -> f64 {
     let error = |(toss, found): (&Toss, &f64)| {
-        let parts = ExactMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight());
+        let parts = CoinMotion::new(&coin(toss)).cos_tilt_parts(toss.launch.time_of_flight());
         parts.map_or(f64::NAN, |(exact, _)| ((found - exact.hi()) - exact.lo()).abs())
     };
     columns.each().iter().zip(found).map(error).fold(0.0, f64::max)
+}
+
+fn coin(toss: &Toss) -> CoinToss {
+    toss.coin().expect("columns of a coin")
 }
 
 /// The largest angle to the exact attitude (rad).
 fn attitude_error(columns: &Columns, found: &[Vec<f64>; 4]) -> f64 {
     let error = |(index, toss): (usize, &Toss)| {
         let found = Attitude::from_components(found.each_ref().map(|column| column[index]));
-        let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight());
+        let exact = CoinMotion::new(&coin(toss)).state(toss.launch.time_of_flight());
         found.ok().zip(exact.ok()).map_or(f64::NAN, |(found, exact)| found.angle_to(&exact.attitude))
     };
     columns.each().iter().enumerate().map(error).fold(0.0, f64::max)

@@ -1,7 +1,7 @@
 //! This file makes the tosses that all benchmarks solve, so that their times and errors can be compared. They are the
 //! same in every run.
 
-use toss::{Attitude, Batch, Body, Coin, RigidToss, SimdLevel, Toss, Tosses};
+use toss::{Attitude, Batch, Body, Coin, SimdLevel, Toss, Tosses};
 
 /// Number of tosses, so few that their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
@@ -26,7 +26,7 @@ impl Columns {
     }
 
     /// The same launches of a coin or a body.
-    pub(super) fn tosses_of<B: Copy>(&self, body: B) -> Tosses<'_, B> {
+    pub(super) fn tosses_of<B: Copy + Into<Body>>(&self, body: B) -> Tosses<'_, B> {
         let [x, y, z] = &self.rates;
         let tosses = Tosses::new(body, Attitude::IDENTITY, 9.81, [x, y, z], &self.speeds);
         tosses.expect("columns of one length")
@@ -44,7 +44,7 @@ impl Columns {
     }
 
     /// The same launches of a body.
-    pub(super) fn each_of(&self, body: Body) -> Vec<RigidToss> {
-        self.each().into_iter().map(|toss| RigidToss { body, launch: toss.launch }).collect()
+    pub(super) fn each_of(&self, body: Body) -> Vec<Toss> {
+        self.each().into_iter().map(|toss| Toss { body, launch: toss.launch }).collect()
     }
 }

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::measure::case::Case;
 use crate::measure::throws::throw;
@@ -30,14 +30,14 @@ pub fn launch(seed: u64, index: u64) -> Result<Case, InputError> {
     if is_slow(index) && rate.amax() > 0.0 {
         rate = rate / rate.amax() * decades(&mut rng, -9.0, -3.0);
     }
-    let still = Toss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
-    let motion = ExactMotion::new(&still);
+    let still = CoinToss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
+    let motion = CoinMotion::new(&still);
     let tilt = tilt(&mut rng, motion.cone_angle());
     let time = time(&mut rng, &motion, &rate);
     let launch = Launch::new(rate, throw(TimeOfFlight::Given(time), index))?.with_tilt(tilt)?;
     // The motion depends on the ratio of the moments alone, whatever their size (kg m²).
     let i1 = decades(&mut rng, -12.0, 3.0);
-    Ok(Case { toss: Toss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch }, tilt })
+    Ok(Case { toss: CoinToss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch }, tilt })
 }
 
 /// Whether launch number `index` is a slow one.
@@ -105,7 +105,7 @@ fn tilt(rng: &mut ChaCha8Rng, cone: f64) -> f64 {
 /// for up to 100 s, if it is of ordinary speed, and one in a hundred turns by more than 10^16 rad, where every solver
 /// must refuse. Phases in between are left out: there integrators only reach their largest number of steps, which takes
 /// a second a flight.
-fn time(rng: &mut ChaCha8Rng, motion: &ExactMotion, rate: &Vector3<f64>) -> f64 {
+fn time(rng: &mut ChaCha8Rng, motion: &CoinMotion, rate: &Vector3<f64>) -> f64 {
     let turns_in_a_second = motion.phase(1.0).unwrap_or(f64::INFINITY).max(rate.amax()).max(f64::MIN_POSITIVE);
     let ordinary = (1e-3..200.0).contains(&turns_in_a_second);
     let time = match rng.random_range(0..100) {

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, ensure};
-use dynamics::{Body, RigidToss};
-use toss::{Attitude, ExactSolver, Launch, Outcome, Propagation, SolveError, Solver, State, TimeOfFlight};
+use dynamics::{Body, Toss};
+use toss::{Attitude, ExactSolver, Landing, Launch, Outcome, SolveError, Solver, State, TimeOfFlight};
 
 use crate::measure::case::{Case, fields, hex_float};
 use crate::measure::reference::Reference;
@@ -16,7 +16,7 @@ use crate::measure::reference::rigid::RigidReference;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidCase {
     /// The toss.
-    pub toss: RigidToss,
+    pub toss: Toss,
     /// The tilt at launch (rad): the angle of that turn.
     pub tilt: f64,
 }
@@ -28,7 +28,7 @@ impl RigidCase {
     /// [`InputError`](toss::InputError) for numbers that describe no toss.
     pub fn new(moments: [f64; 3], rate: [f64; 3], tilt: f64, time: f64) -> Result<Self, toss::InputError> {
         let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-        Ok(Self { toss: RigidToss { body: Body::from_moments(moments)?, launch }, tilt })
+        Ok(Self { toss: Toss { body: Body::from_moments(moments)?, launch }, tilt })
     }
 
     /// All inputs as `NAME=HEX` fields, separated by spaces.
@@ -89,6 +89,14 @@ impl AnyCase {
         Case::from_hex(line).map(Self::Coin)
     }
 
+    /// The toss.
+    pub fn toss(&self) -> Toss {
+        match self {
+            Self::Coin(case) => case.toss.into(),
+            Self::Rigid(case) => case.toss,
+        }
+    }
+
     /// The launch.
     pub fn launch(&self) -> &Launch {
         match self {
@@ -100,18 +108,15 @@ impl AnyCase {
     /// The landing by `solver`.
     ///
     /// # Errors
-    /// As [`Solver::propagate_rigid`].
-    pub fn propagate(&self, solver: &dyn Solver) -> Result<Propagation, SolveError> {
-        match self {
-            Self::Coin(case) => solver.propagate(&case.toss),
-            Self::Rigid(case) => solver.propagate_rigid(&case.toss),
-        }
+    /// As [`Solver::land`].
+    pub fn land(&self, solver: &dyn Solver) -> Result<Landing, SolveError> {
+        solver.land(&self.toss())
     }
 
     /// Whether `solver` is made for such a body: it refuses none with [`SolveError::NotSymmetric`].
     pub fn is_solved_by(&self, solver: &dyn Solver) -> bool {
         let Self::Rigid(case) = self else { return true };
-        !matches!(solver.error_estimate_rigid(&case.toss), Err(SolveError::NotSymmetric { .. }))
+        !matches!(solver.tilt(&case.toss), Err(SolveError::NotSymmetric { .. }))
     }
 }
 
@@ -148,13 +153,12 @@ impl AnyReference {
     ///
     /// # Errors
     /// As [`AnyReference::new`].
-    pub fn of_rigid(toss: &RigidToss) -> Result<Self, SolveError> {
+    pub fn of_rigid(toss: &Toss) -> Result<Self, SolveError> {
         if let Some(reference) = RigidReference::new(toss) {
             return Ok(Self::Rigid(reference));
         }
-        let landing = ExactSolver.propagate_rigid(toss)?;
-        let outcome = ExactSolver.outcome_at_rigid(toss, landing.cos_tilt)?;
-        Ok(Self::Exact { state: landing.state, cos_tilt: landing.cos_tilt, outcome })
+        let landing = ExactSolver.land(toss)?;
+        Ok(Self::Exact { state: landing.state, cos_tilt: landing.cos_tilt, outcome: landing.outcome() })
     }
 
     /// Absolute error of a computed cos θ.

@@ -1,7 +1,7 @@
 //! Tosses of bodies that are no coins, in families each of which is hard for a method of its own, and the landings of
 //! every solver on them. Some solvers are for coins alone, and refuse them.
 
-use dynamics::{Body, RigidToss};
+use dynamics::{Body, Toss};
 use rayon::prelude::*;
 use toss::{Launch, SolveError, TimeOfFlight, Vector3};
 
@@ -127,18 +127,18 @@ fn vector(numbers: &mut Numbers) -> [f64; 3] {
 }
 
 /// Tosses of a family. n is any one of the three axes.
-pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Iterator<Item = RigidToss> {
+pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Iterator<Item = Toss> {
     (0..number).filter_map(move |index| {
         launch(family, index, within.rate, |numbers| 10f64.powf(numbers.between(within.phase[0], within.phase[1])))
     })
 }
 
 /// Toss number `index` of a family, of any size of rates, which turns by about `phase` (rad); `None` if there is none.
-pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<RigidToss> {
+pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<Toss> {
     launch(family, index, FLOWN.rate, |_| phase)
 }
 
-fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<RigidToss> {
+fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<Toss> {
     let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
     let (mut moments, mut rate) = (family.make)(&mut numbers);
     moments.rotate_left((index % 3) as usize);
@@ -148,7 +148,7 @@ fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut 
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
     let tilt = if index.is_multiple_of(2) { 0.0 } else { numbers.between(-3.0, 3.0) };
     // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
-    let toss = RigidToss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
+    let toss = Toss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
     RigidReference::solves(&toss).then_some(toss)
 }
 
@@ -157,7 +157,7 @@ pub struct BodyFinding {
     /// The family.
     pub family: &'static str,
     /// The toss.
-    pub toss: RigidToss,
+    pub toss: Toss,
     /// Its errors, or why it has no landing.
     pub errors: Result<BodyErrors, SolveError>,
 }
@@ -191,15 +191,14 @@ pub fn survey(subjects: &[Subject], effort: Effort) -> Vec<BodyFindings> {
         Effort::Deep => 15_000,
     };
     let each = |family: &'static Family| launches(family, number, TOSSED).map(move |toss| (family.name, toss));
-    let tosses: Vec<(&'static str, RigidToss)> = FAMILIES.iter().flat_map(each).collect();
+    let tosses: Vec<(&'static str, Toss)> = FAMILIES.iter().flat_map(each).collect();
     let references: Vec<_> = tosses.par_iter().map(|(_, toss)| AnyReference::of_rigid(toss)).collect();
     let fly = |(subject, by): (usize, &Subject)| {
-        let of = |((family, toss), reference): (&(&'static str, RigidToss), &Result<AnyReference, SolveError>)| {
+        let of = |((family, toss), reference): (&(&'static str, Toss), &Result<AnyReference, SolveError>)| {
             let errors = reference.as_ref().map_err(Clone::clone).and_then(|reference| errors(by, toss, reference));
             BodyFinding { family, toss: *toss, errors }
         };
-        let refuses =
-            |toss: &RigidToss| matches!(by.solver.error_estimate_rigid(toss), Err(SolveError::NotSymmetric { .. }));
+        let refuses = |toss: &Toss| matches!(by.solver.tilt(toss), Err(SolveError::NotSymmetric { .. }));
         if tosses.iter().all(|(_, toss)| refuses(toss)) {
             return None;
         }
@@ -213,12 +212,12 @@ pub fn survey(subjects: &[Subject], effort: Effort) -> Vec<BodyFindings> {
 ///
 /// # Errors
 /// Those of the solver.
-pub fn errors(by: &Subject, toss: &RigidToss, reference: &AnyReference) -> Result<BodyErrors, SolveError> {
-    let landing = by.solver.propagate_rigid(toss)?;
+pub fn errors(by: &Subject, toss: &Toss, reference: &AnyReference) -> Result<BodyErrors, SolveError> {
+    let landing = by.solver.land(toss)?;
     Ok(BodyErrors {
         cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
         attitude: reference.attitude_error(&landing.state.attitude),
         drift: drift::of_rigid(toss, &landing.state).into_iter().fold(0.0, f64::max),
-        estimate: by.solver.error_estimate_rigid(toss)?,
+        estimate: landing.error,
     })
 }

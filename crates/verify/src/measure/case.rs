@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, ensure};
-use toss::{Coin, Launch, Quantity, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinToss, Launch, Quantity, TimeOfFlight, Vector3};
 
 use crate::measure::subject::Subject;
 
@@ -12,7 +12,7 @@ use crate::measure::subject::Subject;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Case {
     /// The toss.
-    pub toss: Toss,
+    pub toss: CoinToss,
     /// The tilt at launch (rad): the angle of that turn.
     pub tilt: f64,
 }
@@ -20,7 +20,7 @@ pub struct Case {
 impl Case {
     /// All inputs as `NAME=HEX` fields, separated by spaces.
     pub fn hex(&self) -> String {
-        let Toss { coin, launch } = self.toss;
+        let CoinToss { coin, launch } = self.toss;
         let rate = launch.rate();
         let mut fields = match coin.cylinder().map(|given| given.map(Quantity::to_f64)) {
             None => vec![("i1", coin.i1()), ("i3", coin.i3())],
@@ -64,12 +64,12 @@ impl Case {
         };
         ensure!(fields.is_empty(), "unknown fields: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
         let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt)?;
-        Ok(Self { toss: Toss { coin, launch }, tilt })
+        Ok(Self { toss: CoinToss { coin, launch }, tilt })
     }
 
     /// The command of `unfair-toss` that solves this toss with the solver and settings of `subject`.
     pub fn command(&self, subject: &Subject) -> String {
-        let Toss { coin, launch } = self.toss;
+        let CoinToss { coin, launch } = self.toss;
         let rate = launch.rate();
         let flight = match launch.time_of_flight() {
             TimeOfFlight::Given(time) => format!("--time {time:?}"),
@@ -150,7 +150,7 @@ mod tests {
         for thrown in thrown {
             let launch = Launch::new(Vector3::new(-0.0, 5e-324, f64::MAX), thrown).unwrap();
             for coin in [Coin::DISC, Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()] {
-                let case = Case { toss: Toss { coin, launch }, tilt: 0.0 };
+                let case = Case { toss: CoinToss { coin, launch }, tilt: 0.0 };
                 assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
             }
         }

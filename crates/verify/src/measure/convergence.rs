@@ -15,8 +15,8 @@ use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use serde::Serialize;
 use toss::{
-    Coin, ExactMotion, Formulation, InputError, Propagation, Scheme, SolveError, Solver, SolverEntry, State, Stepping,
-    Toss,
+    Coin, CoinMotion, CoinToss, Formulation, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State,
+    Stepping,
 };
 
 use crate::measure::random_flights::random_flights;
@@ -51,7 +51,7 @@ pub struct Convergence {
 /// If too few regular flights are found; the fixed space of launches has enough.
 pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
-    let flights: Vec<(Toss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
+    let flights: Vec<(CoinToss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
     let integrators = registry.iter().filter(|entry| entry.integrates());
     let subjects: Vec<(&SolverEntry, Scheme, u32)> = integrators
         .flat_map(|entry| {
@@ -65,7 +65,7 @@ pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>>
 
 /// Flights on which the cone of the normal encloses the vertical and keeps a distance from it. There the vertical frame
 /// is regular, and all three Euler angles vary.
-fn regular_flights() -> anyhow::Result<Vec<Toss>> {
+fn regular_flights() -> anyhow::Result<Vec<CoinToss>> {
     const CLEARANCE: f64 = 0.8;
     // With this gravity and a speed of 1 m/s, 2 v0/g is TIME.
     let gravity = (2.0 / TIME).to_string();
@@ -73,7 +73,7 @@ fn regular_flights() -> anyhow::Result<Vec<Toss>> {
     let space = Space::parse(Coin::DISC, &axes)?;
     let mut tosses = Vec::new();
     for toss in random_flights(&space, 1, 10_000)? {
-        let motion = ExactMotion::new(&toss);
+        let motion = CoinMotion::new(&toss);
         let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
         if cone - axis > CLEARANCE && cone + axis < PI - CLEARANCE {
             tosses.push(toss);
@@ -92,7 +92,12 @@ fn window(scheme: Scheme) -> Range<f64> {
 }
 
 impl Convergence {
-    fn new(entry: &SolverEntry, scheme: Scheme, order: u32, flights: &[(Toss, Reference)]) -> Result<Self, InputError> {
+    fn new(
+        entry: &SolverEntry,
+        scheme: Scheme,
+        order: u32,
+        flights: &[(CoinToss, Reference)],
+    ) -> Result<Self, InputError> {
         let offered = entry.formulations().contains(&Formulation::VERTICAL);
         let formulation = if offered { Formulation::VERTICAL } else { Formulation::default() };
         let mut points = Vec::new();
@@ -119,9 +124,9 @@ impl Convergence {
 }
 
 /// The sum over `flights` of the errors of the whole state: attitude (rad), body rate (relative) and quaternion norm.
-pub(crate) fn error(solver: &dyn Solver, flights: &[(Toss, Reference)]) -> Result<f64, SolveError> {
-    let of_one = |(toss, reference): &(Toss, Reference)| -> Result<f64, SolveError> {
-        let Propagation { state: State { attitude, rate }, norm_error, .. } = solver.propagate(toss)?;
+pub(crate) fn error(solver: &dyn Solver, flights: &[(CoinToss, Reference)]) -> Result<f64, SolveError> {
+    let of_one = |(toss, reference): &(CoinToss, Reference)| -> Result<f64, SolveError> {
+        let Landing { state: State { attitude, rate }, norm_error, .. } = solver.land(&(*toss).into())?;
         Ok(reference.attitude_error(&attitude) + reference.rate_error(&rate) / rate.norm() + norm_error)
     };
     flights.iter().map(of_one).sum()

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
-use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinMotion, CoinToss, Launch, TimeOfFlight, Vector3};
 
 use super::case::Case;
 use super::effort::Effort;
@@ -28,11 +28,11 @@ pub(crate) fn random(number: u64, phase: f64, seed: u64) -> anyhow::Result<Vec<C
     let axes = [(RateX, &*fastest), (RateY, &fastest), (RateZ, &fastest), (Speed, "0:4.905"), (Tilt, "-3.2:3.2")];
     let space = Space::parse(Coin::PAPER, &axes)?;
     let coins = [0.5, 1.0, 1.98, 2.0, 0.0].map(|k| Coin::from_moments(5e-7, k * 5e-7));
-    let case = |(index, toss): (usize, Toss)| {
+    let case = |(index, toss): (usize, CoinToss)| {
         let tilt = if index % 2 == 0 { 0.0 } else { 2.0 * toss.launch.attitude().components()[1].asin() };
         let flight = throw(toss.launch.time_of_flight(), index as u64);
         let launch = Launch::new(toss.launch.rate(), flight)?.with_tilt(tilt)?;
-        Ok(Case { toss: Toss { coin: coins[index / 5 % 5].clone()?, launch }, tilt })
+        Ok(Case { toss: CoinToss { coin: coins[index / 5 % 5].clone()?, launch }, tilt })
     };
     random_flights(&space, seed, number)?.into_iter().enumerate().map(case).collect()
 }
@@ -59,7 +59,7 @@ pub(crate) fn corners() -> anyhow::Result<Vec<Case>> {
             for tilt in tilts {
                 for time in times {
                     let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-                    cases.push(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt });
+                    cases.push(Case { toss: CoinToss { coin: Coin::from_moments(1.0, k)?, launch }, tilt });
                 }
             }
         }
@@ -87,10 +87,10 @@ pub(crate) fn adversarial(number: u64, turns: fn(usize) -> f64) -> anyhow::Resul
         if !(rate.z.is_finite() && rate.z.abs() < 1e6) {
             continue;
         }
-        let toss = |time| -> anyhow::Result<Toss> {
-            Ok(Toss { launch: Launch::new(rate, time)?.with_tilt(tilt)?, ..case.toss })
+        let toss = |time| -> anyhow::Result<CoinToss> {
+            Ok(CoinToss { launch: Launch::new(rate, time)?.with_tilt(tilt)?, ..case.toss })
         };
-        let motion = ExactMotion::new(&toss(TimeOfFlight::Given(0.0))?);
+        let motion = CoinMotion::new(&toss(TimeOfFlight::Given(0.0))?);
         let heads = motion.heads();
         // Where cos θ never changes its sign the two edges coincide at its trough, where it comes nearest to 0.
         let before = std::f64::consts::TAU * turns(index);
@@ -126,7 +126,7 @@ fn ulps(value: f64, turn: usize) -> f64 {
 
 /// A tilt within 3 ulp of the one for which φ + ψ = 90°, where φ is the angle of S to the vertical: there cos θ only
 /// touches 0.
-fn grazing_tilt(toss: &Toss, turn: usize) -> f64 {
+fn grazing_tilt(toss: &CoinToss, turn: usize) -> f64 {
     // A turn by β about the laboratory's x axis gives S the height sin β Sy + cos β Sz. For φ + ψ = 90° this must be
     // |S| cos φ = |S| sin ψ = I1 Ω, with Ω = √(ωx² + ωy²). No tilt reaches it if Sy and Sz are too small.
     let rate = toss.launch.rate();

@@ -5,10 +5,10 @@
 //! about a line in its face, changes by less than its last digit in a step. Rods, discs and bodies with nearly equal
 //! moments are here too, and rates with components of different sizes.
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use toss::{Coin, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::bodies::{FAMILIES, flown_for};
 use super::case::Case;
@@ -29,7 +29,7 @@ const LONGEST: f64 = 1e6;
 /// A flight of any body, and who flies it.
 pub(super) struct Flight {
     /// The toss.
-    pub(super) toss: RigidToss,
+    pub(super) toss: Toss,
     /// The toss in words that can be copied.
     pub(super) input: String,
     /// The solver with its settings.
@@ -180,11 +180,11 @@ pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError>
     let rate = rate * decades(rng, -3.0, 3.0);
     let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
     let launch = Launch::new(rate, TimeOfFlight::Given(phase / rate.norm()))?.with_tilt(tilt)?;
-    Ok(Case { toss: Toss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
+    Ok(Case { toss: CoinToss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
 }
 
 /// A body of any of the families for a plan, which turns by up to 300 rad. `None` where the family has no such body.
-pub(super) fn planned_body(index: u64) -> (ChaCha8Rng, Option<RigidToss>) {
+pub(super) fn planned_body(index: u64) -> (ChaCha8Rng, Option<Toss>) {
     let mut rng = stream(101, index);
     let phase = decades(&mut rng, -1.0, 2.5);
     let families = FAMILIES.len() as u64;
@@ -208,6 +208,6 @@ pub(super) fn planned(index: u64) -> Result<(ChaCha8Rng, Case), InputError> {
     let rate = Vector3::new(rate.x, rate.y, one(&mut rng, [-1.0, 1.0])) * decades(&mut rng, -1.0, 2.0);
     let time = TimeOfFlight::Given(decades(&mut rng, 0.0, 3.0) / rate.norm());
     let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
-    let toss = Toss { coin: Coin::from_moments(1.0, 0.0)?, launch: Launch::new(rate, time)?.with_tilt(tilt)? };
+    let toss = CoinToss { coin: Coin::from_moments(1.0, 0.0)?, launch: Launch::new(rate, time)?.with_tilt(tilt)? };
     Ok((rng, Case { toss, tilt }))
 }

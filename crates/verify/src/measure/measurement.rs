@@ -98,7 +98,7 @@ impl Measurement {
         allowed: fn(&Allowance) -> f64,
     ) -> Self {
         Self::largest_within(subject, deviations, &case, |index| {
-            Ok(Allowance::new(subject, &case(index).toss)?.map(|allowance| allowed(&allowance)))
+            Ok(Allowance::of(subject, case(index).toss)?.map(|allowance| allowed(&allowance)))
         })
     }
 

@@ -7,18 +7,18 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use sampling::Coordinate::{self, Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{AxisOrTie, Distribution, Space};
-use toss::{InputError, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{CoinToss, InputError, Launch, TimeOfFlight, Vector3};
 
 /// The first `number` independent launches of `space`, whose axes are ranges or single values.
 ///
 /// # Errors
 /// [`InputError`] for an axis with a normal distribution.
-pub(crate) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Vec<Toss>, InputError> {
+pub(crate) fn random_flights(space: &Space, seed: u64, number: u64) -> Result<Vec<CoinToss>, InputError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..number).map(|_| flight(space, &mut rng)).collect()
 }
 
-fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<Toss, InputError> {
+fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
     let mut values = [0.0; Coordinate::COUNT];
     for of in Coordinate::ALL {
         if let AxisOrTie::Axis(axis) = space.axis_or_tie(of) {
@@ -39,5 +39,5 @@ fn flight(space: &Space, rng: &mut ChaCha8Rng) -> Result<Toss, InputError> {
     let rate = Vector3::new(value(RateX), value(RateY), value(RateZ));
     let launch = Launch::new(rate, TimeOfFlight::thrown(value(Speed), value(Gravity), space.drop()))?;
     let launch = if value(Tilt) == 0.0 { launch } else { launch.with_tilt(value(Tilt))? };
-    Ok(Toss { coin: space.coin().ok_or(NO_COIN)?, launch })
+    Ok(CoinToss { coin: space.coin().ok_or(NO_COIN)?, launch })
 }

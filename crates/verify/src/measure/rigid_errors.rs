@@ -2,8 +2,8 @@
 //! each of which is hard for a method of its own, with phases up to 1e9 rad. Several checks read them, so that each
 //! reference, which takes longer than the motion, is computed only once.
 
-use dynamics::RigidToss;
-use exact::RigidMotion;
+use dynamics::Toss;
+use exact::ExactMotion;
 use rayon::prelude::*;
 
 use crate::measure::bodies::{FAMILIES, Family, LONG, launches};
@@ -23,7 +23,7 @@ pub(crate) struct Errors {
 impl Errors {
     const NO_ANSWER: Self = Self { cos_tilt: f64::INFINITY, attitude: f64::INFINITY };
 
-    fn new(motion: &RigidMotion, toss: &RigidToss, reference: &RigidReference) -> Self {
+    fn new(motion: &ExactMotion, toss: &Toss, reference: &RigidReference) -> Self {
         let time = toss.launch.time_of_flight();
         let (cos_tilt, state) = (motion.cos_tilt(time), motion.state(time));
         Self {
@@ -36,7 +36,7 @@ impl Errors {
 /// A toss of a family with the errors of both motions.
 #[derive(Debug)]
 pub(crate) struct Judged {
-    pub(crate) toss: RigidToss,
+    pub(crate) toss: Toss,
     /// Of the motion in double-double.
     pub(crate) motion: Errors,
     /// Of the compensated motion, whose sums are in f64.
@@ -44,9 +44,9 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    fn new(toss: RigidToss) -> Self {
+    fn new(toss: Toss) -> Self {
         let both = RigidReference::new(&toss).map(|reference| {
-            [RigidMotion::new(&toss), RigidMotion::compensated(&toss)]
+            [ExactMotion::new(&toss), ExactMotion::compensated(&toss)]
                 .map(|motion| Errors::new(&motion, &toss, &reference))
         });
         let [motion, compensated] = both.unwrap_or([Errors::NO_ANSWER; 2]);
@@ -62,7 +62,7 @@ pub(crate) fn tosses_of_a_family(effort: Effort) -> u64 {
 /// The tosses of each family.
 pub(crate) fn of_families(effort: Effort) -> Vec<(&'static Family, Vec<Judged>)> {
     let of_family = |family: &'static Family| {
-        let tosses: Vec<RigidToss> = launches(family, tosses_of_a_family(effort), LONG).collect();
+        let tosses: Vec<Toss> = launches(family, tosses_of_a_family(effort), LONG).collect();
         (family, tosses.into_par_iter().map(Judged::new).collect())
     };
     FAMILIES.iter().map(of_family).collect()

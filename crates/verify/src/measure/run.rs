@@ -2,10 +2,10 @@
 //! The atlas, the sweep of tolerances, the search by adversarial launches and the records are all made of runs, so that
 //! they judge an answer by the same rule.
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use exact::motion::COS_TILT_ERROR;
 use serde::{Deserialize, Serialize};
-use toss::{Outcome, Propagation, SolveError, Toss};
+use toss::{CoinToss, Landing, Outcome, SolveError};
 
 use super::any_case::{AnyCase, AnyReference};
 use super::case::Case;
@@ -52,23 +52,20 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// The errors that are allowed `subject` on `toss`; `None` if it has no error estimate, or one above
-    /// [`LARGEST_CLAIM`] at [tight](Subject::is_tight) settings, which says nothing.
-    ///
-    /// # Errors
-    /// As [`Solver::error_estimate`](toss::Solver::error_estimate).
-    pub fn new(subject: &Subject, toss: &Toss) -> Result<Option<Self>, SolveError> {
+    /// The errors that are allowed `subject` on `toss`, where its error estimate is `estimate`; `None` if it has none, or one
+    /// above [`LARGEST_CLAIM`] at [tight](Subject::is_tight) settings, which says nothing.
+    pub fn new(subject: &Subject, toss: &Toss, estimate: Option<f64>) -> Option<Self> {
         let is_usable = |estimate: &f64| *estimate <= LARGEST_CLAIM || !subject.is_tight(toss);
-        Ok(subject.solver.error_estimate(toss)?.filter(is_usable).map(Self::by_estimate))
+        estimate.filter(is_usable).map(Self::by_estimate)
     }
 
-    /// The errors that are allowed on the toss of any body.
+    /// As [`Allowance::new`], by a flight of its own.
     ///
     /// # Errors
-    /// As [`Solver::error_estimate_rigid`](toss::Solver::error_estimate_rigid).
-    pub fn of_rigid(subject: &Subject, toss: &RigidToss) -> Result<Option<Self>, SolveError> {
-        let is_usable = |estimate: &f64| *estimate <= LARGEST_CLAIM || !subject.is_tight_for(toss);
-        Ok(subject.solver.error_estimate_rigid(toss)?.filter(is_usable).map(Self::by_estimate))
+    /// As [`Solver::tilt`](toss::Solver::tilt).
+    pub fn of(subject: &Subject, toss: impl Into<Toss>) -> Result<Option<Self>, SolveError> {
+        let toss = toss.into();
+        Ok(Self::new(subject, &toss, subject.solver.tilt(&toss)?.error))
     }
 
     /// The errors that an error estimate allows.
@@ -150,7 +147,7 @@ impl Run {
 
 /// An answer with its errors.
 struct Compared {
-    landing: Propagation,
+    landing: Landing,
     err_cos_tilt: f64,
     err_attitude: f64,
     err_invariants: f64,
@@ -159,29 +156,29 @@ struct Compared {
 }
 
 impl Compared {
-    fn new(subject: &Subject, toss: &Toss, reference: &Reference) -> Result<Self, SolveError> {
-        let landing = subject.solver.propagate(toss)?;
-        let outcome = subject.solver.outcome_at(toss, landing.cos_tilt)?;
+    fn new(subject: &Subject, toss: &CoinToss, reference: &Reference) -> Result<Self, SolveError> {
+        let landing = subject.solver.land(&(*toss).into())?;
+        let outcome = landing.outcome();
         Ok(Self {
             err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
             err_attitude: reference.attitude_error(&landing.state.attitude),
             err_invariants: drift::momentum_vector(toss, &landing.state),
             outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
-            allowance: Allowance::new(subject, toss)?,
+            allowance: Allowance::new(subject, &(*toss).into(), landing.error),
             landing,
         })
     }
 
-    fn rigid(subject: &Subject, toss: &RigidToss, reference: &AnyReference) -> Result<Self, SolveError> {
-        let landing = subject.solver.propagate_rigid(toss)?;
-        let outcome = subject.solver.outcome_at_rigid(toss, landing.cos_tilt)?;
+    fn rigid(subject: &Subject, toss: &Toss, reference: &AnyReference) -> Result<Self, SolveError> {
+        let landing = subject.solver.land(toss)?;
+        let outcome = landing.outcome();
         let [.., vector] = drift::of_rigid(toss, &landing.state);
         Ok(Self {
             err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
             err_attitude: reference.attitude_error(&landing.state.attitude),
             err_invariants: vector,
             outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
-            allowance: Allowance::of_rigid(subject, toss)?,
+            allowance: Allowance::new(subject, toss, landing.error),
             landing,
         })
     }

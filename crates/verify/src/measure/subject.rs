@@ -2,10 +2,10 @@
 //! formulation. Its name is the key of its bounds and of its baseline, so every combination is judged on its own.
 
 use dynamics::phase::RoughPhases;
-use dynamics::{RigidPhase, RigidToss};
+use dynamics::{RigidPhase, Toss};
 use toss::{
-    ExactSolver, Formulation, InputError, Launch, Propagation, QuaternionSolver, Scheme, Settings, SolveError, Solver,
-    SolverEntry, StepControl, Stepping, Toss,
+    ExactSolver, Formulation, InputError, Landing, Launch, QuaternionSolver, Scheme, Settings, SolveError, Solver,
+    SolverEntry, StepControl, Stepping,
 };
 
 /// Tolerance of the adaptive schemes under verification.
@@ -60,12 +60,11 @@ impl Subject {
     /// Whether its settings promise an accurate landing of `toss`: a closed form, a tolerance of at most 1e-8 or steps
     /// of at most 0.02/|ω|, and a phase of at most 1000 rad.
     pub fn is_tight(&self, toss: &Toss) -> bool {
-        self.is_fine(&toss.launch) && RoughPhases::new(toss).largest().is_ok_and(|phase| phase <= 1e3)
-    }
-
-    /// The same for the toss of any body.
-    pub fn is_tight_for(&self, toss: &RigidToss) -> bool {
-        self.is_fine(&toss.launch) && RigidPhase::new(toss).is_ok_and(|phase| phase.angle <= 1e3)
+        let phase = match toss.coin() {
+            Some(toss) => RoughPhases::new(&toss).largest(),
+            None => RigidPhase::new(toss).map(|phase| phase.angle),
+        };
+        self.is_fine(&toss.launch) && phase.is_ok_and(|phase| phase <= 1e3)
     }
 
     fn is_fine(&self, launch: &Launch) -> bool {
@@ -101,10 +100,7 @@ impl Solver for NotMade {
     fn name(&self) -> &str {
         &self.name
     }
-    fn propagate(&self, _: &Toss) -> Result<Propagation, SolveError> {
-        Err(SolveError::failed(&self.name, self.reason.clone()))
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
+    fn land(&self, _: &Toss) -> Result<Landing, SolveError> {
         Err(SolveError::failed(&self.name, self.reason.clone()))
     }
 }

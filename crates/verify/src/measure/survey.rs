@@ -7,11 +7,13 @@ use std::f64::consts::{PI, SQRT_2};
 use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
-use toss::{Coin, InputError, Launch, Propagation, SolveError, Toss};
+use toss::{Coin, CoinToss, InputError, Landing, Launch, SolveError};
 
 use crate::measure::case::Case;
+use crate::measure::measurement::{Deviation, Measurement};
 use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
+use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::throws::{evenly, throw};
 
@@ -29,7 +31,7 @@ pub struct Survey {
     /// Their landings in 256 bits.
     pub references: Vec<Reference>,
     /// The landing of each launch, by subject in the order of the subjects.
-    pub landings: Vec<Vec<Result<Propagation, SolveError>>>,
+    pub landings: Vec<Vec<Result<Landing, SolveError>>>,
 }
 
 impl Survey {
@@ -40,9 +42,35 @@ impl Survey {
     pub fn new(subjects: &[Subject], launches: u64) -> Result<Self, InputError> {
         let cases = launches_of_the_survey(launches)?;
         let references = cases.par_iter().map(|case| Reference::new(&case.toss)).collect();
-        let fly = |subject: &Subject| cases.par_iter().map(|case| subject.solver.propagate(&case.toss)).collect();
+        let fly = |subject: &Subject| cases.par_iter().map(|case| subject.solver.land(&case.toss.into())).collect();
         let landings = subjects.iter().map(fly).collect();
         Ok(Self { cases, references, landings })
+    }
+
+    /// The errors that are allowed `subject`, which has these `landings`, on launch number `index`.
+    ///
+    /// # Errors
+    /// That of the landing.
+    pub fn allowance(
+        &self,
+        subject: &Subject,
+        landings: &[Result<Landing, SolveError>],
+        index: usize,
+    ) -> Result<Option<Allowance>, SolveError> {
+        let landing = landings[index].as_ref().map_err(Clone::clone)?;
+        Ok(Allowance::new(subject, &self.cases[index].toss.into(), landing.error))
+    }
+
+    /// The largest of the `deviations` of `subject`, one for each of its `landings`; see [`Measurement::largest`].
+    pub fn largest(
+        &self,
+        subject: &Subject,
+        landings: &[Result<Landing, SolveError>],
+        deviations: impl IntoIterator<Item = Deviation>,
+        allowed: fn(&Allowance) -> f64,
+    ) -> Measurement {
+        let allowed = |index: usize| Ok(self.allowance(subject, landings, index)?.as_ref().map(allowed));
+        Measurement::largest_within(subject, deviations, |index| self.cases[index], allowed)
     }
 }
 
@@ -52,12 +80,12 @@ impl Survey {
 fn launches_of_the_survey(launches: u64) -> Result<Vec<Case>, InputError> {
     let axes = [(RateX, "-60:60"), (RateY, "-60:60"), (RateZ, "-60:60"), (Speed, "3:5")];
     let space = Space::parse(Coin::PAPER, &axes)?;
-    let vary = |(turn, drawn): (u64, Toss)| {
+    let vary = |(turn, drawn): (u64, CoinToss)| {
         let tilt = if turn % 4 >= 2 { PI * evenly(turn, GOLDEN) } else { 0.0 };
         let slower = if turn % 25 == 24 { 10f64.powf(-10.0 + 5.0 * evenly(turn, SQRT_3)) } else { 1.0 };
         let flight = throw(drawn.launch.time_of_flight(), turn);
         let launch = Launch::new(drawn.launch.rate() * slower, flight)?.with_tilt(tilt)?;
-        Ok(Case { toss: Toss { coin: coin(turn)?, launch }, tilt })
+        Ok(Case { toss: CoinToss { coin: coin(turn)?, launch }, tilt })
     };
     (0..).zip(random_flights(&space, SEED, launches)?).map(vary).collect()
 }

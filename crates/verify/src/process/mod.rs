@@ -15,13 +15,13 @@ use dynamics::body_rate::rate_by_momentum;
 use dynamics::error::{Reason, require};
 use dynamics::{Fault, Flight, ForeignError, RoughPhases};
 use toss::{
-    Attitude, InputError, Propagation, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping, Toss,
-    Work,
+    Attitude, CoinToss, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping,
+    Toss, Work,
 };
 
 use pool::Pool;
 pub use protocol::HEADER;
-use protocol::{Answer, Landing};
+use protocol::{Answer, Landed};
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
@@ -107,7 +107,7 @@ struct ByProgram {
 }
 
 impl ByProgram {
-    fn ask(&self, toss: &Toss) -> Result<Landing, SolveError> {
+    fn ask(&self, toss: &CoinToss) -> Result<Landed, SolveError> {
         RoughPhases::new(toss).largest()?;
         let tolerance = match (self.claim, self.stepping.control()) {
             (Some(claim), _) => claim,
@@ -141,24 +141,20 @@ impl Solver for ByProgram {
         self.claim.is_none().then_some(self.stepping)
     }
 
-    fn propagate(&self, toss: &Toss) -> Result<Propagation, SolveError> {
-        let Landing { quaternion, calls, .. } = self.ask(toss)?;
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let coin = toss.of_coin(self.name, "the protocol of programs has two moments")?;
+        let Landed { quaternion, calls, error } = self.ask(&coin)?;
         let norm = nalgebra::Vector4::from(quaternion).norm();
         if !NORMS.contains(&norm) {
             return Err(self.misbehaved("the norm of the quaternion", norm));
         }
         let attitude = Attitude::from_components(quaternion).map_err(|_| self.misbehaved("the norm", norm))?;
-        let state = State { attitude, rate: rate_by_momentum(toss, &attitude) };
+        let state = State { attitude, rate: rate_by_momentum(&coin, &attitude) };
         let work = Work { rhs_calls: calls, ..Work::default() };
-        Ok(Propagation::new(state, work).with_norm_error((norm - 1.0).abs()))
-    }
-
-    fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        RoughPhases::new(toss).largest()?;
-        if self.claim.is_some() {
-            return Ok(self.claim);
-        }
-        let own = if self.pool.gives_errors() == Some(false) { None } else { self.ask(toss)?.error };
-        own.map_or_else(|| self.stepping.error_estimate(toss), Ok).map(Some)
+        let error = match self.claim.or(error) {
+            None => self.stepping.error_estimate(toss)?,
+            claim => claim,
+        };
+        Ok(Landing::new(state, work).with_norm_error((norm - 1.0).abs()).with_error(error))
     }
 }

@@ -4,7 +4,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use toss::Toss;
+use toss::CoinToss;
 
 use super::Limits;
 use super::child::{Fault, Process};
@@ -22,7 +22,8 @@ pub(super) struct Pool {
 
 #[derive(Default)]
 struct State {
-    idle: Vec<Idle>,
+    /// The processes that wait for a question.
+    idle: Vec<Process>,
     /// Whether its answers have the field `error`; `None` before the first answer.
     gives_errors: Option<bool>,
     /// How long the first process took for its first answer.
@@ -33,38 +34,22 @@ struct State {
     given_up: Option<String>,
 }
 
-/// A process that waits for a question, and what it answered last.
-struct Idle {
-    process: Process,
-    last: (Toss, f64, Answer),
-}
-
 impl Pool {
     pub(super) fn new(command: &str, limits: Limits) -> Self {
         Self { command: command.to_owned(), limits, state: Mutex::default() }
-    }
-
-    /// Whether the program gives its own error with each answer; `None` before its first answer.
-    pub(super) fn gives_errors(&self) -> Option<bool> {
-        self.state().gives_errors
     }
 
     /// What the program answers where `toss` lands by steps of this `tolerance`.
     ///
     /// # Errors
     /// What the program did instead, in words; at once if it was given up.
-    pub(super) fn ask(&self, toss: &Toss, tolerance: f64) -> Result<Answer, String> {
+    pub(super) fn ask(&self, toss: &CoinToss, tolerance: f64) -> Result<Answer, String> {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
                 return Err(why.clone());
             }
-            // An error estimate is asked for after the landing of the same toss.
-            let known = |idle: &&Idle| idle.last.0 == *toss && idle.last.1 == tolerance;
-            if let Some(idle) = state.idle.iter().find(known) {
-                return Ok(idle.last.2.clone());
-            }
-            (state.idle.pop().map(|idle| idle.process), state.start)
+            (state.idle.pop(), state.start)
         };
         // A process that replaces one that hung would else be given the time to load its libraries for each launch on
         // which it hangs.
@@ -73,11 +58,11 @@ impl Pool {
         let began = Instant::now();
         let asked = idle.map_or_else(|| Process::start(&self.command), Ok).and_then(|mut process| {
             let answer = process.ask(|id| question(id, toss, tolerance), start, &self.limits)?;
-            Ok(Idle { process, last: (*toss, tolerance, answer) })
+            Ok((process, answer))
         });
         let (took, mut state) = (began.elapsed(), self.state());
         match asked {
-            Ok(idle) => state.take(idle, took, &self.limits),
+            Ok((process, answer)) => state.take(process, answer, took, &self.limits),
             Err(fault) => Err(state.note(&fault, took, &self.limits)),
         }
     }
@@ -89,8 +74,7 @@ impl Pool {
 
 impl State {
     /// Keeps a process for the next question, and returns its answer.
-    fn take(&mut self, idle: Idle, took: Duration, limits: &Limits) -> Result<Answer, String> {
-        let answer = idle.last.2.clone();
+    fn take(&mut self, process: Process, answer: Answer, took: Duration, limits: &Limits) -> Result<Answer, String> {
         if let Answer::Landing(landing) = &answer {
             let gives_error = landing.error.is_some();
             if *self.gives_errors.get_or_insert(gives_error) != gives_error {
@@ -102,7 +86,7 @@ impl State {
         if self.answering > limits.total {
             self.give_up(&format!("took more than {} s for all its answers", limits.total.as_secs_f64()));
         } else {
-            self.idle.push(idle);
+            self.idle.push(process);
         }
         Ok(answer)
     }

@@ -4,7 +4,7 @@
 //! An answer repeats the number of its question. Without it, one line too many on standard output would shift all
 //! answers that follow, and an answer to another launch would be taken for a wrong one.
 
-use toss::Toss;
+use toss::CoinToss;
 
 /// The names of the columns of a question, which are the first line that a program reads: the number of the question;
 /// the moments of inertia (kg m²); the body rate (BF, rad/s); the unit quaternion of the attitude at launch (from BF to
@@ -14,14 +14,14 @@ pub const HEADER: &str = "id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance";
 /// What a program answered.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Answer {
-    Landing(Landing),
+    Landing(Landed),
     /// It has no answer, in its own words.
     Failed(String),
 }
 
 /// An attitude at landing.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Landing {
+pub(super) struct Landed {
     /// (w, x, y, z), as it was answered.
     pub(super) quaternion: [f64; 4],
     /// The error of cos θ that the program claims.
@@ -31,7 +31,7 @@ pub(super) struct Landing {
 }
 
 /// The question number `id`: where `toss` lands, by steps of this `tolerance`.
-pub(super) fn question(id: u64, toss: &Toss, tolerance: f64) -> String {
+pub(super) fn question(id: u64, toss: &CoinToss, tolerance: f64) -> String {
     let rate = toss.launch.rate();
     let [w, x, y, z] = toss.launch.attitude().components();
     let (i1, i3, time) = (toss.coin.i1(), toss.coin.i3(), toss.launch.flight_time());
@@ -53,7 +53,7 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Answer, String> {
         return Err(format!("{} columns where {id},w,x,y,z is expected", columns.len()));
     };
     require_id(number, id)?;
-    let mut landing = Landing { quaternion: [0.0; 4], error: None, calls: 0 };
+    let mut landing = Landed { quaternion: [0.0; 4], error: None, calls: 0 };
     for (part, text) in landing.quaternion.iter_mut().zip([w, x, y, z]) {
         *part = number_in(text)?;
     }
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn a_question_has_the_columns_of_the_header_with_every_bit() {
         let launch = Launch::new(Vector3::new(0.1, -2e-300, 3.0), TimeOfFlight::Given(1.0 / 3.0)).unwrap();
-        let toss = Toss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
+        let toss = CoinToss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
         let line = question(17, &toss, 1e-9);
         assert_eq!(line, "17,5e-7,2.5e-7,0.1,-2e-300,3.0,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9");
         assert_eq!(line.split(',').count(), HEADER.split(',').count());
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn an_answer_is_read_with_and_without_its_optional_fields() {
-        let landing = |error, calls| Answer::Landing(Landing { quaternion: [0.5, -0.5, 5e-1, -5e-1], error, calls });
+        let landing = |error, calls| Answer::Landing(Landed { quaternion: [0.5, -0.5, 5e-1, -5e-1], error, calls });
         assert_eq!(answer("7,0.5,-.5,5e-1,-5E-01\r", 7), Ok(landing(None, 0)));
         assert_eq!(answer("7, 0.5, -0.5, 0.5, -0.5, calls=12, error=1e-9", 7), Ok(landing(Some(1e-9), 12)));
         assert_eq!(answer("7,failed,too fast, sorry", 7), Ok(Answer::Failed("too fast, sorry".to_owned())));

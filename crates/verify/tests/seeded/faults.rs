@@ -4,33 +4,32 @@
 use std::f64::consts::PI;
 
 use toss::{
-    Attitude, Coin, ExactSolver, Launch, Propagation, SolveError, Solver, State, TimeOfFlight, Toss, Vector3, Work,
+    Attitude, Coin, CoinToss, ExactSolver, Landing, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3,
+    Work,
 };
 
 /// What a foreign solver answers.
-pub(super) type Answer = Result<Propagation, SolveError>;
+pub(super) type Answer = Result<Landing, SolveError>;
 
 /// A foreign solver with a fault.
 pub(super) struct Foreign {
     pub(super) name: &'static str,
     pub(super) claim: f64,
-    pub(super) fly: fn(&Toss) -> Answer,
+    pub(super) fly: fn(&CoinToss) -> Answer,
 }
 
 impl Solver for Foreign {
     fn name(&self) -> &str {
         self.name
     }
-    fn propagate(&self, toss: &Toss) -> Answer {
-        (self.fly)(toss)
-    }
-    fn error_estimate(&self, _: &Toss) -> Result<Option<f64>, SolveError> {
-        Ok(Some(self.claim))
+    fn land(&self, toss: &Toss) -> Answer {
+        let landing = (self.fly)(&toss.of_coin(self.name, "it is made for coins")?)?;
+        Ok(landing.with_error(self.claim))
     }
 }
 
 /// A fault: the solver's name, the error that it claims, its flight, and the checks that must fail.
-pub(super) type Fault = (&'static str, f64, fn(&Toss) -> Answer, &'static [&'static str]);
+pub(super) type Fault = (&'static str, f64, fn(&CoinToss) -> Answer, &'static [&'static str]);
 
 /// What an honest solver of this accuracy claims.
 pub(super) const HONEST: f64 = 1e-12;
@@ -106,8 +105,8 @@ pub(super) const FAULTS: &[Fault] = &[
         "conjugate",
         HONEST,
         |toss| {
-            fly(*toss).map(|Propagation { state, work, .. }| {
-                Propagation::new(State { attitude: state.attitude.inverse(), ..state }, work)
+            fly(*toss).map(|Landing { state, work, .. }| {
+                Landing::new(State { attitude: state.attitude.inverse(), ..state }, work)
             })
         },
         &["random-attitude", "invariant-normal-momentum-body"],
@@ -116,9 +115,8 @@ pub(super) const FAULTS: &[Fault] = &[
         "rate-of-launch",
         HONEST,
         |toss| {
-            fly(*toss).map(|Propagation { state, work, .. }| {
-                Propagation::new(State { rate: toss.launch.rate(), ..state }, work)
-            })
+            fly(*toss)
+                .map(|Landing { state, work, .. }| Landing::new(State { rate: toss.launch.rate(), ..state }, work))
         },
         &["invariant-momentum-vector"],
     ),
@@ -176,40 +174,40 @@ pub(super) const FLIPPED: &[&str] = &[
     SILENCE,
 ];
 
-pub(super) fn fly(toss: Toss) -> Answer {
-    ExactSolver.propagate(&toss)
+pub(super) fn fly(toss: CoinToss) -> Answer {
+    ExactSolver.land(&toss.into())
 }
 
-fn still(toss: &Toss) -> Propagation {
-    Propagation::new(State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }, Work::default())
+fn still(toss: &CoinToss) -> Landing {
+    Landing::new(State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }, Work::default())
 }
 
 /// The landing turned by `turn` about an axis of the laboratory, and cos θ accordingly.
-pub(super) fn turned(landing: Propagation, turn: Attitude) -> Propagation {
+pub(super) fn turned(landing: Landing, turn: Attitude) -> Landing {
     let State { attitude, rate } = landing.state;
-    Propagation::new(State { attitude: turn * attitude, rate }, landing.work)
+    Landing::new(State { attitude: turn * attitude, rate }, landing.work)
 }
 
 /// The toss with another time of flight, or unchanged where that one is not valid.
-fn timed(toss: &Toss, change: fn(TimeOfFlight) -> TimeOfFlight) -> Toss {
+fn timed(toss: &CoinToss, change: fn(TimeOfFlight) -> TimeOfFlight) -> CoinToss {
     let changed = Launch::new(toss.launch.rate(), change(toss.launch.time_of_flight()));
     let attitude = toss.launch.attitude();
-    Toss { launch: changed.map_or(toss.launch, |launch| launch.with_attitude(attitude)), ..*toss }
+    CoinToss { launch: changed.map_or(toss.launch, |launch| launch.with_attitude(attitude)), ..*toss }
 }
 
-fn held(toss: &Toss, change: fn(Attitude) -> Attitude) -> Toss {
-    Toss { launch: toss.launch.with_attitude(change(toss.launch.attitude())), ..*toss }
+fn held(toss: &CoinToss, change: fn(Attitude) -> Attitude) -> CoinToss {
+    CoinToss { launch: toss.launch.with_attitude(change(toss.launch.attitude())), ..*toss }
 }
 
-fn spun(toss: &Toss, change: fn(Vector3<f64>) -> Vector3<f64>) -> Toss {
+fn spun(toss: &CoinToss, change: fn(Vector3<f64>) -> Vector3<f64>) -> CoinToss {
     let launch = Launch::new(change(toss.launch.rate()), toss.launch.time_of_flight()).expect("as valid as it was");
-    Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }
+    CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss }
 }
 
 /// The toss of a coin with other moments, or unchanged where they are not valid.
-fn body(toss: &Toss, change: fn(f64, f64) -> (f64, f64)) -> Toss {
+fn body(toss: &CoinToss, change: fn(f64, f64) -> (f64, f64)) -> CoinToss {
     let (i1, i3) = change(toss.coin.i1(), toss.coin.i3());
-    Toss { coin: Coin::from_moments(i1, i3).unwrap_or(toss.coin), ..*toss }
+    CoinToss { coin: Coin::from_moments(i1, i3).unwrap_or(toss.coin), ..*toss }
 }
 
 fn level(time: TimeOfFlight) -> TimeOfFlight {

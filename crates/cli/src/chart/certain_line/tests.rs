@@ -2,7 +2,7 @@
 
 use Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Plan, Rest, Sampler};
-use toss::{Coin, ExactMotion, Launch, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinMotion, CoinToss, Launch, TimeOfFlight, Vector3};
 
 use super::*;
 
@@ -25,7 +25,7 @@ fn sobol() -> Rest {
 /// The least cos θ of the motion from a launch: 0 on the edge.
 fn least_cos_tilt(coin: Coin, rate: Vector3<f64>, tilt: f64) -> f64 {
     let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(tilt).unwrap();
-    let motion = ExactMotion::new(&Toss { coin, launch });
+    let motion = CoinMotion::new(&CoinToss { coin, launch });
     (motion.momentum_tilt() + motion.cone_angle()).cos()
 }
 

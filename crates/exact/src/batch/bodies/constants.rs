@@ -58,7 +58,7 @@ impl Constants {
     /// body without extent across an axis, of one of whose axes too little is known, and for extreme gravities.
     pub(super) fn new(tosses: &Tosses<'_, Body>) -> Option<Self> {
         let number = |value: f64| Known::new(DoubleDouble::exactly(value), 0.0);
-        let principal = tosses.body().scaled_principal(&number(0.0));
+        let principal = tosses.body().rigid().scaled_principal(&number(0.0));
         let moments = principal.moments;
         let alpha = [(0, 1), (1, 2), (0, 2)].map(|(i, j): (usize, usize)| {
             let [first, second] = [moments[i], moments[j]];

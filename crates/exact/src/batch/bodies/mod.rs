@@ -1,5 +1,5 @@
 //! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
-//! SIMD registers and decides nearly all of them; [`certify_rigid`] proves the few that it leaves.
+//! SIMD registers and decides nearly all of them; [`certify`] proves the few that it leaves.
 //!
 //! The formulas are those of [`rigid`](crate::rigid), in plain f64: the series of theta functions at all nomes, and no
 //! branch. Launches around the axis of the largest moment stand beside those around the smallest in a register. Outcomes
@@ -28,7 +28,7 @@ use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 use super::Batch;
 use super::proving::{self, Proving};
 use crate::certificate::{Certificate, ProvenCounts};
-use crate::rigid::certify_rigid;
+use crate::rigid::certify;
 use constants::Constants;
 pub use filter::BodyFilter;
 use landing::{Begun, Height};
@@ -40,7 +40,7 @@ const TILE: usize = 64;
 const BETWEEN: usize = 18;
 
 impl Batch<'_, Body> {
-    /// Writes the proven outcome of each toss, that of [`certify_rigid`].
+    /// Writes the proven outcome of each toss, that of [`certify`].
     ///
     /// # Errors
     /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
@@ -51,7 +51,7 @@ impl Batch<'_, Body> {
         proving::outcomes(&Filtered(self, Constants::new(&self.tosses)), out)
     }
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify_rigid`].
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
     ///
     /// # Errors
     /// [`Error`] for the first toss that has no outcome.
@@ -59,7 +59,7 @@ impl Batch<'_, Body> {
         self.count_and(|_| ())
     }
 
-    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify_rigid`]
+    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`]
     /// did.
     ///
     /// # Errors
@@ -102,7 +102,7 @@ impl Proving for Filtered<'_, '_> {
     }
 
     fn certify(&self, index: usize) -> Result<Certificate, Error> {
-        self.0.tosses.solve_rigid(index, certify_rigid)
+        self.0.tosses.solve(index, certify)
     }
 }
 

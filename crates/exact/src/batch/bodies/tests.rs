@@ -5,7 +5,7 @@ use numerics::DoubleDouble;
 use numerics::lanes::SimdLevel;
 
 use super::*;
-use crate::rigid::RigidMotion;
+use crate::rigid::ExactMotion;
 
 /// Numbers between two, of Weyl's sequence.
 fn column(count: usize, square: f64, [from, to]: [f64; 2]) -> Vec<f64> {
@@ -61,9 +61,9 @@ fn largest_ratio(tosses: Tosses<'_, Body>, bounds: Range<f64>) -> (f64, usize) {
         if bound.is_infinite() || !bounds.contains(&bound) {
             continue;
         }
-        let motion = |toss: &_| RigidMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
-        let error = (cos_tilt - tosses.solve_rigid(index, motion).unwrap()).abs();
-        assert!(error <= bound, "{:?}: {error:e} > {bound:e}", tosses.solve_rigid(index, |toss| Ok(*toss)));
+        let motion = |toss: &_| ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight());
+        let error = (cos_tilt - tosses.solve(index, motion).unwrap()).abs();
+        assert!(error <= bound, "{:?}: {error:e} > {bound:e}", tosses.solve(index, |toss| Ok(*toss)));
         assert!(norm > 0.142, "(|θ4|² + |θ1|²)² = {norm}");
         largest = largest.max(error / bound);
         tried += 1;
@@ -180,7 +180,7 @@ fn counts_are_the_same_by_every_filter() {
 #[test]
 fn launches_outside_the_derivation_have_no_bound() {
     let tensor = Body::from_tensor([[2.0, 0.3, -0.2], [0.3, 2.5, 0.1], [-0.2, 0.1, 3.0]]).unwrap();
-    let along = |rate: [f64; 3]| <[f64; 3]>::from(tensor.principal().from_principal(rate));
+    let along = |rate: [f64; 3]| <[f64; 3]>::from(tensor.rigid().principal().from_principal(rate));
     let [far, symmetric] = [[1.0, 2.0, 2.25], [1.0, 1.0, 2.0]].map(|moments| Body::from_moments(moments).unwrap());
     let rate = [3.0, -4.0, 5.0];
     for (body, rate, speed, has_bound) in [
@@ -231,13 +231,13 @@ fn rates_along_turned_axes_have_a_relative_error_of_a_rounding() {
     for index in 0..300 {
         let near = [[1.0, 1.0, 1.0], [1e-6, 1.0, 1.0], [1.0, 1e-5, 1.0], [1.0, 1.0, 1e-6]][index % 4];
         let rate: [f64; 3] = std::array::from_fn(|axis| near[axis] * launches.0[axis][index]);
-        let rate = <[f64; 3]>::from(body.principal().from_principal(rate));
+        let rate = <[f64; 3]>::from(body.rigid().principal().from_principal(rate));
         let found = SimdLevel::for_one_lane().run(Along(&constants, rate));
         if found[0].is_nan() {
             refused += 1;
             continue;
         }
-        for (axis, found) in body.principal().axes.iter().zip(found) {
+        for (axis, found) in body.rigid().principal().axes.iter().zip(found) {
             let [x, y, z] = axis;
             let [a, b, c] = rate.map(DoubleDouble::exactly);
             let exact = *x * a + *y * b + *z * c;

@@ -4,12 +4,12 @@ use dynamics::{Attitude, Body, Launch, Vector3};
 
 use super::*;
 
-fn toss(moments: [f64; 3], rate: [f64; 3], flight: TimeOfFlight, tilt: f64) -> RigidToss {
+fn toss(moments: [f64; 3], rate: [f64; 3], flight: TimeOfFlight, tilt: f64) -> Toss {
     let launch = Launch::new(rate, flight).unwrap().with_attitude(Attitude::about_x(tilt));
-    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+    Toss { body: Body::from_moments(moments).unwrap(), launch }
 }
 
-fn tosses() -> impl Iterator<Item = RigidToss> {
+fn tosses() -> impl Iterator<Item = Toss> {
     let bodies = [[1.0, 2.0, 2.5], [2.5, 1.0, 2.0], [1.0, 1.1, 2.0], [2.0, 3.0, 4.0]];
     (0..8_u32).map(move |index| {
         let part = |square: f64| (f64::from(index + 1) * square.sqrt()).fract();
@@ -23,18 +23,18 @@ fn tosses() -> impl Iterator<Item = RigidToss> {
     })
 }
 
-fn with_rate(toss: &RigidToss, rate: Vector3<f64>) -> RigidToss {
+fn with_rate(toss: &Toss, rate: Vector3<f64>) -> Toss {
     let launch = Launch::new(rate, toss.launch.time_of_flight()).unwrap().with_attitude(toss.launch.attitude());
-    RigidToss { launch, ..*toss }
+    Toss { launch, ..*toss }
 }
 
-fn with_flight(toss: &RigidToss, flight: TimeOfFlight) -> RigidToss {
+fn with_flight(toss: &Toss, flight: TimeOfFlight) -> Toss {
     let launch = Launch::new(toss.launch.rate(), flight).unwrap().with_attitude(toss.launch.attitude());
-    RigidToss { launch, ..*toss }
+    Toss { launch, ..*toss }
 }
 
 /// The toss with a change of one of six inputs: the rates, the time, the speed, gravity.
-fn changed(toss: &RigidToss, input: usize, change: f64) -> RigidToss {
+fn changed(toss: &Toss, input: usize, change: f64) -> Toss {
     let flight = toss.launch.time_of_flight();
     match (input, flight) {
         (0..3, _) => with_rate(toss, toss.launch.rate() + Vector3::ith(input, change)),
@@ -59,13 +59,13 @@ fn changed(toss: &RigidToss, input: usize, change: f64) -> RigidToss {
 fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
     let mut flips = 0;
     for toss in tosses() {
-        let outcome = certify_rigid(&toss).unwrap().outcome();
-        let found = margin_rigid(&toss).unwrap();
-        let Margin { rate: [x, y, z], time, speed, gravity, .. } = found.margin;
+        let outcome = certify(&toss).unwrap().outcome();
+        let found = margin(&toss).unwrap();
+        let Margin { rate: [x, y, z], time, speed, gravity, .. } = found;
         for (input, change) in [x, y, z, time, speed, gravity].into_iter().enumerate() {
             let Some(change) = change else { continue };
             flips += 1;
-            let at = |factor: f64| certify_rigid(&changed(&toss, input, factor * change)).unwrap().outcome();
+            let at = |factor: f64| certify(&changed(&toss, input, factor * change)).unwrap().outcome();
             assert_eq!(at(1.0 - 2e-12), outcome, "{input}: {change} {toss:?}");
             assert_ne!(at(1.0 + 2e-12), outcome, "{input}: {change} {toss:?}");
             for step in 0..400 {
@@ -73,11 +73,11 @@ fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
                 assert_eq!(at(factor), outcome, "{input}: {change} {factor} {toss:?}");
             }
         }
-        let tilt = found.margin.tilt.unwrap();
+        let tilt = found.tilt.unwrap();
         let cos_tilt = |further: f64| {
             let attitude = Attitude::about_x(further) * toss.launch.attitude();
             let launch = toss.launch.with_attitude(attitude);
-            RigidMotion::new(&RigidToss { launch, ..toss }).cos_tilt(toss.launch.time_of_flight()).unwrap()
+            ExactMotion::new(&Toss { launch, ..toss }).cos_tilt(toss.launch.time_of_flight()).unwrap()
         };
         assert!(cos_tilt(tilt).abs() < 1e-15 && tilt.abs() <= std::f64::consts::FRAC_PI_2, "{tilt}");
     }
@@ -88,13 +88,13 @@ fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
 fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
     // Next to the spin about the largest axis, the normal stays up for ever.
     let steady = toss([1.0, 2.0, 2.5], [0.1, 0.2, 30.0], TimeOfFlight::Given(0.5), 0.1);
-    let found = margin_rigid(&steady).unwrap();
-    assert_eq!((found.margin.time, found.margin.speed), (None, None));
+    let found = margin(&steady).unwrap();
+    assert_eq!((found.time, found.speed), (None, None));
     assert!(found.time_range[0] >= 0.5 && found.time_range[1] > 10.0, "{found:?}");
     // ω = (0.75, 1, 1) of this body is on the separatrix, and this rate is 0.01 above it.
     let near = toss([1.0, 2.0, 2.25], [0.76, 1.0, 1.0], TimeOfFlight::Given(0.3), 0.0);
-    let outcome = |change: f64| certify_rigid(&changed(&near, 0, change)).unwrap().outcome();
-    let change = margin_rigid(&near).unwrap().margin.rate[0].unwrap();
+    let outcome = |change: f64| certify(&changed(&near, 0, change)).unwrap().outcome();
+    let change = margin(&near).unwrap().rate[0].unwrap();
     assert!(change.abs() > 1.0 && outcome(1.000_001 * change) != outcome(0.0), "{change}");
     for step in -99..=99 {
         assert_eq!(outcome(f64::from(step) * 1e-2 * change), outcome(0.0), "{step}");
@@ -107,14 +107,14 @@ fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
 fn the_margin_next_to_the_separatrix_is_the_nearest_flip_or_says_how_far_it_went() {
     let rate = [5.276_195_533_573_627_5, 3.0, 3.046_212_911_605_835];
     let next = toss([1.0, 2.0, 3.0], rate, TimeOfFlight::Given(0.8), 1.0);
-    let found = margin_rigid(&next).unwrap();
-    let time = found.margin.time.unwrap();
+    let found = margin(&next).unwrap();
+    let time = found.time.unwrap();
     assert!((time - 0.152_854_524_666_798_52).abs() < 1e-12 * time, "{time:e}");
-    let outcome = |axis: usize, change: f64| certify_rigid(&changed(&next, axis, change)).unwrap().outcome();
-    for (axis, range) in found.margin.rate_range.into_iter().enumerate() {
-        assert!(found.margin.rate[axis].is_none_or(|change| change.abs() <= range), "{axis}: {found:?}");
+    let outcome = |axis: usize, change: f64| certify(&changed(&next, axis, change)).unwrap().outcome();
+    for (axis, range) in found.rate_range.into_iter().enumerate() {
+        assert!(found.rate[axis].is_none_or(|change| change.abs() <= range), "{axis}: {found:?}");
         for step in -20..=20 {
-            let change = f64::from(step) / 20.5 * found.margin.rate[axis].map_or(range, f64::abs);
+            let change = f64::from(step) / 20.5 * found.rate[axis].map_or(range, f64::abs);
             assert_eq!(outcome(axis, change), outcome(axis, 0.0), "{axis} {change:e}");
         }
     }
@@ -124,10 +124,10 @@ fn the_margin_next_to_the_separatrix_is_the_nearest_flip_or_says_how_far_it_went
 fn a_coin_has_the_margin_that_it_had() {
     let coin = dynamics::Coin::PAPER;
     let launch = Launch::new([20.0, 3.0, 40.0], TimeOfFlight::Ballistic { speed: 2.0, gravity: 9.81 }).unwrap();
-    let toss = dynamics::Toss { coin, launch };
-    assert_eq!(margin_rigid(&toss.into()).unwrap().margin, margin(&toss).unwrap());
-    let heads = crate::thrown_speeds_of_heads(&toss, 1.0);
-    assert_eq!(rigid_speeds_of_heads(&toss.into(), 1.0), heads);
+    let toss = dynamics::CoinToss { coin, launch };
+    assert_eq!(margin(&toss.into()).unwrap(), margin_coin(&toss).unwrap());
+    let heads = crate::thrown::thrown_speeds_of_heads(&toss, 1.0);
+    assert_eq!(speeds_of_heads(&toss.into(), 1.0), heads);
 }
 
 #[test]
@@ -135,18 +135,18 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     for drop in [None, Some(0.4)] {
         let flight = TimeOfFlight::thrown(3.0, 9.81, drop);
         let toss = toss([1.0, 2.0, 2.5], [18.0, 9.0, 12.0], flight, 0.4);
-        let heads = rigid_speeds_of_heads(&toss, 1.0).unwrap().unwrap();
+        let heads = speeds_of_heads(&toss, 1.0).unwrap().unwrap();
         assert!(heads.len() > 1, "{heads:?}");
         for speed in (0..=2000).map(|step| 1.0 + f64::from(step) * 1e-3) {
             let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
             let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
             let thrown = with_flight(&toss, TimeOfFlight::thrown(speed, 9.81, drop));
-            let found = certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads;
+            let found = certify(&thrown).unwrap().outcome() == Outcome::Heads;
             assert!(found == expected || nearest < 1e-11, "{drop:?}, {speed} m/s");
         }
     }
     let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
-    assert_eq!(rigid_speeds_of_heads(&given, 0.0), Ok(None));
+    assert_eq!(speeds_of_heads(&given, 0.0), Ok(None));
 }
 
 /// At the speed 0 the body is on edge, which is no flip and does not end the search.
@@ -155,13 +155,13 @@ fn intervals_may_begin_on_edge() {
     let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
     let upright = toss([1.0, 2.0, 3.0], [1.0, 5.0, 0.5], TimeOfFlight::thrown(9.0, 9.81, None), 0.0);
     let launch = upright.launch.with_tilt(quarter).unwrap();
-    let toss = RigidToss { launch, ..upright };
-    let heads = rigid_speeds_of_heads(&toss, 0.0).unwrap().unwrap();
+    let toss = Toss { launch, ..upright };
+    let heads = speeds_of_heads(&toss, 0.0).unwrap().unwrap();
     for speed in (1..=200).map(|step| f64::from(step) * 0.0449) {
         let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
         let launch = Launch::new(launch.rate(), TimeOfFlight::thrown(speed, 9.81, None)).unwrap();
-        let thrown = RigidToss { launch: launch.with_tilt(quarter).unwrap(), ..toss };
-        assert_eq!(certify_rigid(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
+        let thrown = Toss { launch: launch.with_tilt(quarter).unwrap(), ..toss };
+        assert_eq!(certify(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
     }
 }
 
@@ -173,11 +173,11 @@ fn rates_in_another_unit_have_the_margins_of_the_same_motion() {
     let (rate, time) = ([500.125, 311.5, -20.25], 4096.0);
     for moments in [[1.0, 1.0, 0.5], [1.0, 2.0, 2.5]] {
         let body = Body::from_moments(moments).unwrap();
-        let plain = RigidToss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() };
-        let slow = RigidToss { body, launch: Launch::in_unit(rate, thirds, TimeOfFlight::Given(3.0 * time)).unwrap() };
-        let landed = |toss: &RigidToss| RigidMotion::new(toss).state(toss.launch.flight_time()).unwrap().attitude;
+        let plain = Toss { body, launch: Launch::new(rate, TimeOfFlight::Given(time)).unwrap() };
+        let slow = Toss { body, launch: Launch::in_unit(rate, thirds, TimeOfFlight::Given(3.0 * time)).unwrap() };
+        let landed = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.flight_time()).unwrap().attitude;
         assert!(landed(&plain).angle_to(&landed(&slow)) < 2e-15, "{moments:?}");
-        let [expected, found] = [&plain, &slow].map(|toss| margin_rigid(toss).unwrap().margin);
+        let [expected, found] = [&plain, &slow].map(|toss| margin(toss).unwrap());
         let near = |found: Option<f64>, expected: Option<f64>, factor: f64| match (found, expected) {
             (Some(found), Some(expected)) => (found / (factor * expected) - 1.0).abs() < 1e-11,
             (found, expected) => found == expected,

@@ -1,27 +1,12 @@
 //! Tests of proofs by integration of any rigid body.
 
-use dynamics::{Angle, AngleUnit, Body, Formulation, Launch, Quantity, Scheme, Stepping, TimeOfFlight, Unit, Vector3};
-use exact::RigidMotion;
+use dynamics::{Angle, AngleUnit, Body, Launch, Quantity, TimeOfFlight, Unit, Vector3};
+use exact::ExactMotion;
 
+use super::tests::{Numbers, random, solver};
 use super::*;
 
-fn solver(tolerance: f64) -> QuaternionSolver {
-    QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
-}
-
-/// Numbers in [0, 1) from a linear congruential generator.
-pub(crate) struct Numbers(pub(crate) u64);
-
 impl Numbers {
-    pub(crate) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / 2f64.powi(53)
-    }
-
-    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.next()
-    }
-
     /// From 1e-2 down to 10^-`digits`, with either sign.
     fn small(&mut self, digits: f64) -> f64 {
         10f64.powf(-self.between(2.0, digits)) * if self.next() < 0.5 { -1.0 } else { 1.0 }
@@ -40,10 +25,10 @@ impl Numbers {
 }
 
 /// Moments and rates.
-pub(crate) type Make = fn(&mut Numbers) -> ([f64; 3], [f64; 3]);
+type Make = fn(&mut Numbers) -> ([f64; 3], [f64; 3]);
 
 /// Kinds of bodies and launches: principal moments, the smallest first, and the rates about their axes.
-pub(crate) const KINDS: [(&str, Make); 8] = [
+const KINDS: [(&str, Make); 8] = [
     ("random", |numbers| (numbers.moments(), numbers.vector())),
     ("nearly symmetric", |numbers| {
         let (a, c) = (numbers.between(0.5, 1.0), numbers.between(0.01, 1.0));
@@ -74,7 +59,7 @@ pub(crate) const KINDS: [(&str, Make); 8] = [
 ];
 
 /// A toss of a kind with about this phase: each third one in degrees and from a speed, each fourth one with a tensor.
-pub(crate) fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64) -> RigidToss {
+fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64) -> Toss {
     loop {
         let (mut moments, mut rate) = (KINDS[kind].1)(numbers);
         moments.rotate_left(index % 3);
@@ -92,7 +77,7 @@ pub(crate) fn toss(kind: usize, index: usize, numbers: &mut Numbers, phase: f64)
         };
         let body = if index % 4 == 3 { tensor(moments, numbers) } else { Body::from_moments(moments).ok() };
         if let (Some(body), Ok(launch)) = (body, launch) {
-            return RigidToss { body, launch };
+            return Toss { body, launch };
         }
     }
 }
@@ -106,15 +91,15 @@ fn tensor(moments: [f64; 3], numbers: &mut Numbers) -> Option<Body> {
 }
 
 /// Errors of cos θ and of the attitude.
-fn errors(found: &IntegratedCertificate, toss: &RigidToss) -> [f64; 2] {
-    let motion = RigidMotion::compensated(toss);
+fn errors(found: &IntegratedCertificate, toss: &Toss) -> [f64; 2] {
+    let motion = ExactMotion::compensated(toss);
     let time = toss.launch.time_of_flight();
     let distance = 0.5 * found.landing().state.attitude.angle_to(&motion.state(time).unwrap().attitude);
     [(found.cos_tilt() - motion.cos_tilt(time).unwrap()).abs(), distance]
 }
 
 /// Errors divided by their bounds.
-pub(crate) fn shares(found: &IntegratedCertificate, toss: &RigidToss) -> [f64; 2] {
+fn shares(found: &IntegratedCertificate, toss: &Toss) -> [f64; 2] {
     let [of_cos_tilt, of_attitude] = errors(found, toss);
     [of_cos_tilt / found.error_bound(), of_attitude / found.attitude_error_bound()]
 }
@@ -128,7 +113,7 @@ fn errors_are_below_their_bounds_and_not_far_below() {
             for phase in [1.0, 10.0, 100.0, 1e3] {
                 for index in 0..40 {
                     let toss = toss(kind, index, &mut numbers, phase);
-                    let found = solver.enclose_rigid(&toss).unwrap();
+                    let found = solver.enclose(&toss).unwrap();
                     for share in shares(&found, &toss) {
                         assert!(share <= 1.0, "{name}, {tolerance:e}, {phase}: {share} of the bound, {toss:?}");
                         largest = largest.max(share);
@@ -149,7 +134,7 @@ fn bounds_are_close_but_next_to_the_middle_axis() {
         let (mut numbers, mut ratios) = (Numbers(9), Vec::new());
         for index in 0..100 {
             let toss = toss(kind, index, &mut numbers, 300.0);
-            let found = solver.enclose_rigid(&toss).unwrap();
+            let found = solver.enclose(&toss).unwrap();
             assert!(found.error_bound() < 1e-3, "{name}: {:e}, {toss:?}", found.error_bound());
             ratios.push(found.attitude_error_bound() / errors(&found, &toss)[1].max(1e-17));
         }
@@ -168,15 +153,20 @@ fn landings_are_those_of_the_solver_and_the_same_at_every_simd_level() {
         .into_iter()
         .map(|(kind, index)| toss(kind, index, &mut numbers, [1.0, 40.0, 400.0][index % 3]))
         .collect();
-    let coin = dynamics::Coin::PAPER;
-    tosses.insert(3, RigidToss { body: coin.into(), ..tosses[0] });
-    let alone: Vec<_> = tosses.iter().map(|toss| solver.certify_rigid(toss)).collect();
-    assert_eq!(alone[3], solver.certify(&tosses[3].symmetric().unwrap()));
-    for level in SimdLevel::all() {
-        assert_eq!(solver.certify_all_rigid(&tosses, level), alone, "{}", level.name());
+    // Coins between the bodies, and more of them than lanes at the end.
+    tosses.insert(3, Toss { body: dynamics::Coin::PAPER.into(), ..tosses[0] });
+    let mut numbers = Numbers(5);
+    for index in 0..40 {
+        let coin = random(&mut numbers, [1.0, 40.0, 400.0][index % 3]);
+        let position = if index < 20 { 2 * index } else { tosses.len() };
+        tosses.insert(position, coin);
     }
-    for (toss, landing) in tosses.iter().zip(solver.propagate_all_rigid(&tosses, SimdLevel::widest())) {
-        let (enclosed, landing) = (solver.enclose_rigid(toss).unwrap(), landing.unwrap());
+    let alone: Vec<_> = tosses.iter().map(|toss| solver.certify(toss)).collect();
+    for level in SimdLevel::all() {
+        assert_eq!(solver.certify_all(&tosses, level), alone, "{}", level.name());
+    }
+    for (toss, landing) in tosses.iter().zip(solver.land_all(&tosses, SimdLevel::widest())) {
+        let (enclosed, landing) = (solver.enclose(toss).unwrap(), landing.unwrap());
         assert_eq!((enclosed.landing().state, enclosed.work()), (landing.state, landing.work));
         assert!((enclosed.cos_tilt() - landing.cos_tilt).abs() < 1e-14);
     }
@@ -189,8 +179,8 @@ fn outcomes_are_those_of_the_exact_motion_or_undecided_within_the_bound() {
         for index in 0..60 {
             let toss = toss(kind, index, &mut numbers, [3.0, 30.0, 300.0][index % 3]);
             let time = toss.launch.time_of_flight();
-            let exact = Outcome::of(RigidMotion::new(&toss).cos_tilt(time).unwrap(), 1e-14);
-            match solver(1e-4).certify_rigid(&toss) {
+            let exact = Outcome::of(ExactMotion::new(&toss).cos_tilt(time).unwrap(), 1e-14);
+            match solver(1e-4).certify(&toss) {
                 Ok(found) => {
                     let within = found.cos_tilt().abs() <= found.error_bound();
                     let expected = if within { Outcome::Undecided } else { exact };
@@ -199,7 +189,7 @@ fn outcomes_are_those_of_the_exact_motion_or_undecided_within_the_bound() {
                 }
                 Err(error) => {
                     assert!(matches!(error, SolveError::NotProven { .. }), "{error}");
-                    assert!(solver(f64::EPSILON).enclose_rigid(&toss).unwrap().error_bound() >= 2.0);
+                    assert!(solver(f64::EPSILON).enclose(&toss).unwrap().error_bound() >= 2.0);
                     refused += 1;
                 }
             }
@@ -216,8 +206,8 @@ fn a_turn_about_an_axis_needs_no_shift() {
             let mut rate = [0.0; 3];
             rate[axis] = 300.1;
             let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(1.0)).unwrap();
-            let toss = RigidToss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
-            let found = solver(1e-12).certify_rigid(&toss).unwrap();
+            let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+            let found = solver(1e-12).certify(&toss).unwrap();
             assert!(found.attitude_error_bound() < 1e-11, "{axis}: {}", found.attitude_error_bound());
             assert!(shares(&found, &toss)[1] <= 1.0);
         }
@@ -236,10 +226,10 @@ fn bounds_hold_for_plates_as_thin_as_rounding() {
             (rate[0], rate[2]) = (1e-3 * rate[0], 1e-3 * rate[2]);
         }
         let launch = Launch::new(rate, TimeOfFlight::Given(numbers.between(5.0, 50.0))).unwrap();
-        let toss = RigidToss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
-        let Ok(found) = solver.enclose_rigid(&toss) else { continue };
+        let toss = Toss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
+        let Ok(found) = solver.enclose(&toss) else { continue };
         assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{toss:?}");
-        beyond += u32::from(found.error_bound() < 1e-6 && body.couplings()[0] < -1.0);
+        beyond += u32::from(found.error_bound() < 1e-6 && body.rigid().couplings()[0] < -1.0);
     }
     assert!(beyond > 50, "{beyond}");
 }
@@ -257,8 +247,8 @@ fn extreme_numbers_have_bounds_or_errors() {
         let Ok(body) = Body::from_moments(moments) else { continue };
         let unit = if index % 2 == 0 { AngleUnit::RADIAN } else { AngleUnit::Turns(Unit::ratio(1, 360).unwrap()) };
         let Ok(launch) = Launch::in_unit(rate, unit, time) else { continue };
-        let toss = RigidToss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
-        let Ok(found) = solver.enclose_rigid(&toss) else { continue };
+        let toss = Toss { body, launch: launch.with_tilt(numbers.between(-3.0, 3.0)).unwrap() };
+        let Ok(found) = solver.enclose(&toss) else { continue };
         let parts = [found.error_bound(), found.attitude_error_bound(), found.cos_tilt()];
         assert!(parts.iter().all(|part| part.is_finite()), "{toss:?}: {found:?}");
         assert!(shares(&found, &toss).into_iter().all(|share| share <= 1.0), "{toss:?}");

@@ -1,18 +1,18 @@
 //! Tests of each part of the sum against the formulas (4) and (20) of the proof, where no other part is as large.
 
-use dynamics::{AngleUnit, Body, Coin, RigidFlight, RigidToss, TimeOfFlight, Unit};
+use dynamics::{AngleUnit, Body, Coin, RigidFlight, TimeOfFlight, Toss, Unit};
 
 use super::*;
 
 const STEP: StepBound = StepBound { turn: 2e-9, rates: 3e-9, eta: 5e-9 };
 
 /// A toss whose k, η, q and time are exact in f64.
-fn toss(launch: Launch) -> (Toss, Flight) {
-    let toss = Toss { coin: Coin::from_moments(1.0, 1.5).unwrap(), launch };
+fn toss(launch: Launch) -> (CoinToss, Flight) {
+    let toss = CoinToss { coin: Coin::from_moments(1.0, 1.5).unwrap(), launch };
     (toss, Flight::new(&toss).unwrap())
 }
 
-fn in_radians(rate: [f64; 3]) -> (Toss, Flight) {
+fn in_radians(rate: [f64; 3]) -> (CoinToss, Flight) {
     toss(Launch::new(rate, TimeOfFlight::Given(10.0)).unwrap())
 }
 
@@ -74,7 +74,7 @@ fn rates_in_another_unit_are_off_by_their_rounding_in_each_part() {
 fn a_ratio_of_moments_and_a_time_that_are_no_f64_are_off_by_what_they_lose() {
     let coin = Coin::from_moments(3.0, 4.0).unwrap();
     let time = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-    let toss = Toss { coin, launch: Launch::new([40.0, 0.0, 33.0], time).unwrap() };
+    let toss = CoinToss { coin, launch: Launch::new([40.0, 0.0, 33.0], time).unwrap() };
     let flight = Flight::new(&toss).unwrap();
     let launched = Launched::new(&toss, &flight);
     let exactly = |value: f64| DoubleDouble::from(value);
@@ -94,7 +94,7 @@ fn a_body_has_the_errors_of_its_turn_and_of_its_time() {
     let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
     let bound = Bound { turn: 1e-16, fastest: 3.0 };
     let time = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
-    let toss = RigidToss { body, launch: Launch::new([40.0, -4.0, 33.0], time).unwrap() };
+    let toss = Toss { body, launch: Launch::new([40.0, -4.0, 33.0], time).unwrap() };
     let flight = RigidFlight::new(&toss).unwrap();
     let of_time = time_error(&toss.launch, flight.timing());
     assert!(of_time > 1e-17);

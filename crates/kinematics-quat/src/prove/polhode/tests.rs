@@ -3,7 +3,7 @@
 
 use dynamics::nalgebra::Matrix3;
 use dynamics::{Body, Launch, TimeOfFlight, Vector3};
-use exact::RigidMotion;
+use exact::ExactMotion;
 
 use super::*;
 
@@ -15,16 +15,16 @@ const THIN: [f64; 3] = [1.2e-16, 1.0, 1.000_000_000_000_000_2];
 /// Rates whose largest is between 1 and 2, so that the unit of the flight is 1 rad/s.
 const RATES: [[f64; 3]; 4] = [[0.7, -0.4, 1.1], [-1.3, 0.2, 0.3], [0.1, 1.5, 0.4], [1.0, -0.01, 0.002]];
 
-fn toss(moments: [f64; 3], rate: [f64; 3]) -> RigidToss {
+fn toss(moments: [f64; 3], rate: [f64; 3]) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(10.0)).unwrap();
-    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+    Toss { body: Body::from_moments(moments).unwrap(), launch }
 }
 
-fn polhode(toss: &RigidToss) -> Polhode {
+fn polhode(toss: &Toss) -> Polhode {
     Polhode::new(toss, &RigidFlight::new(toss).unwrap()).unwrap()
 }
 
-fn tosses() -> impl Iterator<Item = ([f64; 3], RigidToss)> {
+fn tosses() -> impl Iterator<Item = ([f64; 3], Toss)> {
     MOMENTS.into_iter().flat_map(|moments| RATES.map(|rate| (moments, toss(moments, rate))))
 }
 
@@ -37,7 +37,7 @@ fn bounds_hold_for_a_plate_whose_rounded_moments_break_the_inequality() {
         let toss = toss(THIN, rate);
         let polhode = polhode(&toss);
         let kappas = polhode.rounded_kappas();
-        assert!(toss.body.couplings()[0] < -1.8 && kappas[0] > 1.27 && polhode.widest >= kappas[0]);
+        assert!(toss.body.rigid().couplings()[0] < -1.8 && kappas[0] > 1.27 && polhode.widest >= kappas[0]);
         for rate in rates(&toss) {
             let (f, jacobian) = field(THIN, &rate);
             let momentum = Vector3::from(THIN).component_mul(&rate);
@@ -68,8 +68,8 @@ fn bounds_hold_for_a_plate_whose_rounded_moments_break_the_inequality() {
 }
 
 /// The rates at some times.
-fn rates(toss: &RigidToss) -> impl Iterator<Item = Vector3<f64>> {
-    let motion = RigidMotion::new(toss);
+fn rates(toss: &Toss) -> impl Iterator<Item = Vector3<f64>> {
+    let motion = ExactMotion::new(toss);
     (0..40).map(move |step| motion.state(0.25 * f64::from(step)).unwrap().rate)
 }
 
@@ -136,7 +136,7 @@ fn each_part_of_a_step_counts_by_its_formula() {
     let (moments, rate) = (MOMENTS[0], RATES[0]);
     let toss = toss(moments, rate);
     let polhode = polhode(&toss);
-    let after = RigidMotion::new(&toss).state(H).unwrap().rate;
+    let after = ExactMotion::new(&toss).state(H).unwrap().rate;
     let (speeds, growth) = ([rate.into(), after].map(|rate| field(moments, &rate).0.norm()), polhode.growth);
     let slowest = speeds[0].min(speeds[1]);
     let within = |found: f64, least: f64| assert!((least..1.67 * least).contains(&found), "{found:e}, not {least:e}");
@@ -185,14 +185,14 @@ fn without_its_conditions_there_is_no_shift() {
 fn the_rounding_of_the_toss_counts() {
     let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
     let launch = Launch::in_unit([40.0, -23.0, 63.0], degree, TimeOfFlight::Given(10.0)).unwrap();
-    let exact = RigidToss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
+    let exact = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
     let off = [40.0, -23.0, 63.0].map(|part: f64| {
         let exact = DoubleDouble::nearest(&degree.in_digits(160)) * part;
         (exact - (part.to_radians()).into()).hi().abs()
     });
     approx::assert_relative_eq!(polhode(&exact).launched, off.iter().sum::<f64>(), epsilon = 0.0, max_relative = 1e-6);
     let body = Body::from_tensor([[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]]).unwrap();
-    let tensor = RigidToss { body, ..toss(MOMENTS[0], RATES[0]) };
+    let tensor = Toss { body, ..toss(MOMENTS[0], RATES[0]) };
     let (found, rates) = (polhode(&tensor), RigidFlight::new(&tensor).unwrap().rates);
     assert!(found.launched > 0.0 && found.launched < 4.0 * UNIT_ROUNDOFF);
     assert!(Errors::at_launch(found, rates).bound() >= 12.0 * UNIT_ROUNDOFF);

@@ -1,22 +1,22 @@
 //! Tests of one step and of the right-hand side, against the exact motion and central differences.
 
 use dynamics::{Attitude, Body, Launch, TimeOfFlight, Vector3};
-use exact::RigidMotion;
+use exact::ExactMotion;
 use numerics::lanes::{SimdLevel, WithSimd};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
 
-fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> RigidToss {
+fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
-    RigidToss { body: Body::from_moments(moments).unwrap(), launch }
+    Toss { body: Body::from_moments(moments).unwrap(), launch }
 }
 
 /// Compares the right-hand side with central differences of the exact motion.
 #[test]
 fn the_derivative_is_that_of_the_exact_motion() {
     let toss = toss([1.0, 2.0, 2.5], [0.7, -0.4, 1.1], 1.0);
-    let (motion, system) = (RigidMotion::new(&toss), RigidSystem::new(toss.body.couplings()));
+    let (motion, system) = (ExactMotion::new(&toss), RigidSystem::new(toss.body.rigid().couplings()));
     let h = 1e-5;
     for step in 1..8 {
         let time = 0.3 * f64::from(step);
@@ -62,8 +62,9 @@ fn a_step_of_the_largest_order_is_the_exact_motion() {
     let h = 0.3;
     for (moments, rate) in [([1.0, 2.0, 2.5], [0.7, -0.4, 1.1]), ([1.0, 1.9, 2.0], [0.1, 0.9, -0.4])] {
         let toss = toss(moments, rate, h);
-        let exact = RigidMotion::new(&toss).state(h).unwrap();
-        let [w, x, y, z, a, b, c] = SimdLevel::widest().run(Step(rate, toss.body.couplings(), LARGEST_ORDER, h));
+        let exact = ExactMotion::new(&toss).state(h).unwrap();
+        let [w, x, y, z, a, b, c] =
+            SimdLevel::widest().run(Step(rate, toss.body.rigid().couplings(), LARGEST_ORDER, h));
         assert!(exact.attitude.angle_to(&Attitude::from_components([w, x, y, z]).unwrap()) < 1e-15);
         assert!((exact.rate - 2.0 * Vector3::new(a, b, c)).norm() < 1e-15);
     }
@@ -146,8 +147,9 @@ fn shares_of_steps(order: usize, h: f64) -> [f64; 2] {
         let rates = [part(2.0), part(3.0), part(5.0)];
         let moments = [0.1 + (1.0 + part(7.0)), 2.2 + part(11.0) * 0.1, 2.3 + part(13.0) * 0.01];
         let Ok(body) = Body::from_moments(moments) else { continue };
-        let [turn, of_rates, rounding] = SimdLevel::widest().run(Bounds(rates, body.couplings(), order, h));
-        let [off_turn, off_rates] = errors_of_step(rates, body.couplings(), order, h);
+        let couplings = body.rigid().couplings();
+        let [turn, of_rates, rounding] = SimdLevel::widest().run(Bounds(rates, couplings, order, h));
+        let [off_turn, off_rates] = errors_of_step(rates, couplings, order, h);
         // No disturbance grows faster than with 2 |ω|.
         let grown = (of_rates * (3.5 * h).exp() + rounding, turn + 0.5 * h * of_rates * (3.5 * h).exp());
         largest = [largest[0].max(off_turn / grown.1), largest[1].max(off_rates / grown.0)];

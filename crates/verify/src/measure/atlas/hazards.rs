@@ -8,7 +8,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use toss::{Coin, ExactMotion, InputError, Launch, TimeOfFlight, Toss};
+use toss::{Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight};
 
 use crate::measure::any_case::{AnyCase, RigidCase};
 use crate::measure::case::Case;
@@ -79,7 +79,7 @@ pub const HAZARDS: &[Hazard] = &[
         name: "a large phase",
         distance: "1/phase at landing (1/rad)",
         case: |distance| {
-            let rate = ExactMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?.toss).precession_rate();
+            let rate = CoinMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?.toss).precession_rate();
             regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
         },
         // Distances between 1e-6 and 1e-16 are left out: there an integrator only reaches its largest number of steps,
@@ -92,7 +92,7 @@ pub const HAZARDS: &[Hazard] = &[
         distance: "time left to the flip, in times of flight",
         case: |distance| {
             let falling = |time| tilted([2.0, 5.0, 1.0], 1.0, time);
-            let flip = ExactMotion::new(&falling(0.0)?.toss).first_flip().unwrap_or(f64::NAN);
+            let flip = CoinMotion::new(&falling(0.0)?.toss).first_flip().unwrap_or(f64::NAN);
             Ok(AnyCase::Coin(falling(flip / (1.0 + distance))?))
         },
         distances: DECADES,
@@ -154,7 +154,7 @@ fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<AnyCase, InputError> {
 
 fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
     let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-    Ok(Case { toss: Toss { coin: Coin::PAPER, launch }, tilt })
+    Ok(Case { toss: CoinToss { coin: Coin::PAPER, launch }, tilt })
 }
 
 /// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.
@@ -177,7 +177,7 @@ mod tests {
                     assert!(!hazard.is_of_coins());
                     continue;
                 };
-                let motion = ExactMotion::new(&toss);
+                let motion = CoinMotion::new(&toss);
                 let (cone, axis) = (motion.cone_angle(), motion.momentum_tilt());
                 let passes_the_vertical = (cone - axis).abs() < 0.2;
                 let (stops, levels) = (cone < axis, cone + axis > FRAC_PI_2);

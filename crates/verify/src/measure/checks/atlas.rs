@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
-use toss::{Attitude, ExactMotion, Formulation, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping, Toss};
+use toss::{Attitude, CoinMotion, CoinToss, Formulation, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping};
 
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
@@ -118,15 +118,15 @@ fn return_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     angles.filter_map(|entry| Some((entry, adaptive(entry)?))).map(row).collect()
 }
 
-fn calls(solver: &dyn Solver, toss: &Toss) -> Result<f64, SolveError> {
-    Ok(solver.propagate(toss)?.work.rhs_calls as f64)
+fn calls(solver: &dyn Solver, toss: &CoinToss) -> Result<f64, SolveError> {
+    Ok(solver.land(&(*toss).into())?.work.rhs_calls as f64)
 }
 
 /// The same flight, turned so that the angular momentum S is tilted from the vertical by half of the tilt that would
 /// let n pass through the vertical or its opposite; `None` where the cone of n about S leaves too little room for that.
-fn far_from_the_vertical(toss: &Toss) -> Option<Toss> {
+fn far_from_the_vertical(toss: &CoinToss) -> Option<CoinToss> {
     const ROOM: f64 = 0.3;
-    let cone = ExactMotion::new(toss).cone_angle();
+    let cone = CoinMotion::new(toss).cone_angle();
     let room = FRAC_PI_2 - (FRAC_PI_2 - cone).abs();
     if room < ROOM {
         return None;
@@ -135,5 +135,5 @@ fn far_from_the_vertical(toss: &Toss) -> Option<Toss> {
     // The turn about n brings S over -y; the turn about x then brings S upright and beyond by half the room.
     let attitude = Attitude::about_x(0.5 * room - cone) * Attitude::about_z(-FRAC_PI_2 - rate.y.atan2(rate.x));
     let launch = Launch::new(rate, toss.launch.time_of_flight()).ok()?.with_attitude(attitude);
-    Some(Toss { launch, ..*toss })
+    Some(CoinToss { launch, ..*toss })
 }

@@ -2,7 +2,7 @@
 //! kernels are written separately from the solver of one toss, so checks of that solver say nothing about them.
 
 use rayon::prelude::*;
-use toss::{Attitude, Batch, Error, Launch, Outcome, SimdLevel, SolveError, TimeOfFlight, Toss, Tosses};
+use toss::{Attitude, Batch, CoinToss, Error, Launch, Outcome, SimdLevel, SolveError, TimeOfFlight, Tosses};
 
 use super::certified::largest_errors;
 use crate::measure::case::Case;
@@ -75,7 +75,7 @@ pub(super) fn at_one_height(cases: Vec<Case>) -> anyhow::Result<Vec<Case>> {
         let TimeOfFlight::BallisticTo { .. } = flight else { return Ok(case) };
         let launch =
             Launch::new(case.toss.launch.rate(), TimeOfFlight::Given(flight.seconds()))?.with_tilt(case.tilt)?;
-        Ok(Case { toss: Toss { launch, ..case.toss }, ..case })
+        Ok(Case { toss: CoinToss { launch, ..case.toss }, ..case })
     };
     cases.into_iter().map(level).collect()
 }
@@ -86,27 +86,27 @@ fn many_turns(index: usize) -> f64 {
 }
 
 /// Error of cos θ.
-pub(super) fn cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
     Ok(reference.cos_tilt_error(cos_tilt_of_one(toss)?))
 }
 
 /// cos θ.
-pub(super) fn cos_tilt_of_one(toss: &Toss) -> Deviation {
+pub(super) fn cos_tilt_of_one(toss: &CoinToss) -> Deviation {
     solve(toss, cos_tilt)
 }
 
 /// Angle to the exact attitude (rad).
-pub(super) fn attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn attitude_error(toss: &CoinToss, reference: &Reference) -> Deviation {
     Ok(reference.attitude_error(&solve(toss, attitude)?))
 }
 
 /// 1 if the outcome is another one than that of `reference`, else 0.
-pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn outcome_differs(toss: &CoinToss, reference: &Reference) -> Deviation {
     Ok(f64::from(solve(toss, outcome)? != reference.outcome()))
 }
 
 /// The number of SIMD levels that give other bits than plain code.
-pub(super) fn levels_that_differ(toss: &Toss) -> Deviation {
+pub(super) fn levels_that_differ(toss: &CoinToss) -> Deviation {
     let bits = |batch: &Batch<'_>| -> Result<_, Error> {
         let turned: Attitude = attitude(batch)?;
         Ok((cos_tilt(batch)?.to_bits(), turned.components().map(f64::to_bits), outcome(batch)?))
@@ -117,7 +117,7 @@ pub(super) fn levels_that_differ(toss: &Toss) -> Deviation {
 }
 
 /// The result of `kernel` for a batch that holds only `toss`.
-fn solve<T>(toss: &Toss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
+fn solve<T>(toss: &CoinToss, kernel: impl Fn(&Batch<'_>) -> Result<T, Error>) -> Result<T, SolveError> {
     let rate = toss.launch.rate();
     // A batch takes speeds, not times: with a gravity of 2 m/s² the time 2 v0/g has the number of the speed.
     let (speed, gravity) = match toss.launch.time_of_flight() {
@@ -153,7 +153,7 @@ fn outcome(batch: &Batch<'_>) -> Result<Outcome, Error> {
 
 fn errors(
     context: &Context,
-    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+    error: fn(&CoinToss, &Reference) -> Result<f64, SolveError>,
 ) -> anyhow::Result<Vec<Measurement>> {
     let sets = [
         ("phases to 1e2", at_one_height(random(tries(context.effort), 1e2, 11)?)?),
@@ -165,7 +165,7 @@ fn errors(
 }
 
 /// The number of tosses of each set with a deviation.
-fn count(sets: &[(&str, Vec<Case>)], deviation: impl Fn(&Toss) -> Deviation + Sync) -> Vec<Measurement> {
+fn count(sets: &[(&str, Vec<Case>)], deviation: impl Fn(&CoinToss) -> Deviation + Sync) -> Vec<Measurement> {
     let measure = |(name, cases): &(&str, Vec<Case>)| {
         let found: Vec<_> = cases.par_iter().map(|case| deviation(&case.toss).map(|size| size != 0.0)).collect();
         Measurement::count_of_set(name, &found, |index| cases[index])

@@ -124,9 +124,9 @@ pub(super) const PUBLISHED: Check = Check {
 fn published(context: &Context, subject: &Subject) -> Measurement {
     let of_one = |body: &crate::measure::reference::motions::ReferenceBody| {
         let toss = &body.case.toss;
-        let landing = subject.solver.propagate_rigid(toss);
-        let error = landing.map_or(f64::INFINITY, |landing| body.error(&landing.state));
-        let estimate = subject.solver.error_estimate_rigid(toss).ok().flatten();
+        let landing = subject.solver.land(toss).ok();
+        let error = landing.as_ref().map_or(f64::INFINITY, |landing| body.error(&landing.state));
+        let estimate = landing.and_then(|landing| landing.error);
         // The published digits are fifteen.
         let allowed = estimate.map_or(f64::INFINITY, |estimate| 10.0 * estimate.max(1e-15));
         let found =

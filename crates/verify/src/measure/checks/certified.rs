@@ -9,7 +9,7 @@
 use exact::TiltTerms;
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use rayon::prelude::*;
-use toss::{ExactMotion, SolveError, Stage, Toss, certify};
+use toss::{CoinMotion, CoinToss, SolveError, Stage, certify};
 
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
@@ -76,30 +76,30 @@ pub(super) const BOUNDS: Check = Check {
 };
 
 /// Error of cos θ.
-pub(super) fn cos_tilt_error(toss: &Toss, reference: &Reference) -> Deviation {
-    Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
+pub(super) fn cos_tilt_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    Ok(reference.cos_tilt_error(CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
 }
 
 /// Angle to the exact attitude (rad).
-pub(super) fn attitude_error(toss: &Toss, reference: &Reference) -> Deviation {
-    Ok(reference.attitude_error(&ExactMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
+pub(super) fn attitude_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    Ok(reference.attitude_error(&CoinMotion::new(toss).state(toss.launch.time_of_flight())?.attitude))
 }
 
 /// Angle of the attitude of the Euler angles to the exact one, in ulp of 1 plus the largest angle.
-pub(super) fn euler_angles_error(toss: &Toss, reference: &Reference) -> Deviation {
-    let angles = ExactMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
+pub(super) fn euler_angles_error(toss: &CoinToss, reference: &Reference) -> Deviation {
+    let angles = CoinMotion::new(toss).euler_angles(toss.launch.time_of_flight())?;
     let largest = angles.alpha.abs().max(angles.beta.abs()).max(angles.gamma.abs());
     Ok(reference.attitude_error(&angles.attitude()) / (f64::EPSILON * (1.0 + largest)))
 }
 
 /// 1 if the proven outcome is another one than that of `reference`, else 0.
-pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
-    Ok(f64::from(certify(toss)?.outcome() != reference.outcome()))
+pub(super) fn outcome_differs(toss: &CoinToss, reference: &Reference) -> Deviation {
+    Ok(f64::from(certify(&(*toss).into())?.outcome() != reference.outcome()))
 }
 
 fn last_bit(
     context: &Context,
-    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+    error: fn(&CoinToss, &Reference) -> Result<f64, SolveError>,
 ) -> anyhow::Result<Vec<Measurement>> {
     let sets = [
         ("phases to 1e2", random(tries(context.effort), 1e2, 1)?),
@@ -113,7 +113,7 @@ fn last_bit(
 /// The largest error in each set, against the 256-bit reference.
 pub(super) fn largest_errors(
     sets: &[(&str, Vec<Case>)],
-    error: fn(&Toss, &Reference) -> Result<f64, SolveError>,
+    error: fn(&CoinToss, &Reference) -> Result<f64, SolveError>,
 ) -> Vec<Measurement> {
     let measure = |(name, cases): &(&str, Vec<Case>)| {
         let one = |case: &Case| (*case, error(&case.toss, &Reference::new(&case.toss)));
@@ -138,7 +138,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         .map(|(name, cases)| {
             let judged: Vec<_> = cases
                 .par_iter()
-                .map(|case| certify(&case.toss).map(|found| (found, Reference::new(&case.toss).outcome())))
+                .map(|case| certify(&case.toss.into()).map(|found| (found, Reference::new(&case.toss).outcome())))
                 .collect();
             let stages = Stage::ALL.map(|stage| {
                 judged.iter().filter(|found| found.as_ref().is_ok_and(|(found, _)| found.stage() == stage)).count()
@@ -159,7 +159,7 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         cases.extend(random(tries(context.effort) / 4, phase, seed)?);
     }
     cases.extend(adversarial(tries(context.effort) / 4, few_turns)?);
-    let largest = |name: &str, ratio: fn(&Toss, &Reference) -> Deviation| {
+    let largest = |name: &str, ratio: fn(&CoinToss, &Reference) -> Deviation| {
         let ratios: Vec<_> = cases.par_iter().map(|case| ratio(&case.toss, &Reference::new(&case.toss))).collect();
         Measurement::of_set(name, &ratios, |index| cases[index])
     };
@@ -167,7 +167,7 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// Error of cos θ in the f64 stage, divided by the stage's error bound.
-pub(super) fn of_f64(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn of_f64(toss: &CoinToss, reference: &Reference) -> Deviation {
     let terms = TiltTerms::new(toss);
     let [phase, _] = terms.phases(toss.launch.flight_time());
     let error = reference.cos_tilt_error(terms.height(phase) / terms.size);
@@ -175,7 +175,7 @@ pub(super) fn of_f64(toss: &Toss, reference: &Reference) -> Deviation {
 }
 
 /// Error of cos θ in the double-double stage, divided by the radius of its ball; 0 of a toss that has none.
-pub(super) fn of_double_double(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn of_double_double(toss: &CoinToss, reference: &Reference) -> Deviation {
     let Some(ball) = cos_tilt_in_double_double(toss) else { return Ok(0.0) };
     Ok(reference.unrounded_cos_tilt_error(*ball.midpoint()) / ball.radius())
 }

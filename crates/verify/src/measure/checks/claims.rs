@@ -2,7 +2,7 @@
 //! error estimate, so that a solver which claims enough would be right everywhere.
 
 use dynamics::phase::RoughPhases;
-use toss::{Propagation, SolveError, Toss};
+use toss::{Landing, SolveError};
 
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -43,7 +43,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// What a solver answered to each launch of the survey.
-type Landings = Vec<Result<Propagation, SolveError>>;
+type Landings = Vec<Result<Landing, SolveError>>;
 
 /// The ratio of `subject` over the launches of one class.
 fn of_class(survey: &Survey, subject: &Subject, landings: &Landings, name: &str, class: &[usize]) -> Measurement {
@@ -56,12 +56,14 @@ fn of_class(survey: &Survey, subject: &Subject, landings: &Landings, name: &str,
             continue;
         }
         largest = largest.max(survey.references[index].attitude_error(&landing.state.attitude));
-        match claim(subject, toss) {
-            Ok(Some((claim, phase))) => {
+        let Some(claim) = landing.error else {
+            return figure(subject, f64::NAN, 0, "it claims no error".to_owned()).claiming(None);
+        };
+        match RoughPhases::new(toss).largest() {
+            Ok(phase) => {
                 claims.push(claim);
                 phases.push(phase);
             }
-            Ok(None) => return figure(subject, f64::NAN, 0, "it claims no error".to_owned()).claiming(None),
             Err(error) => return figure(subject, f64::NAN, 0, error.to_string()).claiming(Some(0.0)),
         }
     }
@@ -69,12 +71,6 @@ fn of_class(survey: &Survey, subject: &Subject, landings: &Landings, name: &str,
     let rounding = 4.0 * f64::EPSILON * (1.0 + phase);
     let input = format!("{name} launches: claims {claim:.1e} in the median, largest error {largest:.1e} rad");
     figure(subject, claim / largest.max(rounding), number, input).claiming(Some(LARGEST_RATIO))
-}
-
-/// The error that `subject` claims for `toss`, and the phase at landing (rad).
-fn claim(subject: &Subject, toss: &Toss) -> Result<Option<(f64, f64)>, SolveError> {
-    let phase = RoughPhases::new(toss).largest()?;
-    Ok(subject.solver.error_estimate(toss)?.map(|claim| (claim, phase)))
 }
 
 fn figure(subject: &Subject, ratio: f64, cases: u64, input: String) -> Measurement {

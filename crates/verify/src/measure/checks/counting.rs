@@ -5,7 +5,7 @@
 use sampling::{Coordinate, Counts, Found, Plan, Sampler, Scrambled, Space, random_tosses};
 use toss::{
     Attitude, Batch, Coin, ExactSolver, Formulation, InputError, Launch, Outcome, Scheme, SimdLevel, SolveError,
-    SolverEntry, TimeOfFlight, Toss, Tosses, Vector3, certify,
+    SolverEntry, Tilt, TimeOfFlight, Toss, Tosses, Vector3, certify,
 };
 
 use crate::measure::check::{Basis, Check, Judges};
@@ -97,7 +97,7 @@ fn values(axes: &Axes, index: u32) -> [f64; Coordinate::COUNT] {
 /// The toss of the paper's coin with these values.
 fn toss([x, y, z, speed, gravity, tilt]: [f64; Coordinate::COUNT]) -> Result<Toss, InputError> {
     let launch = Launch::new(Vector3::new(x, y, z), TimeOfFlight::Ballistic { speed, gravity })?.with_tilt(tilt)?;
-    Ok(Toss { coin: Coin::PAPER, launch })
+    Ok(Toss::new(Coin::PAPER, launch))
 }
 
 fn points(axes: &Axes) -> u32 {
@@ -132,7 +132,8 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         let space = space(axes)?;
         let found = counts(&space, &Sampler::exact(), Plan::Grid)?;
         let tosses = (0..points(axes)).map(|index| toss(values(axes, index))).collect::<Result<Vec<_>, _>>()?;
-        let expected = Tally::of(tosses.into_iter(), |toss| Ok(Reference::new(toss).outcome()))?;
+        let expected =
+            Tally::of(tosses.into_iter(), |toss| Ok(Reference::new(&toss.coin().expect("a coin")).outcome()))?;
         difference += Tally::from(&found).difference(&expected);
         let last = Sampler::exact().running_shares(&space, 1, 1)?.pop();
         running += last.map_or(f64::INFINITY, |last| (last.grid * expected.all() as f64 - expected.heads as f64).abs());
@@ -197,7 +198,8 @@ fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
 fn by_solver(entry: &SolverEntry, scheme: Option<&Scheme>, sizes: &[u64]) -> anyhow::Result<Measurement> {
     let subject = Subject::new(entry, scheme.map(|scheme| usual(*scheme)).transpose()?, Formulation::default());
     let solver = subject.solver.as_ref();
-    counted(&subject.name, &Sampler::by(solver), sizes, |toss| solver.outcome(toss)).map(|row| row.claiming(Some(0.0)))
+    counted(&subject.name, &Sampler::by(solver), sizes, |toss| solver.tilt(toss).map(Tilt::outcome))
+        .map(|row| row.claiming(Some(0.0)))
 }
 
 /// The difference between the counts of `sampler` and those of `outcome`, over plans of each of these sizes.
@@ -220,7 +222,7 @@ fn counted(
             let space = Space::parse(Coin::PAPER, &[&axes[..], &rest].concat())?;
             let scrambled = Scrambled { scrambles: 3, ..Scrambled::new(3 * points.next_power_of_two(), 5) };
             for plan in [Plan::Random { points: *points, seed: 5 }, Plan::Sobol(scrambled)] {
-                let tosses = space.drawn(plan)?.flatten().filter_map(|drawn| drawn.toss.symmetric());
+                let tosses = space.drawn(plan)?.flatten().map(|drawn| drawn.toss);
                 let expected = Tally::of(tosses, &outcome)?;
                 // A sampler that fails where single launches do not has counted nothing.
                 let found = counts(&space, sampler, plan);

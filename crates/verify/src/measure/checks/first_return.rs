@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use toss::{ExactMotion, Formulation, Launch, TimeOfFlight, Toss};
+use toss::{CoinMotion, CoinToss, Formulation, Launch, TimeOfFlight};
 
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges, ceiling};
@@ -41,7 +41,7 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         for scheme in entry.schemes().iter().filter(|scheme| scheme.is_adaptive()) {
             let subject = Subject::new(entry, Some(tight(*scheme)?), Formulation::VERTICAL);
             let deviation = |(case, reference): (&Case, &Reference)| {
-                let landing = subject.solver.propagate(&case.toss)?;
+                let landing = subject.solver.land(&case.toss.into())?;
                 Ok(reference.attitude_error(&landing.state.attitude))
             };
             let deviations: Vec<_> = cases.par_iter().zip(&references).map(deviation).collect();
@@ -56,14 +56,14 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn returning_flights(context: &Context) -> anyhow::Result<Vec<Case>> {
     let mut cases = Vec::new();
     for case in context.survey()?.cases.iter().filter(|case| case.tilt == 0.0) {
-        let motion = ExactMotion::new(&case.toss);
+        let motion = CoinMotion::new(&case.toss);
         let cone = motion.cone_angle();
         let from_right_angle = (cone - TAU / 4.0).abs();
         if from_right_angle < CLEARANCE || TAU / 4.0 - from_right_angle < CLEARANCE {
             continue;
         }
         let time = TimeOfFlight::Given((TAU - DISTANCE) / motion.precession_rate());
-        let toss = Toss { launch: Launch::new(case.toss.launch.rate(), time)?, ..case.toss };
+        let toss = CoinToss { launch: Launch::new(case.toss.launch.rate(), time)?, ..case.toss };
         cases.push(Case { toss, ..*case });
     }
     Ok(cases)

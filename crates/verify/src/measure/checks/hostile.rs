@@ -63,8 +63,8 @@ fn of_contestant(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> anyhow:
 /// `None` for a body that the solver does not solve.
 fn land(Flight { toss, input, by }: &Flight) -> Option<Landing> {
     let part = || -> Result<Option<f64>, SolveError> {
-        let landing = by.solver.propagate_rigid(toss)?;
-        let Some(estimate) = by.solver.error_estimate_rigid(toss)? else { return Ok(None) };
+        let landing = by.solver.land(toss)?;
+        let Some(estimate) = landing.error else { return Ok(None) };
         let (exact, allowed) = (AnyReference::of_rigid(toss)?, estimate.max(COS_TILT_ERROR));
         let attitude = exact.attitude_error(&landing.state.attitude);
         Ok(Some((exact.cos_tilt_error(landing.cos_tilt) / allowed).max(attitude / (10.0 * allowed))))
@@ -137,7 +137,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
 fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let (mut rng, toss) = hostile::planned_body(index);
-    let Some(toss) = toss.filter(|toss| toss.symmetric().is_none()) else { return Ok(None) };
+    let Some(toss) = toss.filter(|toss| toss.coin().is_none()) else { return Ok(None) };
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
     let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
     let input = format!("{} {by}: {:?}, {:?}", scene.want.kind().name(), toss.body.tensor(), toss.launch);

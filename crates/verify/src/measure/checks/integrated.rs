@@ -4,7 +4,7 @@
 
 use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
-use toss::{ExactSolver, IntegratedCertificate, Outcome, SolveError, Solver, Stepping, Toss};
+use toss::{CoinToss, ExactSolver, IntegratedCertificate, Outcome, SolveError, Solver, Stepping};
 
 use super::enclosed::{distance, require_short, share, share_by_exact_motion, share_by_reference};
 use super::{integrated_bodies, judged};
@@ -64,15 +64,15 @@ pub(super) const SETS: [(&str, f64); 6] = [
 ];
 
 /// [`share`] at the tolerance of the set with this number.
-pub(super) fn share_of_set<const SET: usize>(toss: &Toss, _: &Reference) -> Deviation {
+pub(super) fn share_of_set<const SET: usize>(toss: &CoinToss, _: &Reference) -> Deviation {
     require_short(toss)?;
     share(&taylor(SETS[SET].1)?, toss)
 }
 
 /// 1 if the outcome that is proven at the default tolerance is not that of `reference`, else 0.
-pub(super) fn outcome_differs(toss: &Toss, reference: &Reference) -> Deviation {
+pub(super) fn outcome_differs(toss: &CoinToss, reference: &Reference) -> Deviation {
     require_short(toss)?;
-    Ok(f64::from(taylor(Stepping::DEFAULT_TOLERANCE)?.certify(toss)?.outcome() != reference.outcome()))
+    Ok(f64::from(taylor(Stepping::DEFAULT_TOLERANCE)?.certify(&(*toss).into())?.outcome() != reference.outcome()))
 }
 
 type Found = Result<IntegratedCertificate, SolveError>;
@@ -90,10 +90,10 @@ fn bounds(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     ];
     let measure = |((name, tolerance), cases): ((&'static str, f64), Vec<Case>)| {
         let solver = taylor(tolerance)?;
-        let found: Vec<_> = cases.par_iter().map(|case| (case.toss, solver.enclose(&case.toss))).collect();
-        let quick = |_, (toss, found): &(Toss, Found)| share_by_exact_motion(found.as_ref().ok()?, toss);
+        let found: Vec<_> = cases.par_iter().map(|case| (case.toss, solver.enclose(&case.toss.into()))).collect();
+        let quick = |_, (toss, found): &(CoinToss, Found)| share_by_exact_motion(found.as_ref().ok()?, toss);
         let thorough =
-            |_, (toss, found): &(Toss, Found)| share_by_reference(found.as_ref().map_err(Clone::clone)?, toss);
+            |_, (toss, found): &(CoinToss, Found)| share_by_reference(found.as_ref().map_err(Clone::clone)?, toss);
         let shares = judged::shares(&found, quick, thorough);
         Ok(Measurement::of_set(name, &shares, |index| cases[index]))
     };
@@ -110,7 +110,7 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     ];
     let measure = |(name, cases): (&str, Vec<Case>)| {
         let differs = |case: &Case| -> Result<bool, SolveError> {
-            Ok(solver.certify(&case.toss)?.outcome() != outcome(&case.toss))
+            Ok(solver.certify(&case.toss.into())?.outcome() != outcome(&case.toss))
         };
         let differs: Vec<_> = cases.par_iter().map(differs).collect();
         Measurement::count_of_set(name, &differs, |index| cases[index])
@@ -121,9 +121,9 @@ fn outcomes(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// The outcome by the exact motion where cos θ is far from 0, else by the reference.
-fn outcome(toss: &Toss) -> Outcome {
-    match ExactSolver.cos_tilt(toss) {
-        Ok(cos_tilt) if cos_tilt.abs() > 1e3 * judged::EXACT => Outcome::of(cos_tilt, 0.0),
+fn outcome(toss: &CoinToss) -> Outcome {
+    match ExactSolver.tilt(&(*toss).into()) {
+        Ok(tilt) if tilt.cos_tilt.abs() > 1e3 * judged::EXACT => tilt.outcome(),
         _ => Reference::new(toss).outcome(),
     }
 }
@@ -134,7 +134,7 @@ fn tightness(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let measure = |(name, phase, number): (&str, f64, u64)| {
         let cases = random(number, phase, 36)?;
         let ratio = |case: &Case| -> Deviation {
-            let found = solver.enclose(&case.toss)?;
+            let found = solver.enclose(&case.toss.into())?;
             Ok(found.attitude_error_bound() / distance(&found, &Reference::new(&case.toss)))
         };
         let ratios: Result<Vec<f64>, _> = cases.par_iter().map(ratio).collect();

@@ -1,7 +1,7 @@
 //! The parts of the checks of integrated proofs that fly bodies with I1 ≠ I2, in families each of which is hard for a
 //! method of its own. Next to a turn about the middle axis some flights have no bound; they are no cases.
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use rayon::prelude::*;
 use toss::{ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
 
@@ -36,17 +36,17 @@ pub(super) fn bounds_of_family(
     solvers: &[(QuaternionSolver, f64)],
     number: u64,
 ) -> Measurement {
-    let tosses: Vec<RigidToss> = launches(family, number, FLOWN).collect();
-    let fly = |(index, toss): (usize, &RigidToss)| solvers[index % solvers.len()].0.enclose_rigid(toss).ok();
+    let tosses: Vec<Toss> = launches(family, number, FLOWN).collect();
+    let fly = |(index, toss): (usize, &Toss)| solvers[index % solvers.len()].0.enclose(toss).ok();
     let found: Vec<_> = tosses.par_iter().enumerate().map(fly).collect();
     let is_bounded = |found: &&IntegratedCertificate| found.error_bound() < 2.0;
     let found: Vec<_> = found.iter().map(|found| found.as_ref().filter(is_bounded)).collect();
-    let quick = |index: usize, toss: &RigidToss| {
+    let quick = |index: usize, toss: &Toss| {
         let Some(found) = found[index] else { return Some(0.0) };
-        let exact = ExactSolver.propagate_rigid(toss).ok()?;
+        let exact = ExactSolver.land(toss).ok()?;
         judged::by_exact_motion(errors(found, &exact), bounds_of(found))
     };
-    let thorough = |index: usize, toss: &RigidToss| {
+    let thorough = |index: usize, toss: &Toss| {
         let (Some(found), Some(reference)) = (found[index], RigidReference::new(toss)) else { return Ok(0.0) };
         let of_attitude = 0.5 * reference.attitude_error(&found.landing().state.attitude);
         let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
@@ -72,9 +72,9 @@ pub(super) fn outcomes(check: &str, number: u64) -> anyhow::Result<Vec<Measureme
     let solver = taylor(Stepping::DEFAULT_TOLERANCE)?;
     let measure = |family: &Family| {
         let each = launches(family, number, FLOWN).flat_map(|toss| [Some(toss), at_an_edge(&toss)]);
-        let tosses: Vec<RigidToss> = each.flatten().collect();
-        let is_wrong = |toss: &RigidToss| {
-            let found = solver.certify_rigid(toss).map_or(Outcome::Undecided, |found| found.outcome());
+        let tosses: Vec<Toss> = each.flatten().collect();
+        let is_wrong = |toss: &Toss| {
+            let found = solver.certify(toss).map_or(Outcome::Undecided, |found| found.outcome());
             found != Outcome::Undecided && Some(found) != outcome(toss)
         };
         let wrong: Vec<bool> = tosses.par_iter().map(is_wrong).collect();
@@ -86,8 +86,8 @@ pub(super) fn outcomes(check: &str, number: u64) -> anyhow::Result<Vec<Measureme
 }
 
 /// The outcome by the exact motion where cos θ is far from 0, else by the reference.
-fn outcome(toss: &RigidToss) -> Option<Outcome> {
-    match ExactSolver.cos_tilt_rigid(toss) {
+fn outcome(toss: &Toss) -> Option<Outcome> {
+    match ExactSolver.tilt(toss).map(|tilt| tilt.cos_tilt) {
         Ok(cos_tilt) if cos_tilt.abs() > 1e3 * judged::EXACT => Some(Outcome::of(cos_tilt, 0.0)),
         _ => RigidReference::new(toss).map(|reference| reference.outcome()),
     }

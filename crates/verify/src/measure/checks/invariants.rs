@@ -2,7 +2,7 @@
 //! launch. They need no reference solution, and (a) to (c) are the checks that the paper itself applies: the length of
 //! the angular momentum S, the kinetic energy, and n·S, where n is the coin's normal.
 
-use toss::{Propagation, SolveError, State, Toss};
+use toss::{CoinToss, Landing, SolveError, State};
 
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges, ceiling};
@@ -76,27 +76,27 @@ pub(super) const PROJECTION: Check = Check {
     unit: "1",
     measure: |context| {
         let survey = context.survey()?;
-        let off = |landing: &Propagation| {
+        let off = |landing: &Landing| {
             let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
             (norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs())
         };
-        let row = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
+        let row = |(subject, landings): (&Subject, &Vec<Result<Landing, SolveError>>)| {
             let deviations = landings.iter().map(|landing| landing.as_ref().map(off).map_err(Clone::clone));
-            Measurement::largest(subject, deviations, |index| survey.cases[index], |allowance| allowance.attitude)
+            survey.largest(subject, landings, deviations, |allowance| allowance.attitude)
         };
         Ok(context.subjects.iter().zip(&survey.landings).map(row).collect())
     },
 };
 
 /// The largest `drift` of each subject between launch and landing of the random launches.
-fn largest(context: &Context, drift: fn(&Toss, &State) -> f64) -> anyhow::Result<Vec<Measurement>> {
+fn largest(context: &Context, drift: fn(&CoinToss, &State) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.survey()?;
-    let row = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
-        let of_one = |(case, landing): (&Case, &Result<Propagation, SolveError>)| {
+    let row = |(subject, landings): (&Subject, &Vec<Result<Landing, SolveError>>)| {
+        let of_one = |(case, landing): (&Case, &Result<Landing, SolveError>)| {
             landing.as_ref().map(|landing| drift(&case.toss, &landing.state)).map_err(Clone::clone)
         };
         let deviations = survey.cases.iter().zip(landings).map(of_one);
-        Measurement::largest(subject, deviations, |index| survey.cases[index], |allowance| allowance.attitude)
+        survey.largest(subject, landings, deviations, |allowance| allowance.attitude)
     };
     Ok(context.subjects.iter().zip(&survey.landings).map(row).collect())
 }

@@ -4,8 +4,8 @@
 
 use rayon::prelude::*;
 use toss::{
-    ExactMotion, Launch, Outcome, SolveError, TimeOfFlight, Toss, Vector3, margin, speeds_of_heads,
-    thrown_speeds_of_heads,
+    CoinMotion, CoinToss, Launch, Outcome, SolveError, TimeOfFlight, Vector3, level_speeds_of_heads, margin,
+    speeds_of_heads,
 };
 
 use crate::measure::case::Case;
@@ -58,29 +58,29 @@ fn cases(context: &Context, seed: u64) -> anyhow::Result<Vec<Case>> {
     random(number, 1e2, seed)
 }
 
-fn largest(name: &str, cases: &[Case], deviation: fn(&Toss, &Reference) -> Deviation) -> Measurement {
+fn largest(name: &str, cases: &[Case], deviation: fn(&CoinToss, &Reference) -> Deviation) -> Measurement {
     let found: Vec<_> = cases.par_iter().map(|case| deviation(&case.toss, &Reference::new(&case.toss))).collect();
     Measurement::of_set(name, &found, |index| cases[index])
 }
 
 /// The value of an input.
-type Value = fn(&Toss) -> f64;
+type Value = fn(&CoinToss) -> f64;
 
 /// A toss with `change` added to one of its inputs; `None` if there is no such toss.
-type Changed = fn(&Toss, f64) -> Option<Toss>;
+type Changed = fn(&CoinToss, f64) -> Option<CoinToss>;
 
 /// The inputs whose margins are compared: speed, gravity, tilt, ωx, ωy, ωz.
 const INPUTS: [(Value, Changed); 6] = [
     (|toss| thrown(toss)[0], |toss, change| toss_thrown(toss, [change, 0.0])),
     (|toss| thrown(toss)[1], |toss, change| toss_thrown(toss, [0.0, change])),
-    (tilt, |toss, change| Some(Toss { launch: toss.launch.with_tilt(tilt(toss) + change).ok()?, ..*toss })),
+    (tilt, |toss, change| Some(CoinToss { launch: toss.launch.with_tilt(tilt(toss) + change).ok()?, ..*toss })),
     (|toss| toss.launch.rate().x, |toss, change| toss_with_rate(toss, Vector3::new(change, 0.0, 0.0))),
     (|toss| toss.launch.rate().y, |toss, change| toss_with_rate(toss, Vector3::new(0.0, change, 0.0))),
     (|toss| toss.launch.rate().z, |toss, change| toss_with_rate(toss, Vector3::new(0.0, 0.0, change))),
 ];
 
 /// Speed and gravity.
-fn thrown(toss: &Toss) -> [f64; 2] {
+fn thrown(toss: &CoinToss) -> [f64; 2] {
     match toss.launch.time_of_flight() {
         TimeOfFlight::Ballistic { speed, gravity } | TimeOfFlight::BallisticTo { speed, gravity, .. } => {
             [speed, gravity]
@@ -90,21 +90,21 @@ fn thrown(toss: &Toss) -> [f64; 2] {
 }
 
 /// The angle of the turn about the laboratory's x axis (rad).
-fn tilt(toss: &Toss) -> f64 {
+fn tilt(toss: &CoinToss) -> f64 {
     let [w, x, ..] = toss.launch.attitude().components();
     2.0 * x.atan2(w)
 }
 
-fn relaunched(toss: &Toss, rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Option<Toss> {
+fn relaunched(toss: &CoinToss, rate: Vector3<f64>, time_of_flight: TimeOfFlight) -> Option<CoinToss> {
     let launch = Launch::new(rate, time_of_flight).ok()?;
-    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+    Some(CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
 }
 
-fn toss_with_rate(toss: &Toss, change: Vector3<f64>) -> Option<Toss> {
+fn toss_with_rate(toss: &CoinToss, change: Vector3<f64>) -> Option<CoinToss> {
     relaunched(toss, toss.launch.rate() + change, toss.launch.time_of_flight())
 }
 
-fn toss_thrown(toss: &Toss, [by_speed, by_gravity]: [f64; 2]) -> Option<Toss> {
+fn toss_thrown(toss: &CoinToss, [by_speed, by_gravity]: [f64; 2]) -> Option<CoinToss> {
     let [speed, gravity] = thrown(toss);
     let (speed, gravity) = (speed + by_speed, gravity + by_gravity);
     let time_of_flight = match toss.launch.time_of_flight() {
@@ -115,8 +115,8 @@ fn toss_thrown(toss: &Toss, [by_speed, by_gravity]: [f64; 2]) -> Option<Toss> {
 }
 
 /// The number of inputs whose margin is wrong.
-pub(super) fn wrong_margins(toss: &Toss, reference: &Reference) -> Deviation {
-    let (found, outcome) = (margin(toss)?, reference.outcome());
+pub(super) fn wrong_margins(toss: &CoinToss, reference: &Reference) -> Deviation {
+    let (found, outcome) = (margin(&(*toss).into())?, reference.outcome());
     let [rate_x, rate_y, rate_z] = found.rate;
     let margins = [found.speed, found.gravity, found.tilt, rate_x, rate_y, rate_z];
     // Beyond these changes no flip was searched for, or all values are tried.
@@ -156,10 +156,10 @@ fn looks(range: f64) -> impl Iterator<Item = f64> {
 
 /// The number of speeds, at the ends of the intervals of heads and in between, whose outcome is another one: for a
 /// landing at the height of the launch, below and above it.
-pub(super) fn wrong_speeds(toss: &Toss, _: &Reference) -> Deviation {
+pub(super) fn wrong_speeds(toss: &CoinToss, _: &Reference) -> Deviation {
     let [speed, gravity] = thrown(toss);
     // Of a toss of many turns only the last ones, because each has an interval.
-    let turns = ExactMotion::new(toss).phase(toss.launch.flight_time())? / std::f64::consts::TAU;
+    let turns = CoinMotion::new(toss).phase(toss.launch.flight_time())? / std::f64::consts::TAU;
     let slowest = speed * (1.0 - MOST_TURNS / turns).max(0.4);
     let mut wrong = 0;
     for drop in [None, Some(0.3), Some(-0.01 * speed * speed / gravity)] {
@@ -167,10 +167,10 @@ pub(super) fn wrong_speeds(toss: &Toss, _: &Reference) -> Deviation {
             TimeOfFlight::BallisticTo { speed, gravity, drop }
         });
         let Some(toss) = relaunched(toss, toss.launch.rate(), time_of_flight) else { continue };
-        let heads = thrown_speeds_of_heads(&toss, slowest)?.unwrap_or_default();
+        let heads = speeds_of_heads(&toss.into(), slowest)?.unwrap_or_default();
         if drop.is_none() {
             // Both functions answer the same question here.
-            let level = speeds_of_heads(&toss, slowest)?.map(Iterator::collect::<Vec<_>>);
+            let level = level_speeds_of_heads(&toss, slowest)?.map(Iterator::collect::<Vec<_>>);
             wrong += usize::from(level.as_ref() != Some(&heads));
         }
         wrong += wrong_among(&toss, [slowest, speed], &heads)?;
@@ -178,7 +178,7 @@ pub(super) fn wrong_speeds(toss: &Toss, _: &Reference) -> Deviation {
     Ok(wrong as f64)
 }
 
-fn wrong_among(toss: &Toss, [slowest, fastest]: [f64; 2], heads: &[[f64; 2]]) -> Result<usize, SolveError> {
+fn wrong_among(toss: &CoinToss, [slowest, fastest]: [f64; 2], heads: &[[f64; 2]]) -> Result<usize, SolveError> {
     let ends = heads.iter().flatten().flat_map(|end| [end * (1.0 - CLOSE), end * (1.0 + CLOSE)]);
     let between = looks(1.0).map(|part| slowest + part * (fastest - slowest));
     // Next to an end of the range an interval may touch it within rounding.

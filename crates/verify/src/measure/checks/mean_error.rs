@@ -4,7 +4,7 @@
 
 use exact::compensated_cos_tilt;
 use rayon::prelude::*;
-use toss::{ExactMotion, Launch, SolveError, TimeOfFlight, Toss};
+use toss::{CoinMotion, CoinToss, Launch, SolveError, TimeOfFlight};
 
 use super::batch;
 use super::certified::largest_errors;
@@ -44,18 +44,18 @@ pub(super) const TERMS: Check = Check {
 
 /// Error of cos θ at launch before it is rounded to f64. There the terms of cos θ add up to it without a sine or cosine
 /// of f64, whose rounding hides theirs.
-pub(super) fn terms_error(toss: &Toss, _: &Reference) -> Deviation {
+pub(super) fn terms_error(toss: &CoinToss, _: &Reference) -> Deviation {
     let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(0.0)).expect("the rate of a valid launch");
-    let toss = Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
-    let (cos_tilt, _) = ExactMotion::new(&toss).cos_tilt_parts(0.0)?;
+    let toss = CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss };
+    let (cos_tilt, _) = CoinMotion::new(&toss).cos_tilt_parts(0.0)?;
     Ok(Reference::new(&toss).unrounded_cos_tilt_error(cos_tilt))
 }
 
 /// cos θ of a toss.
-type CosTilt = fn(&Toss) -> Result<f64, SolveError>;
+type CosTilt = fn(&CoinToss) -> Result<f64, SolveError>;
 
 const METHODS: [(&str, CosTilt); 3] = [
-    ("exact", |toss| ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())),
+    ("exact", |toss| CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight())),
     ("compensated", compensated_cos_tilt),
     ("batch", batch::cos_tilt_of_one),
 ];

@@ -34,14 +34,14 @@ pub(super) const ATTITUDE: Check = Check {
 
 fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
-        Ok((solver.cos_tilt(&flight.case.toss)? - flight.cos_tilt).abs())
+        Ok((solver.tilt(&flight.case.toss.into())?.cos_tilt - flight.cos_tilt).abs())
     };
     Ok(over_flights(context, error, |allowance| allowance.cos_tilt))
 }
 
 fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
-        Ok(solver.propagate(&flight.case.toss)?.state.attitude.angle_to(&flight.attitude))
+        Ok(solver.land(&flight.case.toss.into())?.state.attitude.angle_to(&flight.attitude))
     };
     Ok(over_flights(context, error, |allowance| allowance.attitude))
 }

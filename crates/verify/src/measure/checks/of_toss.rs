@@ -1,7 +1,7 @@
 //! What the checks of the library measure on a single toss. A check takes these functions over sets of tosses; the replay
 //! of a worst input calls each of them on that toss, so that it runs what failed.
 
-use toss::Toss;
+use toss::CoinToss;
 
 use super::{batch, certified, integrated, margins, mean_error, sensitivity};
 use crate::measure::case::Case;
@@ -14,10 +14,10 @@ pub struct OfToss {
     pub check: &'static str,
     /// Which of the check's quantities; empty if it has one.
     pub part: &'static str,
-    measure: fn(&Toss, &Reference) -> Deviation,
+    measure: fn(&CoinToss, &Reference) -> Deviation,
 }
 
-const fn of(check: &'static str, part: &'static str, measure: fn(&Toss, &Reference) -> Deviation) -> OfToss {
+const fn of(check: &'static str, part: &'static str, measure: fn(&CoinToss, &Reference) -> Deviation) -> OfToss {
     OfToss { check, part, measure }
 }
 

@@ -8,7 +8,7 @@
 
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
-use toss::{Coin, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinToss, Launch, Outcome, Sensitivity, SolveError, Solver, TimeOfFlight, Vector3};
 
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges, ceiling};
@@ -81,19 +81,22 @@ fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn cases(coin: Coin, rate: Vector3<f64>, flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Case>> {
-    flights.map(|flight| Ok(Case { toss: Toss { coin, launch: Launch::new(rate, flight)? }, tilt: 0.0 })).collect()
+    flights.map(|flight| Ok(Case { toss: CoinToss { coin, launch: Launch::new(rate, flight)? }, tilt: 0.0 })).collect()
 }
 
 /// The number of `cases` that do not land as `expected`. Against a bound an undecided outcome counts; against the
 /// solver's own claim only a wrong one does, because an error estimate may leave an outcome undecided.
 fn misses(subject: &Subject, cases: &[Case], expected: Outcome) -> Measurement {
-    let outcomes: Vec<_> = cases.par_iter().map(|case| subject.solver.outcome(&case.toss)).collect();
+    let tilts: Vec<_> = cases.par_iter().map(|case| subject.solver.tilt(&case.toss.into())).collect();
     let count = |is: &dyn Fn(Outcome) -> bool| {
-        let found: Vec<_> = outcomes.iter().map(|outcome| outcome.clone().map(is)).collect();
+        let found: Vec<_> = tilts.iter().map(|tilt| tilt.clone().map(|tilt| is(tilt.outcome()))).collect();
         Measurement::count(subject, &found, |index| cases[index])
     };
     let wrong = count(&|outcome| ![expected, Outcome::Undecided].contains(&outcome));
-    let is_claimed = cases.par_iter().all(|case| !matches!(Allowance::new(subject, &case.toss), Ok(None)));
+    let is_claimed = cases.iter().zip(&tilts).all(|(case, tilt)| match tilt {
+        Ok(tilt) => Allowance::new(subject, &case.toss.into(), tilt.error).is_some(),
+        Err(_) => true,
+    });
     Measurement { claim: wrong.claiming(is_claimed.then_some(0.0)).claim, ..count(&|outcome| outcome != expected) }
 }
 
@@ -114,14 +117,14 @@ fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// The error (s) that the solver's estimate allows for a flip at the landing of `case`: the allowed error of cos θ
 /// divided by its rate of change, doubled because that rate is not constant, plus the rounding of the time.
 fn flip_allowance(subject: &Subject, case: &Case) -> Result<Option<f64>, SolveError> {
-    let rate = Sensitivity::new(&case.toss)?.cos_tilt[3].abs();
+    let rate = Sensitivity::new(&case.toss.into())?.cos_tilt[3].abs();
     let rounding = 4.0 * f64::EPSILON * case.toss.launch.flight_time();
-    Ok(Allowance::new(subject, &case.toss)?.map(|allowance| 2.0 * allowance.cos_tilt / rate + rounding))
+    Ok(Allowance::of(subject, case.toss)?.map(|allowance| 2.0 * allowance.cos_tilt / rate + rounding))
 }
 
 fn flight(flip: &FirstFlip, time: f64) -> anyhow::Result<Case> {
     let launch = Launch::new(flip.rate, TimeOfFlight::Given(time))?;
-    Ok(Case { toss: Toss { coin: flip.coin, launch }, tilt: 0.0 })
+    Ok(Case { toss: CoinToss { coin: flip.coin, launch }, tilt: 0.0 })
 }
 
 /// The time (s) of the sign change of cos θ between launch and 1.5 times the expected time, by bisection.
@@ -129,7 +132,7 @@ fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64
     let (mut heads, mut tails) = (0.0, 1.5 * flip.time);
     for _ in 0..60 {
         let middle = 0.5 * (heads + tails);
-        match solver.cos_tilt(&flight(flip, middle)?.toss) {
+        match solver.tilt(&flight(flip, middle)?.toss.into()).map(|tilt| tilt.cos_tilt) {
             Ok(cos_tilt) if cos_tilt > 0.0 => heads = middle,
             Ok(_) => tails = middle,
             Err(error) => return Ok(Err(error)),

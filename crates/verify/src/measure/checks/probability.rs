@@ -6,7 +6,7 @@ use sampling::{
     Counts, Found, Plan, RunningStep, Sampler, Space, clopper_pearson, long_flight_probability, named_space,
     random_tosses,
 };
-use toss::{Coin, ExactMotion, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Toss, Vector3};
+use toss::{Coin, CoinMotion, CoinToss, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Vector3};
 
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::context::Context;
@@ -119,7 +119,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             }
             Err(error) => (f64::INFINITY, 0.0, error.to_string()),
         };
-        let is_unclaimed = matches!(subject.solver.error_estimate_rigid(&one), Ok(None));
+        let is_unclaimed = subject.solver.tilt(&one).is_ok_and(|tilt| tilt.error.is_none());
         let found = Measurement::figure(FIG4_SAME_COUNTS.id, entry.name(), difference, exact.points(), input);
         // A solver's error estimate may leave launches undecided, which then are neither heads nor tails.
         Ok(found.claiming((!is_unclaimed).then_some(undecided)))
@@ -138,7 +138,7 @@ fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let deviation = |&(cone, _): &(f64, f64)| {
         let rate = Vector3::new(cone.sin(), 0.0, cone.cos() / Coin::PAPER.inertia_ratio());
         let launch = Launch::new(rate, TimeOfFlight::Given(0.0)).expect("sines and cosines are finite");
-        let motion = ExactMotion::new(&Toss { coin: Coin::PAPER, launch });
+        let motion = CoinMotion::new(&CoinToss { coin: Coin::PAPER, launch });
         let turn = std::f64::consts::TAU / motion.precession_rate();
         let heads = (0..PHASES)
             .map(|part| turn * (f64::from(part) + 0.5) / f64::from(PHASES))

@@ -1,7 +1,7 @@
 //! These checks compare every subject (a solver with its settings) on random launches with the 256-bit reference, and
 //! the solvers with each other. Random launches show errors between the special cases that the other checks choose.
 
-use toss::{Propagation, SolveError};
+use toss::{Landing, SolveError};
 
 use crate::measure::check::{Basis, Check, Judges, ceiling};
 use crate::measure::context::Context;
@@ -19,7 +19,7 @@ pub(super) const COS_TILT: Check = Check {
     ceiling: ceiling::COS_TILT,
     unit: "1",
     measure: |context| {
-        let error = |reference: &Reference, landing: &Propagation| reference.cos_tilt_error(landing.cos_tilt);
+        let error = |reference: &Reference, landing: &Landing| reference.cos_tilt_error(landing.cos_tilt);
         against_reference(context, error, |allowance| allowance.cos_tilt)
     },
 };
@@ -32,7 +32,7 @@ pub(super) const ATTITUDE: Check = Check {
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: |context| {
-        let error = |reference: &Reference, landing: &Propagation| reference.attitude_error(&landing.state.attitude);
+        let error = |reference: &Reference, landing: &Landing| reference.attitude_error(&landing.state.attitude);
         against_reference(context, error, |allowance| allowance.attitude)
     },
 };
@@ -50,15 +50,15 @@ pub(super) const CROSS_METHOD: Check = Check {
 
 fn against_reference(
     context: &Context,
-    error: fn(&Reference, &Propagation) -> f64,
+    error: fn(&Reference, &Landing) -> f64,
     allowed: fn(&Allowance) -> f64,
 ) -> anyhow::Result<Vec<Measurement>> {
     let survey = context.survey()?;
-    let measure = |(subject, landings): (&Subject, &Vec<Result<Propagation, SolveError>>)| {
+    let measure = |(subject, landings): (&Subject, &Vec<Result<Landing, SolveError>>)| {
         let deviations = landings.iter().zip(&survey.references).map(|(landing, reference)| {
             landing.as_ref().map(|landing| error(reference, landing)).map_err(Clone::clone)
         });
-        Measurement::largest(subject, deviations, |index| survey.cases[index], allowed)
+        survey.largest(subject, landings, deviations, allowed)
     };
     Ok(context.subjects.iter().zip(&survey.landings).map(measure).collect())
 }
@@ -84,8 +84,8 @@ fn pair(survey: &Survey, (index, one): (usize, &Subject), (other_index, other): 
     });
     // The two errors may add up, so the difference may be as large as the sum of both allowances.
     let allowed = |case: usize| -> Result<Option<f64>, SolveError> {
-        let allowance = |subject| Allowance::new(subject, &survey.cases[case].toss);
-        Ok(allowance(one)?.zip(allowance(other)?).map(|(one, other)| one.attitude + other.attitude))
+        let allowance = |subject, index: usize| survey.allowance(subject, &survey.landings[index], case);
+        Ok(allowance(one, index)?.zip(allowance(other, other_index)?).map(|(one, other)| one.attitude + other.attitude))
     };
     let measurement = Measurement::largest_within(other, deviations, |index| survey.cases[index], allowed);
     Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..measurement }.beside(one)

@@ -1,7 +1,7 @@
 //! These checks compare the motion of any rigid body with the 256-bit reference.
 
-use dynamics::RigidToss;
-use exact::{RigidMotion, certify_rigid};
+use dynamics::Toss;
+use exact::{ExactMotion, certify};
 use rayon::prelude::*;
 use toss::{Certificate, Launch, TimeOfFlight};
 
@@ -61,11 +61,11 @@ pub(super) const OUTCOMES: Check = Check {
     ceiling: 0.0,
     measure: |context| {
         let measure = |family: &Family| {
-            let tosses: Vec<RigidToss> = launches(family, tosses_of_a_family(context.effort), LONG)
+            let tosses: Vec<Toss> = launches(family, tosses_of_a_family(context.effort), LONG)
                 .filter_map(|toss| at_an_edge(&toss))
                 .collect();
-            let differs = |toss: &RigidToss| {
-                let outcome = certify_rigid(toss).map(Certificate::outcome).ok();
+            let differs = |toss: &Toss| {
+                let outcome = certify(toss).map(Certificate::outcome).ok();
                 outcome.is_none() || outcome != RigidReference::new(toss).map(|reference| reference.outcome())
             };
             let found: Vec<bool> = tosses.par_iter().map(differs).collect();
@@ -90,8 +90,8 @@ fn largest(context: &Context, check: &str, error: fn(&Judged) -> f64) -> Vec<Mea
 
 /// The same toss with a time within 3 ulp of one at which the outcome changes, near the time of the toss. `None` if
 /// none is found.
-pub(super) fn at_an_edge(toss: &RigidToss) -> Option<RigidToss> {
-    let motion = RigidMotion::new(toss);
+pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
+    let motion = ExactMotion::new(toss);
     let rate = toss.launch.rate().norm();
     let heads = |time: f64| motion.cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0).ok();
     let start = toss.launch.flight_time();
@@ -109,5 +109,5 @@ pub(super) fn at_an_edge(toss: &RigidToss) -> Option<RigidToss> {
     let ulps = (start.to_bits() % 7) as i64 - 3;
     let time = f64::from_bits(after.to_bits().wrapping_add_signed(ulps));
     let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).ok()?;
-    Some(RigidToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use rayon::prelude::*;
-use toss::{Launch, Sensitivity, SolveError, TimeOfFlight, Toss};
+use toss::{CoinToss, Launch, Sensitivity, SolveError, TimeOfFlight};
 
 use crate::measure::case::Case;
 use crate::measure::check::{Basis, Check, Judges};
@@ -39,8 +39,8 @@ fn measure(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// The relative errors of the derivatives of the attitude and of cos θ.
-pub(super) fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
-    let found = Sensitivity::new(toss)?;
+pub(super) fn errors(toss: &CoinToss) -> Result<[f64; 2], SolveError> {
+    let found = Sensitivity::new(&(*toss).into())?;
     let (attitude, cos_tilt) = differences(toss);
     let (rate, time) = (toss.launch.rate().norm(), toss.launch.flight_time());
     let relative = Matrix4::from_diagonal(&Vector4::new(rate, rate, rate, time));
@@ -51,13 +51,13 @@ pub(super) fn errors(toss: &Toss) -> Result<[f64; 2], SolveError> {
 
 /// Central differences of attitude and cos θ by ω and time, in 256 bits over relative steps of 2^-37. Their truncation
 /// error is below 1e-18.
-fn differences(toss: &Toss) -> (Matrix3x4<f64>, Vector4<f64>) {
+fn differences(toss: &CoinToss) -> (Matrix3x4<f64>, Vector4<f64>) {
     let (mut attitude, mut cos_tilt) = (Matrix3x4::zeros(), Vector4::zeros());
     let (rate, time) = (toss.launch.rate(), toss.launch.flight_time());
     let inputs = Vector4::new(rate.x, rate.y, rate.z, time);
     let landing = |inputs: &Vector4<f64>| {
         let launch = Launch::new(inputs.xyz(), TimeOfFlight::Given(inputs.w)).expect("next to a valid launch");
-        Reference::new(&Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+        Reference::new(&CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
     };
     for input in 0..4 {
         let size = if input == 3 { time } else { rate.norm() };

@@ -4,7 +4,8 @@
 use dynamics::coin::NO_COIN;
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use toss::{
-    Answer, Error, InputError, Launch, Outcome, Scene, TimeOfFlight, Toss, TracePoint, Vector3, speeds_of_heads,
+    Answer, CoinToss, Error, InputError, Launch, Outcome, Scene, TimeOfFlight, TracePoint, Vector3,
+    level_speeds_of_heads,
 };
 
 use crate::measure::reference::Reference;
@@ -12,12 +13,12 @@ use crate::measure::reference::Reference;
 /// The exact answer to every scene about one toss.
 pub struct Truth {
     landing: Reference,
-    toss: Toss,
+    toss: CoinToss,
 }
 
 impl Truth {
     /// Solves `toss` with the 256-bit reference.
-    pub fn new(toss: &Toss) -> Self {
+    pub fn new(toss: &CoinToss) -> Self {
         Self { landing: Reference::new(toss), toss: *toss }
     }
 
@@ -54,7 +55,7 @@ impl Truth {
                 self.landing.attitude_error(&point.attitude)
             } else {
                 let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                Reference::new(&Toss { launch: until, ..self.toss }).attitude_error(&point.attitude)
+                Reference::new(&CoinToss { launch: until, ..self.toss }).attitude_error(&point.attitude)
             };
             largest = largest.max(error);
         }
@@ -91,8 +92,8 @@ fn share_by_intervals(space: &Space) -> Result<f64, Error> {
     let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
     let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
     let coin = space.coin().ok_or(NO_COIN)?;
-    let toss = Toss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
-    let intervals = speeds_of_heads(&toss, slowest)?;
+    let toss = CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let intervals = level_speeds_of_heads(&toss, slowest)?;
     let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
     Ok(length / (fastest - slowest))
 }

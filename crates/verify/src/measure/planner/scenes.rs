@@ -7,7 +7,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use sampling::{Coordinate, Space};
 use toss::catalogue::CATALOGUE;
-use toss::{Coin, InputError, Launch, Registry, Scene, TimeOfFlight, Toss, Vector3, Want};
+use toss::{Coin, CoinToss, InputError, Launch, Registry, Scene, TimeOfFlight, Vector3, Want};
 
 use crate::measure::case::Case;
 
@@ -65,7 +65,7 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<Case, InputError> {
         1 => TimeOfFlight::Given(decades(rng, -2.0, 1.0)),
         _ => TimeOfFlight::thrown(speed, gravity, None),
     };
-    Ok(Case { toss: Toss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? }, tilt })
+    Ok(Case { toss: CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? }, tilt })
 }
 
 /// A toss that differs from `case` by up to 1 % in each rate and in time. Its errors are of the same size on average,
@@ -73,12 +73,12 @@ fn random_toss(rng: &mut ChaCha8Rng) -> Result<Case, InputError> {
 ///
 /// # Errors
 /// Never: every toss is valid.
-pub fn neighbour(case: &Case, seed: u64, index: u64) -> Result<Toss, InputError> {
+pub fn neighbour(case: &Case, seed: u64, index: u64) -> Result<CoinToss, InputError> {
     let mut rng = stream(seed, index);
     let launch = case.toss.launch;
     let rate = launch.rate().map(|part| part * rng.random_range(0.99..1.01));
     let time = TimeOfFlight::Given(launch.flight_time() * rng.random_range(0.99..1.01));
-    Ok(Toss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..case.toss })
+    Ok(CoinToss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..case.toss })
 }
 
 /// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an

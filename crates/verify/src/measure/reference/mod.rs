@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use numerics::DoubleDouble;
-use toss::{Angle, AngleUnit, Attitude, Coin, Launch, Outcome, Quantity, TimeOfFlight, Toss, Vector3};
+use toss::{Angle, AngleUnit, Attitude, Coin, CoinToss, Launch, Outcome, Quantity, TimeOfFlight, Vector3};
 
 /// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
@@ -36,7 +36,7 @@ pub struct Reference {
 
 impl Reference {
     /// Solves `toss`.
-    pub fn new(toss: &Toss) -> Self {
+    pub fn new(toss: &CoinToss) -> Self {
         let [x, y, z] = rates(&toss.launch);
         let k = inertia_ratio(&toss.coin);
         let momentum_z = &k * &z;

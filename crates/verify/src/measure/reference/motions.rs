@@ -3,7 +3,7 @@
 
 use anyhow::{Context, bail};
 use serde::Deserialize;
-use toss::{Attitude, Coin, Launch, State, TimeOfFlight, Toss, Vector3};
+use toss::{Attitude, Coin, CoinToss, Launch, State, TimeOfFlight, Vector3};
 
 use crate::data;
 use crate::measure::any_case::RigidCase;
@@ -188,7 +188,7 @@ impl ReferenceFlight {
             _ => bail!("{}: a time, or a speed and gravity, is needed", entry.name),
         };
         let launch = Launch::new(entry.rate, time_of_flight)?.with_tilt(entry.tilt)?;
-        let toss = Toss { coin: Coin::from_moments(entry.i1, entry.i3)?, launch };
+        let toss = CoinToss { coin: Coin::from_moments(entry.i1, entry.i3)?, launch };
         Ok(Self {
             case: Case { toss, tilt: entry.tilt },
             cos_tilt: entry.cos_tilt.parse()?,

@@ -8,7 +8,7 @@
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use dynamics::RigidToss;
+use dynamics::Toss;
 use toss::{Attitude, Outcome, TimeOfFlight};
 
 use super::{PRECISION, big, product, to_f64, turn};
@@ -25,7 +25,7 @@ impl RigidReference {
     /// Solves the toss of a body that was given by its moments, with rates in rad/s and a given time. `None` for
     /// others, and for a body with two equal moments or a launch about a principal axis, which need no elliptic
     /// function.
-    pub fn new(toss: &RigidToss) -> Option<Self> {
+    pub fn new(toss: &Toss) -> Option<Self> {
         let TimeOfFlight::Given(time) = toss.launch.time_of_flight() else { return None };
         let rate: [f64; 3] = toss.launch.rate().into();
         let landed = turned(toss.body.moments()?, rate, time)?;
@@ -34,7 +34,7 @@ impl RigidReference {
     }
 
     /// Whether [`RigidReference::new`] solves the toss.
-    pub fn solves(toss: &RigidToss) -> bool {
+    pub fn solves(toss: &Toss) -> bool {
         let rate: [f64; 3] = toss.launch.rate().into();
         toss.body.moments().is_some_and(|moments| Sorted::new(moments, rate).is_some())
     }

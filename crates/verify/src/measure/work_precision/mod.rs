@@ -175,7 +175,7 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
 /// Whether `subject` can be judged by its error estimate on `case`; of coins, that is for the check to say.
 fn states_an_error(subject: &Subject, case: &AnyCase) -> bool {
     let AnyCase::Rigid(RigidCase { toss, .. }) = case else { return true };
-    Allowance::of_rigid(subject, toss).is_ok_and(|allowance| allowance.is_some())
+    Allowance::of(subject, *toss).is_ok_and(|allowance| allowance.is_some())
 }
 
 impl Job {
@@ -230,7 +230,7 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
         let fly = || {
             for case in &problems[job.problem].cases {
                 // Failed flights are timed too, because they also take time.
-                let _ = std::hint::black_box(std::hint::black_box(case).propagate(&*job.subject.solver));
+                let _ = std::hint::black_box(std::hint::black_box(case).land(&*job.subject.solver));
             }
         };
         (index, repeat(fly, budget))

@@ -7,7 +7,7 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::{Coin, Launch, TimeOfFlight, Toss};
+use toss::{Coin, CoinToss, Launch, TimeOfFlight};
 
 use crate::data;
 use crate::measure::any_case::{AnyCase, RigidCase};
@@ -95,7 +95,7 @@ impl Entry {
             _ => bail!("{}: either a speed, with gravity and drop as needed, or a time is needed", self.name),
         };
         let launch = Launch::new(rate, time)?.with_tilt(self.tilt)?;
-        Ok(Case { toss: Toss { coin, launch }, tilt: self.tilt })
+        Ok(Case { toss: CoinToss { coin, launch }, tilt: self.tilt })
     }
 
     fn body(&self, moments: [f64; 3], rate: [f64; 3]) -> anyhow::Result<RigidCase> {
@@ -115,10 +115,13 @@ impl Entry {
         let space = Space::parse(coin, &axes)?;
         let tosses = random_flights(&space, 1, self.launches.unwrap_or(0))?;
         // The attitude at launch is a turn about x, whose quaternion has the sine of half the tilt as its x component.
-        let tilt = |toss: &Toss| 2.0 * toss.launch.attitude().components()[1].asin();
-        let vary = |(turn, toss): (u64, Toss)| {
+        let tilt = |toss: &CoinToss| 2.0 * toss.launch.attitude().components()[1].asin();
+        let vary = |(turn, toss): (u64, CoinToss)| {
             let launch = Launch::new(toss.launch.rate(), throw(toss.launch.time_of_flight(), turn))?;
-            Ok(Case { toss: Toss { launch: launch.with_attitude(toss.launch.attitude()), ..toss }, tilt: tilt(&toss) })
+            Ok(Case {
+                toss: CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..toss },
+                tilt: tilt(&toss),
+            })
         };
         (0..).zip(tosses).map(vary).collect()
     }

@@ -1,7 +1,7 @@
 //! Beside the errors of Taylor series the bounds that they prove for them, over a range of tolerances: how much more a
 //! proof states than was wrong.
 
-use dynamics::RigidToss;
+use dynamics::Toss;
 use toss::SolveError;
 
 use super::problems::Problem;
@@ -27,19 +27,19 @@ pub struct Proof {
 /// [`SolveError`] for a phase above 2^53 rad, which no problem has.
 pub fn proofs(problem: &Problem) -> Result<Vec<Proof>, SolveError> {
     let toss = |case: &AnyCase| match case {
-        AnyCase::Coin(case) => RigidToss::from(case.toss),
+        AnyCase::Coin(case) => Toss::from(case.toss),
         AnyCase::Rigid(case) => case.toss,
     };
-    let tosses: Vec<RigidToss> = problem.cases.iter().map(toss).collect();
+    let tosses: Vec<Toss> = problem.cases.iter().map(toss).collect();
     let references: Vec<AnyReference> = problem.cases.iter().map(AnyReference::new).collect::<Result<_, _>>()?;
     (0..=24).map(|step| proof(&tosses, &references, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
 }
 
-fn proof(tosses: &[RigidToss], references: &[AnyReference], tolerance: f64) -> Result<Proof, SolveError> {
+fn proof(tosses: &[Toss], references: &[AnyReference], tolerance: f64) -> Result<Proof, SolveError> {
     let solver = taylor(tolerance)?;
     let mut largest = Proof { tolerance, calls: 0.0, error: 0.0, bound: 0.0 };
     for (toss, reference) in tosses.iter().zip(references) {
-        let found = solver.enclose_rigid(toss)?;
+        let found = solver.enclose(toss)?;
         largest.calls += found.work().rhs_calls as f64 / tosses.len() as f64;
         largest.error = largest.error.max(reference.attitude_error(&found.landing().state.attitude));
         // The angle of two quaternions at this distance.

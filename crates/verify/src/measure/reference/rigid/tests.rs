@@ -68,7 +68,7 @@ fn the_256_bit_motion_is_that_of_an_integration_in_256_bits() {
 fn what_it_does_not_solve_it_refuses() {
     let solved = |moments: [f64; 3], rate: [f64; 3]| {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap();
-        RigidReference::new(&RigidToss { body: Body::from_moments(moments).unwrap(), launch }).is_some()
+        RigidReference::new(&Toss { body: Body::from_moments(moments).unwrap(), launch }).is_some()
     };
     assert!(solved([1.0, 2.0, 2.5], [0.1, 0.2, 0.3]));
     assert!(!solved([1.0, 2.0, 2.0], [0.1, 0.2, 0.3]) && !solved([1.0, 2.0, 2.5], [0.0, 0.2, 0.0]));
