@@ -30,10 +30,10 @@ fn the_answer_has_the_fields_of_the_contract() {
     let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
     let toss =
         ["schema", "input", "coin", "flight_time", "cos_tilt", "outcome", "certified", "proof", "margin", "attitude"];
-    for field in toss.into_iter().chain(["rate", "norm_error", "defect", "solver", "scheme", "method", "work"]) {
+    for field in toss.into_iter().chain(["rate", "norm_error", "solver", "scheme", "work"]) {
         assert!(fields.contains(&field), "{field}");
     }
-    assert_eq!(fields.len(), 19);
+    assert_eq!(fields.len(), 17);
     // Kane's body, with its reference values.
     assert_near(&answer["cos_tilt"], 0.740_109_893_087_048_3, 1e-15);
     for (part, expected) in
@@ -108,15 +108,14 @@ fn an_outcome_is_proven_for_the_tilt_and_the_cylinder_as_typed() {
 }
 
 #[test]
-fn schemes_and_norm_errors_keep_their_former_names() {
+fn method_is_an_alias_of_scheme() {
     for command in ["toss --rate 2,5,1 --time 0.4", "trace --rate 2,5,1 --time 0.4 --points 3"] {
         let by = |option: &str| json(&format!("{command} --solver quaternion {option} rk4"), 0);
         assert_eq!(by("--scheme"), by("--method"));
     }
     let answer = json("toss --rate 2,5,1 --time 0.4 --solver quaternion --tolerance 1e-4", 0);
-    assert_eq!((&answer["scheme"], &answer["method"]), (&"dop853".into(), &"dop853".into()));
+    assert_eq!(answer["scheme"], "dop853");
     assert!(answer["norm_error"].as_f64() > Some(0.0));
-    assert_eq!(answer["norm_error"], answer["defect"]);
     assert_eq!(json("toss --rate 2,5,1 --time 0.4", 0)["scheme"], Value::Null);
 }
 

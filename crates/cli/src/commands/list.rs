@@ -129,8 +129,6 @@ struct SolverLine<'a> {
     summary: &'a str,
     integrates: bool,
     schemes: Vec<&'a str>,
-    /// The schemes again, under the former name of the field.
-    methods: Vec<&'a str>,
     formulations: Vec<&'a str>,
 }
 
@@ -141,7 +139,6 @@ impl<'a> From<&'a SolverEntry> for SolverLine<'a> {
             name: entry.name(),
             summary: entry.summary(),
             integrates: entry.integrates(),
-            methods: schemes.clone(),
             schemes,
             formulations: entry.formulations().iter().map(|formulation| formulation.name()).collect(),
         }

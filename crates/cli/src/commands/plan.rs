@@ -98,7 +98,7 @@ struct Answer {
     solver: String,
     /// The scheme of an integrator.
     scheme: Option<&'static str>,
-    /// For an integrator the scheme again, under its former name; for a sample the method that chooses its launches.
+    /// The method that chooses the launches of a sample.
     method: Option<&'static str>,
     tolerance: Option<f64>,
     /// The number of launches of a sample.
@@ -200,7 +200,6 @@ impl Answer {
             (How::Integrator(entry, stepping), _) => {
                 answer.solver = entry.name().to_owned();
                 answer.scheme = Some(stepping.scheme().name());
-                answer.method = answer.scheme;
                 answer.tolerance = match stepping.control() {
                     StepControl::Tolerance(tolerance) => Some(tolerance),
                     StepControl::Step(_) => None,
@@ -220,7 +219,7 @@ impl Answer {
 
     fn text(&self, choice: &Choice) -> String {
         let mut settings = self.solver.clone();
-        settings.extend(self.method.map(|method| format!(", {method}")));
+        settings.extend(self.scheme.or(self.method).map(|name| format!(", {name}")));
         settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
         settings.extend(self.points.map(|points| format!(", {points} launches")));
         let error = match self.expected_error {

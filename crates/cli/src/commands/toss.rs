@@ -53,12 +53,8 @@ struct Answer {
     attitude: [f64; 4],
     rate: [f64; 3],
     norm_error: f64,
-    /// The norm error by its former name.
-    defect: f64,
     solver: String,
     scheme: Option<&'static str>,
-    /// The scheme by its former name.
-    method: Option<&'static str>,
     work: WorkCounts,
 }
 
@@ -179,10 +175,8 @@ impl Answer {
             attitude: state.attitude.components().map(without_sign_of_zero),
             rate: state.rate.into(),
             norm_error,
-            defect: norm_error,
             solver: solver.name().to_owned(),
             scheme,
-            method: scheme,
             work: WorkCounts { rhs_calls, accepted_steps, rejected_steps },
         })
     }

@@ -100,7 +100,9 @@ impl Solver for NotMade {
     fn name(&self) -> &str {
         &self.name
     }
-    fn land(&self, _: &Toss) -> Result<Landing, SolveError> {
+    /// It is judged by coins, which every solver has to solve.
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        toss.of_coin(&self.name, "it could not be made")?;
         Err(SolveError::failed(&self.name, self.reason.clone()))
     }
 }
