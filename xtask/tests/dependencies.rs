@@ -22,7 +22,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("verify", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
     ("unfair-toss", &["toss", "sampling", "exact", "dynamics", "numerics", "chart", "whole-file"]),
     ("xtask", &[]),
-    ("blackbox", &["toss"]),
+    ("blackbox", &["toss", "dynamics"]),
     ("unfair-toss-python", &["toss", "sampling", "exact", "dynamics"]),
 ];
 

@@ -50,13 +50,13 @@ fn the_answer_has_the_fields_of_the_contract() {
     for (part, expected) in [2.0 * cos + 4.0 * sin, 4.0 * cos - 2.0 * sin, 6.0].into_iter().enumerate() {
         assert_near(&answer["rate"][part], expected, 1e-14);
     }
-    assert_eq!(answer["method"], Value::Null);
+    assert_eq!(answer["scheme"], Value::Null);
     assert_eq!(answer["certified"], true);
     assert_eq!((&answer["proof"], &answer["error_bound"]), (&"exact".into(), &Value::Null));
     let euler = json("toss --rate 1,1,1 --time 1 --solver euler", 0);
     assert_eq!((&euler["certified"], &euler["proof"]), (&false.into(), &Value::Null));
-    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --scheme rk4", 0)["method"], "rk4");
-    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["method"], "taylor");
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver euler --scheme rk4", 0)["scheme"], "rk4");
+    assert_eq!(json("toss --rate 1,1,1 --time 1 --solver quaternion --scheme taylor", 0)["scheme"], "taylor");
 }
 
 #[test]
@@ -204,7 +204,6 @@ fn lists_name_every_coin_solver_model_and_space() {
     assert_eq!(names(&solvers), registered);
     let quaternion = &solvers[3];
     assert_eq!(quaternion["schemes"], serde_json::json!(["dop853", "dopri5", "rk4", "taylor"]));
-    assert_eq!(quaternion["methods"], quaternion["schemes"]);
     assert_eq!(quaternion["formulations"], serde_json::json!(["momentum", "raw"]));
     let models = list("models");
     assert_eq!(names(&models)[..3], ["outcome", "tilt", "attitude"]);
