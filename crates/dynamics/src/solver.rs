@@ -22,7 +22,7 @@ use crate::toss::Toss;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Evaluations of the right-hand side. For Taylor series, the number of coefficients of the state: one for each
-    /// order of each step. A proof of a Runge-Kutta scheme adds those of the series that it compares steps with.
+    /// order of each step.
     pub rhs_calls: u64,
     /// Steps that were accepted.
     pub accepted_steps: u64,
