@@ -54,7 +54,7 @@ fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
     assert!(flips >= 18, "{flips}");
 }
 
-/// The first two figures are those of the README; to first order the changes would be 2.1266 and -49.9486.
+/// The first two figures are those of `docs/paper-audit.md`; to first order the changes would be 2.1266 and -49.9486.
 #[test]
 fn the_cheated_toss_flips_where_the_exact_motion_does() {
     let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
