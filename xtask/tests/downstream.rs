@@ -19,7 +19,7 @@ const EXAMPLES_NEED: &str = "serde = { version = \"1\", features = [\"derive\"] 
 toml = \"1\"
 ";
 
-/// Where README.md supposes the clone to be.
+/// Where README.md assumes the clone to be.
 const CLONE: &str = "../unfair-toss/";
 
 /// All of it is built again here, because features differ. The examples take a moment to run, and minutes to optimise.

@@ -20,7 +20,7 @@
 //! c = F(atan √(α23/α12) | k'²),      v = K' - c = F(atan √(P1/P3) | k'²),   x = πu/(2K)
 //! ```
 //!
-//! and the attitude R, relative to axes of which the third is along m, is the quaternion w + iz = A, x + iy = B of
+//! and the attitude R, relative to axes whose third is along m, is the quaternion w + iz = A, x + iy = B of
 //!
 //! ```text
 //! A : B = e^(iΩt/2) (θ4(z | q²) : θ1(z | q²)),    z = x - iπc/(2K),    q = exp(-πK'/K)
@@ -94,7 +94,7 @@ enum Kind {
     Rigid { curve: Sums, exponent: i32, unit: DoubleDouble },
 }
 
-/// The motion of a body that is no coin, its phases in double-double.
+/// The motion of a body that is not a coin, its phases in double-double.
 #[derive(Debug, Clone, PartialEq)]
 enum Sums {
     /// And the functions of the phases in f64.
@@ -207,7 +207,7 @@ impl ExactMotion {
         Ok(State { attitude: self.launch.attitude * turn, rate: Vector3::from(rate) })
     }
 
-    /// The turn (of any norm) from the body at launch to the body at `time`, of a body that is no coin.
+    /// The turn (of any norm) from the body at launch to the body at `time`, of a body that is not a coin.
     fn turn(&self, time: ExactTime) -> Result<quaternion::Quaternion<DoubleDouble>, SolveError> {
         let (curve, time, _) = self.own_time(time)?;
         Ok(match curve {
@@ -225,7 +225,7 @@ impl ExactMotion {
         Ok((own, unit.times_power_of_two(*exponent).hi()))
     }
 
-    /// The curve of a body that is no coin, the time in its unit, and the larger phase (rad).
+    /// The curve of a body that is not a coin, the time in its unit, and the larger phase (rad).
     fn own_time(&self, time: ExactTime) -> Result<(&Sums, DoubleDouble, f64), SolveError> {
         let Kind::Rigid { curve, exponent, unit } = &self.kind else {
             return Err(SolveError::PhaseTooLarge { phase: f64::NAN });
