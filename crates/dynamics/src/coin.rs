@@ -14,6 +14,11 @@ use crate::error::{InputError, require};
 
 /// A coin with finite moments, I1 > 0 and 0 ≤ I3 ≤ 2 I1. No constructor makes any other coin.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::body::Body", into = "crate::body::Body")
+)]
 pub struct Coin {
     i1: f64,
     i3: f64,

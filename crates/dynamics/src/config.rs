@@ -21,6 +21,11 @@ use crate::stepping::{StepControl, Stepping};
 /// # Ok::<(), dynamics::InputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::data::settings::ConfigData", into = "crate::data::settings::ConfigData")
+)]
 pub struct SolverConfig {
     name: String,
     scheme: Option<String>,

@@ -35,15 +35,15 @@
 //! serde_json reads numbers to the last bit only with its feature `float_roundtrip`.
 
 #[cfg(feature = "serde")]
-mod attitude;
+pub(crate) mod attitude;
 #[cfg(feature = "serde")]
 mod coin;
 #[cfg(feature = "serde")]
-mod launch;
+pub(crate) mod launch;
 #[cfg(feature = "serde")]
 mod number;
 #[cfg(feature = "serde")]
-mod settings;
+pub(crate) mod settings;
 
 use crate::error::InputError;
 #[cfg(doc)]

@@ -10,6 +10,11 @@ use crate::time_of_flight::TimeOfFlight;
 
 /// How the coin leaves the hand. Every number in it is finite, since no constructor makes any other launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::data::launch::LaunchData", into = "crate::data::launch::LaunchData")
+)]
 pub struct Launch {
     rate: Vector3<f64>,
     /// The rate as it was given, where that was not in rad/s.

@@ -90,8 +90,17 @@ pub struct ExactMotion {
 enum Kind {
     /// By the closed form for coins.
     Coin(Box<CoinMotion>),
-    /// By that for any body, with the unit of the rates (rad/s): a power of two, and the factor of an angle's unit.
-    Rigid { curve: Sums, exponent: i32, unit: DoubleDouble },
+    /// By that for any body.
+    Rigid(RigidMotion),
+}
+
+/// The motion of a body that is not a coin, as its turn since launch.
+#[derive(Debug, Clone, PartialEq)]
+struct RigidMotion {
+    curve: Sums,
+    /// The unit of the rates (rad/s) is 2^`exponent` times `unit`, the factor of an angle's unit.
+    exponent: i32,
+    unit: DoubleDouble,
 }
 
 /// The motion of a body that is not a coin, its phases in double-double.
@@ -106,7 +115,7 @@ enum Sums {
 impl ExactMotion {
     /// The motion of a toss. One of a body with I1 = I2 is that of [`CoinMotion`], to the last bit.
     pub fn new(toss: &Toss) -> Self {
-        Self::by(toss, |toss, rate| Sums::DoubleDouble(Box::new(curve_in_double_double(toss, rate))))
+        Self::by(toss, RigidMotion::in_double_double)
     }
 
     /// The same motion for many launches or times: a launch takes a third of the time, a further time a seventh. Only
@@ -116,36 +125,23 @@ impl ExactMotion {
     /// Next to the separatrix, and for rates that differ by more than 2^200, all is in double-double as by
     /// [`ExactMotion::new`].
     pub fn compensated(toss: &Toss) -> Self {
-        Self::by(toss, |toss, rate| {
-            let rounded = if components_are_close(&rate) {
-                Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO))
-            } else {
-                None
-            };
-            match rounded.filter(|curve| !curve.is_close_to_separatrix()) {
-                Some(curve) => Sums::F64(Box::new(curve)),
-                None => Sums::DoubleDouble(Box::new(curve_in_double_double(toss, rate))),
-            }
-        })
+        Self::by(toss, RigidMotion::compensated)
     }
 
-    /// The motion of a toss by a curve for its body and its rate as given.
-    fn by(toss: &Toss, curve: impl Fn(&Toss, Vector3<f64>) -> Sums) -> Self {
+    fn by(toss: &Toss, rigid: impl Fn(&Toss) -> RigidMotion) -> Self {
         let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-        if let Some(toss) = toss.coin() {
-            return Self { launch, kind: Kind::Coin(Box::new(CoinMotion::new(&toss))) };
-        }
-        let (rate, unit) = toss.launch.given_rate();
-        let unit = if unit == AngleUnit::RADIAN { 1.0.into() } else { DoubleDouble::nearest(&unit.in_digits(160)) };
-        let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
-        Self { launch, kind: Kind::Rigid { curve: curve(toss, rate), exponent, unit } }
+        let kind = match toss.coin() {
+            Some(toss) => Kind::Coin(Box::new(CoinMotion::new(&toss))),
+            None => Kind::Rigid(rigid(toss)),
+        };
+        Self { launch, kind }
     }
 
     /// The kind of motion.
     pub fn regime(&self) -> Regime {
         match &self.kind {
             Kind::Coin(_) => Regime::Uniform,
-            Kind::Rigid { curve, .. } => match curve {
+            Kind::Rigid(motion) => match &motion.curve {
                 Sums::F64(curve) => curve.regime(),
                 Sums::DoubleDouble(curve) => curve.regime(),
             },
@@ -160,7 +156,7 @@ impl ExactMotion {
     pub fn phase(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
         match &self.kind {
             Kind::Coin(motion) => motion.phase(time),
-            Kind::Rigid { .. } => self.own_time(time.into()).map(|(_, _, phase)| phase),
+            Kind::Rigid(motion) => motion.own_time(time.into()).map(|(_, phase)| phase),
         }
     }
 
@@ -169,12 +165,13 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
-        if let Kind::Coin(motion) = &self.kind {
-            return motion.cos_tilt(time);
-        }
-        let (curve, time, _) = self.own_time(time.into())?;
+        let motion = match &self.kind {
+            Kind::Coin(motion) => return motion.cos_tilt(time),
+            Kind::Rigid(motion) => motion,
+        };
+        let (time, _) = motion.own_time(time.into())?;
         let vertical = self.launch.attitude.exact_vertical();
-        let cos_tilt = match curve {
+        let cos_tilt = match &motion.curve {
             Sums::F64(curve) => cos_tilt(&curve.turn(&time), &vertical.map(DoubleDouble::hi)),
             Sums::DoubleDouble(curve) => cos_tilt(&curve.turn(&time), &vertical).hi(),
         };
@@ -186,12 +183,12 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
-        let (exponent, unit) = match &self.kind {
+        let motion = match &self.kind {
             Kind::Coin(motion) => return motion.state(time),
-            Kind::Rigid { exponent, unit, .. } => (*exponent, *unit),
+            Kind::Rigid(motion) => motion,
         };
-        let (curve, time, _) = self.own_time(time.into())?;
-        let (turn, rate) = match curve {
+        let (time, _) = motion.own_time(time.into())?;
+        let (turn, rate) = match &motion.curve {
             Sums::F64(curve) => {
                 let (turn, rate) = curve.turn_and_rate(&time);
                 (turn, rate.map(DoubleDouble::from))
@@ -203,44 +200,69 @@ impl ExactMotion {
         };
         // Its norm is not 0, for A and B never vanish together.
         let turn = Attitude::from_components(turn).unwrap_or(Attitude::IDENTITY);
-        let rate = rate.map(|part| (part * unit).times_power_of_two(exponent).hi());
+        let rate = rate.map(|part| (part * motion.unit).times_power_of_two(motion.exponent).hi());
         Ok(State { attitude: self.launch.attitude * turn, rate: Vector3::from(rate) })
     }
 
-    /// The turn (of any norm) from the body at launch to the body at `time`, of a body that is not a coin.
+    /// The time in the unit of the curve, and the unit of the rates (rad/s); of a coin, both as they are.
+    fn time_and_unit(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
+        match &self.kind {
+            Kind::Coin(_) => Ok((time.mantissa().times_power_of_two(time.exponent()), 1.0)),
+            Kind::Rigid(motion) => {
+                let (own, _) = motion.own_time(time)?;
+                Ok((own, motion.unit.times_power_of_two(motion.exponent).hi()))
+            }
+        }
+    }
+}
+
+impl RigidMotion {
+    fn in_double_double(toss: &Toss) -> Self {
+        Self::by(toss, Sums::DoubleDouble(Box::new(curve_in_double_double(toss, toss.launch.given_rate().0))))
+    }
+
+    fn compensated(toss: &Toss) -> Self {
+        let (rate, _) = toss.launch.given_rate();
+        let rounded = if components_are_close(&rate) {
+            Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO))
+        } else {
+            None
+        };
+        match rounded.filter(|curve| !curve.is_close_to_separatrix()) {
+            Some(curve) => Self::by(toss, Sums::F64(Box::new(curve))),
+            None => Self::in_double_double(toss),
+        }
+    }
+
+    /// The motion of the body of a toss by a curve for its rate as given.
+    fn by(toss: &Toss, curve: Sums) -> Self {
+        let (rate, unit) = toss.launch.given_rate();
+        let unit = if unit == AngleUnit::RADIAN { 1.0.into() } else { DoubleDouble::nearest(&unit.in_digits(160)) };
+        let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
+        Self { curve, exponent, unit }
+    }
+
+    /// The turn (of any norm) from the body at launch to the body at `time`.
     fn turn(&self, time: ExactTime) -> Result<quaternion::Quaternion<DoubleDouble>, SolveError> {
-        let (curve, time, _) = self.own_time(time)?;
-        Ok(match curve {
+        let (time, _) = self.own_time(time)?;
+        Ok(match &self.curve {
             Sums::F64(curve) => curve.turn(&time).map(DoubleDouble::from),
             Sums::DoubleDouble(curve) => curve.turn(&time),
         })
     }
 
-    /// The time in the unit of the curve, and the unit of the rates (rad/s); of a coin, both as they are.
-    fn time_and_unit(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
-        let Kind::Rigid { exponent, unit, .. } = &self.kind else {
-            return Ok((time.mantissa().times_power_of_two(time.exponent()), 1.0));
-        };
-        let own = self.own_time(time)?.1;
-        Ok((own, unit.times_power_of_two(*exponent).hi()))
-    }
-
-    /// The curve of a body that is not a coin, the time in its unit, and the larger phase (rad).
-    fn own_time(&self, time: ExactTime) -> Result<(&Sums, DoubleDouble, f64), SolveError> {
-        let Kind::Rigid { curve, exponent, unit } = &self.kind else {
-            return Err(SolveError::PhaseTooLarge { phase: f64::NAN });
-        };
-        let rates = match curve {
+    /// The time in the unit of the curve, and the larger phase (rad).
+    fn own_time(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
+        let rates = match &self.curve {
             Sums::F64(curve) => curve.rates(),
             Sums::DoubleDouble(curve) => curve.rates(),
         };
-        let mantissa = time.mantissa() * *unit;
-        let turned = |rate: DoubleDouble| (rate * mantissa).times_power_of_two(exponent + time.exponent()).hi().abs();
+        let (mantissa, exponent) = (time.mantissa() * self.unit, self.exponent + time.exponent());
+        let turned = |rate: DoubleDouble| (rate * mantissa).times_power_of_two(exponent).hi().abs();
         let phase = require_phase(rates.into_iter().map(turned).fold(0.0, larger))?;
         // Of a body at rest the phase is 0 at any time, also at one that is infinite in its unit.
-        let time = mantissa.times_power_of_two(exponent + time.exponent());
         let still = rates.iter().all(|rate| rate.hi() == 0.0);
-        Ok((curve, if still { DoubleDouble::ZERO } else { time }, phase))
+        Ok((if still { DoubleDouble::ZERO } else { mantissa.times_power_of_two(exponent) }, phase))
     }
 }
 

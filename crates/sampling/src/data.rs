@@ -78,7 +78,7 @@ by_name!(Coordinate, Method);
 /// A plan as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PlanData {
+pub(crate) struct PlanData {
     method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]
     points: Option<u64>,
@@ -153,101 +153,49 @@ impl TryFrom<PlanData> for Plan {
     }
 }
 
-impl<'de> Deserialize<'de> for Plan {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        PlanData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Plan {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (points, scrambles, seed) = match *self {
-            Self::Grid | Self::ExactSpeed(Rest::Grid) | Self::Enclosure { .. } => (None, None, None),
-            Self::Random { points, seed } => (Some(points), None, Some(seed)),
-            Self::Sobol(Scrambled { points, scrambles, seed })
-            | Self::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles, seed })) => {
-                (Some(points), Some(scrambles), Some(seed))
+impl From<Plan> for PlanData {
+    fn from(plan: Plan) -> Self {
+        let none = Self { method: plan.method(), points: None, scrambles: None, seed: None, accuracy: None };
+        match plan {
+            Plan::Grid | Plan::ExactSpeed(Rest::Grid) => none,
+            Plan::Enclosure { accuracy } => Self { accuracy: Some(accuracy), ..none },
+            Plan::Random { points, seed } => Self { points: Some(points), seed: Some(seed), ..none },
+            Plan::Sobol(Scrambled { points, scrambles, seed })
+            | Plan::ExactSpeed(Rest::Sobol(Scrambled { points, scrambles, seed })) => {
+                Self { points: Some(points), scrambles: Some(scrambles), seed: Some(seed), ..none }
             }
-        };
-        let accuracy = if let Self::Enclosure { accuracy } = *self { Some(accuracy) } else { None };
-        PlanData { method: self.method(), points, scrambles, seed, accuracy }.serialize(to)
+        }
     }
 }
 
 /// An interval as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct IntervalData {
+pub(crate) struct IntervalData {
     lo: f64,
     hi: f64,
 }
 
-impl<'de> Deserialize<'de> for Interval {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let IntervalData { lo, hi } = IntervalData::deserialize(from)?;
-        let valid = (0.0..=1.0).contains(&hi);
-        require("hi", hi, "from 0 to 1", valid).map_err(D::Error::custom)?;
-        require("lo", lo, "from 0 to hi", (0.0..=hi).contains(&lo)).map_err(D::Error::custom)?;
+impl TryFrom<IntervalData> for Interval {
+    type Error = InputError;
+
+    fn try_from(IntervalData { lo, hi }: IntervalData) -> Result<Self, InputError> {
+        require("hi", hi, "from 0 to 1", (0.0..=1.0).contains(&hi))?;
+        require("lo", lo, "from 0 to hi", (0.0..=hi).contains(&lo))?;
         Ok(Self { lo, hi })
     }
 }
 
-impl Serialize for Interval {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        IntervalData { lo: self.lo, hi: self.hi }.serialize(to)
-    }
-}
-
-/// The kind of an interval as it stands in a file.
-#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum KindData {
-    Grid,
-    OneScramble,
-    ClopperPearson,
-    Scrambles(u64),
-    Resolution(u64),
-    Unanimous,
-    Rounding,
-    Proven,
-    Claimed,
-}
-
-impl From<IntervalKind> for KindData {
-    fn from(kind: IntervalKind) -> Self {
-        match kind {
-            IntervalKind::Grid => Self::Grid,
-            IntervalKind::OneScramble => Self::OneScramble,
-            IntervalKind::ClopperPearson => Self::ClopperPearson,
-            IntervalKind::Scrambles(number) => Self::Scrambles(number),
-            IntervalKind::Resolution(number) => Self::Resolution(number),
-            IntervalKind::Unanimous => Self::Unanimous,
-            IntervalKind::Rounding => Self::Rounding,
-            IntervalKind::Proven => Self::Proven,
-            IntervalKind::Claimed => Self::Claimed,
-        }
-    }
-}
-
-impl From<KindData> for IntervalKind {
-    fn from(kind: KindData) -> Self {
-        match kind {
-            KindData::Grid => Self::Grid,
-            KindData::OneScramble => Self::OneScramble,
-            KindData::ClopperPearson => Self::ClopperPearson,
-            KindData::Scrambles(number) => Self::Scrambles(number),
-            KindData::Resolution(number) => Self::Resolution(number),
-            KindData::Unanimous => Self::Unanimous,
-            KindData::Rounding => Self::Rounding,
-            KindData::Proven | KindData::Claimed => Self::Claimed,
-        }
+impl From<Interval> for IntervalData {
+    fn from(Interval { lo, hi }: Interval) -> Self {
+        Self { lo, hi }
     }
 }
 
 /// Numbers of launches by their outcome, as they stand in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CountsData {
+pub(crate) struct CountsData {
     heads: u64,
     tails: u64,
     undecided: u64,
@@ -263,10 +211,10 @@ fn none<'de, D: Deserializer<'de>>(from: D) -> Result<Option<ProvenCounts>, D::E
 /// An estimate as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct EstimateData {
+pub(crate) struct EstimateData {
     probability: f64,
     points: u64,
-    interval_kind: KindData,
+    interval_kind: IntervalKind,
     #[serde(skip_serializing_if = "Option::is_none")]
     interval: Option<Interval>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -281,7 +229,7 @@ impl TryFrom<EstimateData> for Estimate {
     fn try_from(data: EstimateData) -> Result<Self, InputError> {
         let EstimateData { probability, points, interval_kind, interval, rounding_error, counts } = data;
         require("probability", probability, "from 0 to 1", (0.0..=1.0).contains(&probability))?;
-        let has_interval = !matches!(interval_kind, KindData::Grid | KindData::OneScramble);
+        let has_interval = !matches!(interval_kind, IntervalKind::Grid | IntervalKind::OneScramble);
         if has_interval != interval.is_some() {
             let expected = "an interval, unless the kind is grid or one-scramble";
             return Err(InputError::Malformed { field: "interval", value: format!("{interval:?}"), expected });
@@ -294,7 +242,7 @@ impl TryFrom<EstimateData> for Estimate {
             }
             _ => return Err(InputError::Missing { field: "counts", expected: "either counts or a rounding_error" }),
         };
-        Ok(Self { probability, interval, interval_kind: interval_kind.into(), points, found })
+        Ok(Self { probability, interval, interval_kind, points, found })
     }
 }
 
@@ -310,21 +258,13 @@ fn counted(data: &CountsData, points: u64, probability: f64) -> Result<Counts, I
     Ok(counts)
 }
 
-impl<'de> Deserialize<'de> for Estimate {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        EstimateData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Estimate {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (counts, rounding_error) = match self.found {
+impl From<Estimate> for EstimateData {
+    fn from(Estimate { probability, points, interval, interval_kind, found }: Estimate) -> Self {
+        let (counts, rounding_error) = match found {
             Found::Counts(counts) => (Some(counts.into()), None),
             Found::Shares { rounding_error } => (None, Some(rounding_error)),
         };
-        let &Self { probability, points, interval, interval_kind, .. } = self;
-        let interval_kind = interval_kind.into();
-        EstimateData { probability, points, interval_kind, interval, rounding_error, counts }.serialize(to)
+        Self { probability, points, interval_kind, interval, rounding_error, counts }
     }
 }
 

@@ -57,6 +57,11 @@ impl FromStr for Method {
 
 /// The method that chooses the launches of a space that are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::data::PlanData", into = "crate::data::PlanData")
+)]
 pub enum Plan {
     /// Method A: all launches of the space's grid.
     Grid,

@@ -37,6 +37,11 @@ impl fmt::Display for AxisOrTie {
 
 /// The distribution of the launches of one coin or another rigid body. Its coordinates are independent of each other, except for ties.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::space_data::SpaceData", into = "crate::space_data::SpaceData")
+)]
 pub struct Space {
     body: Body,
     axes: [AxisOrTie; Coordinate::COUNT],

@@ -2,8 +2,7 @@
 //! written as its coin and, for each coordinate by its name, a number or a text.
 
 use dynamics::{Body, Coin, Dimension, InputError};
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::coordinate::Coordinate;
 use crate::space::Space;
@@ -35,7 +34,7 @@ pub(crate) fn paper() -> Body {
 /// A space in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SpaceData {
+pub(crate) struct SpaceData {
     #[serde(default = "paper", alias = "body")]
     coin: Body,
     #[serde(alias = "rate-x")]
@@ -49,18 +48,6 @@ struct SpaceData {
     tilt: Option<Entry>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drop: Option<Entry>,
-}
-
-impl<'de> Deserialize<'de> for Space {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        SpaceData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Space {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        SpaceData::from(*self).serialize(to)
-    }
 }
 
 impl TryFrom<SpaceData> for Space {

@@ -29,6 +29,11 @@ use crate::space::Space;
 /// # Ok::<(), dynamics::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::tally_data::TallyData", into = "crate::tally_data::TallyData")
+)]
 pub struct Tally {
     pub(crate) space: Space,
     pub(crate) plan: Plan,

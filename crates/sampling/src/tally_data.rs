@@ -9,8 +9,7 @@
 use std::fmt;
 
 use dynamics::InputError;
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::coordinate::Coordinate;
 use crate::counts::Counts;
@@ -33,7 +32,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A tally in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct TallyData {
+pub(crate) struct TallyData {
     schema: u32,
     /// None in files of before there was this number.
     #[serde(default)]
@@ -89,7 +88,7 @@ fn fnv_1a(bytes: &[u8]) -> u64 {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CountsData {
+pub(crate) struct CountsData {
     heads: u64,
     tails: u64,
     undecided: u64,
@@ -98,7 +97,7 @@ struct CountsData {
 /// Sums in units of 2^-53.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SharesData {
+pub(crate) struct SharesData {
     launches: u64,
     probability: String,
     error: String,
@@ -161,14 +160,8 @@ impl TryFrom<TallyData> for Tally {
     }
 }
 
-impl<'de> Deserialize<'de> for Tally {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        TallyData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Tally {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+impl From<Tally> for TallyData {
+    fn from(tally: Tally) -> Self {
         let count = |counts: &Counts| CountsData {
             heads: counts.heads(),
             tails: counts.tails(),
@@ -179,15 +172,15 @@ impl Serialize for Tally {
             probability: shares.probability.to_string(),
             error: shares.error.to_string(),
         };
-        let (counts, shares) = match &self.sums {
+        let (counts, shares) = match &tally.sums {
             Sums::Counts(counts) => (Some(counts.iter().map(count).collect()), None),
             Sums::Shares(shares) => (None, Some(shares.iter().map(share).collect())),
         };
-        let range = [self.range.start, self.range.end];
-        let (version, space, plan) = (VERSION.to_owned(), self.space, self.plan);
+        let range = [tally.range.start, tally.range.end];
+        let (version, space, plan) = (VERSION.to_owned(), tally.space, tally.plan);
         let digest = String::new();
-        let data = TallyData { schema: SCHEMA, streams: STREAMS, version, space, plan, range, counts, shares, digest };
-        TallyData { digest: data.digest(), ..data }.serialize(to)
+        let data = Self { schema: SCHEMA, streams: STREAMS, version, space, plan, range, counts, shares, digest };
+        Self { digest: data.digest(), ..data }
     }
 }
 

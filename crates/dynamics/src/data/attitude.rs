@@ -90,47 +90,48 @@ impl Serialize for Attitude {
 /// A state as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct StateData {
+pub(crate) struct StateData {
     rate: Vec<f64>,
     attitude: Attitude,
 }
 
-impl<'de> Deserialize<'de> for State {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let StateData { attitude, rate } = StateData::deserialize(from)?;
+impl TryFrom<StateData> for State {
+    type Error = InputError;
+
+    fn try_from(StateData { attitude, rate }: StateData) -> Result<Self, InputError> {
         let fields = ["rate x [rad/s]", "rate y [rad/s]", "rate z [rad/s]"];
-        let rate = vector(fields, "rate [rad/s]", rate).map_err(D::Error::custom)?;
-        Ok(Self::new(attitude, rate))
+        Ok(Self::new(attitude, vector(fields, "rate [rad/s]", rate)?))
     }
 }
 
-impl Serialize for State {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        StateData { attitude: self.attitude, rate: self.rate.iter().copied().collect() }.serialize(to)
+impl From<State> for StateData {
+    fn from(State { attitude, rate }: State) -> Self {
+        Self { attitude, rate: rate.iter().copied().collect() }
     }
 }
 
 /// Euler angles as they stand in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct AnglesData {
+pub(crate) struct AnglesData {
     alpha: f64,
     beta: f64,
     gamma: f64,
 }
 
-impl<'de> Deserialize<'de> for EulerAngles {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let AnglesData { alpha, beta, gamma } = AnglesData::deserialize(from)?;
+impl TryFrom<AnglesData> for EulerAngles {
+    type Error = InputError;
+
+    fn try_from(AnglesData { alpha, beta, gamma }: AnglesData) -> Result<Self, InputError> {
         for (field, angle) in [("alpha [rad]", alpha), ("beta [rad]", beta), ("gamma [rad]", gamma)] {
-            require(field, angle, "finite", true).map_err(D::Error::custom)?;
+            require(field, angle, "finite", true)?;
         }
         Ok(Self { alpha, beta, gamma })
     }
 }
 
-impl Serialize for EulerAngles {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        AnglesData { alpha: self.alpha, beta: self.beta, gamma: self.gamma }.serialize(to)
+impl From<EulerAngles> for AnglesData {
+    fn from(EulerAngles { alpha, beta, gamma }: EulerAngles) -> Self {
+        Self { alpha, beta, gamma }
     }
 }

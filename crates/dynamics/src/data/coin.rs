@@ -1,7 +1,6 @@
 //! Coins and other bodies as plain data: a name, moments, a cylinder or an inertia tensor.
 
 use std::fmt;
-use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
@@ -63,80 +62,55 @@ const BODY: &str = "a name, { moments = [I1, I3] } or [I1, I2, I3], { cylinder =
                     { inertia = [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz] }";
 
 /// Reads a body by its name or from its table.
-struct BodyVisitor<T>(PhantomData<T>);
+struct BodyVisitor;
 
-impl<'de, T: FromBody> Visitor<'de> for BodyVisitor<T> {
-    type Value = T;
+impl<'de> Visitor<'de> for BodyVisitor {
+    type Value = Body;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(BODY)
     }
 
-    fn visit_str<E: Error>(self, name: &str) -> Result<T, E> {
-        T::named(name).map_err(E::custom)
+    fn visit_str<E: Error>(self, name: &str) -> Result<Body, E> {
+        name.parse().map_err(E::custom)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<T, A::Error> {
-        let data = BodyData::deserialize(MapAccessDeserializer::new(table))?;
-        Body::try_from(data).and_then(T::from_body).map_err(A::Error::custom)
-    }
-}
-
-/// What is read from the data of a body.
-trait FromBody: Sized {
-    fn named(name: &str) -> Result<Self, InputError>;
-    fn from_body(body: Body) -> Result<Self, InputError>;
-}
-
-impl FromBody for Body {
-    fn named(name: &str) -> Result<Self, InputError> {
-        name.parse()
-    }
-
-    fn from_body(body: Body) -> Result<Self, InputError> {
-        Ok(body)
-    }
-}
-
-impl FromBody for Coin {
-    fn named(name: &str) -> Result<Self, InputError> {
-        name.parse()
-    }
-
-    fn from_body(body: Body) -> Result<Self, InputError> {
-        body.coin().ok_or(NO_COIN)
-    }
-}
-
-impl<'de> Deserialize<'de> for Coin {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(BodyVisitor(PhantomData))
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Body, A::Error> {
+        BodyData::deserialize(MapAccessDeserializer::new(table))?.try_into().map_err(A::Error::custom)
     }
 }
 
 impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(BodyVisitor(PhantomData))
+        from.deserialize_any(BodyVisitor)
     }
 }
 
-impl Serialize for Coin {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let number = |(quantity, dimension)| Number::of_quantity(quantity, dimension);
-        let cylinder = self.cylinder().map(|given| given.into_iter().zip(OF_CYLINDER).map(number).collect());
-        let moments = if cylinder.is_some() { None } else { Some([self.i1(), self.i3()].map(Number::Si).into()) };
-        BodyData { moments, cylinder, inertia: None }.serialize(to)
-    }
-}
-
-/// A body with I1 = I2 is written as the coin that it is.
+/// A cylinder is written as it was given.
 impl Serialize for Body {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        if let Self::Coin(coin) = self {
-            return coin.serialize(to);
-        }
-        let moments = self.moments().map(|moments| moments.map(Number::Si).into());
-        let inertia = if moments.is_some() { None } else { Some(self.inertia().map(Number::Si).into()) };
-        BodyData { moments, inertia, cylinder: None }.serialize(to)
+        let si = |numbers: &[f64]| Some(numbers.iter().copied().map(Number::Si).collect());
+        let number = |(quantity, dimension)| Number::of_quantity(quantity, dimension);
+        let data = match (self, self.moments()) {
+            (Self::Coin(coin), _) => match coin.cylinder() {
+                Some(given) => {
+                    let cylinder = Some(given.into_iter().zip(OF_CYLINDER).map(number).collect());
+                    BodyData { cylinder, ..BodyData::default() }
+                }
+                None => BodyData { moments: si(&[coin.i1(), coin.i3()]), ..BodyData::default() },
+            },
+            (_, Some(moments)) => BodyData { moments: si(&moments), ..BodyData::default() },
+            (_, None) => BodyData { inertia: si(&self.inertia()), ..BodyData::default() },
+        };
+        data.serialize(to)
+    }
+}
+
+/// The coin that a body in a file is, if it is one.
+impl TryFrom<Body> for Coin {
+    type Error = InputError;
+
+    fn try_from(body: Body) -> Result<Self, InputError> {
+        body.coin().ok_or(NO_COIN)
     }
 }

@@ -12,36 +12,10 @@ use crate::launch::Launch;
 use crate::quantity::Dimension;
 use crate::time_of_flight::{DEFAULT_GRAVITY, TimeOfFlight};
 
-impl<'de> Deserialize<'de> for Launch {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        LaunchData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Launch {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        LaunchData::from(*self).serialize(to)
-    }
-}
-
-impl<'de> Deserialize<'de> for TimeOfFlight {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let time = TimeData::deserialize(from)?.time_of_flight().map_err(D::Error::custom)?;
-        time.validated_seconds().map_err(D::Error::custom)?;
-        Ok(time)
-    }
-}
-
-impl Serialize for TimeOfFlight {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        TimeData::from(*self).serialize(to)
-    }
-}
-
 /// A launch as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LaunchData {
+pub(crate) struct LaunchData {
     rate: Rate,
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<Number>,
@@ -64,7 +38,7 @@ struct LaunchData {
 /// The part of a launch that gives the time of flight.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct TimeData {
+pub(crate) struct TimeData {
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<Number>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -149,6 +123,16 @@ impl TimeData {
             (_, Some(time)) => Ok(TimeOfFlight::Given(time)),
             (Some(speed), None) => Ok(TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop)),
         }
+    }
+}
+
+impl TryFrom<TimeData> for TimeOfFlight {
+    type Error = InputError;
+
+    fn try_from(data: TimeData) -> Result<Self, InputError> {
+        let time = data.time_of_flight()?;
+        time.validated_seconds()?;
+        Ok(time)
     }
 }
 

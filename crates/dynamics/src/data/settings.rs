@@ -35,7 +35,7 @@ as_text!(Scheme, Formulation, Outcome, Given);
 /// A scheme and its step control as they stand in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SteppingData {
+pub(crate) struct SteppingData {
     #[serde(skip_serializing_if = "Option::is_none")]
     scheme: Option<Scheme>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +47,7 @@ struct SteppingData {
 /// Settings as they stand in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SettingsData {
+pub(crate) struct SettingsData {
     #[serde(skip_serializing_if = "Option::is_none")]
     scheme: Option<Scheme>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -61,7 +61,7 @@ struct SettingsData {
 /// The choice of a solver as it stands in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ConfigData {
+pub(crate) struct ConfigData {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     scheme: Option<String>,
@@ -92,39 +92,34 @@ fn parts(control: Option<StepControl>) -> (Option<f64>, Option<Number>) {
     }
 }
 
-impl SteppingData {
-    fn stepping(self) -> Result<Stepping, InputError> {
-        let scheme = self.scheme.unwrap_or(Stepping::DEFAULT.scheme());
-        Stepping::new(scheme, control(self.tolerance, self.step)?)
+impl TryFrom<SteppingData> for Stepping {
+    type Error = InputError;
+
+    fn try_from(SteppingData { scheme, tolerance, step }: SteppingData) -> Result<Self, InputError> {
+        Self::new(scheme.unwrap_or(Self::DEFAULT.scheme()), control(tolerance, step)?)
     }
 }
 
-impl<'de> Deserialize<'de> for Stepping {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        SteppingData::deserialize(from)?.stepping().map_err(D::Error::custom)
+impl From<Stepping> for SteppingData {
+    fn from(stepping: Stepping) -> Self {
+        let (tolerance, step) = parts(Some(stepping.control()));
+        Self { scheme: Some(stepping.scheme()), tolerance, step }
     }
 }
 
-impl Serialize for Stepping {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (tolerance, step) = parts(Some(self.control()));
-        SteppingData { scheme: Some(self.scheme()), tolerance, step }.serialize(to)
-    }
-}
+impl TryFrom<SettingsData> for Settings {
+    type Error = InputError;
 
-impl<'de> Deserialize<'de> for Settings {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let SettingsData { scheme, tolerance, step, formulation } = SettingsData::deserialize(from)?;
-        let stepping = SteppingData { scheme, tolerance, step }.stepping().map_err(D::Error::custom)?;
+    fn try_from(SettingsData { scheme, tolerance, step, formulation }: SettingsData) -> Result<Self, InputError> {
+        let stepping = SteppingData { scheme, tolerance, step }.try_into()?;
         Ok(Self { stepping, formulation: formulation.unwrap_or_default() })
     }
 }
 
-impl Serialize for Settings {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (tolerance, step) = parts(Some(self.stepping.control()));
-        let scheme = Some(self.stepping.scheme());
-        SettingsData { scheme, tolerance, step, formulation: Some(self.formulation) }.serialize(to)
+impl From<Settings> for SettingsData {
+    fn from(Settings { stepping, formulation }: Settings) -> Self {
+        let SteppingData { scheme, tolerance, step } = stepping.into();
+        Self { scheme, tolerance, step, formulation: Some(formulation) }
     }
 }
 
@@ -139,16 +134,10 @@ impl TryFrom<ConfigData> for SolverConfig {
     }
 }
 
-impl<'de> Deserialize<'de> for SolverConfig {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        ConfigData::deserialize(from)?.try_into().map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for SolverConfig {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (tolerance, step) = parts(self.control());
-        let (name, scheme) = (self.name().to_owned(), self.scheme().map(str::to_owned));
-        ConfigData { name, scheme, tolerance, step, formulation: self.formulation() }.serialize(to)
+impl From<SolverConfig> for ConfigData {
+    fn from(config: SolverConfig) -> Self {
+        let (tolerance, step) = parts(config.control());
+        let (name, scheme) = (config.name().to_owned(), config.scheme().map(str::to_owned));
+        Self { name, scheme, tolerance, step, formulation: config.formulation() }
     }
 }

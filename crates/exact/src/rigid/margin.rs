@@ -10,7 +10,7 @@ use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
 use super::walk::{End, Input, Line, RESOLUTION, Walk};
-use super::{ExactMotion, certify, cos_tilt};
+use super::{ExactMotion, RigidMotion, certify, cos_tilt};
 use crate::margin::{Margin, margin_coin, speed_and_gravity};
 
 /// Changes of a rate that are searched (rad/s), and of the turn (rad), as for coins.
@@ -103,7 +103,7 @@ fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
 
 /// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
 fn of_tilt(toss: &Toss) -> Result<Option<f64>, SolveError> {
-    let motion = ExactMotion::new(toss);
+    let motion = RigidMotion::in_double_double(toss);
     let (turn, attitude) = (motion.turn(toss.launch.time_of_flight().into())?, toss.launch.attitude());
     let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
         .map(|vertical| cos_tilt(&turn, &vertical));
