@@ -2,7 +2,8 @@
 import { askAside, dropAside } from "./aside.js";
 import { byId, fill, later, make } from "./dom.js";
 import { all, degrees, short, signed } from "./format.js";
-import { command, question } from "./state.js";
+import { unitOf } from "./quantity.js";
+import { command, question, state } from "./state.js";
 
 /** Shows the answer of the question "toss". */
 export function showAnswer(answer) {
@@ -49,10 +50,13 @@ export function showRefusal(refusal) {
 }
 
 function proof({ certified, outcome, stage }) {
-  if (certified) return outcome === "undecided" ? "proven: an exact tie" : `proven (${stage})`;
+  if (certified) return outcome === "undecided" ? "proven: an exact tie" : `proven; ${DIGITS[stage] ?? stage}`;
   if (outcome === "undecided") return "not decided, as far as 832 digits can tell";
   return "not proven: the conversion of a unit may have changed it";
 }
+
+/** With how many digits a stage of the proof computes. */
+const DIGITS = { f64: "16 digits were enough", "double-double": "it took 32 digits", "more digits": "it took 58 digits or more" };
 
 function facts({ flight_time, apex, motion, coin, regime }) {
   const found = [["time of flight", `${short(flight_time, 5)} s`]];
@@ -60,7 +64,7 @@ function facts({ flight_time, apex, motion, coin, regime }) {
   if (motion) {
     const { cone_angle, precession_rate, least_cos_tilt, k } = motion;
     found.push(["ψ, between n and S", degrees(cone_angle, 5)], ["turns of n about S", turns(precession_rate * flight_time)]);
-    found.push(["k = I3/I1", short(k, 5)], ["at worst", least_cos_tilt >= 0 ? "heads at every instant" : `cos θ = ${short(least_cos_tilt, 4)}`]);
+    found.push(["k = I3/I1", short(k, 5)], ["lowest cos θ", `${short(least_cos_tilt, 4)}: ${least_cos_tilt >= 0 ? "heads at every instant" : "below 0 it shows tails"}`]);
   } else {
     found.push(["I1, I2, I3", `${["i1", "i2", "i3"].map((name) => short(coin[name])).join(", ")} kg·m²`]);
     found.push(["motion", REGIMES[regime] ?? regime]);
@@ -79,17 +83,16 @@ const turns = (phase) => short(phase / (2 * Math.PI), 4);
 
 function rows({ input, flight_time }, margin) {
   const { rate, speed, gravity, tilt } = input;
+  const { scene } = state;
   const none = flights(margin.time_range, flight_time);
   const given = speed === null
-    ? [["T", "s", margin.time, flight_time, none]]
-    : [["v₀", "m/s", margin.speed, speed, none], ["g", "m/s²", margin.gravity, gravity, none]];
-  const all = [
-    ...given,
-    ["tilt", "rad", margin.tilt, tilt],
-    ...["ωx", "ωy", "ωz"].map((name, axis) =>
-      [name, "rad/s", margin.rate[axis], rate[axis], `none within ±${short(margin.rate_range[axis], 4)} rad/s`]),
-  ];
-  return all.map((one) => row(...one));
+    ? [["T", unitOf("time", scene.time), margin.time, flight_time, none]]
+    : [["v₀", unitOf("speed", scene.speed), margin.speed, speed, none], ["g", unitOf("acceleration", scene.gravity || "1"), margin.gravity, gravity, none]];
+  const rates = ["ωx", "ωy", "ωz"].map((name, axis) => {
+    const unit = unitOf("rate", scene.by === "rate" ? scene.rate[axis] : "1");
+    return [name, unit, margin.rate[axis], rate[axis], `none within ±${short(margin.rate_range[axis] / unit.size, 4)} ${unit.name}`];
+  });
+  return [...given, ["tilt", unitOf("angle", scene.tilt || "1"), margin.tilt, tilt], ...rates].map((one) => row(...one));
 }
 
 /** The flights that were searched in vain: of a body with I1 ≠ I2, some times only. */
@@ -99,10 +102,11 @@ function flights(range, time) {
   return `none of a flight of ${short(earliest)} to ${short(time + range[1])} s`;
 }
 
-function row(name, unit, change, value, none = "none") {
+/** A row in the unit that was typed; its `data-change` is in SI units. */
+function row(name, { name: unit, size }, change, value, none = "none") {
   const cells = change === null
     ? [make("td", { colspan: 2, class: "none" }, none)]
-    : [make("td", {}, `${signed(change, 5)} ${unit}`), make("td", {}, value === null ? "" : `${short(value + change, 5)} ${unit}`)];
+    : [make("td", {}, `${signed(change / size, 5)} ${unit}`), make("td", {}, value === null ? "" : `${short((value + change) / size, 5)} ${unit}`)];
   const number = change === null ? "" : String(change);
   return make("tr", { "data-input": name, "data-change": number }, make("th", { scope: "row" }, name), ...cells);
 }

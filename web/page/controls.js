@@ -64,8 +64,8 @@ export class Controls {
   }
 
   presets() {
-    const buttons = PRESETS.map(({ name, title, words }) =>
-      make("button", { type: "button", "data-preset": name, title: words, onclick: () => change(ofPreset(name), "preset") }, title));
+    const buttons = PRESETS.map(({ name, title }) =>
+      make("button", { type: "button", "data-preset": name, onclick: () => change(ofPreset(name), "preset") }, title));
     fill(byId("presets"), ...buttons);
   }
 
@@ -92,6 +92,7 @@ export class Controls {
     for (const button of byId("presets").children) {
       button.setAttribute("aria-pressed", String(isPreset(button.dataset.preset)));
     }
+    byId("preset-words").textContent = PRESETS.find(({ name }) => isPreset(name))?.words ?? "A launch of your own.";
   }
 
   /** Shows a refusal beside the input that it is about, or nowhere without one. Gives whether there was a place for it. */

@@ -56,3 +56,11 @@ export function onceAFrame(act) {
 export function options(select, pairs, chosen) {
   fill(select, ...pairs.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
 }
+
+/** Lets the reader keep `content`, a blob, as a file. */
+export function save(name, content) {
+  const url = URL.createObjectURL(content);
+  make("a", { href: url, download: name }).click();
+  // The browser reads it after the click.
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

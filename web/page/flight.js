@@ -31,3 +31,15 @@ export function column(of) {
   const { points } = flight.answer;
   return Array.from({ length: points }, (_, index) => flight.trace[index * POINT.length + of]);
 }
+
+const COLUMNS = [
+  "time [s]", "cos_tilt", "height [m]", "normal_x", "normal_y", "normal_z", "face_x", "face_y", "face_z",
+  "rate_x [rad/s]", "rate_y [rad/s]", "rate_z [rad/s]",
+];
+
+/** The trace as a table: n and the vector in the face in the laboratory frame, the rates in the body frame. */
+export function table() {
+  const lines = Array.from({ length: flight.answer.points }, (_, index) =>
+    flight.trace.subarray(index * POINT.length, (index + 1) * POINT.length).join(","));
+  return [COLUMNS.join(","), ...lines, ""].join("\n");
+}

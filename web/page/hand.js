@@ -2,7 +2,11 @@
 import { ask } from "./library.js";
 import { byId, later } from "./dom.js";
 import { percent, short, withPoint } from "./format.js";
+import { Plot } from "./plot.js";
 import { change, question, state } from "./state.js";
+import { colours } from "./theme.js";
+
+const THROWS = 100;
 
 /** The hand. */
 export class Hand {
@@ -12,6 +16,8 @@ export class Hand {
     byId("spread-slider").addEventListener("input", ({ target }) => take(`${target.value}%`));
     byId("find-precision").addEventListener("click", () => this.find());
     byId("wanted").addEventListener("input", () => (byId("precision").textContent = ""));
+    byId("throw-many").addEventListener("click", () => this.throwMany());
+    this.plot = new Plot(byId("plot-throws"), { title: "share of heads after so many throws", series: [], unit: "", across: "throws", range: [0, 1], value: (value) => (value == null ? "–" : value.toFixed(3)) });
     this.update = later(120, () => this.compute());
   }
 
@@ -37,6 +43,45 @@ export class Hand {
     this.say("–");
     byId("precision").textContent = "";
     this.refuse(null);
+    this.forget();
+  }
+
+  /** Forgets the throws: they were of another hand. */
+  forget() {
+    this.thrown = "";
+    byId("thrown-count").textContent = "";
+    this.plot.clear();
+  }
+
+  /** Throws another hundred times, each with a seed of its own, and counts. */
+  throwMany() {
+    try {
+      const seed = crypto.getRandomValues(new Uint32Array(1))[0];
+      this.thrown += ask({ ask: "throws", scene: question(), spread: state.view.spread, number: THROWS, seed }).outcomes;
+    } catch (refusal) {
+      byId("thrown-count").textContent = refusal.message;
+      return;
+    }
+    const heads = [...this.thrown].filter((outcome) => outcome === "H").length;
+    byId("thrown-count").textContent = `${heads} heads in ${this.thrown.length} throws: ${percent(heads / this.thrown.length, 5e-3)}`;
+    this.drawThrows();
+  }
+
+  drawThrows() {
+    if (!this.thrown) return;
+    let heads = 0;
+    const shares = [...this.thrown].map((outcome, index) => (heads += outcome === "H" ? 1 : 0) / (index + 1));
+    const probability = Number(byId("chance").dataset.probability ?? NaN);
+    const { normal, faint } = colours();
+    this.plot.draw([shares.map((_, index) => index + 1), shares, shares.map(() => (Number.isFinite(probability) ? probability : null))], [
+      { label: "share of heads", colour: normal }, { label: "P(heads)", colour: faint, dash: [4, 4], width: 1 },
+    ]);
+  }
+
+  /** Draws again, in other colours. */
+  recolour() {
+    this.plot.isStale = true;
+    this.drawThrows();
   }
 
   say(chance, note = "", probability = null) {

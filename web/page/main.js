@@ -3,8 +3,8 @@ import { ask, frame, start } from "./library.js";
 import { read } from "./address.js";
 import { showAnswer, showRefusal } from "./answer.js";
 import { Controls } from "./controls.js";
-import { byId, later, onceAFrame } from "./dom.js";
-import { flight, fly, land } from "./flight.js";
+import { byId, later, onceAFrame, save } from "./dom.js";
+import { flight, fly, land, table } from "./flight.js";
 import { typed } from "./format.js";
 import { Hand } from "./hand.js";
 import { Integrators } from "./integrators.js";
@@ -38,6 +38,8 @@ async function main() {
   onTheme(recolour);
   byId("theme").addEventListener("click", toggle);
   byId("copy").addEventListener("click", copy);
+  byId("save-picture").addEventListener("click", savePicture);
+  byId("save-data").addEventListener("click", () => toss && save("flight.csv", new Blob([table()], { type: "text/csv" })));
   addEventListener("hashchange", () => (location.hash.slice(1) === address() ? read() : readAddress()));
   // The page is at its place only when it has its height; the address chooses what it shows.
   readAddress();
@@ -46,7 +48,7 @@ async function main() {
   requestAnimationFrame(() => setTimeout(loadScene));
 }
 
-/** Takes the scene of the address, or the first preset. */
+/** Takes the scene of the address, or else the first preset. */
 function readAddress() {
   const text = read();
   let found = null;
@@ -56,9 +58,9 @@ function readAddress() {
   } catch (error) {
     fault = error;
   }
-  change(found || ofPreset("cheated"));
+  change(found || ofPreset("quarter"));
   // Until the next change.
-  byId("address-error").textContent = fault && `${fault.message}; this is the paper's cheated toss instead`;
+  byId("address-error").textContent = fault && `${fault.message}; this is a quarter as people flip it instead`;
   byId("address-error").hidden = !fault;
 }
 
@@ -134,18 +136,27 @@ function recolour() {
   parts.traces.recolour();
   parts.map.draw();
   parts.integrators.recolour();
+  parts.hand.recolour();
   parts.scene?.recolour(colours());
   parts.player.at(flight.time);
 }
 
+const forgetCopy = later(6000, () => (byId("copied").textContent = ""));
+
 async function copy() {
   const text = new URL(`#${address()}`, location.href).href;
+  const isHosted = location.protocol !== "file:";
   try {
     await navigator.clipboard.writeText(text);
-    byId("announcement").textContent = "The address of this toss is copied.";
+    byId("copied").textContent = isHosted ? "Copied." : "Copied; it opens on this computer only, where the page is.";
   } catch {
-    byId("announcement").textContent = "The address is in the address bar.";
+    byId("copied").textContent = "This browser does not let the page copy: take the link from the address bar.";
   }
+  forgetCopy();
+}
+
+async function savePicture() {
+  if (toss && parts.scene) save("flight.png", await parts.scene.picture(colours().background));
 }
 
 /** Loads three.js with the scene, after the first answer. */

@@ -5,8 +5,8 @@ import { make } from "./dom.js";
 
 /** A chart with a line for each of `series` ({ label, colour, dash }), in the element `into`. */
 export class Plot {
-  constructor(into, { title, series, logarithmic = false, height = 150, value }) {
-    Object.assign(this, { into, title, series, logarithmic, height, value, chart: null, data: null });
+  constructor(into, { title, series, logarithmic = false, height = 150, value, unit = " s", across = "t", range = null }) {
+    Object.assign(this, { into, title, series, logarithmic, height, value, unit, across, range, chart: null, data: null });
     into.setAttribute("role", "img");
     into.setAttribute("aria-label", `chart: ${title}`);
     new ResizeObserver(() => this.resize()).observe(into);
@@ -60,13 +60,13 @@ export class Plot {
       height: this.height,
       legend: { live: true },
       cursor: { y: false, drag: { x: false, y: false } },
-      scales: { x: { time: false }, y: { distr: this.logarithmic ? 3 : 1 } },
+      scales: { x: { time: false }, y: { distr: this.logarithmic ? 3 : 1, ...(this.range ? { range: this.range } : {}) } },
       axes: [
-        { ...axis, size: 30, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))} s`) },
+        { ...axis, size: 30, values: (_, ticks) => ticks.map((tick) => `${Number(tick.toPrecision(6))}${this.unit}`) },
         { ...axis, size: 58, ...(this.logarithmic ? { values: (_, ticks) => ticks.map(power) } : {}) },
       ],
       series: [
-        { label: "t", value: (_, value) => (value == null ? "–" : `${value.toPrecision(3)} s`) },
+        { label: this.across, value: (_, value) => (value == null ? "–" : `${Number(value.toPrecision(3))}${this.unit}`) },
         ...this.series.map(({ label, colour, dash, width = 2 }) => ({
           label, stroke: colour, width, dash, points: { show: false }, value: (_, value) => format(value),
         })),

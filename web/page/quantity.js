@@ -5,6 +5,12 @@ import { niceAbove, typed, withPoint } from "./format.js";
 
 const STEPS = 1000;
 
+/** The unit that `text` has, a quantity of this kind: its name, and its size in SI units. */
+export function unitOf(kind, text) {
+  const { unit } = ask({ ask: "quantity", kind, text });
+  return { name: unit, size: ask({ ask: "quantity", kind, text: `1${unit}` }).si };
+}
+
 /**
  * A labelled slider and text. `range` is the slider's range in SI units; `grows` lets it follow a larger value. `read`
  * gives the text of the state, `write` takes a new one.
@@ -20,10 +26,11 @@ export class QuantityInput {
       type: "range", min: 0, max: STEPS, step: 1, "aria-label": `${label.text}, slider`,
       oninput: () => this.slide(), onchange: () => this.follow(),
     });
+    this.unit = make("span", { class: "unit", "aria-hidden": "true" });
     this.error = make("p", { class: "error", id: `${id}-error`, hidden: true });
     const caption = make("label", { for: id, title: label.title ?? null });
     caption.innerHTML = label.html ?? label.text;
-    this.element = make("div", { class: "quantity" }, caption, this.slider, this.text, this.error);
+    this.element = make("div", { class: "quantity" }, caption, this.slider, this.text, this.unit, this.error);
   }
 
   /** Shows the text of the state. */
@@ -52,6 +59,8 @@ export class QuantityInput {
   /** Moves the slider to the text, and lets its range follow if it is not held. */
   follow(isHeld = false) {
     const given = this.parsed();
+    // A number that was typed with its unit shows it already.
+    this.unit.textContent = given && !this.read().trim().endsWith(given.unit) ? given.unit : "";
     if (!given || !Number.isFinite(given.si)) return;
     if (this.grows && !isHeld) {
       const [lo, hi] = this.least;

@@ -13,9 +13,11 @@ const DARK = {
 /** Heads and tails on the coin and on the map: both ends of the palette cividis, and its middle. */
 export const CIVIDIS = [[0, 34, 78], [124, 123, 120], [254, 232, 56]];
 
+const KEY = "unfair-toss-theme";
+
 const wanted = matchMedia("(prefers-color-scheme: dark)");
 const listeners = [];
-let own = null;
+let own = remembered();
 
 export const isDark = () => (own === null ? wanted.matches : own === "dark");
 
@@ -24,9 +26,24 @@ export const colours = () => (isDark() ? DARK : LIGHT);
 /** Calls `listener` when the theme changes. */
 export const onTheme = (listener) => listeners.push(listener);
 
+/** The theme that was chosen on an earlier visit; `null` if there was none. */
+function remembered() {
+  try {
+    const theme = localStorage.getItem(KEY);
+    return ["light", "dark"].includes(theme) ? theme : null;
+  } catch {
+    return null;
+  }
+}
+
 /** The other theme than the one that is shown. */
 export function toggle() {
   own = isDark() ? "light" : "dark";
+  try {
+    localStorage.setItem(KEY, own);
+  } catch {
+    // A browser that keeps nothing shows this theme until the page is left.
+  }
   apply();
 }
 

@@ -70,6 +70,17 @@ pub enum Question {
         /// The relative standard deviation of each rate and of the speed.
         spread: String,
     },
+    /// How each of some random throws of a hand lands.
+    Throws {
+        /// The body and its launch.
+        scene: Scene,
+        /// As of [`Question::Hand`].
+        spread: String,
+        /// How many, at most 10 000.
+        number: u64,
+        /// The seed of the throws.
+        seed: u64,
+    },
     /// How precise a hand must be.
     Precision {
         /// The body and its launch.
@@ -134,6 +145,9 @@ impl Page {
             }
             Question::Lines { scene, grid } => to_value(&line::lines(&scene.thrown()?, &grid)?),
             Question::Hand { scene, spread } => to_value(&hand::probability(&scene.thrown()?, &spread)?),
+            Question::Throws { scene, spread, number, seed } => {
+                to_value(&hand::throws(&scene.thrown()?, &spread, number, seed)?)
+            }
             Question::Precision { scene, heads } => to_value(&hand::precision(&scene.thrown()?, &heads)?),
             Question::Candidates { tolerance, step, formulation } => {
                 to_value(&integrators::candidates(&tolerance, &step, &formulation)?)

@@ -1,8 +1,8 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, Drawn, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::{Error, InputError};
+use toss::{Error, InputError, Outcome, certify};
 
 use crate::thrown::{Thrown, malformed};
 
@@ -20,6 +20,13 @@ pub(crate) struct Answer {
     interval: Option<[f64; 2]>,
     interval_kind: String,
     points: u64,
+}
+
+/// How throws land, one after the other.
+#[derive(Debug, Serialize)]
+pub(crate) struct Throws {
+    /// A letter for each: `H`, `T`, or `-` for an edge.
+    outcomes: String,
 }
 
 /// How large a spread may be.
@@ -43,6 +50,24 @@ pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error
         interval_kind: found.interval_kind.to_string(),
         points: found.points,
     })
+}
+
+/// How `number` random throws land, with the spread of [`probability`].
+pub(crate) fn throws(thrown: &Thrown, spread: &str, number: u64, seed: u64) -> Result<Throws, Error> {
+    const MOST: u64 = 10_000;
+    if number > MOST {
+        return Err(malformed("number", &number.to_string(), "at most 10000 throws").into());
+    }
+    let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
+    let letter = |drawn: &Drawn| {
+        Ok(match certify(&drawn.toss)?.outcome() {
+            Outcome::Heads => 'H',
+            Outcome::Tails => 'T',
+            Outcome::Undecided => '-',
+        })
+    };
+    let throws: Vec<Drawn> = space.drawn(Plan::Random { points: number, seed })?.flatten().collect();
+    Ok(Throws { outcomes: throws.iter().map(letter).collect::<Result<_, Error>>()? })
 }
 
 /// The largest spread with which P(heads) is at least `heads`.
@@ -69,7 +94,9 @@ fn plan(space: &Space) -> Plan {
     let free: Vec<Coordinate> = space.free().collect();
     match free[..] {
         [] => Plan::Grid,
-        _ if space.drop().is_some() || !free.contains(&Coordinate::Speed) => Plan::Sobol(Scrambled::new(POINTS, SEED)),
+        _ if space.coin().is_none() || space.drop().is_some() || !free.contains(&Coordinate::Speed) => {
+            Plan::Sobol(Scrambled::new(POINTS, SEED))
+        }
         [_] => Plan::ExactSpeed(Rest::Grid),
         _ => Plan::ExactSpeed(Rest::Sobol(Scrambled::new(POINTS, SEED))),
     }

@@ -184,7 +184,7 @@ fn cell(outcome: Outcome) -> u8 {
 fn probabilities(thrown: &Thrown, grid: &Grid, spread: f64, cells: &mut Vec<u8>) -> Result<(), Error> {
     let space = thrown.space()?;
     let sampler = Sampler::exact();
-    let plan = if space.drop().is_some() {
+    let plan = if space.coin().is_none() || space.drop().is_some() {
         Plan::Sobol(sampling::Scrambled::new(64, 1))
     } else {
         Plan::ExactSpeed(Rest::Grid)

@@ -91,14 +91,6 @@ impl Thrown {
         self.toss.coin()
     }
 
-    /// The toss of a coin.
-    ///
-    /// # Errors
-    /// [`InputError::OutsideModel`] that says `why` a body with I1 ≠ I2 has none.
-    pub(crate) fn require_coin(&self, why: &'static str) -> Result<CoinToss, InputError> {
-        self.coin().ok_or(InputError::OutsideModel { field: "moments", why })
-    }
-
     /// The speed (m/s), gravity (m/s²) and drop (m) of a coin that is thrown up; `None` if the time of flight was given.
     pub(crate) fn thrown_up(&self) -> Option<(f64, f64, Option<f64>)> {
         match self.toss.launch.time_of_flight() {
@@ -111,14 +103,13 @@ impl Thrown {
     /// The space that consists of this toss alone.
     ///
     /// # Errors
-    /// [`InputError`] for a body with I1 ≠ I2, and for a time of flight that does not come from a speed.
+    /// [`InputError`] for a time of flight that does not come from a speed.
     pub(crate) fn space(&self) -> Result<Space, InputError> {
-        const WHY: &str = "probabilities are computed for bodies with I1 = I2";
-        let CoinToss { coin, launch } = self.require_coin(WHY)?;
+        let Toss { body, launch } = self.toss;
         let missing = missing("speed [m/s]", "a speed in place of the time of flight: a hand varies in its speed");
         let (speed, gravity, drop) = self.thrown_up().ok_or(missing)?;
         let rate = launch.rate();
-        let space = Space::builder(coin).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
+        let space = Space::builder(body).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
         space.tilt(self.tilt).build()?.with_drop(drop)
     }
 }

@@ -96,6 +96,16 @@ test("P(heads) of a hand is the program's to rounding: sines of two platforms ma
   }
 });
 
+test("P(heads) of a body with I1 ≠ I2 is the program's", async () => {
+  const page = await open(browser, "moments=1e-7,1.2e-7,2e-7&rate=9,4,3&speed=3&spread=5%25");
+  await page.waitForFunction(() => document.getElementById("chance").dataset.probability, null, { timeout: 120_000 });
+  const shown = await page.evaluate(() => document.getElementById("chance").dataset.probability);
+  const options = ["--moments", "1e-7,1.2e-7,2e-7", "--rate-x=9", "--rate-y=4", "--rate-z=3", "--speed=3", "--spread", "5%"];
+  const { probability } = asked("probability", ...options, "--method", "sobol", "--points", "4096", "--seed", "1");
+  assert.equal(Number(shown), probability);
+  await close(page);
+});
+
 test("integrators have the program's errors and calls, and the raw formulation fails in its words", async () => {
   const launch = LAUNCHES[4];
   const page = await open(browser, `${asAddress(launch)}&tolerance=1e-6`);

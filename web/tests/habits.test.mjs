@@ -1,5 +1,6 @@
 // How the page behaves: dragging, presets, the address, bad input, keys.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { address, answer, close, drawn, launchBrowser, open, text } from "./browser.mjs";
 
@@ -48,7 +49,7 @@ test("an address that is wrong is named, and not used in part", async () => {
   ]) {
     const page = await open(browser, given);
     assert.ok((await text(page, "address-error")).includes(words), given);
-    assert.equal((await answer(page)).outcome, "heads");
+    assert.equal(await page.getAttribute("[data-preset=quarter]", "aria-pressed"), "true");
     await page.click("[data-preset=tails]");
     assert.ok(await page.locator("#address-error").isHidden());
     await close(page);
@@ -56,7 +57,7 @@ test("an address that is wrong is named, and not used in part", async () => {
 });
 
 test("bad input is refused beside its field, in the library's words", async () => {
-  const page = await open(browser);
+  const page = await open(browser, "preset=cheated");
   for (const [id, typed, words] of [
     ["rate-y", "3 parsecs", "expected a rate in rad/s"],
     ["speed", "-1", "speed [m/s] = -1.0 is outside its valid range"],
@@ -317,7 +318,7 @@ test("the launch is a point in the map, for the pointer and for keys", async () 
 });
 
 test("everything has a name and can be reached by the keyboard", async () => {
-  const page = await open(browser);
+  const page = await open(browser, "preset=cheated");
   const nameless = await page.locator("input, select, button, canvas").evaluateAll((all) =>
     all.filter((one) => one.offsetParent && !one.closest(".plot") && !one.textContent.trim() && !one.ariaLabel && !one.getAttribute("aria-label") && !one.labels?.length).map((one) => one.outerHTML),
   );
@@ -330,6 +331,84 @@ test("everything has a name and can be reached by the keyboard", async () => {
     reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.dataset.preset || document.activeElement.tagName));
   }
   for (const id of ["cheated", "play", "coin", "rate-x", "speed", "map", "spread", "solver"]) assert.ok(reached.has(id), id);
+  await close(page);
+});
+
+test("presets say what they show, a bare number its unit, and margins are in the unit that was typed", async () => {
+  const page = await open(browser);
+  assert.match(await text(page, "preset-words"), /350 757 flips/);
+  const margin = (name) => page.locator(`#margins tr[data-input="${name}"]`).innerText();
+  assert.match(await margin("tilt"), /deg.*deg/s);
+  await page.fill("#tilt", "0.1");
+  assert.match(await margin("tilt"), /rad.*rad/s);
+  assert.equal(await text(page, "preset-words"), "A launch of your own.");
+  const units = await page.locator("#thrown .unit").allInnerTexts();
+  assert.deepEqual(units, ["", "m/s²", "m"]);
+  await page.fill("#speed", "2.4");
+  assert.deepEqual(await page.locator("#thrown .unit").allInnerTexts(), ["m/s", "m/s²", "m"]);
+  await page.fill("#speed", "8ft/s");
+  const [change, at] = (await margin("v₀")).match(/[-+−]?[\d.]+ ft\/s/g).map((part) => Number.parseFloat(part.replace("−", "-")));
+  assert.ok(Math.abs(8 + change - at) < 1e-3, `${change}, ${at}`);
+  await close(page);
+});
+
+test("on a phone the coin, the button and the answer are on the first screen", async () => {
+  const page = await open(browser, "", { until: "scene", viewport: { width: 390, height: 844 } });
+  for (const id of ["#scene canvas", "#play", "#outcome", "#proof"]) {
+    const box = await page.locator(id).boundingBox();
+    assert.ok(box.y >= 0 && box.y + box.height <= 844, `${id}: ${JSON.stringify(box)}`);
+  }
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
+  await close(page);
+});
+
+test("a hundred throws are counted, drawn, and forgotten with their hand", async () => {
+  const page = await open(browser, "preset=quarter", { before: () => (crypto.getRandomValues = (into) => into.fill(7)) });
+  await page.waitForFunction(() => document.getElementById("chance").dataset.probability, null, { timeout: 120_000 });
+  const probability = Number(await page.getAttribute("#chance", "data-probability"));
+  assert.ok(probability > 0.2 && probability < 0.8, `${probability}`);
+  for (const total of [100, 200]) {
+    await page.click("#throw-many");
+    const [, heads, thrown] = (await text(page, "thrown-count")).match(/^(\d+) heads in (\d+) throws/).map(Number);
+    assert.equal(thrown, total);
+    // Five standard deviations of as many throws.
+    assert.ok(Math.abs(heads / thrown - probability) < 5 * Math.sqrt(probability * (1 - probability) / 100), `${heads} of ${thrown}, ${probability}`);
+    assert.equal(await page.locator("#plot-throws canvas").count(), 1);
+  }
+  await page.fill("#spread", "20%");
+  assert.equal(await text(page, "thrown-count"), "");
+  assert.equal(await page.locator("#plot-throws canvas").count(), 0);
+  await close(page);
+});
+
+test("the picture and the flight are saved as they are shown", async () => {
+  const page = await open(browser, "preset=tails", { until: "scene" });
+  const saved = async (id) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(id)]);
+    return readFileSync(await download.path());
+  };
+  const picture = await saved("#save-picture");
+  assert.deepEqual([...picture.subarray(1, 4)].map((code) => String.fromCharCode(code)).join(""), "PNG");
+  assert.ok(picture.length > 10_000);
+  const [head, ...lines] = String(await saved("#save-data")).trim().split("\n");
+  assert.equal(head.split(",").length, 12);
+  const cosTilt = Number((await text(page, "cos-tilt")).replace("\u2212", "-"));
+  assert.ok(Math.abs(Number(lines.at(-1).split(",")[1]) - cosTilt) < 1e-12);
+  assert.ok(lines.length >= 240 && lines.every((line) => line.split(",").every((part) => Number.isFinite(Number(part)))));
+  await close(page);
+});
+
+test("the theme is remembered, and copying says where the link works", async () => {
+  const page = await open(browser, "", { permissions: ["clipboard-write", "clipboard-read"] });
+  const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+  const first = await theme();
+  await page.click("#theme");
+  await page.reload();
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  assert.notEqual(await theme(), first);
+  await page.click("#copy");
+  await page.waitForFunction(() => document.getElementById("copied").textContent);
+  assert.match(await text(page, "copied"), /on this computer only|address bar/);
   await close(page);
 });
 

@@ -10,9 +10,13 @@ const TAILS = "#00224e";
 const EDGE = "#9a9a94";
 const RADIUS = 0.62;
 
-/** The body with these moments (kg m²); a coin is drawn as thin as coins are. */
+/** Thickness of a drawn coin, in radii: that of coins, or more where their moments are those of a longer cylinder. */
+const THIN = 0.145;
+const LONG = 12;
+
+/** The body with these moments (kg m²). */
 export function makeBody([x, y, z]) {
-  if (x === y) return coin();
+  if (x === y) return coin(z / x);
   // The sides of a cuboid with such moments, relative to the longest.
   const squares = [y + z - x, x + z - y, x + y - z].map((square) => Math.max(0, square));
   const longest = Math.sqrt(Math.max(...squares));
@@ -20,9 +24,12 @@ export function makeBody([x, y, z]) {
   return sides[2] < 0.15 && sides[1] > 2.5 * sides[0] ? racket() : cuboid(sides);
 }
 
-function coin() {
+/** A uniform cylinder with the ratio k = I3/I1 of its moments: k = 6 r²/(3 r² + h²). */
+function coin(k) {
   const body = new Group();
-  const geometry = new CylinderGeometry(RADIUS, RADIUS, 0.09, 72).rotateX(Math.PI / 2);
+  const thickness = Math.min(LONG, Math.max(THIN, Math.sqrt(Math.max(0, 6 / k - 3))));
+  const radius = RADIUS / Math.max(1, thickness / 2);
+  const geometry = new CylinderGeometry(radius, radius, radius * thickness, 72).rotateX(Math.PI / 2);
   const side = new MeshLambertMaterial({ color: EDGE });
   body.add(new Mesh(geometry, [side, face("H", HEADS, TAILS), face("T", TAILS, HEADS)]));
   return body;

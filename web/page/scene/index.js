@@ -97,6 +97,26 @@ class View {
     return this.render();
   }
 
+  /** The scene with its letters, on this ground, as a blob of PNG. */
+  picture(ground) {
+    this.render();
+    const picture = document.createElement("canvas");
+    Object.assign(picture, { width: this.canvas.width, height: this.canvas.height });
+    const pen = picture.getContext("2d");
+    pen.fillStyle = ground;
+    pen.fillRect(0, 0, picture.width, picture.height);
+    pen.drawImage(this.canvas, 0, 0);
+    const box = this.canvas.getBoundingClientRect();
+    const scale = picture.width / box.width;
+    Object.assign(pen, { font: `italic 700 ${18 * scale}px Georgia, "DejaVu Serif", serif`, textAlign: "center", textBaseline: "middle" });
+    for (const letter of this.element.querySelectorAll(".letters span")) {
+      const { left, top, width, height } = letter.getBoundingClientRect();
+      pen.fillStyle = getComputedStyle(letter).color;
+      if (width > 0) pen.fillText(letter.textContent, (left + width / 2 - box.left) * scale, (top + height / 2 - box.top) * scale);
+    }
+    return new Promise((done) => picture.toBlob(done, "image/png"));
+  }
+
   render() {
     const { yaw, pitch } = this.pointer ?? { yaw: -0.9, pitch: 0.42 };
     this.camera.position.set(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch)).multiplyScalar(this.far ?? 4.9);
