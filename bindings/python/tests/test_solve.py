@@ -125,3 +125,64 @@ def test_landings_are_those_of_scipys_dop853_within_its_error():
 @pytest.mark.slow
 def test_a_hundred_thousand_landings_are_those_of_scipys_dop853():
     assert_within_scipys_error(100_000)
+
+
+def test_scipys_names_of_settings_are_taken():
+    fine = ut.solve(TOSS, "quaternion", scheme="dop853", rtol=1e-9)
+    for solution in (
+        ut.solve(TOSS, method="DOP853", rtol=1e-9),
+        ut.solve(TOSS, "quaternion", method="dop853", rtol=1e-9, atol=1e-9),
+        ut.solve(TOSS, atol=1e-9),
+    ):
+        assert solution == fine
+    assert ut.solve(TOSS, method="RK45") == ut.solve(TOSS, "quaternion", scheme="dopri5")
+    assert ut.solve(TOSS) == ut.solve(TOSS, "exact")
+    for settings, field, words in [
+        ({"rtol": 1e-9, "atol": 1e-12}, "atol", "one tolerance"),
+        ({"atol": [1e-9] * 7}, "atol", "one tolerance"),
+        ({"method": "Radau"}, "method", "known"),
+        ({"method": 853}, "method", "the name of a scheme"),
+        ({"method": "DOP853", "scheme": "dop853"}, "method", "the same setting"),
+        ({"atol": 2.0}, "atol", "outside"),
+    ]:
+        with pytest.raises(errors.InputError, match=words) as caught:
+            ut.solve(TOSS, **settings)
+        assert caught.value.field == field
+
+
+def test_dense_output_is_the_flight_at_any_time():
+    times = np.array([1.5, 0.2, 0.2, 0.0, 0.9])
+    for solver in ("exact", "quaternion"):
+        solution = ut.solve(TOSS, solver, dense_output=True)
+        states = solution.sol(times)
+        ordered = ut.solve(TOSS, solver, t_eval=np.sort(times)).y
+        assert states.shape == (7, 5) and (states[:, np.argsort(times, kind="stable")] == ordered).all()
+        assert solution.sol(0.7).shape == (7,) and ut.solve(TOSS, solver).sol is None
+        for wrong in ([0.1, 1.6], [-0.1], [np.nan], [[0.1]]):
+            with pytest.raises(errors.OutOfRangeError):
+                solution.sol(wrong)
+    assert np.abs(ut.solve(TOSS, dense_output=True).sol(times) - ut.solve(TOSS, "quaternion", dense_output=True).sol(times)).max() < 1e-7
+
+
+@pytest.mark.parametrize("flight", [ut.trace(TOSS, 31), ut.solve(TOSS, "quaternion", t_eval=np.linspace(0.0, 1.5, 31))])
+def test_flights_become_tables_and_pictures(flight):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    frame, dataset = flight.to_pandas(), flight.to_xarray()
+    assert (frame.index == flight.t).all() and frame.index.name == "t" and len(frame) == 31
+    assert (frame["cos_tilt"] == flight.cos_tilt).all() and (frame["attitude_y"] == flight.attitude[:, 2]).all()
+    assert (dataset["attitude"].sel(component="y").values == flight.attitude[:, 2]).all()
+    assert dataset["t"].attrs["units"] == "s" and (dataset["t"].values == flight.t).all()
+    axes = flight.plot()
+    assert (axes.lines[0].get_ydata() == flight.cos_tilt).all() and "(s)" in axes.get_xlabel()
+    matplotlib.pyplot.close()
+
+
+def test_notebooks_show_answers_as_tables():
+    shown = ut.toss(TOSS)._repr_html_()
+    assert "<th>outcome</th><td>tails</td>" in shown or "<th>outcome</th><td>heads</td>" in shown
+    assert "array of shape (7, 31)" in ut.solve(TOSS, t_eval=np.linspace(0.0, 1.5, 31))._repr_html_()
+    space = ut.Space(rate_x=[20, 60], rate_y=np.array([0.0, 1.0]), rate_z=(5, 15, 3), speed=4)
+    assert space == ut.Space(rate_x=(20, 60), rate_y=(0, 1), rate_z=(5, 15, 3), speed=4)
+    assert "<th>interval_kind</th>" in ut.probability(space, ut.Plan.random(100))._repr_html_()

@@ -9,7 +9,7 @@ from . import errors
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
-from .results import Intervals, Inverse, Landing, Margins, Solution, Trace, Work
+from .results import DenseOutput, Intervals, Inverse, Landing, Margins, Solution, Trace, Work
 from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, toss, trace
 from .solving import solve
@@ -19,6 +19,7 @@ __all__ = [
     "Body",
     "Choice",
     "Counts",
+    "DenseOutput",
     "Estimate",
     "Intervals",
     "Inverse",

@@ -35,7 +35,7 @@ __version__: str
 
 _Column: TypeAlias = npt.NDArray[np.float64]
 _Columns: TypeAlias = tuple[_Column, ...]
-_Axis: TypeAlias = float | tuple[float, float] | tuple[float, float, int] | str
+_Axis: TypeAlias = float | Sequence[float] | npt.NDArray[np.float64] | str
 _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
 _Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 _Counts: TypeAlias = tuple[int, int, int, list[int] | None]
@@ -217,7 +217,7 @@ def spaces() -> list[tuple[str, str]]: ...
 def land(
     toss: Toss, solver: str | Solver
 ) -> tuple[
-    tuple[float, str, str | None],
+    tuple[float, Literal["heads", "tails", "undecided"], str | None],
     tuple[list[float], list[float]],
     tuple[float, float | None],
     tuple[int, int, int],

@@ -11,13 +11,14 @@ import numpy.typing as npt
 
 from ._native import Body, Solver
 from .launches import Launches
+from .results import ShownAsTable
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
 
 @dataclass(frozen=True)
-class Counts:
+class Counts(ShownAsTable):
     """Numbers of launches by their outcome.
 
     Attributes

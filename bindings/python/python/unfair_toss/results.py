@@ -3,13 +3,80 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar
+from html import escape
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _native
+from ._native import Solver, Toss
+from .errors import OutOfRangeError
+from .launches import column
+
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
     from scipy.spatial.transform import Rotation
+
+Outcome: TypeAlias = Literal["heads", "tails", "undecided"]
+
+
+class ShownAsTable:
+    """An answer that a notebook shows as a table of its values."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def _repr_html_(self) -> str:
+        rows = ((field.name, getattr(self, field.name)) for field in fields(self))
+        cells = (f"<tr><th>{name}</th><td>{escape(_short(value))}</td></tr>" for name, value in rows)
+        return f"<table><caption>{type(self).__name__}</caption>{''.join(cells)}</table>"
+
+
+def _short(value: object) -> str:
+    """A value in a line: of a long array, its shape."""
+    if isinstance(value, np.ndarray):
+        return str(value) if value.size <= 8 else f"array of shape {value.shape}"
+    return str(value)
+
+
+def _frame(t: npt.NDArray[np.float64], parts: dict[str, npt.NDArray[np.float64]]) -> pd.DataFrame:
+    """A table with a column for each component, such as ``rate_x``, over the times."""
+    import pandas as pd
+
+    columns = {}
+    for name, values in parts.items():
+        letters = {1: "", 3: "xyz", 4: "wxyz"}[1 if values.ndim == 1 else values.shape[1]]
+        if not letters:
+            columns[name] = values
+        for index, letter in enumerate(letters):
+            columns[f"{name}_{letter}"] = values[:, index]
+    return pd.DataFrame(columns, index=pd.Index(t, name="t"))
+
+
+def _dataset(t: npt.NDArray[np.float64], parts: dict[str, npt.NDArray[np.float64]]) -> xr.Dataset:
+    """The same with a dimension for the components of each vector."""
+    import xarray as xr
+
+    dimensions = {3: ("t", "axis"), 4: ("t", "component")}
+    values = {
+        name: (("t",) if part.ndim == 1 else dimensions[part.shape[1]], part) for name, part in parts.items()
+    }
+    coordinates = {"t": ("t", t, {"units": "s"}), "axis": list("xyz"), "component": list("wxyz")}
+    return xr.Dataset(values, coordinates)
+
+
+def _plot(t: npt.NDArray[np.float64], cos_tilt: npt.NDArray[np.float64], ax: Axes | None) -> Axes:
+    """cos θ over time, on axes of matplotlib."""
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.gca()
+    ax.plot(t, cos_tilt)
+    ax.axhline(0.0, color="0.6", linewidth=0.8)
+    ax.set(xlabel="time after launch (s)", ylabel="cos θ (heads above 0)", ylim=(-1.05, 1.05))
+    return ax
 
 
 class _HoldsArrays:
@@ -27,7 +94,7 @@ class _HoldsArrays:
 
 
 @dataclass(frozen=True)
-class Work:
+class Work(ShownAsTable):
     """The cost of a solution, as counts that are the same in every run.
 
     Attributes
@@ -44,7 +111,7 @@ class Work:
 
 
 @dataclass(frozen=True, eq=False)
-class Landing(_HoldsArrays):
+class Landing(ShownAsTable, _HoldsArrays):
     """How a toss lands.
 
     Attributes
@@ -73,7 +140,7 @@ class Landing(_HoldsArrays):
         Its cost.
     """
 
-    outcome: str
+    outcome: Outcome
     certified: bool
     proven_by: str | None
     cos_tilt: float
@@ -88,7 +155,7 @@ class Landing(_HoldsArrays):
 
 
 @dataclass(frozen=True)
-class Margins:
+class Margins(ShownAsTable):
     """For each input alone, the change to the nearest value that lands the other way; None where no value does.
 
     Attributes
@@ -117,7 +184,7 @@ class Margins:
 
 
 @dataclass(frozen=True, eq=False)
-class Intervals(_HoldsArrays):
+class Intervals(ShownAsTable, _HoldsArrays):
     """The speeds that land heads.
 
     Attributes
@@ -133,7 +200,7 @@ class Intervals(_HoldsArrays):
 
 
 @dataclass(frozen=True, eq=False)
-class Trace(_HoldsArrays):
+class Trace(ShownAsTable, _HoldsArrays):
     """A flight at n times.
 
     Attributes
@@ -159,9 +226,26 @@ class Trace(_HoldsArrays):
     face: npt.NDArray[np.float64]
     cos_tilt: npt.NDArray[np.float64]
 
+    def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
+        names = ("cos_tilt", "attitude", "normal", "face")
+        angles = zip(("alpha", "beta", "gamma"), self.angles.T, strict=True)
+        return {name: getattr(self, name) for name in names} | {name: angle for name, angle in angles}
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A ``pandas.DataFrame`` over the times ``t``, with a column for each component."""
+        return _frame(self.t, self._parts())
+
+    def to_xarray(self) -> xr.Dataset:
+        """An ``xarray.Dataset`` with the dimensions ``t``, ``axis`` (x, y, z) and ``component`` (w, x, y, z)."""
+        return _dataset(self.t, self._parts())
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
+        return _plot(self.t, self.cos_tilt, ax)
+
 
 @dataclass(frozen=True)
-class Inverse:
+class Inverse(ShownAsTable):
     """A launch from horizontal whose long flights land heads with a wanted probability.
 
     Attributes
@@ -182,8 +266,39 @@ class Inverse:
     cone_angle: float
 
 
+@dataclass(frozen=True)
+class DenseOutput:
+    """A flight at any time, by the solver itself: it flies to the times that are asked for.
+
+    Attributes
+    ----------
+    toss : Toss
+        The body and its launch.
+    solver : Solver
+        With its settings.
+    """
+
+    toss: Toss
+    solver: Solver
+
+    def __call__(self, t: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The state as in ``Solution.y`` at a time, of shape (7,), or at n times in any order, of shape (7, n)."""
+        times = np.asarray(column("t [s]", t), dtype=np.float64)
+        valid = f"one time or one dimension of times, from 0 to {self.toss.flight_time!r}"
+        flat = np.atleast_1d(times)
+        outside = ~((flat >= 0.0) & (flat <= self.toss.flight_time))
+        if times.ndim > 1 or outside.any():
+            index = int(np.flatnonzero(outside)[0]) if times.ndim == 1 else None
+            raise OutOfRangeError(f"t is outside its valid range: {valid}", field="t [s]", index=index, valid=valid)
+        order = np.argsort(flat, kind="stable")
+        ascending, _, _ = _native.solve(self.toss, flat[order], self.solver)
+        states = np.empty_like(ascending)
+        states[:, order] = ascending
+        return states[:, 0] if times.ndim == 0 else states
+
+
 @dataclass(frozen=True, eq=False)
-class Solution(_HoldsArrays):
+class Solution(ShownAsTable, _HoldsArrays):
     """A flight as a solver found it.
 
     Attributes
@@ -205,6 +320,8 @@ class Solution(_HoldsArrays):
         0, as SciPy has it for the end of the interval.
     message : str
         In words.
+    sol : DenseOutput or None
+        The flight at any other time; with ``dense_output=True``.
     """
 
     t: npt.NDArray[np.float64]
@@ -215,6 +332,7 @@ class Solution(_HoldsArrays):
     success: bool = True
     status: int = 0
     message: str = "The solver reached the landing or the last time."
+    sol: DenseOutput | None = None
 
     @property
     def attitude(self) -> npt.NDArray[np.float64]:
@@ -239,3 +357,18 @@ class Solution(_HoldsArrays):
         from scipy.spatial.transform import Rotation
 
         return Rotation.from_quat(self.attitude, scalar_first=True)
+
+    def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
+        return {"cos_tilt": self.cos_tilt, "attitude": self.attitude, "rate": self.rate}
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A ``pandas.DataFrame`` over the times ``t``, with a column for each component."""
+        return _frame(self.t, self._parts())
+
+    def to_xarray(self) -> xr.Dataset:
+        """An ``xarray.Dataset`` with the dimensions ``t``, ``axis`` (x, y, z) and ``component`` (w, x, y, z)."""
+        return _dataset(self.t, self._parts())
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
+        return _plot(self.t, self.cos_tilt, ax)

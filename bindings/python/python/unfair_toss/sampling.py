@@ -12,6 +12,7 @@ from ._native import Plan, Solver, Space, Tally, count
 from .columns import stages
 from .errors import MalformedError, PartError
 from .given import a_function, an, wrong
+from .results import ShownAsTable
 from .tallies import tally
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Estimate(ShownAsTable):
     """An estimated probability of heads.
 
     Attributes

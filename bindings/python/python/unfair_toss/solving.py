@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import numpy.typing as npt
 
@@ -10,18 +12,21 @@ from ._native import Solver, Toss
 from .errors import InputError, MalformedError, OutOfRangeError
 from .given import an, wrong
 from .launches import column
-from .results import Solution, Work
+from .results import DenseOutput, Solution, Work
 
 
 def solve(
     toss: Toss,
-    solver: str | Solver = "exact",
+    solver: str | Solver | None = None,
     *,
     t_eval: npt.ArrayLike | None = None,
+    method: str | None = None,
     scheme: str | None = None,
     rtol: float | None = None,
+    atol: float | None = None,
     step: float | None = None,
     formulation: str | None = None,
+    dense_output: bool = False,
 ) -> Solution:
     """The flight of any body by any solver.
 
@@ -29,17 +34,25 @@ def solve(
     ----------
     toss : Toss
         The body and its launch.
-    solver : str or Solver
-        The exact motion, or an integrator (``solvers()``).
+    solver : str or Solver, optional
+        The exact motion, or an integrator (``solvers()``). By default the exact motion; the quaternion if any setting is
+        given.
     t_eval : array_like of shape (n,), optional
         Ascending times from 0 to the time of flight in s; launch and landing by default. An integrator stops at each.
+    method : str, optional
+        The scheme, in upper or lower case and with SciPy's names, too: ``"DOP853"``, or ``"RK45"`` for ``"dopri5"``.
     scheme, rtol, step, formulation
-        Settings of a solver that is given by its name, as for ``Solver``. ``rtol`` is the absolute tolerance, too.
+        Settings of a solver that is given by its name, as for ``Solver``.
+    atol : float, optional
+        The schemes control both errors by one tolerance, as the state is dimensionless: ``rtol`` or ``atol``, or both if
+        they are equal.
+    dense_output : bool
+        Whether ``.sol`` gives the flight at any other time.
 
     Returns
     -------
     Solution
-        With ``.t``, ``.y``, ``.nfev`` and ``.success``, as SciPy has them.
+        With ``.t``, ``.y``, ``.nfev``, ``.success`` and ``.sol``, as SciPy has them.
 
     Raises
     ------
@@ -49,21 +62,58 @@ def solve(
         If the solver cannot go on, or does not solve such a body.
     """
     an(Toss, "toss", toss)
-    settings = {"scheme": scheme, "rtol": rtol, "step": step, "formulation": formulation}
+    settings = {"method": method, "scheme": scheme, "rtol": rtol, "atol": atol, "step": step, "formulation": formulation}
+    given = [name for name, value in settings.items() if value is not None]
+    if solver is None:
+        solver = "quaternion" if given else "exact"
     if not isinstance(solver, Solver):
         if not isinstance(solver, str):
             raise wrong("solver", solver, "the name of a solver, or a Solver")
         try:
-            solver = Solver(solver, scheme=scheme, rtol=rtol, step=step, formulation=formulation)
+            named = _scheme(method, scheme)
+            solver = Solver(solver, scheme=named, rtol=_tolerance(rtol, atol), step=step, formulation=formulation)
         except InputError as error:
-            if error.field == "name":
-                error.field = "solver"
+            error.field = _as_given(error.field, settings)
             raise
-    elif given := [name for name, value in settings.items() if value is not None]:
+    elif given:
         raise MalformedError(f"{given[0]} is given with a Solver, which has settings", field=given[0], valid="None")
     times = _times(toss, t_eval)
     y, work, estimate = _native.solve(toss, times, solver)
-    return Solution(times, y, work[0], Work(*work), estimate)
+    sol = DenseOutput(toss, solver) if dense_output else None
+    return Solution(times, y, work[0], Work(*work), estimate, sol=sol)
+
+
+_SCIPY = {"rk45": "dopri5"}
+"""Schemes that SciPy calls otherwise."""
+
+
+def _as_given(field: str | None, settings: Mapping[str, object]) -> str | None:
+    """The argument of ``solve`` that a field of ``Solver`` came from."""
+    if field == "name":
+        return "solver"
+    other = {"scheme": "method", "rtol": "atol"}.get(field or "")
+    return other if other and settings[other] is not None and settings[field or ""] is None else field
+
+
+def _scheme(method: str | None, scheme: str | None) -> str | None:
+    """The scheme by its own name."""
+    if method is None:
+        return scheme
+    if not isinstance(method, str):
+        raise wrong("method", method, "the name of a scheme")
+    if scheme is not None:
+        raise MalformedError("method and scheme are the same setting", field="method", valid="either method or scheme")
+    return _SCIPY.get(method.lower(), method.lower())
+
+
+def _tolerance(rtol: float | None, atol: float | None) -> float | None:
+    """The one tolerance of a scheme."""
+    if atol is None:
+        return rtol
+    if not isinstance(atol, (int, float)) or (rtol is not None and atol != rtol):
+        valid = "one number, equal to rtol: one tolerance controls both errors of all components"
+        raise MalformedError(f"atol can't be used: expected {valid}", field="atol", valid=valid)
+    return atol
 
 
 def _times(toss: Toss, t_eval: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
