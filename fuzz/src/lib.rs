@@ -6,6 +6,7 @@
 
 pub mod bodies;
 pub mod columns;
+pub mod enclosure;
 pub mod part;
 pub mod program;
 pub mod quantity;
@@ -17,9 +18,10 @@ pub mod space;
 pub type Target = fn(&[u8]);
 
 /// All targets by their names, which are those of their programs and folders of seeds.
-pub const TARGETS: [(&str, Target); 7] = [
+pub const TARGETS: [(&str, Target); 8] = [
     ("bodies", bodies::check),
     ("columns", columns::check),
+    ("enclosure", enclosure::check),
     ("part", part::check),
     ("quantity", quantity::check),
     ("rows", rows::check),

@@ -29,7 +29,7 @@ pub(crate) struct Fuzz {
 }
 
 /// The targets, which are those of `fuzz/src/lib.rs`.
-const TARGETS: [&str; 7] = ["bodies", "columns", "part", "quantity", "rows", "scene", "space"];
+const TARGETS: [&str; 8] = ["bodies", "columns", "enclosure", "part", "quantity", "rows", "scene", "space"];
 
 /// What libFuzzer needs to see: the edges of the control flow, how often each is taken, and what numbers are compared.
 const INSTRUMENTATION: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
