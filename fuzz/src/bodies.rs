@@ -36,7 +36,7 @@ pub fn check(data: &[u8]) {
     }
 }
 
-/// Whether no number is so small beside another that the radii of a proof underflow. `certify` documents that such a
+/// Whether no number is so small compared with another that the radii of a proof underflow. `certify` documents that such a
 /// toss may stay undecided, which a batch does not have to.
 fn are_comparable([x, y, z, speed]: &[f64; 4]) -> bool {
     const FACTOR: f64 = 1e100;

@@ -21,7 +21,7 @@ pub(crate) struct Contest {
     /// Take 40 launches instead of 1000, and leave out hazards and the chart
     #[arg(long)]
     quick: bool,
-    /// Write a dated record, and from it docs/contestants.md, its chart and the table of README.md
+    /// Write a dated record, and from it docs/contestants.md and its chart
     #[arg(long, conflicts_with = "quick")]
     bless: bool,
     /// Fly nothing; end with 1 if what --bless writes from the newest record is not current

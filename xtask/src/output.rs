@@ -1,6 +1,6 @@
 //! Standard output and standard error, without a panic where they can't be written.
 //!
-//! The macros of the standard library panic there. A reader that has gone away is no error; a full device is one. The crate
+//! The macros of the standard library panic there. A reader that has gone away is not an error; a full device is one. The crate
 //! `whole-file` does the same for the other programs; this one depends on no crate of the workspace.
 
 use std::fmt;
@@ -15,7 +15,7 @@ pub(crate) fn print(text: &str) -> Result<(), String> {
     printed(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// The same result in words, except that a reader that has gone away is no error.
+/// The same result in words, except that a reader that has gone away is not an error.
 pub(crate) fn printed(result: io::Result<()>) -> Result<(), String> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("cannot write standard output: {error}")),

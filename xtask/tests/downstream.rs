@@ -1,10 +1,10 @@
 //! Uses `toss` as other people do: from a crate outside this workspace, which has a path dependency and nothing else of it.
-//! The Rust of README.md and of the front page of `toss` has to compile and run there, too.
+//! The Rust of README.md and of the front page of `toss` has to compile and run there, too, with the dependency that
+//! README.md shows.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the crate depends on beside `toss`: what the examples name themselves.
 const MANIFEST: &str = "[package]
 name = \"downstream\"
 version = \"0.0.0\"
@@ -12,10 +12,15 @@ edition = \"2024\"
 
 [workspace]
 
-[dependencies]
-serde = { version = \"1\", features = [\"derive\"] }
+";
+
+/// What the examples name themselves, in addition to `toss`.
+const EXAMPLES_NEED: &str = "serde = { version = \"1\", features = [\"derive\"] }
 toml = \"1\"
-toss = { path = ";
+";
+
+/// Where README.md assumes the clone to be.
+const CLONE: &str = "../unfair-toss/";
 
 /// All of it is built again here, because features differ. The examples take a moment to run, and minutes to optimise.
 const PROFILES: &str = "
@@ -36,12 +41,17 @@ fn read(path: &str) -> String {
 /// The blocks of Rust in a text of Markdown, without the marks of hidden lines. A block without a language is Rust in the
 /// documentation of a crate (`bare`), and not in a file of its own.
 fn blocks(markdown: &str, bare: bool) -> Vec<String> {
+    blocks_of(markdown, |language| language == "rust" || bare && language.is_empty())
+}
+
+/// The blocks in a text of Markdown whose language is meant, without the marks of hidden lines.
+fn blocks_of(markdown: &str, is_meant: impl Fn(&str) -> bool) -> Vec<String> {
     let mut blocks = Vec::new();
     let mut open: Option<(bool, String)> = None;
     for line in markdown.lines() {
         match (line.strip_prefix("```"), &mut open) {
-            (Some(language), None) => open = Some((language == "rust" || bare && language.is_empty(), String::new())),
-            (Some(_), Some(_)) => blocks.extend(open.take().filter(|(is_rust, _)| *is_rust).map(|(_, block)| block)),
+            (Some(language), None) => open = Some((is_meant(language), String::new())),
+            (Some(_), Some(_)) => blocks.extend(open.take().filter(|(is_meant, _)| *is_meant).map(|(_, block)| block)),
             (None, Some((_, block))) => {
                 block.push_str(line.strip_prefix("# ").unwrap_or(line));
                 block.push('\n');
@@ -70,11 +80,11 @@ fn module(index: usize, block: &str) -> String {
 
 /// A new crate with these blocks, whose program runs all of them. It has the lock file of the workspace, and so the same
 /// versions of what it depends on.
-fn write_crate(blocks: &[String]) -> PathBuf {
+fn write_crate(dependencies: &str, blocks: &[String]) -> PathBuf {
     let folder = root().join("target/downstream");
     std::fs::create_dir_all(folder.join("src")).expect("a folder");
-    let toss = root().join("crates/toss");
-    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{:?} }}\n{PROFILES}", toss.display().to_string()))
+    let dependencies = dependencies.replace(CLONE, &format!("{}/", root().display()));
+    std::fs::write(folder.join("Cargo.toml"), format!("{MANIFEST}{dependencies}{EXAMPLES_NEED}{PROFILES}"))
         .expect("written");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
     let modules: String = blocks.iter().enumerate().map(|(index, block)| module(index, block)).collect();
@@ -87,9 +97,11 @@ fn write_crate(blocks: &[String]) -> PathBuf {
 #[test]
 fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_workspace() {
     let readme = blocks(&read("README.md"), false);
+    let dependencies = blocks_of(&read("README.md"), |language| language == "toml").concat();
+    assert!(dependencies.contains(CLONE), "{dependencies}");
     let front_page = blocks(&documentation(&read("crates/toss/src/lib.rs")), true);
     assert!(!readme.is_empty() && front_page.len() >= 8, "{} and {} blocks", readme.len(), front_page.len());
-    let folder = write_crate(&[readme, front_page].concat());
+    let folder = write_crate(&dependencies, &[readme, front_page].concat());
     // What the workspace has built is not built again: target/PROFILE/deps/TEST.
     let test = std::env::current_exe().expect("a test knows where it is");
     let target = test.ancestors().nth(3).expect("the folder of builds");

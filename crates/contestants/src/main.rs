@@ -21,7 +21,7 @@ struct Arguments {
     /// Take 40 launches instead of 1000, and leave out hazards and the chart
     #[arg(long)]
     quick: bool,
-    /// Write a dated record, and from it docs/contestants.md, its chart and the table of README.md
+    /// Write a dated record, and from it docs/contestants.md and its chart
     #[arg(long, conflicts_with = "quick")]
     bless: bool,
     /// Fly nothing; end with 1 if what --bless writes from the newest record is not current
@@ -85,12 +85,9 @@ fn pages(
     contest: &Contest,
     samples: &[verify::measure::work_precision::Sample],
 ) -> anyhow::Result<Vec<(PathBuf, String)>> {
-    let readme = root().join("README.md");
-    let text = page::readme(&files::read(&readme)?, contest).context("README.md has no place for the table")?;
     Ok(vec![
         (root().join("docs/contestants.md"), page::page(contest)),
         (root().join("docs/contestants.svg"), page::chart(contest, samples)?),
-        (readme, text),
     ])
 }
 

@@ -19,10 +19,6 @@ const NEAR: [&str; 6] = ["F1", "F2", "F3", "F4", "F5", "F7"];
 /// An error of cos θ above which an error estimate says nothing.
 const SAYS_NOTHING: f64 = 0.1;
 
-/// Where the README's table stands.
-const BEGIN: &str = "<!-- the table of the contest: begin -->\n";
-const END: &str = "<!-- the table of the contest: end -->";
-
 /// The page `docs/contestants.md`.
 pub fn page(contest: &Contest) -> String {
     let (words, host) = (include_str!("page.md"), &contest.host);
@@ -38,13 +34,6 @@ pub fn page(contest: &Contest) -> String {
     ]
     .iter()
     .fold(words.to_owned(), |page, (mark, text)| page.replace(mark, text))
-}
-
-/// `readme` with the short table of the contest in its place; `None` if it has no place for it.
-pub fn readme(readme: &str, contest: &Contest) -> Option<String> {
-    let (head, rest) = readme.split_once(BEGIN)?;
-    let (_, tail) = rest.split_once(END)?;
-    Some(format!("{head}{BEGIN}{}{END}{tail}", short(contest)))
 }
 
 /// The chart of work against error as SVG.
@@ -124,65 +113,6 @@ fn special(contest: &Contest) -> String {
         }
     }
     if list.is_empty() { "Every contestant answered every ordinary launch.\n".to_owned() } else { list }
-}
-
-/// The table of the README.
-fn short(contest: &Contest) -> String {
-    let mut table = String::from(
-        "| contestant | attitude error, default | attitude error, tight | calls, default | time, default | fails |\n\
-         |---|---|---|---|---|---|\n",
-    );
-    let unit = contest.named(UNIT).map_or(f64::NAN, |unit| unit.usual.ns);
-    for contestant in &contest.contestants {
-        let Contestant { name, usual, tight, .. } = contestant;
-        let tight = if tight.setting.is_empty() { String::new() } else { error(tight, tight.err_attitude_rad) };
-        let cells = [
-            format!("`{name}`"),
-            error(usual, usual.err_attitude_rad),
-            tight,
-            calls(usual),
-            relative(usual.ns / unit),
-            where_it_fails(contestant),
-        ];
-        table += &format!("| {} |\n", cells.join(" | "));
-    }
-    table
-}
-
-/// Where a contestant is silently wrong or has no answer, in a few words.
-fn where_it_fails(contestant: &Contestant) -> String {
-    let wrong = |answer: &Answer| *answer == Answer::SilentlyWrong;
-    let mut words = Vec::new();
-    if contestant.tight.estimate > SAYS_NOTHING {
-        words.push("its error estimate allows any answer".to_owned());
-    }
-    if contestant.usual.beyond_estimate + contestant.tight.beyond_estimate > 0 {
-        words.push("wrong on ordinary launches".to_owned());
-    }
-    let hazards: Vec<&str> =
-        contestant.hazards.iter().filter(|(_, answer)| wrong(answer)).map(|(id, _)| id.as_str()).collect();
-    if !hazards.is_empty() {
-        words.push(format!("wrong at {}", hazards.join(", ")));
-    }
-    let speeds: Vec<String> = SPEEDS
-        .iter()
-        .zip(&contestant.speeds)
-        .filter(|(_, answer)| wrong(answer))
-        .map(|(factor, _)| format!("{factor:e}"))
-        .collect();
-    if !speeds.is_empty() {
-        words.push(format!("wrong at rates × {}", speeds.join(", ")));
-    }
-    let refused: Vec<&str> = contestant
-        .hazards
-        .iter()
-        .filter(|(id, answer)| *answer == Answer::TypedError && id != "F6")
-        .map(|(id, _)| id.as_str())
-        .collect();
-    if !refused.is_empty() {
-        words.push(format!("no answer at {}", refused.join(", ")));
-    }
-    words.join("; ")
 }
 
 fn ordinary(contestant: &Contestant) -> String {

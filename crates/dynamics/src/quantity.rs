@@ -59,7 +59,7 @@ const fn unit_of_pi(name: &'static str, numerator: u16, denominator: u32) -> Nam
     NamedUnit { name, numerator, denominator, has_pi: true }
 }
 
-/// What is expected of a quantity, in words, and its units, of which the first is the SI unit.
+/// What is expected of a quantity, in words, and its units, the first of which is the SI unit.
 type Row = (&'static str, &'static [NamedUnit]);
 
 const ANGLE: Row = (
@@ -275,7 +275,7 @@ pub fn common_unit(given: &[Given]) -> Option<NamedUnit> {
 /// number alone could be meant for all. A 0 needs no unit.
 ///
 /// # Errors
-/// [`InputError::Malformed`] that names `field`, with `expected` for a text that is no quantity of its kind.
+/// [`InputError::Malformed`] that names `field`, with `expected` for a text that is not a quantity of its kind.
 pub fn read_quantities(
     field: &'static str,
     whole: &str,

@@ -156,7 +156,7 @@ impl Stepping {
     /// steps is known. With a tolerance it is taken as ¼ (1 + φ) × tolerance^(-1/order), with the
     /// [tightened](crate::Flight::tightened) tolerance and the root rounded up to a power of two.
     ///
-    /// For a body that is no coin, φ is the angle through which it turns at most, and the estimate is multiplied by the
+    /// For a body that is not a coin, φ is the angle through which it turns at most, and the estimate is multiplied by the
     /// [growth](RigidPhase::growth) of a disturbance. It is `None` from 1 on: it then says nothing about a cosine.
     ///
     /// # Errors

@@ -84,7 +84,7 @@ mod tests {
     use crate::certified::certify_coin;
     use crate::margin::margin_coin;
 
-    /// The paper's cheated toss, with the margins of the README.
+    /// The paper's cheated toss, with the margins of `docs/paper-audit.md`.
     #[test]
     fn proofs_margins_and_sensitivities_are_written_with_the_names_of_their_fields() {
         let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };

@@ -20,7 +20,7 @@
 //! c = F(atan √(α23/α12) | k'²),      v = K' - c = F(atan √(P1/P3) | k'²),   x = πu/(2K)
 //! ```
 //!
-//! and the attitude R, relative to axes of which the third is along m, is the quaternion w + iz = A, x + iy = B of
+//! and the attitude R, relative to axes whose third is along m, is the quaternion w + iz = A, x + iy = B of
 //!
 //! ```text
 //! A : B = e^(iΩt/2) (θ4(z | q²) : θ1(z | q²)),    z = x - iπc/(2K),    q = exp(-πK'/K)
@@ -94,7 +94,7 @@ enum Kind {
     Rigid(RigidMotion),
 }
 
-/// The motion of a body that is no coin, as its turn since launch.
+/// The motion of a body that is not a coin, as its turn since launch.
 #[derive(Debug, Clone, PartialEq)]
 struct RigidMotion {
     curve: Sums,
@@ -103,7 +103,7 @@ struct RigidMotion {
     unit: DoubleDouble,
 }
 
-/// The motion of a body that is no coin, its phases in double-double.
+/// The motion of a body that is not a coin, its phases in double-double.
 #[derive(Debug, Clone, PartialEq)]
 enum Sums {
     /// And the functions of the phases in f64.

@@ -91,7 +91,7 @@ impl TiltTerms {
         let (vertical, norm) = toss.launch.attitude().vertical();
         let spin = ((toss.coin.inertia_ratio() - 1.0) * (toss.launch.rate().z / unit)).abs();
         if squared < SLOWEST_SQUARED {
-            // The coin is at rest, or its precession is slower than 1e-100 beside a spin faster than ½ (in the unit of
+            // The coin is at rest, or its precession is slower than 1e-100 with a spin faster than ½ (in the unit of
             // rates). By the time the spin's phase is too large (2^53), that of the precession is still below 1e-83.
             return Self { mean: vertical[2], cosine: 0.0, sine: 0.0, size: norm, rates: [0.0, spin], unit };
         }

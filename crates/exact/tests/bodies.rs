@@ -37,7 +37,7 @@ fn bodies() -> Vec<Body> {
 struct Columns([Vec<f64>; 4]);
 
 impl Columns {
-    /// Launches of which most are random, some are next to the separatrix, next to a principal axis or on it, and some
+    /// Launches: most are random, some are next to the separatrix, next to a principal axis or on it, and some
     /// are slow, fast or long.
     fn new(count: usize, body: &Body) -> Self {
         let principal = *body.rigid().principal();

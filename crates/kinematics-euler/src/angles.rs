@@ -11,7 +11,7 @@
 //! the limit α' cos β = k ωz / 2, where k is the inertia ratio I3/I1. A return to sin β = 0 is a typed error in the
 //! vertical frame. In the momentum frame β is constant, so that no flight gets there.
 //!
-//! Any other rigid body has angles of its own (`rigid.rs`), except in [`Formulation::RAW`]: the paper's equations suppose
+//! Any other rigid body has angles of its own (`rigid.rs`), except in [`Formulation::RAW`]: the paper's equations assume
 //! a coin.
 
 use std::f64::consts::PI;

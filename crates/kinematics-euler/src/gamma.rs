@@ -183,7 +183,7 @@ impl OdeSystem<5> for GammaSystem {
         if stopped || turned_back {
             return Some(Singularity::PrecessionTooSlow);
         }
-        // At a launch from sin β = 0 rounding decides the sign of D, so that a change of it is no crossing.
+        // At a launch from sin β = 0 rounding decides the sign of D, so that a change of it is not a crossing.
         let started_there = was.d.abs() <= CANCELLATION_THRESHOLD * was.beta_rate.abs();
         (crossed && !started_there).then_some(Singularity::NormalAlongAxis)
     }

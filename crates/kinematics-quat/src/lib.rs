@@ -175,9 +175,9 @@ impl Solver for QuaternionSolver {
 }
 
 /// The estimate of the error of cos θ after a `flight` by Taylor series: (tolerance + ε (1 + φ)) × (1 + φ), with the phase φ
-/// (rad), for a body that is no coin times the [growth](RigidPhase::growth) of a disturbance. Series keep all omitted terms
+/// (rad), for a body that is not a coin times the [growth](RigidPhase::growth) of a disturbance. Series keep all omitted terms
 /// together below the tolerance, and take less than a step in a radian, so that rounding is less than that of Runge-Kutta
-/// schemes. `None` from 1 on for a body that is no coin: such an estimate says nothing about a cosine.
+/// schemes. `None` from 1 on for a body that is not a coin: such an estimate says nothing about a cosine.
 fn of_series(tolerance: f64, toss: &Toss, flight: &Flight) -> Result<Option<f64>, SolveError> {
     let estimate = (tolerance + f64::EPSILON * (1.0 + flight.phase())) * (1.0 + flight.phase());
     Ok(match toss.body {

@@ -77,13 +77,13 @@ impl<N: Elementary> Ball<N> {
         Self::within(midpoint, (error + rounding * size) * (1.0 + 8.0 * f64::EPSILON) + TINY)
     }
 
-    /// A ball of this radius, or one of which nothing is known, because a part of its midpoint left the range of f64.
+    /// A ball of this radius, or one about which nothing is known, because a part of its midpoint left the range of f64.
     fn within(midpoint: N, radius: f64) -> Self {
         let radius = if midpoint.is_in_range() { radius } else { f64::INFINITY };
         Self { midpoint, radius }
     }
 
-    /// A ball of which nothing is known.
+    /// A ball about which nothing is known.
     fn anything(&self) -> Self {
         Self { midpoint: self.midpoint.like(0.0), radius: f64::INFINITY }
     }
@@ -147,7 +147,7 @@ impl<N: Elementary> Div for Ball<N> {
 }
 
 impl<N: Elementary> Number for Ball<N> {
-    /// All roundings of a sum are added up once: n products and n - 1 sums, of which none is above the sum of the sizes.
+    /// All roundings of a sum are added up once: n products and n - 1 sums, none of which is above the sum of the sizes.
     #[inline]
     fn sums_of_products<const T: usize>(
         one: &[Self; T],

@@ -56,7 +56,7 @@ fn times<N: Elementary>([a, b]: &Complex<N>, [c, d]: &Complex<N>) -> Complex<N> 
     [product(a, c) - product(b, d), product(a, d) + product(b, c)]
 }
 
-/// Below this size, a term does not count beside 1 (in the precision of `like`).
+/// Below this size, a term does not count next to 1 (in the precision of `like`).
 fn negligible<N: Elementary>(like: &N) -> f64 {
     2f64.powi(-like.digits() - 6)
 }

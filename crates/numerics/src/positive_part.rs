@@ -7,7 +7,7 @@
 //! mean of max(0, ℓ)^p = Σ_v ± max(0, ℓ(v))^(p + n) / ((p + 1) … (p + n) Π 2 s_i)      + where an even number of v_i is -1
 //! ```
 //!
-//! The sum cancels where a slope is small beside the others. Such a variable is left out, and c moves by its slope.
+//! The sum cancels where a slope is small compared with the others. Such a variable is left out, and c moves by its slope.
 
 use crate::ball::Ball;
 use crate::double_double::DoubleDouble;

@@ -142,7 +142,7 @@ impl Axis {
         Self::read(of.field(), text, numbers)
     }
 
-    /// Reads an axis, the values of which `numbers` reads.
+    /// Reads an axis, whose values `numbers` reads.
     fn read(
         field: &'static str,
         text: &str,

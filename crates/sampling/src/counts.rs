@@ -79,7 +79,7 @@ impl Counts {
         }
     }
 
-    /// Counts of outcomes of which none is proven.
+    /// Counts of outcomes none of which is proven.
     #[cfg(any(test, feature = "serde"))]
     pub(crate) fn estimated(heads: u64, tails: u64, undecided: u64) -> Self {
         Self { estimated: Estimated { heads, tails, undecided }, proven: ProvenCounts::default() }
@@ -136,7 +136,7 @@ impl Decider<'_> {
     }
 }
 
-/// What the batches of all blocks share if they are of a body that is no coin.
+/// What the batches of all blocks share if they are of a body that is not a coin.
 fn filter_of(space: &Space) -> Option<BodyFilter> {
     let none = Block::new(space);
     let tosses = space.tosses_of(*space.body(), &none).filter(|_| space.coin().is_none());

@@ -64,7 +64,7 @@ fn refused(field: &'static str, why: &'static str) -> InputError {
 ///
 /// # Errors
 /// [`InputError::OutsideModel`] if it cannot: for a body with I1 ≠ I2, a drop, a normal distribution of speeds, more than three
-/// coordinates beside the speed, and a space in which nothing varies.
+/// coordinates besides the speed, and a space in which nothing varies.
 pub fn require_enclosable(space: &Space) -> Result<(), InputError> {
     if space.coin().is_none() {
         let why = "enclosure needs the closed form over all speeds, which there is not for a body with I1 ≠ I2; grid, random and sobol take it";

@@ -11,7 +11,7 @@
 //! standard deviation of m means. None of the intervals applies to a grid, whose error is one of discretisation. Clopper
 //! and Pearson's never covers less than its level.
 //!
-//! Student's interval supposes normal means, and the errors of scrambles are not normal: where one kink decides, the error is a
+//! Student's interval assumes normal means, and the errors of scrambles are not normal: where one kink decides, the error is a
 //! parabola of a uniform number. Intervals at 95 % contained 93.4 % of the probabilities of such spaces. So it is taken at 97 %.
 //!
 //! # Scrambles that agree
@@ -228,7 +228,7 @@ mod tests {
         // Counts that differ by much have Student's interval.
         let counts = [400.0, 410.0, 420.0, 430.0, 440.0, 450.0, 460.0, 470.0];
         assert_eq!(of(counts, 1024.0), (from_scrambles(&counts.map(|heads| heads / 1024.0), 0.97).unwrap(), false));
-        // So have shares that are no whole numbers, however close, unless rounding alone tells them apart.
+        // So have shares that are not whole numbers, however close, unless rounding alone tells them apart.
         let shares = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| 0.3 + 1e-9 * f64::from(i));
         let student = from_scrambles(&shares, 0.97).unwrap();
         assert_eq!(from_scrambled_points(&shares, 1e-10, 1 << 16, 0.95), Some((student, false)));

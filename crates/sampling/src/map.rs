@@ -106,7 +106,7 @@ fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
     }
 }
 
-/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies, or for a body that is no coin.
+/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies, or for a body that is not a coin.
 fn least_cos_tilt(space: &Space) -> Option<f64> {
     let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
     let motion = CoinMotion::new(&space.coin_toss(&space.fixed_values())?);

@@ -25,7 +25,7 @@ pub enum Method {
     Sobol,
     /// All speeds in closed form.
     ExactSpeed,
-    /// Bounds over cells of up to three coordinates beside the speed, which prove both ends.
+    /// Bounds over cells of up to three coordinates besides the speed, which prove both ends.
     Enclosure,
 }
 

@@ -19,7 +19,7 @@ use std::path::Path;
 
 pub use standard::{leads_to, print, report, unless_closed};
 
-/// Writes `content` to the output at `path`, as [the table](self) says. A reader that has gone away is no error.
+/// Writes `content` to the output at `path`, as [the table](self) says. A reader that has gone away is not an error.
 ///
 /// # Errors
 /// If the output can't be written. A regular file is then what it was, and nothing is left behind.

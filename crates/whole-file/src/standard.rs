@@ -1,6 +1,6 @@
 //! Standard output and standard error, without a panic where they can't be written.
 //!
-//! The macros of the standard library panic there. A reader that has gone away is no error; a full device is one.
+//! The macros of the standard library panic there. A reader that has gone away is not an error; a full device is one.
 
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
@@ -20,7 +20,7 @@ pub fn report(error: impl fmt::Display) {
     let _ = writeln!(io::stderr().lock(), "error: {error}");
 }
 
-/// The same result, except that a reader that has gone away is no error.
+/// The same result, except that a reader that has gone away is not an error.
 ///
 /// # Errors
 /// As `written`.

@@ -1,4 +1,4 @@
-//! Bodies with three different moments of inertia that can be chosen by name, beside the coins. They show what a coin
+//! Bodies with three different moments of inertia that can be chosen by name, in addition to the coins. They show what a coin
 //! cannot do: a racket that turns over on its own, and a coin whose relief makes it wobble unevenly.
 //!
 //! Where nobody has published the moments, the entry is a stated model, and its numbers stand here.

@@ -83,7 +83,7 @@ fn control(tolerance: Option<f64>, step: Option<Number>) -> Result<Option<StepCo
     }
 }
 
-/// The tolerance and the step of a step control, of which one is there.
+/// The tolerance and the step of a step control, one of which is given.
 fn parts(control: Option<StepControl>) -> (Option<f64>, Option<Number>) {
     match control {
         None => (None, None),

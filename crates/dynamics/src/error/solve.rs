@@ -56,7 +56,7 @@ pub enum SolveError {
     NotSymmetric {
         /// The solver's name.
         solver: String,
-        /// What in its equations supposes the symmetry.
+        /// What in its equations assumes the symmetry.
         why: &'static str,
     },
     /// A proof was asked of a solver, or of a scheme or a formulation of it, that has no bound of its own error.

@@ -34,7 +34,7 @@ fn methods() -> [Stepping; 5] {
 
 #[test]
 fn every_method_ends_exactly_at_the_end_of_the_interval() {
-    // 2.0005 s is no multiple of any step.
+    // 2.0005 s is not a multiple of any step.
     for method in methods() {
         let (end, work) = integrate(&Circle, Vector2::x(), 2.0005, 1.0, &method).unwrap();
         let error = (end - Vector2::new(2.0005_f64.cos(), 2.0005_f64.sin())).norm();

@@ -54,7 +54,7 @@ fn the_change_of_speed_flips_the_outcome_at_another_height_too() {
     assert!(flips >= 18, "{flips}");
 }
 
-/// The first two figures are those of the README; to first order the changes would be 2.1266 and -49.9486.
+/// The first two figures are those of `docs/paper-audit.md`; to first order the changes would be 2.1266 and -49.9486.
 #[test]
 fn the_cheated_toss_flips_where_the_exact_motion_does() {
     let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
@@ -139,7 +139,7 @@ fn a_coin_next_to_its_edge_has_its_flips_in_time_in_closed_form() {
         let launch = Launch::new(Vector3::new(10f64.powi(exponent), 0.0, 2.0), TimeOfFlight::Given(time)).unwrap();
         let toss = CoinToss { coin: Coin::from_moments(1.0, 0.5).unwrap(), launch: launch.with_tilt(quarter).unwrap() };
         let [later, earlier] = [(time / PI).ceil() * PI - time, time - (time / PI).floor() * PI];
-        // At the launch itself the coin is on edge, which is no flip.
+        // At the launch itself the coin is on edge, which is not a flip.
         let expected = if earlier < later && time > PI { -earlier } else { later };
         let found = margin_coin(&toss).unwrap().time.unwrap();
         assert!((found - expected).abs() < 1e-12, "1e{exponent} {time}: {found}, not {expected}");

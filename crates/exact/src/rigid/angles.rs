@@ -1,6 +1,6 @@
 //! Continuous Euler angles of any rigid body. An attitude leaves open how often α, β and γ have turned since launch.
 //! For a coin the closed form tells it. A body with three moments turns with two frequencies, and the turns of the
-//! angles are no sum of two phases; they are found by steps that are too short for an angle to turn unseen.
+//! angles are not a sum of two phases; they are found by steps that are too short for an angle to turn unseen.
 //!
 //! The halves p = w + iz and r = x + iy of the attitude have the arguments (α + γ)/2 and (α - γ)/2. With
 //! ω⊥ = ωx + iωy, Q' = ½ Q ω is

@@ -112,7 +112,7 @@ impl<N: Phases<M>, M: Elementary> Curve<N, M> {
         product(&product(&self.from_launch, relative), &self.labels)
     }
 
-    /// R(t), from the relabelled axes to axes of which the third is along the angular momentum; of a uniform motion, to
+    /// R(t), from the relabelled axes to axes whose third is along the angular momentum; of a uniform motion, to
     /// those at launch. Of any norm.
     fn relative(&self, time: &N) -> Quaternion<M> {
         let phase = self.half_rate.clone() * time.clone();

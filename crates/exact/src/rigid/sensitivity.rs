@@ -52,7 +52,7 @@ const SHORT: f64 = 1e-14;
 type Change<N> = ([N; 3], N);
 
 impl Sensitivity {
-    /// The derivatives at the landing of `toss`. Of a body that is no coin, each column of the attitude, and each derivative of cos θ by a
+    /// The derivatives at the landing of `toss`. Of a body that is not a coin, each column of the attitude, and each derivative of cos θ by a
     /// rate, is right to 1e-13 of itself; a derivative of cos θ below 1e-60 of the column may be 0. On the separatrix itself
     /// both hold for turns of up to 30 rad.
     ///
@@ -92,7 +92,7 @@ impl Sensitivity {
     }
 }
 
-/// The toss without the components of its rate that vanish beside the largest; `None` if it has none.
+/// The toss without the components of its rate that vanish next to the largest; `None` if it has none.
 fn without_vanishing(toss: &Toss) -> Option<Toss> {
     let (rate, unit) = toss.launch.given_rate();
     let vanishes = |part: f64| part != 0.0 && (part / rate.amax()).abs() < VANISHING;

@@ -132,7 +132,7 @@ fn sin_cos_of_small(d: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     (d * series(square, (1..=17).rev().step_by(2), 9), square * series(square, (2..=16).rev().step_by(2), 10))
 }
 
-/// The sum of the powers 0, 1, 2, ... of `at`, divided by the factorials of the numbers in `falling`, of which the last
+/// The sum of the powers 0, 1, 2, ... of `at`, divided by the factorials of the numbers in `falling`, the last of which
 /// belongs to the power 0. The terms from the number `rough` on are so small that f64 suffices for them.
 fn series(at: DoubleDouble, falling: impl Iterator<Item = usize>, rough: usize) -> DoubleDouble {
     let (mut tail, mut sum) = (0.0, DoubleDouble::ZERO);

@@ -57,7 +57,7 @@ impl<N: Elementary> GaussianPair<N> {
     pub fn at(&self, rho: &N) -> [Complex<N>; 2] {
         let one = rho.like(1.0);
         let twice = rho.clone() + rho.clone();
-        // g of 1 and of -1, of which the others are powers but for their weights.
+        // g of 1 and of -1, of which the others are powers except for their weights.
         let [up, down] = [twice.clone(), -twice].map(|turn| (self.rate.clone() * (turn - one.clone())).exp());
         let (mut up_power, mut down_power) = (up.clone(), down.clone());
         let mut even = [one.clone(), rho.like(0.0)];

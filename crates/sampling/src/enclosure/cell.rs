@@ -44,7 +44,7 @@ impl<'a> Cell<'a> {
         self.level.iter().sum()
     }
 
-    /// Both halves in direction number `index`; `None` if the middle is no f64.
+    /// Both halves in direction number `index`; `None` if the middle is not an f64.
     pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
         (self.level[index] < FINEST).then(|| {
             [0, 1].map(|half| {

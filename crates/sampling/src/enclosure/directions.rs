@@ -62,7 +62,7 @@ struct Rectangle {
     density: Ball<f64>,
 }
 
-/// The coordinates that vary beside the speed, as few as possible: for each of them the parts of its range. With a bound of what
+/// The coordinates that vary besides the speed, as few as possible: for each of them the parts of its range. With a bound of what
 /// the roundings of the ends of ωx and ωy change in a probability, where one coordinate takes the place of both.
 pub(super) fn directions_of(space: &Space) -> (Vec<Vec<Direction>>, f64) {
     let free: Vec<Coordinate> = space.free().filter(|of| *of != Coordinate::Speed).collect();

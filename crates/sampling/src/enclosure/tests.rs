@@ -11,7 +11,7 @@ fn fraction(index: u32, square: f64) -> f64 {
     (f64::from(index) * square.sqrt()).fract()
 }
 
-/// Spaces with one to three coordinates beside the speed: from horizontal and tilted, with ψ = 45° inside and without, narrow and wide, with
+/// Spaces with one to three coordinates besides the speed: from horizontal and tilted, with ψ = 45° inside and without, narrow and wide, with
 /// ties, normal axes, and gravities.
 fn spaces() -> impl Iterator<Item = Space> {
     (1..=120).map(|index| {

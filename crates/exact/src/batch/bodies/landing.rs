@@ -157,7 +157,7 @@ impl<S: Simd> Terms<S> {
     }
 }
 
-/// A vector seen from axes of which the third is along the angular momentum.
+/// A vector seen from axes whose third is along the angular momentum.
 struct Seen<S: Simd> {
     across: Complex<Real<S>>,
     along: Real<S>,

@@ -14,7 +14,7 @@ const LARGEST_SQUARE: f64 = 1e60;
 /// Smallest e^(-2ψ) for which the filter decides: its 16th power is in the range of f64.
 const SMALLEST_DECAY: f64 = 1e-18;
 
-/// Smallest share, squared, of a rate along a principal axis that is no axis of BF.
+/// Smallest share, squared, of a rate along a principal axis that is not an axis of BF.
 const SMALLEST_SHARE: f64 = 1e-14;
 
 /// The angular momentum m at launch in relabelled axes, before the reversal that makes m3 > 0.

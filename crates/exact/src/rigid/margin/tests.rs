@@ -149,7 +149,7 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     assert_eq!(speeds_of_heads(&given, 0.0), Ok(None));
 }
 
-/// At the speed 0 the body is on edge, which is no flip and does not end the search.
+/// At the speed 0 the body is on edge, which is not a flip and does not end the search.
 #[test]
 fn intervals_may_begin_on_edge() {
     let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
