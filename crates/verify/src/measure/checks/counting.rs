@@ -8,7 +8,7 @@ use toss::{
     SolverEntry, Tilt, TimeOfFlight, Toss, Tosses, Vector3, certify,
 };
 
-use crate::measure::check::{Basis, Check, Judges};
+use crate::measure::check::{Basis, Check, Judges, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -24,7 +24,7 @@ pub(super) const GRID_LAUNCHES: Check = Check {
     judges: Judges::Library,
     ceiling: 1e-12,
     unit: "1",
-    measure: |_| Ok(vec![grid_launches()?]),
+    measure: Measure::Own(|_| Ok(vec![grid_launches()?])),
 };
 
 pub(super) const GRID_COUNTS: Check = Check {
@@ -35,7 +35,7 @@ pub(super) const GRID_COUNTS: Check = Check {
     judges: Judges::Library,
     ceiling: 0.0,
     unit: "launches",
-    measure: grid_counts,
+    measure: Measure::Own(grid_counts),
 };
 
 pub(super) const ONE_BY_ONE: Check = Check {
@@ -47,7 +47,7 @@ pub(super) const ONE_BY_ONE: Check = Check {
     judges: Judges::Solver,
     ceiling: 0.0,
     unit: "launches",
-    measure: one_by_one,
+    measure: Measure::Own(one_by_one),
 };
 
 /// The axes of a grid as (coordinate, lo, hi, n), from the slowest to the fastest varying.
@@ -239,7 +239,7 @@ fn counted(
     Ok(Measurement::figure(ONE_BY_ONE.id, subject, difference, launches, input))
 }
 
-fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {
+pub(super) fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {
     match sampler.estimate(space, plan)?.found {
         Found::Counts(counts) => Ok(counts),
         Found::Shares { .. } => anyhow::bail!("a plan of launches gave a share instead of counts"),

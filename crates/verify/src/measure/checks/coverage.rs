@@ -12,8 +12,8 @@ use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Axis, Coordinate, Plan, Rest, Sampler, Scrambled, Space, clopper_pearson};
 use toss::{Body, Coin};
 
-use super::methods::in_the_box_of_four;
-use crate::measure::check::{Basis, Check, Judges};
+use super::probability::in_the_box_of_four;
+use crate::measure::check::{Basis, Check, Judges, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -27,7 +27,7 @@ pub(super) const COVERAGE: Check = Check {
     judges: Judges::Library,
     ceiling: 0.0,
     unit: "1",
-    measure: coverage,
+    measure: Measure::Own(coverage),
 };
 
 /// The least fraction of intervals that have to contain the probability.
