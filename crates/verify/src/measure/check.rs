@@ -272,6 +272,20 @@ pub(super) fn of_landings(
 }
 
 impl Check {
+    /// What most checks of solvers have in common.
+    pub(super) const OF_SOLVERS: Self = Self {
+        id: "",
+        claim: "",
+        basis: Basis::ClosedForm,
+        judges: Judges::Solver,
+        ceiling: 0.0,
+        unit: "1",
+        measure: Measure::Own(|_| Ok(Vec::new())),
+    };
+
+    /// What most checks of the library have in common.
+    pub(super) const OF_LIBRARY: Self = Self { judges: Judges::Library, ..Self::OF_SOLVERS };
+
     /// Measures every row.
     ///
     /// # Errors

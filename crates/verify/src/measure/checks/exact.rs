@@ -20,23 +20,12 @@ use toss::{
 };
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Basis, Case, Check, Fold, Judges, Measure, Set, of_coin};
+use crate::measure::check::{Basis, Case, Check, Fold, Measure, Set, of_coin};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Deviation;
 use crate::measure::reference::Reference;
 use crate::measure::tosses::{FAMILIES, Family, LONG, adversarial, corners, few_turns, launches, random, tries};
-
-/// What the checks of this file have in common.
-const EXACT: Check = Check {
-    id: "",
-    claim: "",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
-    ceiling: 0.0,
-    unit: "1",
-    measure: Measure::Own(|_| Ok(Vec::new())),
-};
 
 pub(super) const COS_TILT: Check = Check {
     id: "last-bit-cos-tilt",
@@ -44,7 +33,7 @@ pub(super) const COS_TILT: Check = Check {
             ulp of 1, for phases up to 1e9 rad and at the corners of the model.",
     ceiling: 1e-15,
     measure: Measure::Tosses(|| last_bits(cos_tilt_error), Fold::Largest),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -54,7 +43,7 @@ pub(super) const ATTITUDE: Check = Check {
     ceiling: 1e-14,
     unit: "rad",
     measure: Measure::Tosses(|| last_bits(attitude_error), Fold::Largest),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const EULER_ANGLES: Check = Check {
@@ -64,7 +53,7 @@ pub(super) const EULER_ANGLES: Check = Check {
     ceiling: 10.0,
     unit: "ulp",
     measure: Measure::Tosses(|| last_bits(euler_angles_error), Fold::Largest),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const OUTCOMES: Check = Check {
@@ -73,20 +62,19 @@ pub(super) const OUTCOMES: Check = Check {
             outcome changes. Measured: the number of tosses that differ, also by being undecided; one is enough to \
             fail.",
     unit: "tosses",
-    measure: Measure::Tosses(
-        || {
-            let differs = |toss: &CoinToss, reference: &Reference| {
-                Ok(f64::from(certify(&(*toss).into())?.outcome() != reference.outcome()))
-            };
-            vec![
-                Set::of_coins("random", |tries| random(3 * tries, 6e4, 4), differs),
-                Set::of_coins("adversarial", |tries| adversarial(tries, few_turns), differs),
-            ]
-        },
-        Fold::Count,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(outcomes, Fold::Count),
+    ..Check::OF_LIBRARY
 };
+
+fn outcomes() -> Vec<Set> {
+    let differs = |toss: &CoinToss, reference: &Reference| {
+        Ok(f64::from(certify(&(*toss).into())?.outcome() != reference.outcome()))
+    };
+    vec![
+        Set::of_coins("random", |tries| random(3 * tries, 6e4, 4), differs),
+        Set::of_coins("adversarial", |tries| adversarial(tries, few_turns), differs),
+    ]
+}
 
 pub(super) const BOUNDS: Check = Check {
     id: "certified-bounds",
@@ -94,25 +82,24 @@ pub(super) const BOUNDS: Check = Check {
             proves an outcome. Measured: the largest error divided by that error bound; it fails above the bound of \
             this check.",
     ceiling: 1.0,
-    measure: Measure::Tosses(
-        || {
-            let tosses = |tries: u64| {
-                let mut tosses = Vec::new();
-                for (seed, phase) in [(5, 1.0), (6, 1e2), (7, 6e4), (8, 1e9)] {
-                    tosses.extend(random(tries / 4, phase, seed)?);
-                }
-                tosses.extend(adversarial(tries / 4, few_turns)?);
-                Ok(tosses)
-            };
-            vec![
-                Set::of_coins("f64", tosses, part_of_f64_bound),
-                Set::of_coins("double-double", tosses, part_of_double_double_bound),
-            ]
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(bounds, Fold::Largest),
+    ..Check::OF_LIBRARY
 };
+
+fn bounds() -> Vec<Set> {
+    let tosses = |tries: u64| {
+        let mut tosses = Vec::new();
+        for (seed, phase) in [(5, 1.0), (6, 1e2), (7, 6e4), (8, 1e9)] {
+            tosses.extend(random(tries / 4, phase, seed)?);
+        }
+        tosses.extend(adversarial(tries / 4, few_turns)?);
+        Ok(tosses)
+    };
+    vec![
+        Set::of_coins("f64", tosses, part_of_f64_bound),
+        Set::of_coins("double-double", tosses, part_of_double_double_bound),
+    ]
+}
 
 /// A deviation of the toss of a coin.
 type OfCoin = fn(&CoinToss, &Reference) -> Deviation;
@@ -170,7 +157,7 @@ pub(super) const BATCH_COS_TILT: Check = Check {
         || of_batches(|toss, reference| Ok(reference.cos_tilt_error(batched(toss, cos_tilt)?))),
         Fold::Largest,
     ),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const BATCH_ATTITUDE: Check = Check {
@@ -183,7 +170,7 @@ pub(super) const BATCH_ATTITUDE: Check = Check {
         || of_batches(|toss, reference| Ok(reference.attitude_error(&batched(toss, attitude)?))),
         Fold::Largest,
     ),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const BATCH_OUTCOMES: Check = Check {
@@ -191,20 +178,19 @@ pub(super) const BATCH_OUTCOMES: Check = Check {
     claim: "The outcomes of a batch are those of the 256-bit reference, also within 3 ulp of the speed at which the \
             outcome changes. Measured: the number of tosses that differ; one is enough to fail.",
     unit: "tosses",
-    measure: Measure::Tosses(
-        || {
-            let differs =
-                |toss: &CoinToss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
-            vec![
-                Set::of_coins("random", |tries| level(random(tries, 6e4, 14)?), differs),
-                Set::of_coins("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), differs),
-                Set::of_coins("adversarial, many turns", |tries| level(adversarial(tries / 4, many_turns)?), differs),
-            ]
-        },
-        Fold::Count,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(outcomes_of_batches, Fold::Count),
+    ..Check::OF_LIBRARY
 };
+
+fn outcomes_of_batches() -> Vec<Set> {
+    let differs =
+        |toss: &CoinToss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
+    vec![
+        Set::of_coins("random", |tries| level(random(tries, 6e4, 14)?), differs),
+        Set::of_coins("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), differs),
+        Set::of_coins("adversarial, many turns", |tries| level(adversarial(tries / 4, many_turns)?), differs),
+    ]
+}
 
 pub(super) const SIMD_LEVELS: Check = Check {
     id: "batch-paths",
@@ -212,17 +198,16 @@ pub(super) const SIMD_LEVELS: Check = Check {
             Measured: the number of tosses with a difference; one is enough to fail.",
     basis: Basis::CrossMethod,
     unit: "tosses",
-    measure: Measure::Tosses(
-        || {
-            vec![
-                Set::of_coins("random", |tries| level(random(2 * tries, 6e4, 15)?), levels_that_differ),
-                Set::of_coins("adversarial", |tries| level(adversarial(tries, few_turns)?), levels_that_differ),
-            ]
-        },
-        Fold::Count,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(simd_levels, Fold::Count),
+    ..Check::OF_LIBRARY
 };
+
+fn simd_levels() -> Vec<Set> {
+    vec![
+        Set::of_coins("random", |tries| level(random(2 * tries, 6e4, 15)?), levels_that_differ),
+        Set::of_coins("adversarial", |tries| level(adversarial(tries, few_turns)?), levels_that_differ),
+    ]
+}
 
 fn of_batches(error: OfCoin) -> Vec<Set> {
     vec![
@@ -301,7 +286,7 @@ pub(super) const MEAN_COS_TILT: Check = Check {
             the 256-bit reference, is at most the bound, for phases up to 100 rad.",
     ceiling: 1e-15,
     measure: Measure::Tosses(mean_errors, Fold::Mean),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const TERMS: Check = Check {
@@ -309,17 +294,16 @@ pub(super) const TERMS: Check = Check {
     claim: "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
             without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the bound.",
     ceiling: 1e-18,
-    measure: Measure::Tosses(
-        || {
-            vec![
-                Set::of_coins("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
-                Set::of_coins("corners", |_| corners(), terms_error),
-            ]
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(terms, Fold::Largest),
+    ..Check::OF_LIBRARY
 };
+
+fn terms() -> Vec<Set> {
+    vec![
+        Set::of_coins("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
+        Set::of_coins("corners", |_| corners(), terms_error),
+    ]
+}
 
 /// Error of cos θ at launch before it is rounded to f64. There the terms of cos θ add up to it without a sine or cosine
 /// of f64, whose rounding hides theirs.
@@ -358,15 +342,8 @@ pub(super) const RIGID_COS_TILT: Check = Check {
     claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the bound, for phases \
             from 1 to 1e9 rad.",
     ceiling: 1e-15,
-    measure: Measure::Tosses(
-        || {
-            on_long_flights(|toss, reference| {
-                Ok(reference.cos_tilt_error(ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::new), Fold::Largest),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const RIGID_COMPENSATED_COS_TILT: Check = Check {
@@ -374,15 +351,8 @@ pub(super) const RIGID_COMPENSATED_COS_TILT: Check = Check {
     claim: "cos θ at landing of any rigid body by the compensated motion, whose sums are in f64, differs from the \
             256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
     ceiling: 1e-14,
-    measure: Measure::Tosses(
-        || {
-            on_long_flights(|toss, reference| {
-                Ok(reference.cos_tilt_error(ExactMotion::compensated(toss).cos_tilt(toss.launch.time_of_flight())?))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::compensated), Fold::Largest),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const RIGID_ATTITUDE: Check = Check {
@@ -391,16 +361,8 @@ pub(super) const RIGID_ATTITUDE: Check = Check {
             phases from 1 to 1e9 rad.",
     unit: "rad",
     ceiling: 1e-14,
-    measure: Measure::Tosses(
-        || {
-            on_long_flights(|toss, reference| {
-                let landed = ExactMotion::new(toss).state(toss.launch.time_of_flight())?;
-                Ok(reference.attitude_error(&landed.attitude))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(|| rigid_attitudes(ExactMotion::new), Fold::Largest),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const RIGID_COMPENSATED_ATTITUDE: Check = Check {
@@ -409,16 +371,8 @@ pub(super) const RIGID_COMPENSATED_ATTITUDE: Check = Check {
             the 256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
     unit: "rad",
     ceiling: 1e-14,
-    measure: Measure::Tosses(
-        || {
-            on_long_flights(|toss, reference| {
-                let landed = ExactMotion::compensated(toss).state(toss.launch.time_of_flight())?;
-                Ok(reference.attitude_error(&landed.attitude))
-            })
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(|| rigid_attitudes(ExactMotion::compensated), Fold::Largest),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const RIGID_OUTCOMES: Check = Check {
@@ -426,16 +380,30 @@ pub(super) const RIGID_OUTCOMES: Check = Check {
     claim: "The proven outcomes of any rigid body are those of the 256-bit reference within 3 ulp of a time at which \
             the outcome changes. Measured: the number of tosses that differ or are undecided; one is enough to fail.",
     unit: "tosses",
-    measure: Measure::Tosses(|| at_edges(), Fold::Count),
-    ..EXACT
+    measure: Measure::Tosses(at_edges, Fold::Count),
+    ..Check::OF_LIBRARY
 };
 
 /// A set of long flights for each family of bodies, with references that all checks of them take.
-fn on_long_flights(deviation: fn(&Toss, &Reference) -> Deviation) -> Vec<Set> {
+fn on_long_flights(deviation: impl Fn(&Toss, &Reference) -> Deviation + Copy + Sync + 'static) -> Vec<Set> {
     let set = |(index, family): (usize, &Family)| {
         Set::of_cases(family.name, move |context| Ok(context.long_bodies.get(context)?[index].clone()), deviation)
     };
     FAMILIES.iter().enumerate().map(set).collect()
+}
+
+/// Errors of cos θ.
+fn rigid_cos_tilts(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
+    on_long_flights(move |toss, reference| {
+        Ok(reference.cos_tilt_error(motion(toss).cos_tilt(toss.launch.time_of_flight())?))
+    })
+}
+
+/// Angles to the exact attitude (rad).
+fn rigid_attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
+    on_long_flights(move |toss, reference| {
+        Ok(reference.attitude_error(&motion(toss).state(toss.launch.time_of_flight())?.attitude))
+    })
 }
 
 /// The long flights of each family of bodies.
@@ -453,7 +421,7 @@ fn at_edges() -> Vec<Set> {
         };
         // A toss without a proof is undecided.
         Set::new(family.name, tosses, |toss, reference| {
-            Ok(f64::from(certify(toss).map_or(true, |found| found.outcome() != reference.outcome())))
+            Ok(f64::from(!certify(toss).is_ok_and(|found| found.outcome() == reference.outcome())))
         })
     };
     FAMILIES.iter().map(set).collect()
@@ -489,21 +457,19 @@ pub(super) const DERIVATIVES: Check = Check {
             differ from central differences in 256 bits by at most the bound, relative to the norm of the attitude's \
             derivative.",
     ceiling: 1e-10,
-    measure: Measure::Tosses(
-        || {
-            const LAUNCHES: usize = 500;
-            let set = |(part, name)| {
-                let tosses = |context: &Context| {
-                    Ok(context.survey.get(context)?.tosses.iter().take(LAUNCHES).copied().collect())
-                };
-                Set::new(name, tosses, of_coin(move |toss, _| Ok(errors_of_derivatives(toss)?[part])))
-            };
-            [(0, "attitude"), (1, "cos θ")].map(set).into()
-        },
-        Fold::Largest,
-    ),
-    ..EXACT
+    measure: Measure::Tosses(derivatives, Fold::Largest),
+    ..Check::OF_LIBRARY
 };
+
+fn derivatives() -> Vec<Set> {
+    const LAUNCHES: usize = 500;
+    let set = |(part, name)| {
+        let tosses =
+            |context: &Context| Ok(context.survey.get(context)?.tosses.iter().take(LAUNCHES).copied().collect());
+        Set::new(name, tosses, of_coin(move |toss, _| Ok(errors_of_derivatives(toss)?[part])))
+    };
+    [(0, "attitude"), (1, "cos θ")].map(set).into()
+}
 
 /// The relative errors of the derivatives of the attitude and of cos θ.
 fn errors_of_derivatives(toss: &CoinToss) -> Result<[f64; 2], SolveError> {
@@ -545,7 +511,7 @@ pub(super) const MARGINS: Check = Check {
             the number of inputs of a toss with a wrong margin; one is enough to fail.",
     unit: "inputs",
     measure: Measure::Tosses(|| searched(61, wrong_margins), Fold::Largest),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const SPEEDS: Check = Check {
@@ -555,7 +521,7 @@ pub(super) const SPEEDS: Check = Check {
             number of speeds of a toss with another outcome; one is enough to fail.",
     unit: "speeds",
     measure: Measure::Tosses(|| searched(62, wrong_speeds), Fold::Largest),
-    ..EXACT
+    ..Check::OF_LIBRARY
 };
 
 /// Relative distance from a flip at which the outcome is asked for.

@@ -18,7 +18,7 @@ use crate::measure::adversary::Findings;
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Basis, Check, Judges, Landed, Measure, ceiling};
+use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::hostile::{self, Flight};
@@ -34,11 +34,9 @@ pub(super) const ANSWERS: Check = Check {
     claim: "Near every place where some method fails, each solver, scheme and formulation does what \
             atlas.toml records: it is right, returns an error, or is wrong as it is known to be. Measured: \
             the number of places where it does anything else; one is enough to fail.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "hazards",
     measure: Measure::Own(answers),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const TILT_WORK: Check = Check {
@@ -46,10 +44,9 @@ pub(super) const TILT_WORK: Check = Check {
     claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
             tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
     basis: Basis::Invariant,
-    judges: Judges::Solver,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(tilt_work),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const RETURN_WORK: Check = Check {
@@ -59,10 +56,9 @@ pub(super) const RETURN_WORK: Check = Check {
             tilted so that the normal stays away from the vertical. Measured: the largest ratio of calls; it fails above \
             the bound.",
     basis: Basis::CrossMethod,
-    judges: Judges::Solver,
     ceiling: 3.0,
-    unit: "1",
     measure: Measure::Own(return_work),
+    ..Check::OF_SOLVERS
 };
 
 fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -153,9 +149,6 @@ pub(super) const SILENTLY_WRONG: Check = Check {
     id: "adversarial-silence",
     claim: "On launches chosen to break solvers, each at one of five tolerances or of two steps, no answer is wrong \
             without an error. Measured: the number of wrong answers without an error; one is enough to fail.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "launches",
     measure: Measure::Own(|context| {
         searched(context, |findings| {
@@ -163,16 +156,14 @@ pub(super) const SILENTLY_WRONG: Check = Check {
             (findings.silently_wrong as f64, findings.first_wrong.clone(), claim)
         })
     }),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const REFUSED: Check = Check {
     id: "adversarial-refusals",
     claim: "Of the launches chosen to break solvers, the fraction that a solver refuses with an error is at most the \
             bound, or a quarter without one.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 0.25,
-    unit: "1",
     measure: Measure::Own(|context| {
         searched(context, |findings| {
             // A refusal is what this row counts, so it is not reported as a failure of the measurement.
@@ -180,6 +171,7 @@ pub(super) const REFUSED: Check = Check {
             (findings.refused as f64 / findings.launches as f64, worst, Some(REFUSED.ceiling))
         })
     }),
+    ..Check::OF_SOLVERS
 };
 
 /// What was measured, its worst case, and what is allowed without a bound.
@@ -199,14 +191,12 @@ pub(super) const LONG_ERROR: Check = Check {
     claim: "On flights of up to 10⁴ s the error of the attitude is within the solver's error estimate, or the solver \
             returns an error. Measured: the largest error divided by what the estimate allows; it fails above the \
             bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| {
         let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
         over_long_flights(context, LONG_ERROR.id, part, |drift| drift.allowed.map(|_| 1.0))
     }),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const LONG_DRIFT: Check = Check {
@@ -214,12 +204,11 @@ pub(super) const LONG_DRIFT: Check = Check {
     claim: "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value \
             at launch by at most the bound, relative to |S|.",
     basis: Basis::Invariant,
-    judges: Judges::Solver,
     ceiling: ceiling::COS_TILT,
-    unit: "1",
     measure: Measure::Own(|context| {
         over_long_flights(context, LONG_DRIFT.id, |drift| drift.momentum_vector, |drift| drift.allowed)
     }),
+    ..Check::OF_SOLVERS
 };
 
 /// The largest `part` of each subject over the flights that it solved, with what its error estimate allows for that
@@ -251,15 +240,13 @@ pub(super) const HOSTILE: Check = Check {
             errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns an \
             error. Measured: the largest error divided by that; it fails above the bound, or at 1 without one. Where a \
             solver states no estimate, it decides nothing and is not judged.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| {
         let integrators = context.registry.iter().filter(|entry| entry.integrates());
         let each = integrators.flat_map(|entry| entry.schemes().iter().map(move |scheme| (entry, *scheme)));
         each.map(|(entry, scheme)| on_hostile_flights(context.effort, entry, scheme)).collect()
     }),
+    ..Check::OF_SOLVERS
 };
 
 fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> anyhow::Result<Measurement> {

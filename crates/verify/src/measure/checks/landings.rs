@@ -13,7 +13,7 @@ use exact::motion::COS_TILT_ERROR;
 use toss::{CoinMotion, CoinToss, Formulation, Launch, State, TimeOfFlight, Toss};
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Allowed, Basis, Check, Judges, Landed, Measure, ceiling, of_landings};
+use crate::measure::check::{Allowed, Basis, Check, Landed, Measure, ceiling, of_landings};
 use crate::measure::context::Context;
 use crate::measure::drift;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
@@ -29,15 +29,13 @@ const fn random(deviation: fn(&Landed<'_>) -> Option<f64>) -> Measure {
 pub(super) const COS_TILT: Check = Check {
     id: "random-cos-tilt",
     claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: ceiling::COS_TILT,
-    unit: "1",
     measure: Measure::Landings {
         of: |context| context.survey.get(context),
         deviation: |landed| Some(landed.exact.cos_tilt_error(landed.landing.cos_tilt)),
         allowed: Allowed::By(|allowance| allowance.cos_tilt),
     },
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const ATTITUDE: Check = Check {
@@ -58,10 +56,10 @@ pub(super) const CROSS_METHOD: Check = Check {
     claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
             and any other, differ by at most the bound.",
     basis: Basis::CrossMethod,
-    judges: Judges::Solver,
     ceiling: 2.0 * ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(cross_method),
+    ..Check::OF_SOLVERS
 };
 
 fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -105,11 +103,9 @@ pub(super) const CLAIMS: Check = Check {
             error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, \
             or by four roundings of the phase if they are larger; horizontal and tilted launches apart. It fails above \
             the bound, or at a thousand without one.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: LARGEST_RATIO,
-    unit: "1",
     measure: Measure::Own(claims),
+    ..Check::OF_SOLVERS
 };
 
 /// The largest ratio that is no fault. Error estimates hold for every launch, also those near the places where a method

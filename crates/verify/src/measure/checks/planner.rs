@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use toss::{Answer, Error, InputError, Scene, Want};
 
 use crate::measure::case;
-use crate::measure::check::{Basis, Check, Judges, Measure};
+use crate::measure::check::{Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::hostile;
@@ -22,11 +22,9 @@ pub(super) const DELIVERS: Check = Check {
     id: "plan-delivers",
     claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
             largest error divided by that accuracy; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| largest(context, DELIVERS.id, Solved::error_by_accuracy)),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const EXPECTS: Check = Check {
@@ -34,11 +32,9 @@ pub(super) const EXPECTS: Check = Check {
     claim: "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
             the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
             the expected error; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| largest(context, EXPECTS.id, Solved::error_by_expected)),
+    ..Check::OF_LIBRARY
 };
 
 /// The largest `part` over the solved scenes of each kind.
@@ -59,10 +55,7 @@ pub(super) const PLANS: Check = Check {
     id: "plan-hostile",
     claim: "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates, \
             and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| {
         let number: u64 = match context.effort {
             Effort::Quick => 200,
@@ -82,6 +75,7 @@ pub(super) const PLANS: Check = Check {
         };
         KINDS.into_iter().chain([BODIES]).map(row).collect()
     }),
+    ..Check::OF_LIBRARY
 };
 
 /// What is planned.

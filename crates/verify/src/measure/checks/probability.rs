@@ -17,7 +17,7 @@ use sampling::{
 use toss::{Coin, CoinMotion, CoinToss, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Vector3};
 
 use super::counting::counts;
-use crate::measure::check::{Basis, Check, Judges, Measure};
+use crate::measure::check::{Basis, Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -29,22 +29,18 @@ pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
     claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
             most the bound, for cone angles ψ from 45° to 90°.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-12,
-    unit: "1",
     measure: Measure::Own(long_flight),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const LONG_FLIGHT_SHARE: Check = Check {
     id: "long-flight-share",
     claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
             the long-flight probability p(ψ) by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-4,
-    unit: "1",
     measure: Measure::Own(long_flight_share),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const TABLES: Check = Check {
@@ -52,10 +48,9 @@ pub(super) const TABLES: Check = Check {
     claim: "P(heads) by every sampling method differs from the paper's by at most the bound: 0.66 in Fig. 4, 1 for \
             the cheated toss, 0 for the tails toss.",
     basis: Basis::PublishedFigure,
-    judges: Judges::Library,
     ceiling: 0.005,
-    unit: "1",
     measure: Measure::Own(published),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
@@ -64,10 +59,8 @@ pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
             random launches (its method B), which misses the probability at most once in a million. Measured: the \
             distance from the interval; any distance fails.",
     basis: Basis::CrossMethod,
-    judges: Judges::Library,
-    ceiling: 0.0,
-    unit: "1",
     measure: Measure::Own(grid_in_random),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const FIG4_SAME_COUNTS: Check = Check {
@@ -75,10 +68,10 @@ pub(super) const FIG4_SAME_COUNTS: Check = Check {
     claim: "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact \
             motion. Measured: the sum of the two differences; one launch is enough to fail.",
     basis: Basis::CrossMethod,
-    judges: Judges::Solver,
     ceiling: 1000.0,
     unit: "launches",
     measure: Measure::Own(same_counts),
+    ..Check::OF_SOLVERS
 };
 
 fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -169,11 +162,9 @@ pub(super) const SHARES: Check = Check {
     id: "exact-speed-share",
     claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
             most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-9,
-    unit: "1",
     measure: Measure::Own(|context| worst_share(context, SHARES.id, |error, _| error)),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const SHARE_BOUNDS: Check = Check {
@@ -181,32 +172,26 @@ pub(super) const SHARE_BOUNDS: Check = Check {
     claim: "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
             the method states. Measured: the largest error divided by that error bound; it fails above the bound of \
             this check.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(|context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound)),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const ISOTROPIC: Check = Check {
     id: "isotropic-long-flights",
     claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
             1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-6,
-    unit: "1",
     measure: Measure::Own(isotropic),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const FIGURES: Check = Check {
     id: "probability-figures",
     claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-3,
-    unit: "1",
     measure: Measure::Own(figures),
+    ..Check::OF_LIBRARY
 };
 
 fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
@@ -348,11 +333,9 @@ pub(super) const ENCLOSURES: Check = Check {
     id: "enclosure-figures",
     claim: "The proven interval of P(heads) to ± 1e-9 (± 1e-5 over two coordinates) contains the reference number. Measured: its \
             distance from the middle divided by the half-width.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(enclosures),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const OVERLAP: Check = Check {
@@ -360,10 +343,9 @@ pub(super) const OVERLAP: Check = Check {
     claim: "On random spaces, the proven intervals of P(heads) to two accuracies overlap. Measured: the distance of their middles \
             divided by the sum of the half-widths.",
     basis: Basis::CrossMethod,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(overlap),
+    ..Check::OF_LIBRARY
 };
 
 /// Middle and half-width of the proven interval.
@@ -436,22 +418,17 @@ pub(super) const ERRORS: Check = Check {
     id: "sampling-errors",
     claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
             reference number, is at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 0.02,
-    unit: "1",
     measure: Measure::Own(errors),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const EXACT_COVERAGE: Check = Check {
     id: "clopper-pearson-coverage",
     claim: "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
             reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
-    ceiling: 0.0,
-    unit: "1",
     measure: Measure::Own(exact_coverage),
+    ..Check::OF_LIBRARY
 };
 
 /// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s, whose P(heads)

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use toss::{CoinToss, ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
 
 use super::exact::at_an_edge;
-use crate::measure::check::{Basis, Check, EXACT, Fold, Judges, Measure, Set, by_exact_motion, shares};
+use crate::measure::check::{Check, EXACT, Fold, Measure, Set, by_exact_motion, shares};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
@@ -22,11 +22,9 @@ pub(super) const BOUNDS: Check = Check {
     id: "integrated-bounds",
     claim: "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, at any tolerance. \
             Measured: the largest error divided by its bound; it fails above 1.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Both(&[Measure::Tosses(bounds, Fold::Largest), Measure::Own(bounds_of_bodies)]),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const OUTCOMES: Check = Check {

@@ -14,7 +14,7 @@ use nalgebra::SVector;
 use rayon::prelude::*;
 use toss::{Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solver, Stepping, TimeOfFlight, Toss};
 
-use crate::measure::check::{Basis, Check, Judges, Measure, ceiling};
+use crate::measure::check::{Basis, Check, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
@@ -24,22 +24,19 @@ use crate::measure::subject::Subject;
 pub(super) const COS_TILT: Check = Check {
     id: "reference-cos-tilt",
     claim: "On every reference flight, cos θ at landing differs from the reference number by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: ceiling::COS_TILT,
-    unit: "1",
     measure: Measure::Own(cos_tilt),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const ATTITUDE: Check = Check {
     id: "reference-attitude",
     claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
             bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(attitude),
+    ..Check::OF_SOLVERS
 };
 
 fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -76,11 +73,9 @@ pub(super) const DETEST: Check = Check {
     id: "detest-b5",
     claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
             the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-6,
-    unit: "1",
     measure: Measure::Own(detest),
+    ..Check::OF_LIBRARY
 };
 
 struct AsymmetricBody;
@@ -112,10 +107,9 @@ pub(super) const MOMENTS: Check = Check {
     claim: "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness \
             by at most the bound, relative to their size; each coin of one list is in the other.",
     basis: Basis::PublishedFigure,
-    judges: Judges::Library,
     ceiling: 1e-14,
-    unit: "1",
     measure: Measure::Own(moments),
+    ..Check::OF_LIBRARY
 };
 
 fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -140,7 +134,6 @@ pub(super) const PUBLISHED: Check = Check {
             computed in 128 bits, two of them next to the separatrix and one on it, and the rates of NASA's check case \
             2, a tumbling brick. Measured: the largest error (rad; of rates, relative to the largest).",
     basis: Basis::PublishedFigure,
-    judges: Judges::Solver,
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(|context| {
@@ -150,6 +143,7 @@ pub(super) const PUBLISHED: Check = Check {
         let solves = |subject: &&Subject| !context.data.bodies.iter().any(|body| refuses(subject, body));
         Ok(context.subjects.iter().filter(solves).map(|subject| published(context, subject)).collect())
     }),
+    ..Check::OF_SOLVERS
 };
 
 /// The largest error of `subject` on the published motions, with the largest ratio to what its estimate allows.
@@ -173,10 +167,9 @@ pub(super) const CHEATED_IN_FLIGHT: Check = Check {
     claim: "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
             number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "launches",
     measure: Measure::Own(|context| at_every_speed(context, [1.0, 1.0, 2.5], Outcome::Heads)),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const TAILS_IN_FLIGHT: Check = Check {
@@ -184,32 +177,28 @@ pub(super) const TAILS_IN_FLIGHT: Check = Check {
     claim: "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
             number of launches that do not; one is enough to fail.",
     basis: Basis::PublishedFigure,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "launches",
     measure: Measure::Own(|context| at_every_speed(context, [2.0, 2.0, 0.5], Outcome::Tails)),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const CHEATED_FOREVER: Check = Check {
     id: "cheated-heads-forever",
     claim: "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up \
             to 30 s by integrators. Measured: the number of launches that do not; one is enough to fail.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "launches",
     measure: Measure::Own(forever),
+    ..Check::OF_SOLVERS
 };
 
 pub(super) const FIRST_FLIP: Check = Check {
     id: "first-flip",
     claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
             the largest distance from the reference time; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: ceiling::ATTITUDE,
     unit: "s",
     measure: Measure::Own(first_flip),
+    ..Check::OF_SOLVERS
 };
 
 fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyhow::Result<Vec<Measurement>> {

@@ -7,7 +7,7 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use toss::{Coin, Formulation, InputError, Stepping};
 
-use crate::measure::check::{Basis, Check, Judges, Measure};
+use crate::measure::check::{Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::convergence::{Convergence, error};
 use crate::measure::measurement::Measurement;
@@ -23,11 +23,9 @@ pub(super) const WITHIN_ESTIMATE: Check = Check {
     claim: "On every problem, at every tolerance from 1e-3 to 1e-14 or step from 1/|ω| down, the error of the \
             attitude is within the solver's error estimate. Measured: the largest error divided by what the estimate \
             allows; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 1.0,
-    unit: "1",
     measure: Measure::Own(within_estimate),
+    ..Check::OF_SOLVERS
 };
 
 fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -53,11 +51,9 @@ pub(super) const ORDER: Check = Check {
     id: "convergence-order",
     claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
             distance of the fitted power from that order; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 0.5,
-    unit: "1",
     measure: Measure::Own(order),
+    ..Check::OF_SOLVERS
 };
 
 fn order(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -74,11 +70,9 @@ pub(super) const PROPORTION: Check = Check {
     id: "tolerance-proportion",
     claim: "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
             Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Solver,
     ceiling: 0.5,
-    unit: "1",
     measure: Measure::Own(proportion),
+    ..Check::OF_SOLVERS
 };
 
 /// Number of flights whose errors are added up. The error of one flight depends on where its last step happens to end.
