@@ -12,7 +12,6 @@ use super::program::Foreign;
 use crate::measure::atlas;
 use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
-use crate::measure::check::OF_COINS;
 use crate::render::runs;
 use crate::suite::{Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
@@ -59,12 +58,9 @@ impl Replay {
     fn as_row(&self, Row(check, subject): &Row, suite: &Suite, context: &Context) -> anyhow::Result<String> {
         let measured = check.again(context, &self.input, &|name| name == subject)?;
         let judged = judge(check, measured, &suite.all_bounds()?);
-        let found = judged.first().with_context(|| {
-            format!(
-                "no deviation of a single toss is measured for '{} / {subject}': --only {} repeats it",
-                check.id, check.id
-            )
-        })?;
+        let id = check.id;
+        let of_many = || format!("'{id} / {subject}' measures no deviation of one such toss: --only {id} repeats it");
+        let found = judged.first().with_context(of_many)?;
         Ok(runs::of_row(found))
     }
 
@@ -75,8 +71,7 @@ impl Replay {
         for check in CHECKS.iter().filter(|check| check.judges == Judges::Library) {
             let mut last = None;
             for found in check.again(context, &self.input, &|_| true)? {
-                let failure = found.worst.as_ref().and_then(|worst| worst.failure.as_deref()).unwrap_or_default();
-                if last.replace(found.measured) != Some(found.measured) && !failure.contains(OF_COINS) {
+                if last.replace(found.measured) != Some(found.measured) {
                     text += &runs::of_library(check, &found);
                 }
             }

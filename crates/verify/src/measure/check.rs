@@ -131,10 +131,20 @@ pub struct Case {
 /// A named set of cases, and a deviation that is taken on each of them.
 pub struct Set {
     subject: String,
-    cases: Box<dyn Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync>,
-    quick: Box<dyn Fn(&Toss) -> Option<f64> + Sync>,
-    deviation: Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>,
+    of_coins: bool,
+    cases: Cases,
+    quick: Quick,
+    deviation: OfToss,
 }
+
+/// Makes the cases of a set.
+type Cases = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync>;
+
+/// A deviation of a toss that needs no reference, where there is one.
+type Quick = Box<dyn Fn(&Toss) -> Option<f64> + Sync>;
+
+/// A deviation of a toss.
+type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
 
 impl Set {
     /// The cases that `cases` makes, in the row of `subject`.
@@ -144,7 +154,7 @@ impl Set {
         deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
         let quick = Box::new(|_: &Toss| None);
-        Self { subject: subject.into(), cases: Box::new(cases), quick, deviation: Box::new(deviation) }
+        Self { subject: subject.into(), of_coins: false, cases: Box::new(cases), quick, deviation: Box::new(deviation) }
     }
 
     /// The tosses of any bodies that `tosses` makes, in the row of `subject`.
@@ -157,14 +167,26 @@ impl Set {
         Self::of_cases(subject, move |context| Ok(tosses(context)?.into_iter().map(case).collect()), deviation)
     }
 
-    /// The tosses of coins that `tosses` makes of a [number](tries).
+    /// The tosses of coins that `tosses` makes, on which alone the deviation is taken.
     pub(super) fn of_coins(
+        subject: &str,
+        tosses: impl Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
+        deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
+    ) -> Self {
+        let of_coin = move |toss: &Toss, reference: &Reference| {
+            deviation(&toss.of_coin("the measure", "it is taken on coins alone")?, reference)
+        };
+        Self { of_coins: true, ..Self::new(subject, tosses, of_coin) }
+    }
+
+    /// The tosses of coins that `tosses` makes of a [number](tries).
+    pub(super) fn of_tries(
         subject: &str,
         tosses: impl Fn(u64) -> anyhow::Result<Vec<CoinToss>> + Sync + 'static,
         deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
         let all = move |context: &Context| Ok(tosses(tries(context.effort))?.into_iter().map(Toss::from).collect());
-        Self::new(subject, all, of_coin(deviation))
+        Self::of_coins(subject, all, deviation)
     }
 
     /// The same set, whose deviations are taken by `quick` where it says something; of the largest alone those that are not
@@ -204,16 +226,6 @@ impl Set {
         };
         measured.of_the_library()
     }
-}
-
-/// Why a measure of coins refuses another body.
-pub(crate) const OF_COINS: &str = "it is taken on coins alone";
-
-/// The deviation of a toss of a coin, which refuses other bodies.
-pub(super) fn of_coin(
-    deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync,
-) -> impl Fn(&Toss, &Reference) -> Deviation + Sync {
-    move |toss, reference| deviation(&toss.of_coin("the measure", OF_COINS)?, reference)
 }
 
 /// A landing beside the exact one.
@@ -319,8 +331,8 @@ impl Check {
         measurement.with_worst(|worst| Worst { replay: worst.replay.in_row(row.clone()), ..worst })
     }
 
-    /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses
-    /// have none.
+    /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses,
+    /// or not of such a body, have none.
     ///
     /// # Errors
     /// [`SolveError`] for a phase above 2^53 rad.
@@ -347,7 +359,9 @@ impl Check {
                 [one?, other?].concat()
             }
             Measure::Tosses(sets, fold) => {
-                let sets = sets().into_iter().filter(|set| is_asked(&set.subject));
+                let is_solved = Reference::of(toss).is_some();
+                let takes = |set: &Set| is_solved && (!set.of_coins || toss.coin().is_some());
+                let sets = sets().into_iter().filter(|set| is_asked(&set.subject) && takes(set));
                 let case = Case { toss: *toss, reference: None };
                 sets.map(|set| self.repeating(set.measured(self.id, fold, std::slice::from_ref(&case)))).collect()
             }

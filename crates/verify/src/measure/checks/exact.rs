@@ -20,7 +20,7 @@ use toss::{
 };
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Basis, Case, Check, Fold, Measure, Set, of_coin};
+use crate::measure::check::{Basis, Case, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Deviation;
@@ -71,8 +71,8 @@ fn outcomes() -> Vec<Set> {
         Ok(f64::from(certify(&(*toss).into())?.outcome() != reference.outcome()))
     };
     vec![
-        Set::of_coins("random", |tries| random(3 * tries, 6e4, 4), differs),
-        Set::of_coins("adversarial", |tries| adversarial(tries, few_turns), differs),
+        Set::of_tries("random", |tries| random(3 * tries, 6e4, 4), differs),
+        Set::of_tries("adversarial", |tries| adversarial(tries, few_turns), differs),
     ]
 }
 
@@ -96,8 +96,8 @@ fn bounds() -> Vec<Set> {
         Ok(tosses)
     };
     vec![
-        Set::of_coins("f64", tosses, part_of_f64_bound),
-        Set::of_coins("double-double", tosses, part_of_double_double_bound),
+        Set::of_tries("f64", tosses, part_of_f64_bound),
+        Set::of_tries("double-double", tosses, part_of_double_double_bound),
     ]
 }
 
@@ -106,10 +106,10 @@ type OfCoin = fn(&CoinToss, &Reference) -> Deviation;
 
 fn last_bits(error: OfCoin) -> Vec<Set> {
     vec![
-        Set::of_coins("phases to 1e2", |tries| random(tries, 1e2, 1), error),
-        Set::of_coins("phases to 6e4", |tries| random(tries, 6e4, 2), error),
-        Set::of_coins("phases to 1e9", |tries| random(tries, 1e9, 3), error),
-        Set::of_coins("corners", |_| corners(), error),
+        Set::of_tries("phases to 1e2", |tries| random(tries, 1e2, 1), error),
+        Set::of_tries("phases to 6e4", |tries| random(tries, 6e4, 2), error),
+        Set::of_tries("phases to 1e9", |tries| random(tries, 1e9, 3), error),
+        Set::of_tries("corners", |_| corners(), error),
     ]
 }
 
@@ -186,9 +186,9 @@ fn outcomes_of_batches() -> Vec<Set> {
     let differs =
         |toss: &CoinToss, reference: &Reference| Ok(f64::from(batched(toss, outcome)? != reference.outcome()));
     vec![
-        Set::of_coins("random", |tries| level(random(tries, 6e4, 14)?), differs),
-        Set::of_coins("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), differs),
-        Set::of_coins("adversarial, many turns", |tries| level(adversarial(tries / 4, many_turns)?), differs),
+        Set::of_tries("random", |tries| level(random(tries, 6e4, 14)?), differs),
+        Set::of_tries("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), differs),
+        Set::of_tries("adversarial, many turns", |tries| level(adversarial(tries / 4, many_turns)?), differs),
     ]
 }
 
@@ -204,17 +204,17 @@ pub(super) const SIMD_LEVELS: Check = Check {
 
 fn simd_levels() -> Vec<Set> {
     vec![
-        Set::of_coins("random", |tries| level(random(2 * tries, 6e4, 15)?), levels_that_differ),
-        Set::of_coins("adversarial", |tries| level(adversarial(tries, few_turns)?), levels_that_differ),
+        Set::of_tries("random", |tries| level(random(2 * tries, 6e4, 15)?), levels_that_differ),
+        Set::of_tries("adversarial", |tries| level(adversarial(tries, few_turns)?), levels_that_differ),
     ]
 }
 
 fn of_batches(error: OfCoin) -> Vec<Set> {
     vec![
-        Set::of_coins("phases to 1e2", |tries| level(random(tries, 1e2, 11)?), error),
-        Set::of_coins("phases to 1e9", |tries| level(random(tries, 1e9, 13)?), error),
-        Set::of_coins("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), error),
-        Set::of_coins("corners", |_| corners(), error),
+        Set::of_tries("phases to 1e2", |tries| level(random(tries, 1e2, 11)?), error),
+        Set::of_tries("phases to 1e9", |tries| level(random(tries, 1e9, 13)?), error),
+        Set::of_tries("adversarial", |tries| level(adversarial(tries / 2, few_turns)?), error),
+        Set::of_tries("corners", |_| corners(), error),
     ]
 }
 
@@ -300,8 +300,8 @@ pub(super) const TERMS: Check = Check {
 
 fn terms() -> Vec<Set> {
     vec![
-        Set::of_coins("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
-        Set::of_coins("corners", |_| corners(), terms_error),
+        Set::of_tries("phases to 1e2", |tries| random(tries / 4, 1e2, 9), terms_error),
+        Set::of_tries("corners", |_| corners(), terms_error),
     ]
 }
 
@@ -329,7 +329,7 @@ fn mean_errors() -> Vec<Set> {
             Ok(all.into_iter().filter(|toss| is_horizontal(&toss.launch) == flat).collect())
         };
         let error = move |toss: &CoinToss, reference: &Reference| Ok(reference.cos_tilt_error(of(toss)?));
-        Set::of_coins(&format!("{method}, {launches}"), tosses, error)
+        Set::of_tries(&format!("{method}, {launches}"), tosses, error)
     };
     [("horizontal", true), ("tilted", false)]
         .into_iter()
@@ -466,7 +466,7 @@ fn derivatives() -> Vec<Set> {
     let set = |(part, name)| {
         let tosses =
             |context: &Context| Ok(context.survey.get(context)?.tosses.iter().take(LAUNCHES).copied().collect());
-        Set::new(name, tosses, of_coin(move |toss, _| Ok(errors_of_derivatives(toss)?[part])))
+        Set::of_coins(name, tosses, move |toss, _| Ok(errors_of_derivatives(toss)?[part]))
     };
     [(0, "attitude"), (1, "cos θ")].map(set).into()
 }
@@ -544,7 +544,7 @@ fn searched(seed: u64, wrong: OfCoin) -> Vec<Set> {
         };
         Ok(random(number, 1e2, seed)?.into_iter().map(Toss::from).collect())
     };
-    vec![Set::new("random", tosses, of_coin(wrong))]
+    vec![Set::of_coins("random", tosses, wrong)]
 }
 
 /// The value of an input.

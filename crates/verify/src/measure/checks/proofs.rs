@@ -51,7 +51,7 @@ pub(super) const TIGHTNESS: Check = Check {
             };
             [("phases to 1e2", 1e2, 10), ("phases to 1e3", 1e3, 10), ("phases to 1e5", 1e5, 100)]
                 .map(|(name, phase, part)| {
-                    Set::of_coins(
+                    Set::of_tries(
                         name,
                         move |tries| random(tries / part, phase, 36),
                         move |toss, reference| ratio(&(*toss).into(), reference),
@@ -87,7 +87,7 @@ fn bounds() -> Vec<Set> {
             require_short(toss)?;
             Ok(share(&taylor(tolerance)?.enclose(&(*toss).into())?, reference))
         };
-        Set::of_coins(name, tosses, share)
+        Set::of_tries(name, tosses, share)
             .quickly(move |toss| quick_share(&taylor(tolerance).ok()?.enclose(toss).ok()?, toss))
     }
     fn is_short(toss: &CoinToss) -> bool {
@@ -163,7 +163,7 @@ fn outcomes() -> Vec<Set> {
         Ok(f64::from(found != Outcome::Undecided && found != right))
     }
     let coins = |name, tosses: fn(u64) -> anyhow::Result<Vec<CoinToss>>| {
-        Set::of_coins(name, tosses, move |toss, reference| of_coin_by(toss, reference.outcome()))
+        Set::of_tries(name, tosses, move |toss, reference| of_coin_by(toss, reference.outcome()))
             .quickly(move |toss| of_coin_by(&toss.coin()?, clear_outcome(toss)?).ok())
     };
     let coins = [
