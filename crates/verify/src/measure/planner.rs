@@ -384,7 +384,7 @@ impl Truth {
 /// many more than the models use.
 ///
 /// # Errors
-/// Never for the spaces of [`scenes`](super::scenes).
+/// Never for such a [`space`].
 pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
     const OTHER_SEED: u64 = 987_654_321;
     let free: Vec<Coordinate> = space.free().collect();
