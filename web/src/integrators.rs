@@ -55,7 +55,7 @@ impl Chosen {
             config = config.with_tolerance(tolerance(text)?)?;
         }
         if let Some(text) = &self.step {
-            config = config.with_step(toss::Dimension::Time.read("step [s]", text)?)?;
+            config = config.with_step(toss::quantity::Dimension::Time.read("step [s]", text)?)?;
         }
         if let Some(name) = &self.formulation {
             config = config.with_formulation(Formulation::named(name)?);

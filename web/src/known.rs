@@ -4,7 +4,8 @@ use dynamics::error::find_named;
 use dynamics::quantity::NamedUnit;
 use serde_json::{Value, json};
 use toss::catalogue::CATALOGUE;
-use toss::{Dimension, Error, Registry, Scheme, SolverEntry};
+use toss::quantity::Dimension;
+use toss::{Error, Registry, Scheme, SolverEntry};
 
 /// Everything that can be chosen by name.
 pub(crate) fn known() -> Value {

@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
 
-use crate::json::{SCHEMA, plain_json};
+use crate::output::{SCHEMA, plain_json};
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
@@ -226,9 +226,8 @@ fn input_details(source: &InputError) -> Value {
         InputError::OutOfRange { field, value, valid } => json!({"field": field, "value": value, "valid": valid}),
         InputError::Malformed { field, value, .. }
         | InputError::LookAlike { field, value, .. }
-        | InputError::UnknownName { field, value, .. } => {
-            json!({"field": field, "value": value})
-        }
+        | InputError::UnknownName { field, value, .. }
+        | InputError::NoEffect { field, value, .. } => json!({"field": field, "value": value}),
         other => json!({"field": other.field()}),
     }
 }

@@ -3,7 +3,7 @@
 //! angular momentum.
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input};
+use crate::output::{FormatArgs, Input};
 use crate::quantity;
 use crate::toss_args::CoinArgs;
 use sampling::{long_flight_cone, rate_ratio};
@@ -16,13 +16,12 @@ pub(crate) struct Args {
     /// Wanted probability of heads in long flights from horizontal, above 1/2 and at most 1
     #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = quantity::fraction)]
     probability: f64,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct Rates {
     probability: f64,
     inertia_ratio: f64,
     /// Ω/ωz.
@@ -33,19 +32,15 @@ struct Answer {
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let coin =
-            self.coin.coin("the limit of long flights is a formula for coins; probability estimates P(heads)")?;
+        let coin = self.coin.coin()?;
         let (probability, k) = (self.probability, coin.inertia_ratio());
         let cone_angle = long_flight_cone(probability)?;
-        let answer = Answer { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };
-        Ok(match self.format {
-            Format::Json => output::json(input, &answer),
-            Format::Text => answer.text(),
-        })
+        let answer = Rates { probability, inertia_ratio: k, rate_ratio: rate_ratio(probability, k)?, cone_angle };
+        Ok(self.format.print(input, &answer, || answer.text()))
     }
 }
 
-impl Answer {
+impl Rates {
     fn text(&self) -> String {
         let Self { probability, inertia_ratio, rate_ratio, cone_angle } = self;
         [

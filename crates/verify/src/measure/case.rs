@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, ensure};
-use toss::{Coin, CoinToss, Launch, Quantity, TimeOfFlight, Vector3};
+use toss::quantity::Quantity;
+use toss::{Coin, CoinToss, Launch, TimeOfFlight, Vector3};
 
 use crate::measure::subject::Subject;
 

@@ -17,7 +17,8 @@ use std::cmp::Ordering;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use numerics::DoubleDouble;
-use toss::{Angle, AngleUnit, Attitude, Coin, CoinToss, Launch, Outcome, Quantity, TimeOfFlight, Vector3};
+use toss::quantity::{Angle, AngleUnit, Quantity};
+use toss::{Attitude, Coin, CoinToss, Launch, Outcome, TimeOfFlight, Vector3};
 
 /// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
