@@ -1,9 +1,7 @@
 //! Runs the commands about how a launch changes its outcome as a user does: the margins of `toss`, `intervals` and
 //! `inverse`.
 
-mod common;
-
-use common::{assert_near, assert_refused, json, run, stdout};
+use crate::common::{assert_near, json, run, stdout};
 use serde_json::{Value, json as value};
 
 #[test]
@@ -46,12 +44,6 @@ fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
     let exact = json("probability --rate-x 20 --rate-y 5 --rate-z 3 --tilt 0.4 --speed 3:9 --method exact-speed", 0);
     assert_near(&answer["probability"], exact["probability"].as_f64().unwrap(), 1e-13);
     assert!(stdout(&run("intervals --rate 2,2,0.5 --speed 3:5")).ends_with("share of the range  0.000000000000\n"));
-    assert_refused(&[
-        ("intervals --rate 1,1,1 --speed 3", ["--speed", "LO:HI"]),
-        ("intervals --rate 1,1,1 --speed -3:3", ["speed [m/s] = -3.0", ">= 0"]),
-        ("intervals --rate 1,1,1 --speed 5:3", ["speed [m/s] = 3.0", "lower bound"]),
-        ("intervals --rate 1e6,1,1 --speed 0:3", ["more than 10000 times", "shorter range"]),
-    ]);
 }
 
 #[test]
@@ -60,8 +52,4 @@ fn the_inverse_launch_has_the_wanted_probability() {
     let answer = json("inverse --probability 0.6081734479693927 --coin disc", 0);
     assert_near(&answer["cone_angle"], std::f64::consts::FRAC_PI_3, 1e-14);
     assert_near(&answer["rate_ratio"], 2.0 * 3f64.sqrt(), 1e-13);
-    assert_refused(&[
-        ("inverse --probability 0.5", ["probability = 0.5", "above 1/2"]),
-        ("inverse --probability nan", ["probability = NaN", "at most 1"]),
-    ]);
 }

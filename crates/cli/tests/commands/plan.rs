@@ -1,9 +1,7 @@
 //! Runs `unfair-toss plan` as a user does, and checks which model it chooses, which it passes over, and what it
 //! refuses. Refusals matter here because an option without effect would mislead.
 
-mod common;
-
-use common::{assert_near, assert_refused, json, run, stderr};
+use crate::common::{assert_near, assert_refused, json, run, stderr};
 
 /// Asserts that the options are refused because they conflict.
 #[track_caller]

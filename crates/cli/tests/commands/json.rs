@@ -1,13 +1,9 @@
 //! JSON as a contract: every field of every command is the one that `docs/json.md` lists, and bad input is JSON too.
 
-mod common;
-#[path = "common/fields.rs"]
-mod fields;
-
 use std::collections::BTreeSet;
 
-use common::{json, run, stderr, stdout};
-use fields::{Fields, collect, documented};
+use crate::common::{json, run, stderr, stdout};
+use crate::fields::{Fields, collect, documented};
 use serde_json::Value;
 
 /// Every field that was found is documented with its type, and every documented one was found.

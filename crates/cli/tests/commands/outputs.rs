@@ -2,16 +2,13 @@
 //!
 //! A full device is only ever inherited as an open stream, and every path is in a temporary folder: a program that replaced
 //! what it should write through could not harm the machine, whoever runs the test.
-#![cfg(unix)]
-
-mod common;
 
 use std::fs::{self, OpenOptions};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use common::{json, run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 
 const MAP: &str = "map --rate-x 0:9:3 --rate-y 0 --rate-z 1:9:3 --speed 3:5";
 

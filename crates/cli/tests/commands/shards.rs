@@ -1,11 +1,9 @@
 //! Parts of an estimate: any partition merges to the whole, a part that is there is not computed again, and what would
 //! count a launch twice or not at all is refused with the name of its file.
 
-mod common;
-
 use std::path::Path;
 
-use common::{json, run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 
 /// Writes part `index` of `number` of the estimate with these options into `folder`, and returns its path.
 fn part(folder: &Path, options: &str, index: usize, number: usize) -> String {

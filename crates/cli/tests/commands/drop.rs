@@ -1,8 +1,6 @@
 //! A landing below or above the launch, in every command that flies; traces by a step of time; methods that are chosen.
 
-mod common;
-
-use common::{assert_near, assert_refused, json, run, stderr, stdout};
+use crate::common::{assert_near, json, run, stderr, stdout};
 
 const SPACE: &str = "--rate-x 1:60:30 --rate-y 4 --rate-z 7 --speed 3:5:20";
 
@@ -35,14 +33,6 @@ fn every_command_over_a_space_takes_a_drop() {
 
 #[test]
 fn integrating_over_the_speed_is_refused_with_a_drop() {
-    let refusal = ["drop [m] is outside the model", "exact-speed integrates over the speed"];
-    assert_refused(&[
-        ("probability --space tails --method exact-speed --drop 1", refusal),
-        ("map --rate-x 1:9:2 --rate-y 4 --rate-z 7:9:2 --speed 3:5 --drop 1", refusal),
-        ("errors --space tails --drop 1 --up-to 8", refusal),
-        ("probability --space tails --method grid --drop -0.5", ["drop [m] = -0.5", ">= -v0²/(2 g)"]),
-        ("intervals --rate 1,1,1 --speed 2:3 --drop -0.3", ["drop [m] = -0.3", ">= -v0²/(2 g)"]),
-    ]);
     // Without a drop exact-speed would be chosen.
     let planned = json("probability --space tails --drop 1 --accuracy 1e-2", 0);
     assert_ne!(planned["method"], "exact-speed");
@@ -77,12 +67,6 @@ fn a_trace_by_steps_of_time_ends_at_the_landing() {
     assert_eq!(times("--dt 300ms"), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
     assert_eq!(times("--dt 0.25"), times("--points 5"));
     assert_eq!(times("--dt 0.25 --solver euler"), times("--points 5"));
-    assert_refused(&[
-        ("trace --rate 1,1,1 --time 1 --dt 0", ["dt [s] = 0.0", "> 0 s"]),
-        ("trace --rate 1,1,1 --time 1 --dt -0.1", ["dt [s] = -0.1", "> 0 s"]),
-        ("trace --rate 1,1,1 --time 1 --dt 1e-9", ["dt [s] = 1e-9", "a millionth"]),
-        ("trace --rate 1,1,1 --time 1", ["one of --points N and --dt H", "needed"]),
-    ]);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("still.svg");
     let output = run(&format!("trace --rate 1,1,1 --time 0 --dt 1 --svg {}", path.display()));
@@ -104,14 +88,6 @@ fn a_probability_without_a_method_is_as_accurate_as_was_asked_for() {
     assert_near(&json(space, 0)["probability"], known, 1e-4);
     let text = stdout(&run(space));
     assert!(text.ends_with("method       exact-speed, chosen for an error of 1e-4\n"), "{text}");
-    assert_refused(&[
-        (&format!("{space} --accuracy 0"), ["accuracy = 0.0", "> 0"]),
-        (&format!("{space} --accuracy nan"), ["accuracy = NaN", "> 0"]),
-        (&format!("{space} --points 9"), ["--points needs --method", "--accuracy"]),
-        (&format!("{space} --seed 9"), ["--seed needs --method", "plan"]),
-        (&format!("{space} --solver gamma"), ["--solver needs --method", "exact motion"]),
-        (&format!("{space} --accuracy 1e-3 --method random"), ["--accuracy", "can't be used with this --method"]),
-    ]);
 }
 
 #[test]
