@@ -17,6 +17,7 @@
 
 pub mod axis;
 mod block;
+mod certain_line;
 pub mod coordinate;
 pub mod counts;
 #[cfg(feature = "serde")]
@@ -51,6 +52,7 @@ pub mod tally;
 mod tally_data;
 
 pub use axis::{Axis, Distribution};
+pub use certain_line::{CertainLine, Piece, certain_line};
 pub use coordinate::Coordinate;
 pub use counts::Counts;
 pub use drawn::Drawn;

@@ -2,9 +2,7 @@
 
 use chart::{Axis, ChartError, Drawn, Panel, TEXT, VERMILION, centred, frame, svg};
 use plotters::prelude::*;
-use sampling::{Map, Space};
-
-use crate::chart::certain_line::{CertainLine, Piece, certain_line};
+use sampling::{CertainLine, Map, Piece, Space, certain_line};
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1500, 1300);

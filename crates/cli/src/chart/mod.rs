@@ -1,6 +1,5 @@
 //! The charts of the commands as SVG, one file for each chart or for each part of it. They draw and compute nothing else.
 
-mod certain_line;
 mod errors;
 mod flight;
 mod limit;

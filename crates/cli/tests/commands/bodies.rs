@@ -1,36 +1,6 @@
 //! Rigid bodies with I1 ≠ I2: how they are given, what answers them, and that no command takes one for a coin.
 
-use crate::common::{assert_near, json, run, stderr, stdout};
-
-/// The reference values of the exact motion of bodies: attitude at landing after `time` from horizontal.
-#[test]
-fn a_toss_of_any_body_lands_as_the_reference_says_and_is_proven() {
-    let cases = [
-        ("2,3,4", "0.5,-1.25,2", "25", [0.843159498103707, 0.094991018164872, 0.014213294380417, 0.529014885885418]),
-        ("1,2,2.25", "0.75,1,1", "10", [0.088776941851129, 0.172285221657342, 0.901367517439453, 0.387263547857371]),
-    ];
-    for (moments, rate, time, attitude) in cases {
-        let answer = json(&format!("toss --moments {moments} --rate {rate} --time {time}"), 0);
-        // Q and -Q are the same attitude; those of the reference have w > 0.
-        let part = |index: usize| answer["attitude"][index].as_f64().unwrap();
-        for (index, expected) in attitude.into_iter().enumerate() {
-            assert!((part(index) * part(0).signum() - expected).abs() < 2e-15, "{moments}: {}", answer["attitude"]);
-        }
-        assert_eq!(answer["certified"], true);
-        // The same body by its tensor, and in another unit, which changes no ratio of its moments.
-        let [x, y, z] = [0, 1, 2].map(|at| moments.split(',').nth(at).unwrap());
-        for same in [format!("--inertia {x},{y},{z},0,0,0"), format!("--moments {x}g·cm²,{y}g·cm²,{z}g·cm²")] {
-            let other = json(&format!("toss {same} --rate {rate} --time {time}"), 0);
-            assert_eq!((&other["outcome"], &other["certified"]), (&answer["outcome"], &true.into()), "{same}");
-            assert_near(&other["cos_tilt"], answer["cos_tilt"].as_f64().unwrap(), 2e-15);
-        }
-    }
-    let brick = json("toss --coin nasa-brick --rate 10deg/s,20deg/s,30deg/s --time 30", 0);
-    let expected = [12.6183907759142, -17.3974747616114, 31.1195888869443_f64];
-    for (found, expected) in brick["rate"].as_array().unwrap().iter().zip(expected) {
-        assert_near(found, expected.to_radians(), 1e-14);
-    }
-}
+use crate::common::{json, run, stderr, stdout};
 
 #[test]
 fn a_body_with_two_equal_moments_is_the_coin_that_it_always_was() {
@@ -56,24 +26,6 @@ fn a_proof_does_not_outlive_the_rounding_of_a_unit() {
 }
 
 #[test]
-fn the_margin_and_the_intervals_of_a_body_end_where_its_outcome_flips() {
-    let outcome = |options: &str| json(&format!("toss --coin racket --rate 1,12,3 {options}"), 0)["outcome"].clone();
-    let toss = json("toss --coin racket --rate 1,12,3 --speed 3 --margin", 0);
-    assert_eq!(json("toss --coin racket --rate 1,12,3 --speed 3", 0)["margin"], serde_json::Value::Null);
-    let change = toss["margin"]["speed"].as_f64().unwrap();
-    let at = |part: f64| outcome(&format!("--speed {}", 3.0 + part * change));
-    assert_eq!((at(0.999), at(1.001) == toss["outcome"]), (toss["outcome"].clone(), false));
-    let heads = json("intervals --coin racket --rate 1,12,3 --speed 2:5", 0)["heads"].clone();
-    let ends = heads.as_array().unwrap().iter().flat_map(|pair| pair.as_array().unwrap());
-    let inner: Vec<f64> = ends.map(|end| end.as_f64().unwrap()).filter(|end| (2.01..4.99).contains(end)).collect();
-    assert!(!inner.is_empty());
-    for end in inner {
-        let [below, above] = [end - 1e-6, end + 1e-6].map(|speed| outcome(&format!("--speed {speed}")));
-        assert_ne!(below, above, "{end}");
-    }
-}
-
-#[test]
 fn plates_rods_and_moments_of_any_size_are_bodies() {
     let toss = "--rate 1,2,3 --speed 3";
     for body in ["1,2,3", "0,1,1", "1,1,0", "1e300,1.5e300,2e300", "1e-300,1.5e-300,2e-300", "0.1,0.7,0.8"] {
@@ -91,25 +43,6 @@ fn solvers_for_coins_refuse_a_body_by_a_sentence() {
     let rows = json("compare --coin book --rate 1,2,3 --speed 3 --repeats 0", 0)["rows"].clone();
     let of = |solver: &str| rows.as_array().unwrap().iter().find(|row| row["solver"] == solver).unwrap().clone();
     assert_eq!((&of("exact")["failure"], &of("gamma")["failure"]["kind"]), (&().into(), &"not_symmetric".into()));
-}
-
-#[test]
-fn parts_of_a_probability_of_a_body_are_merged_to_the_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let space =
-        "--coin us-quarter-engraved --rate-x 20:30 --rate-y 5 --rate-z 3 --speed 3:4 --method sobol --points 2048";
-    let parts = [1, 2].map(|part| {
-        let path = folder.path().join(format!("{part}.json")).display().to_string();
-        let output = run(&format!("probability {space} --shard {part}/2 --out {path}"));
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        path
-    });
-    let merged = json(&format!("merge {} {}", parts[0], parts[1]), 0);
-    let whole = json(&format!("probability {space}"), 0);
-    for field in ["heads", "tails", "probability", "interval"] {
-        assert_eq!(merged[field], whole[field], "{field}");
-    }
-    assert_eq!((&whole["certified"], &merged["certified"]), (&true.into(), &false.into()));
 }
 
 /// Every command that takes a coin either answers for a body, differently than for a coin, or refuses it.

@@ -32,46 +32,9 @@ fn every_command_over_a_space_takes_a_drop() {
 }
 
 #[test]
-fn integrating_over_the_speed_is_refused_with_a_drop() {
-    // Without a drop exact-speed would be chosen.
+fn a_plan_with_a_drop_takes_no_exact_speed() {
     let planned = json("probability --space tails --drop 1 --accuracy 1e-2", 0);
     assert_ne!(planned["method"], "exact-speed");
-}
-
-#[test]
-fn the_intervals_of_speed_with_a_drop_are_those_of_the_tosses() {
-    let command = "--rate 20,5,3 --tilt 0.4 --drop 1.2";
-    let answer = json(&format!("intervals --speed 3:9 {command}"), 0);
-    let intervals = answer["heads"].as_array().unwrap();
-    assert!(intervals.len() > 3);
-    let outcome = |speed: f64| json(&format!("toss {command} --speed {speed}"), 0)["outcome"].clone();
-    let mut length = 0.0;
-    for interval in intervals {
-        let [slow, fast] = [0, 1].map(|end| interval[end].as_f64().unwrap());
-        length += fast - slow;
-        assert_eq!((outcome(slow + 1e-9), outcome(fast - 1e-9)), ("heads".into(), "heads".into()));
-        assert!(slow == 3.0 || outcome(slow - 1e-9) == "tails", "{slow}");
-        assert!(fast == 9.0 || outcome(fast + 1e-9) == "tails", "{fast}");
-    }
-    assert_near(&answer["probability"], length / 6.0, 1e-15);
-    let level = json("intervals --speed 3:9 --rate 20,5,3 --tilt 0.4 --drop 0", 0);
-    assert_eq!(level["heads"], json("intervals --speed 3:9 --rate 20,5,3 --tilt 0.4", 0)["heads"]);
-}
-
-#[test]
-fn a_trace_by_steps_of_time_ends_at_the_landing() {
-    let times = |options: &str| -> Vec<f64> {
-        let answer = json(&format!("trace --rate 2,2,0.5 --time 1 {options}"), 0);
-        answer["points"].as_array().unwrap().iter().map(|point| point["time"].as_f64().unwrap()).collect()
-    };
-    assert_eq!(times("--dt 300ms"), [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
-    assert_eq!(times("--dt 0.25"), times("--points 5"));
-    assert_eq!(times("--dt 0.25 --solver euler"), times("--points 5"));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("still.svg");
-    let output = run(&format!("trace --rate 1,1,1 --time 0 --dt 1 --svg {}", path.display()));
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(stdout(&output).lines().count(), 2);
 }
 
 #[test]

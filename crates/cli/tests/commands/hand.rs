@@ -4,33 +4,6 @@ use crate::common::{assert_near, json, run, stderr, stdout};
 use serde_json::Value;
 
 #[test]
-fn the_spread_that_is_found_has_the_wanted_probability() {
-    let toss = "--coin us-quarter --turn 38rev/s --wobble 60deg --speed 2.45";
-    let found = json(&format!("spread {toss} --heads 95%"), 0);
-    assert_eq!(found["answer"], "up_to");
-    let spread = found["spread"].as_f64().unwrap();
-    // By another method and seed: launches that are independent.
-    let at = |spread: f64| {
-        let answer =
-            json(&format!("probability {toss} --spread {spread} --method random --points 1000000 --seed 5"), 0);
-        answer["probability"].as_f64().unwrap()
-    };
-    assert!((at(spread) - 0.95).abs() < 1e-3, "{}", at(spread));
-    assert!(at(0.9 * spread) > 0.955 && at(1.1 * spread) < 0.945);
-    let interval = [0, 1].map(|end| found["interval"][end].as_f64().unwrap());
-    assert!(interval[0] < 0.9501 && 0.9499 < interval[1], "{interval:?}");
-    // Each input alone may spread more than all together, and what is 0 has no spread.
-    for alone in found["alone"].as_array().unwrap() {
-        assert!(alone["spread"].as_f64() > Some(spread), "{alone}");
-        assert_eq!(alone["answer"] == "any", alone["input"] == "rate_y");
-    }
-    assert_eq!(found, json(&format!("spread {toss} --heads 0.95 --threads 1"), 0));
-    let other = json(&format!("spread {toss} --heads 0.95 --seed 2"), 0);
-    assert!(other["spread"] != found["spread"]);
-    assert_near(&other["spread"], spread, 0.01 * spread);
-}
-
-#[test]
 fn tosses_that_are_always_or_never_heads_say_so() {
     let answer = |options: &str| json(&format!("spread {options} --heads 0.95"), 0);
     let always = answer("--coin us-quarter --turn 38rev/s --wobble 15deg --speed 2.4");

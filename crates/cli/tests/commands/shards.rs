@@ -30,6 +30,7 @@ fn ninety_seven_parts_in_any_order_are_the_whole() {
         "--space paper-fig4 --method sobol --points 16384",
         "--space paper-fig4 --method grid",
         "--rate-x 1:9 --rate-y x --rate-z 1:9 --speed 3:5 --method exact-speed --points 4096",
+        "--coin us-quarter-engraved --rate-x 20:30 --rate-y 5 --rate-z 3 --speed 3:4 --method sobol --points 2048",
     ] {
         let folder = tempfile::tempdir().unwrap();
         let parts: Vec<String> = (1..=97).rev().map(|index| part(folder.path(), options, index, 97)).collect();
