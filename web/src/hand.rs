@@ -1,7 +1,7 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
-use serde::Serialize;
+use sampling::{Coordinate, HAND, Plan, Rest, Sampler, Scrambled, Space};
+use toss::report::{Estimate, Precision};
 use toss::{Error, InputError};
 
 use crate::thrown::{Thrown, malformed};
@@ -14,54 +14,18 @@ const POINTS_OF_SEARCH: u64 = 1024;
 
 const SEED: u64 = 1;
 
-#[derive(Debug, Serialize)]
-pub(crate) struct Answer {
-    probability: f64,
-    interval: Option<[f64; 2]>,
-    interval_kind: String,
-    points: u64,
-}
-
-/// How large a spread may be.
-#[derive(Debug, Serialize)]
-pub(crate) struct Precision {
-    /// As in the answer of `unfair-toss spread`.
-    answer: &'static str,
-    spread: Option<f64>,
-    probability: Option<f64>,
-    looks: Option<u32>,
-    at_least: Option<f64>,
-}
-
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
-pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error> {
+pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Estimate, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
-    let found = Sampler::exact().sampled(&space, plan(&space))?;
-    Ok(Answer {
-        probability: found.probability,
-        interval: found.interval.map(|interval| [interval.lo, interval.hi]),
-        interval_kind: found.interval_kind.to_string(),
-        points: found.points,
-    })
+    let plan = plan(&space);
+    Ok(Estimate::new(&Sampler::exact().sampled(&space, plan)?, plan))
 }
 
 /// The largest spread with which P(heads) is at least `heads`.
 pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
     let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
-    let (answer, found) = match &found {
-        LargestSpread::UpTo(found) => ("up_to", Some(found)),
-        LargestSpread::Any(found) => ("any", Some(found)),
-        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
-        LargestSpread::BelowSmallest(_) => ("below_smallest", None),
-    };
-    Ok(Precision {
-        answer,
-        spread: found.map(|found| found.spread),
-        probability: found.map(|found| found.estimate.probability),
-        looks: found.map(|found| found.looks),
-        at_least: found.map(|found| found.at_least),
-    })
+    Ok(Precision::from(&found))
 }
 
 /// The most accurate plan for a space that spreads.

@@ -53,6 +53,16 @@ pub(crate) enum Failure {
         /// The error, with its line and column.
         source: Error,
     },
+    /// A row of a file of which a value is invalid.
+    #[error("{path}, line {line}: {source}")]
+    Row {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        source: InputError,
+    },
     /// A file of a part that is none, or does not fit.
     #[error("{path}: {message}")]
     Part {
@@ -130,7 +140,7 @@ impl Failure {
             Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => {
                 error.kind()
             }
-            Self::Arguments(_) | Self::Usage { .. } | Self::Part { .. } => "input",
+            Self::Arguments(_) | Self::Usage { .. } | Self::Row { .. } | Self::Part { .. } => "input",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
@@ -152,6 +162,9 @@ impl Failure {
         match self {
             Self::Unanswered(error) | Self::Value { source: error, .. } => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
+            Self::Row { path, line, source } => {
+                with(with(input_details(source), "path", json!(path)), "line", json!(line))
+            }
             Self::Part { path, .. } => json!({"path": path}),
             Self::Read { option, path, .. } | Self::Write { option, target: path, .. } => {
                 json!({"field": option, "path": path})

@@ -77,8 +77,8 @@ impl SeriesArgs {
         }
     }
 
-    /// Whether a chart is asked for and no format of the data.
-    pub(crate) fn is_for_a_chart(&self) -> bool {
+    /// Whether a chart is asked for.
+    pub(crate) fn has_chart(&self) -> bool {
         self.svg.is_some()
     }
 

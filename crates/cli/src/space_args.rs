@@ -13,6 +13,7 @@ use sampling::{
 use toss::Error;
 use toss::quantity::Dimension;
 
+use crate::chart::named;
 use crate::failure::Failure;
 use crate::output::{self, counter, progress_bar};
 use crate::quantity;
@@ -91,6 +92,20 @@ impl SpaceArgs {
             return Err(Failure::usage("space", message));
         }
         Ok(Space::parse(body, &given)?)
+    }
+
+    /// The space in words, for the title of a chart: by its name, or by its body and its axes as they were typed.
+    pub(crate) fn words(&self, space: &Space) -> String {
+        if let Some(name) = &self.space {
+            return format!("space {name}");
+        }
+        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
+        let typed = Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| {
+            let symbol = of.symbol().split('/').next().unwrap_or_default();
+            text.as_ref().map(|text| format!("{symbol} {text}"))
+        });
+        let axes: Vec<String> = self.turn.words().into_iter().chain(typed).collect();
+        format!("{}: {}", named(&space.body()), axes.join(", "))
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its

@@ -98,12 +98,12 @@ pub(crate) struct TurnArgs {
     /// Rate |S|/I1 at which the normal n turns about the angular momentum S; with --wobble in place of the body rate. It
     /// stands for ωx = RATE sin ψ, ωy = 0 and ωz = RATE cos ψ I1/I3
     #[arg(long, value_name = "RATE", allow_hyphen_values = true, requires = "wobble",
-          value_parser = quantity::of(Dimension::TurnRate))]
-    turn: Option<f64>,
+          value_parser = quantity::given(Dimension::TurnRate))]
+    turn: Option<Given>,
     /// Angle ψ between n and S, from 0 to 180deg; with --turn
     #[arg(long, value_name = "PSI", allow_hyphen_values = true, requires = "turn",
-          value_parser = quantity::of(Dimension::Angle))]
-    wobble: Option<f64>,
+          value_parser = quantity::given(Dimension::Angle))]
+    wobble: Option<Given>,
 }
 
 impl TurnArgs {
@@ -113,7 +113,12 @@ impl TurnArgs {
         let uneven =
             || Failure::usage("turn", "--turn: n of a body with I1 ≠ I2 turns unevenly; use the body rate instead");
         let coin = body.coin().ok_or_else(uneven)?;
-        Ok(Some(rate_of_precession(&coin, turn, wobble)?))
+        Ok(Some(rate_of_precession(&coin, turn.si(), wobble.si())?))
+    }
+
+    /// What was typed, for the title of a chart.
+    pub(crate) fn words(&self) -> Option<String> {
+        Some(format!("n turns at {}, ψ = {}", shown(self.turn?), shown(self.wobble?)))
     }
 }
 
@@ -150,9 +155,14 @@ impl RateArgs {
         Ok(common_unit(&components).is_none() && !components.into_iter().all(Given::is_exact_in_si))
     }
 
-    /// The rate as it was typed.
-    pub(crate) fn typed(&self) -> Option<&str> {
-        self.rate.as_deref()
+    /// What was typed, for the title of a chart.
+    fn words(&self) -> Option<String> {
+        let components = self.components().ok()?;
+        let list = |number: fn(Given) -> String| components.map(number).join(", ");
+        Some(match common_unit(&components) {
+            Some(unit) => format!("ω = ({}) {}", list(|given| given.value().to_string()), unit.name()),
+            None => format!("ω = ({})", list(shown)),
+        })
     }
 
     fn components(&self) -> Result<[Given; 3], Failure> {
@@ -215,12 +225,25 @@ impl TossArgs {
         Ok(Toss { body, launch })
     }
 
+    /// The launch in the units in which it was typed, for the title of a chart.
+    pub(crate) fn words(&self) -> String {
+        let tilted = self.tilt.filter(|tilt| tilt.si() != 0.0);
+        let tilt = tilted.map_or_else(|| "horizontal".to_owned(), |tilt| format!("at a tilt of {}", shown(tilt)));
+        let rate = self.rate.turn.words().or_else(|| self.rate.words()).unwrap_or_default();
+        format!("launched {tilt}, {rate}")
+    }
+
     /// What the conversion of units has rounded.
     pub(crate) fn rounding(&self) -> Result<Rounding, Failure> {
         let times = [self.speed, self.time, self.gravity, self.drop];
         let flight = !times.into_iter().flatten().all(Given::is_exact_in_si);
         Ok(Rounding { flight, rate: self.rate.is_rounded()?, body: self.coin.rounding()? })
     }
+}
+
+/// A quantity in the unit in which it was typed.
+fn shown(given: Given) -> String {
+    format!("{} {}", given.value(), given.unit().name())
 }
 
 /// Options for one toss and the solver that flies it.

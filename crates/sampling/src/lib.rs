@@ -50,6 +50,7 @@ pub mod spread;
 pub mod tally;
 #[cfg(feature = "serde")]
 mod tally_data;
+pub mod wobble;
 
 pub use axis::{Axis, Distribution};
 pub use certain_line::{CertainLine, Piece, certain_line};
@@ -72,3 +73,4 @@ pub use space_builder::SpaceBuilder;
 pub use space_file::{DescribedSpace, named_space, named_spaces};
 pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
 pub use tally::Tally;
+pub use wobble::{SameSide, Wobble};

@@ -13,9 +13,9 @@ use toss::{Attitude, Body, CoinMotion, ExactMotion, Outcome, TimeOfFlight, Toss,
 use crate::chart::solid::{EDGE, Seen, Solid, TAILS, draw_cuboid, end_of, project};
 
 /// Twice the size at which it is read.
-const SIZE: (u32, u32) = (1800, 1080);
-/// Height of the title (pixels).
-const HEAD: u32 = 70;
+const SIZE: (u32, u32) = (1800, 1110);
+/// Height of the two lines of the title (pixels).
+const HEAD: u32 = 100;
 /// Width of the panels over time (pixels).
 const LEFT: u32 = 1040;
 /// Height of the panel of the coins (pixels).
@@ -23,14 +23,21 @@ const OF_COINS: u32 = 570;
 /// Height of the panel of the sphere (pixels).
 const OF_SPHERE: u32 = 760;
 
-/// The chart of `flight`, the trace of `toss`, as SVG.
-pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Result<String, ChartError> {
+/// The chart of `flight`, the trace of `toss`, as SVG. Its title has the launch in the units in which it was typed, and the solver.
+pub(crate) fn flight(
+    flight: &[TracePoint],
+    toss: &Toss,
+    outcome: Outcome,
+    (launched, solver): (&str, &str),
+) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(HEAD);
         let (over_time, beside) = body.split_horizontally(LEFT);
         let (coins, tilt) = over_time.split_vertically(OF_COINS);
         let (sphere, legend) = beside.split_vertically(OF_SPHERE);
-        centred(&head, &title(toss, outcome), (i32::try_from(SIZE.0 / 2).unwrap_or(0), 42))?;
+        let middle = i32::try_from(SIZE.0 / 2).unwrap_or(0);
+        centred(&head, &title(toss, launched, outcome), (middle, 36))?;
+        centred(&head, solver, (middle, 78))?;
         draw_coins(&coins, flight, toss)?;
         draw_tilt(&tilt, flight)?;
         draw_sphere(&sphere, flight)?;
@@ -39,19 +46,13 @@ pub(crate) fn flight(flight: &[TracePoint], toss: &Toss, outcome: Outcome) -> Re
 }
 
 /// The body, its launch and its landing.
-fn title(toss: &Toss, outcome: Outcome) -> String {
-    let attitude = toss.launch.attitude();
-    let [w, x, ..] = attitude.components();
-    let tilt =
-        if x == 0.0 { "horizontal".to_owned() } else { format!("at a tilt of {} rad", rounded(2.0 * x.atan2(w))) };
-    let rate = toss.launch.rate();
-    let (body, what) = (named(&toss.body), if toss.body.coin().is_some() { "the coin" } else { "it" });
+fn title(toss: &Toss, launched: &str, outcome: Outcome) -> String {
+    let what = if toss.body.coin().is_some() { "the coin" } else { "it" };
     let landing = match outcome {
-        Outcome::Heads => format!("{what} lands heads"),
-        Outcome::Tails => format!("{what} lands tails"),
         Outcome::Undecided => format!("how {what} lands is undecided"),
+        outcome => format!("{what} lands {outcome}"),
     };
-    format!("{body}, launched {tilt}, ω = ({}, {}, {}) rad/s: {landing}", rate.x, rate.y, rate.z)
+    format!("{}, {launched}: {landing}", named(&toss.body))
 }
 
 fn rounded(value: f64) -> f64 {
@@ -59,7 +60,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The body's name in the catalogue, if it has one, and what decides its motion.
-fn named(body: &Body) -> String {
+pub(crate) fn named(body: &Body) -> String {
     if let Some(coin) = body.coin() {
         let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|other| other == coin));
         let name = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));

@@ -7,6 +7,6 @@ mod map;
 mod solid;
 
 pub(crate) use errors::{ErrorLine, Reference, errors};
-pub(crate) use flight::{flight, points_to_draw};
+pub(crate) use flight::{flight, named, points_to_draw};
 pub(crate) use limit::limit;
 pub(crate) use map::map;

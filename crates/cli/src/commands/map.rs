@@ -55,7 +55,7 @@ impl Args {
             DataFormat::Csv => csv(&mapped),
             DataFormat::Json => output::json(input, &Nodes::from(&mapped)),
         };
-        self.series.answer(data, || Ok(chart::map(&mapped, &space)?))
+        self.series.answer(data, || Ok(chart::map(&mapped, &space, &self.space.words(&space))?))
     }
 }
 

@@ -12,6 +12,9 @@ use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
 
+/// Points that are printed beside a chart if no number is given.
+const DEFAULT_POINTS: usize = 101;
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -70,16 +73,21 @@ impl Args {
         self.series.answer(data, || {
             // As many points as the motion needs, whatever number is printed.
             let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
-            Ok(chart::flight(&drawn, &toss, backend.solver().tilt(&toss)?.outcome())?)
+            let solver = backend.solver();
+            let scheme = solver.stepping().map(|stepping| format!(", {}", stepping.scheme())).unwrap_or_default();
+            let by = format!("solver {}{scheme}", solver.name());
+            Ok(chart::flight(&drawn, &toss, solver.tilt(&toss)?.outcome(), (&self.flight.toss.words(), &by))?)
         })
     }
 
     /// The points, with their bounds if they are asked for.
     fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
-        let missing = || Failure::usage("points", "one of --points N and --dt H is needed");
+        // Who asks for a chart alone may not care for the number of points.
+        let points = self.points.or(self.series.has_chart().then_some(DEFAULT_POINTS));
+        let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
         if self.prove {
             let solver = self.flight.solver.prover(registry)?;
-            let enclosed = match (self.points, self.dt) {
+            let enclosed = match (points, self.dt) {
                 (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
                 (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,
             };
@@ -88,7 +96,7 @@ impl Args {
             };
             return Ok(enclosed.into_iter().map(bounds).collect());
         }
-        let flight = match (self.points, self.dt) {
+        let flight = match (points, self.dt) {
             (_, Some(step)) => trace_every(solver, toss, step)?,
             (points, None) => trace(solver, toss, points.ok_or_else(missing)?)?,
         };

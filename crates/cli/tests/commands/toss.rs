@@ -1,7 +1,6 @@
 //! Runs the commands about single tosses and the lists as a user does, and checks their answers, exit codes and
 //! standard output. Other programs rely on these, so they are part of the interface.
 
-
 use crate::common::{assert_near, json, run, stderr, stdout};
 use serde_json::Value;
 use toss::{Registry, SolverEntry};
