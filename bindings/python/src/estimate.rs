@@ -1,7 +1,7 @@
 //! Estimates of probabilities, as plain values.
 
-use ::toss::sampling::{self, Counts, Estimate, Found, Space};
 use ::toss::planner::How;
+use ::toss::sampling::{self, Counts, Estimate, Found, Space};
 use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Stage, Want};
 use pyo3::prelude::*;
 

@@ -5,41 +5,18 @@
 use clap::Command;
 
 /// The groups of options, each with its heading and the names of its options.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &str); 5] = [
     (
         "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
-        &["coin", "cylinder", "moments", "inertia"],
+        "coin cylinder moments inertia",
     ),
     (
         "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
-        &[
-            "rate", "turn", "wobble", "rate_x", "rate_y", "rate_z", "speed", "time", "gravity", "drop", "tilt",
-            "space", "spread", "drag", "bounce", "from", "scene",
-        ],
+        "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt space spread drag bounce from scene",
     ),
-    ("Solver", &["solver", "scheme", "tolerance", "step", "formulation", "prove"]),
-    (
-        "Sampling",
-        &[
-            "method",
-            "accuracy",
-            "points",
-            "seed",
-            "steps",
-            "replicates",
-            "up_to",
-            "reference",
-            "across",
-            "up",
-            "threads",
-            "heads",
-            "shard",
-        ],
-    ),
-    (
-        "Output",
-        &["format", "margin", "out", "svg", "dt", "repeats", "want", "probability", "counts", "shell", "command"],
-    ),
+    ("Solver", "solver scheme tolerance step formulation prove"),
+    ("Sampling", "method accuracy points seed steps replicates up_to reference across up threads heads shard"),
+    ("Output", "format margin out svg dt repeats want probability counts shell command"),
 ];
 
 /// What heads is, for commands whose answer has an outcome.
@@ -182,7 +159,7 @@ impl Text {
         let after = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
         let after: String = after.map(|paragraph| format!("\n\n{paragraph}")).collect();
         let grouped = command.mut_args(|argument| {
-            let group = GROUPS.iter().find(|(_, names)| names.contains(&argument.get_id().as_str()));
+            let group = GROUPS.iter().find(|(_, names)| names.split(' ').any(|name| name == argument.get_id()));
             group.map_or(argument.clone(), |(heading, _)| argument.help_heading(*heading))
         });
         grouped

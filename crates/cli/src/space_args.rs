@@ -105,7 +105,7 @@ impl SpaceArgs {
             text.as_ref().map(|text| format!("{symbol} {text}"))
         });
         let axes: Vec<String> = self.turn.words().into_iter().chain(typed).collect();
-        format!("{}: {}", named(&space.body()), axes.join(", "))
+        format!("{}: {}", named(space.body()), axes.join(", "))
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its
@@ -165,10 +165,8 @@ pub(crate) struct Defaults {
     pub(crate) accuracy: Option<f64>,
 }
 
-impl Defaults {
-    /// The most launches of bodies with I1 ≠ I2, which are proven one by one.
-    const MOST_OF_BODIES: u64 = 1 << 16;
-}
+/// The most launches of bodies with I1 ≠ I2 by default, which are proven one by one.
+const MOST_OF_BODIES: u64 = 1 << 16;
 
 impl PlanArgs {
     /// Refuses a number or a seed of launches without a method that they are for.
@@ -185,7 +183,7 @@ impl PlanArgs {
     /// The plan for sampling `space`.
     pub(crate) fn plan(&self, method: Method, space: &Space, default: Defaults) -> Result<Plan, Failure> {
         let seed = self.seed.unwrap_or(1);
-        let most = if space.coin().is_some() { u64::MAX } else { Defaults::MOST_OF_BODIES };
+        let most = if space.coin().is_some() { u64::MAX } else { MOST_OF_BODIES };
         let points = |default: u64| self.points.unwrap_or(default.min(most));
         let scrambled = || Scrambled::new(points(default.sobol), seed);
         let plan = match method {

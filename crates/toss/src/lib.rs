@@ -242,12 +242,12 @@ pub mod quantity {
     pub use dynamics::{Angle, AngleUnit, Dimension, Quantity, Unit};
 }
 
-/// How the planner decides: what each model offers to a [`Scene`](crate::Scene), and why it is passed over.
+/// How the planner decides: what each model offers to a [`Scene`], and why it is passed over.
 pub mod planner {
     pub use crate::choice::{Candidate, Decision, How, Offer};
-    pub use crate::model::MODELS;
+    pub use crate::model::{MODELS, Model};
     pub use crate::plan::Solution;
-    pub use crate::reason::Reason;
+    pub use crate::reason::{Nanoseconds, Reason};
     pub use crate::scene::{Integrator, WantKind};
 }
 
@@ -286,8 +286,6 @@ pub use sampling;
 // Questions, and the models that answer them.
 pub use answer::{Answer, Verdict};
 pub use choice::Choice;
-pub use model::Model;
-pub use reason::Nanoseconds;
 pub use scene::{Scene, Want};
 
 // Errors.

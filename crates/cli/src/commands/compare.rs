@@ -4,9 +4,10 @@
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
+use toss::planner::Nanoseconds;
 use toss::quantity::Dimension;
 use toss::report::{Comparison, candidates};
-use toss::{ExactSolver, Formulation, Nanoseconds, Registry, Solver, SolverConfig, Stepping, Toss};
+use toss::{ExactSolver, Formulation, Registry, Solver, SolverConfig, Stepping, Toss};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, fixed, table};

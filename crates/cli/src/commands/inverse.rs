@@ -148,8 +148,7 @@ impl Rates {
         let Self { probability, inertia_ratio, cone_angle, .. } = self;
         let ratio =
             self.rate_ratio.map_or_else(|| "none: the coin does not spin".to_owned(), |ratio| ratio.to_string());
-        let last = [format!("Ω/ωz         {ratio}"), format!("coin         k = {inertia_ratio}")];
-        let [ratio, coin] = last;
+        let [ratio, coin] = [format!("Ω/ωz         {ratio}"), format!("coin         k = {inertia_ratio}")];
         let Some(counted) = &self.counted else {
             let wanted = format!("P(heads)     {probability}, in the limit of long flights from horizontal");
             return [wanted, ratio, format!("ψ            {}°", cone_angle.to_degrees()), coin].join("\n");

@@ -54,21 +54,15 @@ impl Args {
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
         let shares = self.threads.ask(backend.sampler(), flights, ask)?;
-        let lines: Vec<Line> = shares.iter().map(Line::from).collect();
-        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
-    }
-}
-
-impl From<&LongFlightShare> for Line {
-    fn from(found: &LongFlightShare) -> Self {
-        let interval = found.estimate.interval;
-        Self {
+        let line = |found: &LongFlightShare| Line {
             cone_angle: found.cone_angle,
             limit: found.limit,
             launches: found.estimate.points,
             share: found.estimate.probability,
-            share_lo: interval.map(|interval| interval.lo),
-            share_hi: interval.map(|interval| interval.hi),
-        }
+            share_lo: found.estimate.interval.map(|interval| interval.lo),
+            share_hi: found.estimate.interval.map(|interval| interval.hi),
+        };
+        let lines: Vec<Line> = shares.iter().map(line).collect();
+        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
     }
 }

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::catalogue::{BODIES, Body, BodyEntry, CATALOGUE, CatalogueEntry, Shape};
-use toss::planner::MODELS;
+use toss::planner::{MODELS, Model};
 use toss::report::Moments;
-use toss::{Model, Registry, SolverEntry};
+use toss::{Registry, SolverEntry};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, row, table};

@@ -4,9 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use toss::planner::{Candidate, Decision, How, Integrator, Reason, WantKind};
+use toss::planner::{Candidate, Decision, How, Integrator, Nanoseconds, Reason, WantKind};
 use toss::trace::MOST_POINTS;
-use toss::{Error, ExactSolver, Nanoseconds, QuaternionSolver, Registry, Scene, StepControl, Want};
+use toss::{Error, ExactSolver, QuaternionSolver, Registry, Scene, StepControl, Want};
 
 use crate::failure::Failure;
 use crate::output::{self, FormatArgs, Input, row, table};

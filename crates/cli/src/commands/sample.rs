@@ -9,7 +9,7 @@ use std::io::{Read, Write};
 use csv::StringRecord;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
-use sampling::{Coordinate, Drawn, Method, Plan, Scrambled, Space};
+use sampling::{Drawn, Method, Plan, Scrambled, Space};
 use serde::Serialize;
 use toss::quantity::Dimension;
 use toss::{Backend, Body, Error, InputError, Launch, Registry, TimeOfFlight, Toss, Verdict};
@@ -123,18 +123,11 @@ impl Args {
     }
 }
 
-/// A launch of `space` as a row.
+/// A launch of `space`.
 fn given(space: &Space, drawn: &Drawn) -> Given {
-    let value = |of: Coordinate| drawn.values[of as usize];
-    Given {
-        rate: [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(value),
-        speed: Some(value(Coordinate::Speed)),
-        time: None,
-        gravity: Some(value(Coordinate::Gravity)),
-        drop: space.drop(),
-        tilt: value(Coordinate::Tilt),
-        toss: drawn.toss,
-    }
+    let [wx, wy, wz, speed, gravity, tilt] = drawn.values;
+    let (speed, gravity, drop) = (Some(speed), Some(gravity), space.drop());
+    Given { row: Row { wx, wy, wz, speed, gravity, drop, tilt, ..Row::default() }, toss: drawn.toss }
 }
 
 /// Solves the launches, and writes them with their landings in their order.
@@ -159,24 +152,19 @@ fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
     let landed = backend.solver().tilt(toss).and_then(|tilt| Ok((tilt, backend.verdict(toss, tilt)?)));
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
     let (tilt, verdict) = landed.map_err(failed)?;
-    Ok(Row::new(given, tilt.cos_tilt, verdict))
+    Ok(given.row.landed(toss, tilt.cos_tilt, verdict))
 }
 
-/// A launch as it was given.
+/// A launch with its row, in which what belongs to its landing is not filled in yet.
 #[derive(Debug, Clone, Copy)]
 struct Given {
-    rate: [f64; 3],
-    speed: Option<f64>,
-    time: Option<f64>,
-    gravity: Option<f64>,
-    drop: Option<f64>,
-    tilt: f64,
+    row: Row,
     toss: Toss,
 }
 
 /// A row: body rate (rad/s), speed (m/s) or time of flight (s), gravity (m/s²), drop (m) and tilt (rad), all as they were
 /// given; time of flight (s), cos θ at landing, outcome, and whether it is proven.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize)]
 struct Row {
     wx: f64,
     wy: f64,
@@ -193,23 +181,21 @@ struct Row {
 }
 
 impl Row {
-    fn new(given: &Given, cos_tilt: f64, verdict: Verdict) -> Self {
-        let Given { rate, speed, time, gravity, drop, tilt, toss } = *given;
-        let [wx, wy, wz] = rate.map(without_sign_of_zero);
+    fn landed(self, toss: &Toss, cos_tilt: f64, verdict: Verdict) -> Self {
         let plain = |value: Option<f64>| value.map(without_sign_of_zero);
         Self {
-            wx,
-            wy,
-            wz,
-            speed: plain(speed),
-            time: plain(time),
-            gravity,
-            drop: plain(drop),
-            tilt: without_sign_of_zero(tilt),
+            wx: without_sign_of_zero(self.wx),
+            wy: without_sign_of_zero(self.wy),
+            wz: without_sign_of_zero(self.wz),
+            speed: plain(self.speed),
+            time: plain(self.time),
+            drop: plain(self.drop),
+            tilt: without_sign_of_zero(self.tilt),
             flight_time: without_sign_of_zero(toss.launch.flight_time()),
             cos_tilt: without_sign_of_zero(cos_tilt),
             outcome: verdict.outcome().name(),
             certified: verdict.is_proven(),
+            ..self
         }
     }
 }
@@ -369,7 +355,10 @@ fn launch(record: &StringRecord, places: &[Option<usize>; 8], body: Body) -> Res
     };
     let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
     let gravity = speed.map(|_| gravity.unwrap_or(DEFAULT_GRAVITY));
-    Ok(Given { rate, speed, time, gravity, drop, tilt: tilt.unwrap_or(0.0), toss: Toss { body, launch } })
+    let [wx, wy, wz] = rate;
+    let tilt = tilt.unwrap_or(0.0);
+    let row = Row { wx, wy, wz, speed, time, gravity, drop, tilt, ..Row::default() };
+    Ok(Given { row, toss: Toss { body, launch } })
 }
 
 /// The error of a place in the text: a line from 1, and a column of the table from 0.

@@ -122,11 +122,7 @@ const COLUMNS: &str = "time,w,x,y,z,alpha,beta,gamma,normal_x,normal_y,normal_z,
 fn csv(points: &[Point]) -> String {
     let width = points[0].numbers().len();
     let heading = COLUMNS.split(',').take(width).collect::<Vec<_>>().join(",");
-    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(format!("{heading}\n").into_bytes());
-    for point in points {
-        writer.serialize(point.numbers()).expect("a line of plain data always fits into memory");
-    }
-    String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
+    output::csv_of_numbers(&heading, points.iter().map(Point::numbers))
 }
 
 impl From<&Bounded> for Point {

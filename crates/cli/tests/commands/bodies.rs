@@ -1,49 +1,6 @@
 //! Rigid bodies with I1 ≠ I2: how they are given, what answers them, and that no command takes one for a coin.
 
-use crate::common::{json, run, stderr, stdout};
-
-#[test]
-fn a_body_with_two_equal_moments_is_the_coin_that_it_always_was() {
-    let coin = "--rate 20,3,1 --speed 3 --tilt 0.2";
-    for (one, other) in [
-        ("--moments 2,3", "--moments 2,2,3"),
-        ("--moments 2,3", "--inertia 2,2,3,0,0,0"),
-        ("--moments 5e-7,2.5e-7", "--coin paper"),
-    ] {
-        let [one, other] = [one, other].map(|body| stdout(&run(&format!("toss {body} {coin}"))));
-        assert_eq!(one, other);
-        assert!(one.contains("margin       ") && one.contains("k = "));
-    }
-}
-
-#[test]
-fn a_proof_does_not_outlive_the_rounding_of_a_unit() {
-    let toss = "toss --moments 2,3,4 --rate 0.5,-1.25,2";
-    assert_eq!(json(&format!("{toss} --time 250ms"), 0)["certified"], true);
-    let rounded = run(&format!("{toss} --time 0.1ms"));
-    assert!(stdout(&rounded).contains("heads, not proven: the conversion of a unit"), "{}", stdout(&rounded));
-    assert_eq!(json("toss --moments 2kg·m²,3g·cm²,2g·mm² --rate 1,1,1 --time 1", 2)["error"]["field"], "I1 [kg m²]");
-}
-
-#[test]
-fn plates_rods_and_moments_of_any_size_are_bodies() {
-    let toss = "--rate 1,2,3 --speed 3";
-    for body in ["1,2,3", "0,1,1", "1,1,0", "1e300,1.5e300,2e300", "1e-300,1.5e-300,2e-300", "0.1,0.7,0.8"] {
-        assert_eq!(json(&format!("toss --moments {body} {toss}"), 0)["certified"], true, "{body}");
-    }
-}
-
-#[test]
-fn solvers_for_coins_refuse_a_body_by_a_sentence() {
-    let refused = json("toss --coin book --rate 1,2,3 --speed 3 --solver gamma", 1);
-    assert_eq!(refused["error"]["kind"], "not_symmetric");
-    assert!(
-        refused["error"]["message"].as_str().unwrap().starts_with("solver 'gamma' is for bodies with I1 = I2 only")
-    );
-    let rows = json("compare --coin book --rate 1,2,3 --speed 3 --repeats 0", 0)["rows"].clone();
-    let of = |solver: &str| rows.as_array().unwrap().iter().find(|row| row["solver"] == solver).unwrap().clone();
-    assert_eq!((&of("exact")["failure"], &of("gamma")["failure"]["kind"]), (&().into(), &"not_symmetric".into()));
-}
+use crate::common::{run, stderr, stdout};
 
 /// Every command that takes a coin either answers for a body, differently than for a coin, or refuses it.
 #[test]

@@ -33,18 +33,6 @@ fn texts(svg: &str) -> Vec<(i32, i32, String)> {
     lines.windows(2).filter_map(text).collect()
 }
 
-#[test]
-fn a_chart_is_written_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("flight.svg");
-    let output = run(&format!("trace --rate 9,4,30 --speed 4 --points 200 --svg {}", path.display()));
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let svg = std::fs::read_to_string(&path).unwrap();
-    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-    assert!(svg.contains("cos θ") && svg.contains("time [s]"));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file stays behind");
-}
-
 /// The two flights are those of the paper's Figs. 2 and 3.
 #[test]
 fn the_chart_of_a_flight_shows_how_it_lands() {
@@ -117,13 +105,36 @@ fn words_and_legend_stand_beside_the_flight() {
 }
 
 #[test]
+fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
+    for (command, words) in [
+        ("trace --rate 38rev/s,1rpm,5rev/s --speed 3", "launched horizontal, ω = (38 rev/s, 1 rpm, 5 rev/s)"),
+        ("trace --rate 38rev/s,0rev/s,5rev/s --speed 3", "ω = (38, 0, 5) rev/s: the coin lands "),
+        (
+            "trace --turn 38rev/s --wobble 60deg --tilt 15deg --speed 3",
+            "at a tilt of 15 deg, n turns at 38 rev/s, ψ = 60 deg",
+        ),
+        ("trace --rate 1,2,3 --speed 3 --solver quaternion --scheme taylor", "solver quaternion, taylor"),
+        ("map --space paper-fig4 --up speed --method random --points 1", "P(heads), space paper-fig4"),
+        (
+            "map --coin us-dime --rate-x 0:9:3 --rate-y 0 --rate-z 0rpm:9rpm:3 --speed 3:5",
+            "ωx 0:9:3, ωy 0, ωz 0rpm:9rpm:3, v0 3:5",
+        ),
+        ("convergence --space tails --steps 3", "P(heads) of the first n launches, space tails"),
+    ] {
+        let drawn = svg(command);
+        assert!(drawn.contains(words), "{command}: {:?}", texts(&drawn));
+    }
+}
+
+#[test]
 fn charts_are_written_whole() {
     let folder = tempfile::tempdir().unwrap();
     for (command, word) in [
+        ("trace --rate 9,4,30 --speed 4 --points 200", "time [s]"),
         ("convergence --space paper-fig4 --steps 20", "B, random: 0.6616"),
         ("errors --space paper-fig4 --up-to 9 --replicates 2", "exact-speed, 8 scrambles"),
         ("limit --points 50", "share of 50 flights"),
-        ("map --rate-x 0:40:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5", "ωz/(rad/s)"),
+        ("map --rate-x 0:40:5 --rate-y 0 --rate-z -60:60:5 --speed 3:5", "becomes certain, ψ = 45° and 135°"),
     ] {
         let path = folder.path().join("chart.svg");
         let output = run(&format!("{command} --svg {}", path.display()));
@@ -133,24 +144,6 @@ fn charts_are_written_whole() {
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains(word), "{command}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
-}
-
-#[test]
-fn the_line_of_certain_heads_leaves_from_the_origin_on_any_grid() {
-    const LINE: &str = "#D55E00";
-    for points in [2, 4, 31] {
-        let svg = svg(&format!("map --rate-x 0:30:{points} --rate-y 0 --rate-z 0:60:{points} --speed 3:5"));
-        // The other line of this colour is in the legend.
-        let lines = lines_of_colour(&svg, LINE);
-        let ends = [lines[1][0], *lines[1].last().unwrap()];
-        let axes = lines_of_colour(&svg, "#000000");
-        let (left, right) = (axes.iter().flatten().map(|at| at.0).min(), ends[1].0);
-        assert_eq!(lines[1].len(), 2, "it is straight on {points} points");
-        assert!((ends[0].0 - left.unwrap()).abs() < 12 && right > 1200, "{ends:?}, {left:?}");
-        assert!(svg.contains("the line where heads becomes certain, ψ = 45°"));
-    }
-    let tilted = svg("map --rate-x 0:30:3 --rate-y 0 --rate-z 40 --tilt 0:1:3 --speed 3:5 --up tilt");
-    assert!(tilted.contains("no line: ") && lines_of_colour(&tilted, LINE).is_empty());
 }
 
 #[test]

@@ -8,18 +8,15 @@ mod fields;
 
 mod bodies;
 mod charts;
-mod drop;
 mod flips;
 mod grammar;
-mod hand;
+mod help;
 mod json;
 #[cfg(unix)]
 mod outputs;
-mod plan;
 mod refusals;
 mod registry;
 mod sample;
 mod sampling;
 mod shards;
-mod toss;
 mod units;

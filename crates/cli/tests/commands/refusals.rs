@@ -127,3 +127,22 @@ fn scenes_and_spaces_are_refused_by_key_and_line() {
         assert!(error["line"].as_u64() > Some(0) && error["column"].as_u64() > Some(0), "{error}");
     }
 }
+
+#[test]
+fn a_scene_is_read_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let toss = "coin = 'us-quarter'\nlaunch = { rate = [20, 0, 5], speed = 3 }\n";
+    for (scene, model) in [("[want.tilt]", "tilt"), ("[want.outcome]", "outcome")] {
+        std::fs::write(&path, format!("accuracy = 1e-9\n{scene}\n{toss}")).unwrap();
+        assert_eq!(json(&format!("plan --scene {}", path.display()), 0)["model"], model);
+    }
+    let json_path = folder.path().join("scene.json");
+    let text =
+        r#"{"accuracy": 1e-3, "want": {"probability": {"rate_x": "0:9", "rate_y": "x", "rate_z": 5, "speed": "3:5"}}}"#;
+    std::fs::write(&json_path, text).unwrap();
+    assert_eq!(json(&format!("plan --scene {}", json_path.display()), 0)["model"], "share-sobol");
+    std::fs::write(&path, format!("accuracy = 1e-9\n[want.tilt]\n{}", toss.replace(" }", ", drag = 1 }"))).unwrap();
+    let error = json(&format!("plan --scene {}", path.display()), 2);
+    assert!(error["error"]["message"].as_str().unwrap().contains("drag is outside the model"), "{error}");
+}

@@ -4,15 +4,9 @@
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::common::{assert_near, json, run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 
-#[test]
-fn probabilities_do_not_depend_on_threads() {
-    let answers = [1, 2, 8].map(|threads| {
-        json(&format!("probability --space paper-fig4 --method random --points 20000 --seed 7 --threads {threads}"), 0)
-    });
-    assert!(answers.iter().all(|answer| *answer == answers[0]));
-}
+const SPACE: &str = "--rate-x 1:60:30 --rate-y 4 --rate-z 7 --speed 3:5:20";
 
 #[test]
 fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
@@ -27,39 +21,6 @@ fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
     assert_eq!((&error["error"]["line"], &error["error"]["column"]), (&4.into(), &9.into()));
     let message = stderr(&run(&command));
     assert!(message.contains("mine.toml, line 4, column 9: speed [m/s] = 3.0 is outside"), "{message}");
-}
-
-#[test]
-fn the_last_step_of_a_convergence_is_the_result_of_probability() {
-    let series = json("convergence --space paper-fig4 --steps 50", 0);
-    let last = &series["series"].as_array().unwrap()[49];
-    assert_eq!(last["launches"], 250_000);
-    for method in ["grid", "random"] {
-        let whole = json(&format!("probability --space paper-fig4 --method {method}"), 0);
-        assert_eq!(last[method], whole["probability"]);
-    }
-    let csv = stdout(&run("convergence --space tails --steps 4"));
-    assert_eq!(csv.lines().next(), Some("launches,grid,random,random_lo,random_hi"));
-    assert_eq!(csv.lines().count(), 5);
-}
-
-#[test]
-fn errors_are_measured_from_an_accurate_reference_and_smaller_by_exact_speed() {
-    let space = "--rate-x 1:60 --rate-y 1:60 --rate-z 1:60 --speed 3:5";
-    let lines = json(&format!("errors {space} --up-to 10 --replicates 4"), 0);
-    let lines = lines["series"].as_array().unwrap();
-    assert_eq!(lines.len(), 5 * 3);
-    for line in lines {
-        // The probability over this box, from enclosure.
-        assert_near(&line["reference"], 0.580_665_055_2, line["reference_error"].as_f64().unwrap());
-        assert!(line["rms_error"].as_f64() > Some(0.0), "{line}");
-    }
-    let error = |method: &str| {
-        lines.iter().rfind(|line| line["method"] == method).and_then(|line| line["rms_error"].as_f64()).unwrap()
-    };
-    assert!(4.0 * error("exact-speed") < error("random"));
-    let from_zero = json(&format!("errors {space} --up-to 8 --reference 0"), 0);
-    assert!(from_zero["series"][0]["rms_error"].as_f64() > Some(0.5));
 }
 
 #[cfg(unix)]
@@ -82,4 +43,41 @@ fn a_command_that_is_killed_leaves_no_file() {
     let output = child.wait_with_output().unwrap();
     assert!(!output.status.success() && output.stdout.is_empty());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn every_command_over_a_space_takes_a_drop() {
+    // The same flights: with a drop of h = 1 m the time is (v0 + √(v0² + 2 g h))/g.
+    let heads = |options: &str| json(&format!("probability {SPACE} --method grid {options}"), 0)["heads"].as_u64();
+    let sampled = stdout(&run(&format!("sample {SPACE} --method grid --drop 1m")));
+    let rows: Vec<Vec<&str>> = sampled.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 600);
+    for row in &rows {
+        let [speed, time] = [row[3], row[8]].map(|cell| cell.parse::<f64>().unwrap());
+        assert!((time - (speed + (speed * speed + 2.0 * 9.81).sqrt()) / 9.81).abs() < 1e-15, "{row:?}");
+        assert_eq!((row[6], row[11]), ("1.0", "true"));
+    }
+    // Without a drop exact-speed would be chosen.
+    assert_ne!(json("probability --space tails --drop 1 --accuracy 1e-2", 0)["method"], "exact-speed");
+    let counted = rows.iter().filter(|row| row[10] == "heads").count() as u64;
+    assert_eq!(heads("--drop 1m"), Some(counted));
+    assert_ne!(heads("--drop 0.5m"), Some(counted));
+    assert_eq!(heads("--drop 1 --solver quaternion"), Some(counted));
+    for command in [
+        &format!("convergence {SPACE} --steps 3 --drop 0.2"),
+        "probability --rate-x 1:60 --rate-y 4 --rate-z 7 --speed 3:5 --method sobol --points 64 --drop -0.2",
+        "probability --space paper-fig4 --drop 1m --accuracy 1e-2",
+        "map --rate-x 1:9:2 --rate-y 4 --rate-z 7:9:2 --speed 3:5 --method random --points 64 --drop 1",
+    ] {
+        let output = run(command);
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_hand_spreads_what_has_a_single_value() {
+    let by_spread =
+        "probability --rate-x 20 --rate-y x --rate-z 0 --speed 3:4 --spread 5% --method random --points 999";
+    let by_axes = "probability --rate-x normal:20:1 --rate-y x --rate-z 0 --speed 3:4 --method random --points 999";
+    assert_eq!(json(by_spread, 0)["heads"], json(by_axes, 0)["heads"]);
 }

@@ -149,6 +149,8 @@ fn options_of_parts_that_do_not_fit_are_refused() {
         assert_eq!(output.status.code(), Some(2), "{options}");
         assert!(stderr(&output).contains(words), "{options}: {}", stderr(&output));
     }
+    let enclosed = run("probability --space tails --method enclosure --shard 1/3 --out -");
+    assert!(enclosed.status.code() == Some(2) && stderr(&enclosed).contains("none to number"), "{}", stderr(&enclosed));
     let output = run("probability --space paper-fig4 --shard 1/3 --out -");
     assert!(output.status.code() == Some(2) && stderr(&output).contains("--method"), "{}", stderr(&output));
 }

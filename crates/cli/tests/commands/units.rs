@@ -29,23 +29,6 @@ fn a_toss_is_the_same_in_any_units() {
 }
 
 #[test]
-fn axes_take_units_on_the_command_line_and_in_files() {
-    let si = "probability --rate-x 0:62.83185307179586 --rate-y x --rate-z 3 --speed normal:4:0.1 --tilt 0.5235987755982988 \
-              --method random --points 999";
-    let units = "probability --rate-x 0:10rev/s --rate-y x --rate-z 3rad/s --speed normal:400cm/s:10cm/s --tilt 30deg \
-                 --method random --points 999";
-    assert_eq!(json(si, 0)["heads"], json(units, 0)["heads"]);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let text = "rate_x = '0:10rev/s'\nrate_y = 'x'\nrate_z = 3\nspeed = 'normal:4m/s:10cm/s'\ntilt = '30deg'\n";
-    std::fs::write(&path, text).unwrap();
-    let file = format!("probability --space {} --method random --points 999", path.display());
-    assert_eq!(json(si, 0)["heads"], json(&file, 0)["heads"]);
-    let intervals = json("intervals --rate 20,5,3 --speed 300cm/s:4m/s --tilt 10deg", 0);
-    assert_eq!(intervals["heads"], json("intervals --rate 20,5,3 --speed 3:4 --tilt 0.17453292519943295", 0)["heads"]);
-}
-
-#[test]
 fn turn_and_wobble_stand_for_the_rate_that_they_give() {
     // ωL = 2π, ψ = 60°, k = 0.5: Ω = 2π sin 60° and ωz = 2π cos 60°/0.5 = 2π.
     let seen = json("toss --turn 1rev/s --wobble 60deg --speed 3", 0);
@@ -69,12 +52,6 @@ fn turn_and_wobble_stand_for_the_rate_that_they_give() {
         let output = run(&format!("{command} --turn 1rev/s --wobble 60deg"));
         assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
     }
-    let share = |options: &str| json(&format!("intervals --speed 3:4 {options}"), 0)["probability"].clone();
-    assert_near(
-        &share("--turn 40 --wobble 60deg"),
-        share(&format!("--rate {},0,40", 40.0 * 0.75_f64.sqrt())).as_f64().unwrap(),
-        1e-12,
-    );
 }
 
 /// A coin that is flipped at a quarter of a turn a second stands on its edge after one second. Rounded to rad/s, or with a

@@ -3,7 +3,8 @@
 
 use anyhow::{bail, ensure};
 use rayon::prelude::*;
-use toss::{Answer, Choice, Error, InputError, Model, Scene, Want};
+use toss::planner::Model;
+use toss::{Answer, Choice, Error, InputError, Scene, Want};
 
 use super::delivered::{Truth, true_probability};
 use super::scenes::{self, TossScene};
