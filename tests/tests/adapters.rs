@@ -18,7 +18,7 @@ fn rk4_step(system: &FreeRotation, y: &[f64; 7], h: f64) -> [f64; 7] {
     std::array::from_fn(|part| y[part] + h / 6.0 * (a[part] + 2.0 * (b[part] + c[part]) + d[part]))
 }
 
-fn rk4(system: &FreeRotation, stepping: &Stepping) -> Result<([f64; 7], Work), toss::ForeignError> {
+fn rk4(system: &FreeRotation, stepping: &Stepping) -> Result<([f64; 7], Work), toss::solvers::ForeignError> {
     let StepControl::Step(h) = stepping.control() else { return Err("it takes steps of a given length".into()) };
     let steps = (system.duration() / h).round() as u64;
     let end = (0..steps).fold(system.start(), |y, _| rk4_step(system, &y, h));

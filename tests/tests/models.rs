@@ -4,10 +4,8 @@
 use blackbox::{config, tosses};
 use proptest::prelude::*;
 use sampling::{Axis, Space};
-use toss::{
-    Answer, Body, Choice, Coin, Error, ExactSolver, How, MODELS, Model, Outcome, Scene, Settings, Solver, Stage, Toss,
-    Want,
-};
+use toss::planner::{How, MODELS, Model};
+use toss::{Answer, Body, Choice, Coin, Error, ExactSolver, Outcome, Scene, Settings, Solver, Stage, Toss, Want};
 
 /// The error of cos θ that the integrator of a choice estimates itself.
 fn error_estimate(choice: &Choice, toss: &Toss) -> f64 {

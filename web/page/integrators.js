@@ -135,7 +135,7 @@ export class Integrators {
     const entry = this.known.find(({ name }) => name === by.solver);
     const swatch = make("span", { class: "swatch", style: `background:${ofSolver(entry?.color ?? [0, 0, 0])}` });
     const cells = landing.failure
-      ? [make("td", { colspan: 5, class: "failure" }, landing.failure)]
+      ? [make("td", { colspan: 5, class: "failure" }, landing.failure.message)]
       : [
           make("td", {}, landing.cos_tilt_error === null ? "the reference" : short(landing.cos_tilt_error, 2)),
           make("td", {}, landing.attitude_error === null ? "–" : short(landing.attitude_error, 2)),

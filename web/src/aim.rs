@@ -6,13 +6,13 @@ use toss::{Error, InputError, Vector3};
 use crate::thrown::Thrown;
 
 #[derive(Debug, Serialize)]
-pub(crate) struct Answer {
+pub(crate) struct Aimed {
     /// The body rate (BF, rad/s).
     rate: [f64; 3],
 }
 
 /// The body rate with which S has the `direction` (LF, of any length but 0) and its present size.
-pub(crate) fn aim(thrown: &Thrown, direction: [f64; 3]) -> Result<Answer, Error> {
+pub(crate) fn aim(thrown: &Thrown, direction: [f64; 3]) -> Result<Aimed, Error> {
     let toss = &thrown.toss;
     let refused = |value: String, expected| InputError::Malformed { field: "direction of S", value, expected };
     let length = Vector3::from(direction).norm();
@@ -23,5 +23,5 @@ pub(crate) fn aim(thrown: &Thrown, direction: [f64; 3]) -> Result<Answer, Error>
     let moments = moments.ok_or_else(|| refused(format!("{direction:?}"), "a body with three moments above 0"))?;
     let size = toss.body.angular_momentum(&toss.launch.rate()).norm();
     let in_body = toss.launch.attitude().lab_to_body(&(Vector3::from(direction) / length));
-    Ok(Answer { rate: [0, 1, 2].map(|axis| size * in_body[axis] / moments[axis]) })
+    Ok(Aimed { rate: [0, 1, 2].map(|axis| size * in_body[axis] / moments[axis]) })
 }

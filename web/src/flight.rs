@@ -26,7 +26,7 @@ pub(crate) struct Flight {
 
 /// What stays the same during the flight.
 #[derive(Debug, Serialize)]
-pub(crate) struct Answer {
+pub(crate) struct Course {
     flight_time: f64,
     points: usize,
     /// The direction of the angular momentum S (LF); `None` for a body at rest.
@@ -50,7 +50,7 @@ impl Flight {
     ///
     /// # Errors
     /// [`InputError`] for fewer than 2 or more than [`MOST_POINTS`] points, and a phase that is too large.
-    pub(crate) fn trace(&self, points: usize, numbers: &mut Vec<f64>) -> Result<Answer, Error> {
+    pub(crate) fn trace(&self, points: usize, numbers: &mut Vec<f64>) -> Result<Course, Error> {
         if !(2..=MOST_POINTS).contains(&points) {
             let expected = "2 to 20000";
             return Err(InputError::Malformed { field: "points", value: points.to_string(), expected }.into());
@@ -68,7 +68,7 @@ impl Flight {
         };
         let momentum = self.momentum().map(<[f64; 3]>::from);
         let moments = self.toss.body.moments().unwrap_or_else(|| self.toss.body.principal_moments());
-        Ok(Answer { flight_time, points, momentum, apex, drop, turns: phase / std::f64::consts::TAU, moments })
+        Ok(Course { flight_time, points, momentum, apex, drop, turns: phase / std::f64::consts::TAU, moments })
     }
 
     /// The frame at `time` (s).

@@ -1,7 +1,8 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, Drawn, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, Drawn, HAND, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
+use toss::report::{Estimate, Precision};
 use toss::{Error, InputError, Outcome, certify};
 
 use crate::thrown::{Thrown, malformed};
@@ -14,14 +15,6 @@ const POINTS_OF_SEARCH: u64 = 1024;
 
 const SEED: u64 = 1;
 
-#[derive(Debug, Serialize)]
-pub(crate) struct Answer {
-    probability: f64,
-    interval: Option<[f64; 2]>,
-    interval_kind: String,
-    points: u64,
-}
-
 /// How throws land, one after the other.
 #[derive(Debug, Serialize)]
 pub(crate) struct Throws {
@@ -29,27 +22,11 @@ pub(crate) struct Throws {
     outcomes: String,
 }
 
-/// How large a spread may be.
-#[derive(Debug, Serialize)]
-pub(crate) struct Precision {
-    /// As in the answer of `unfair-toss spread`.
-    answer: &'static str,
-    spread: Option<f64>,
-    probability: Option<f64>,
-    looks: Option<u32>,
-    at_least: Option<f64>,
-}
-
 /// P(heads) if each rate and the speed are normal, with the standard deviation `spread` of themselves.
-pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Answer, Error> {
+pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Estimate, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
-    let found = Sampler::exact().sampled(&space, plan(&space))?;
-    Ok(Answer {
-        probability: found.probability,
-        interval: found.interval.map(|interval| [interval.lo, interval.hi]),
-        interval_kind: found.interval_kind.to_string(),
-        points: found.points,
-    })
+    let plan = plan(&space);
+    Ok(Estimate::new(&Sampler::exact().sampled(&space, plan)?, plan))
 }
 
 /// How `number` random throws land, with the spread of [`probability`].
@@ -74,19 +51,7 @@ pub(crate) fn throws(thrown: &Thrown, spread: &str, number: u64, seed: u64) -> R
 pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
     let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
-    let (answer, found) = match &found {
-        LargestSpread::UpTo(found) => ("up_to", Some(found)),
-        LargestSpread::Any(found) => ("any", Some(found)),
-        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
-        LargestSpread::BelowSmallest(_) => ("below_smallest", None),
-    };
-    Ok(Precision {
-        answer,
-        spread: found.map(|found| found.spread),
-        probability: found.map(|found| found.estimate.probability),
-        looks: found.map(|found| found.looks),
-        at_least: found.map(|found| found.at_least),
-    })
+    Ok(Precision::from(&found))
 }
 
 /// The most accurate plan for a space that spreads.

@@ -1,9 +1,10 @@
 //! Integrators beside the exact motion: where each lands, what it costs, and how its error grows along the flight.
 
 use serde::{Deserialize, Serialize};
-use toss::{Backend, Error, ExactSolver, Formulation, Registry, Solver, SolverConfig, TimeOfFlight, Toss};
+use toss::quantity::Dimension;
+use toss::report::{self, Comparison};
+use toss::{Error, ExactSolver, Formulation, Registry, Solver, SolverConfig, StepControl, TimeOfFlight, Toss};
 
-use crate::known::scheme_of;
 use crate::thrown::{Thrown, malformed};
 
 /// Right-hand sides that a curve of errors may cost. It has fewer points where a flight is dear.
@@ -20,20 +21,6 @@ pub struct Chosen {
     formulation: Option<String>,
 }
 
-/// Where a solver lands, beside the exact motion.
-#[derive(Debug, Serialize)]
-pub(crate) struct Landing {
-    cos_tilt: Option<f64>,
-    cos_tilt_error: Option<f64>,
-    /// The angle between the two attitudes (rad).
-    attitude_error: Option<f64>,
-    outcome: Option<&'static str>,
-    rhs_calls: Option<u64>,
-    accepted_steps: Option<u64>,
-    rejected_steps: Option<u64>,
-    failure: Option<String>,
-}
-
 /// The error along the flight: at each time, that of a flight of this length.
 #[derive(Debug, Serialize)]
 pub(crate) struct Growth {
@@ -46,7 +33,7 @@ pub(crate) struct Growth {
 }
 
 impl Chosen {
-    fn backend(&self) -> Result<Backend, Error> {
+    fn config(&self) -> Result<SolverConfig, Error> {
         let mut config = SolverConfig::new(self.solver.clone());
         if let Some(scheme) = &self.scheme {
             config = config.with_scheme(scheme.clone());
@@ -55,12 +42,12 @@ impl Chosen {
             config = config.with_tolerance(tolerance(text)?)?;
         }
         if let Some(text) = &self.step {
-            config = config.with_step(toss::Dimension::Time.read("step [s]", text)?)?;
+            config = config.with_step(Dimension::Time.read("step [s]", text)?)?;
         }
         if let Some(name) = &self.formulation {
             config = config.with_formulation(Formulation::named(name)?);
         }
-        Ok(Registry::standard().configured(&config)?)
+        Ok(config)
     }
 }
 
@@ -68,84 +55,40 @@ fn tolerance(text: &str) -> Result<f64, Error> {
     text.trim().parse().map_err(|_| malformed("tolerance", text, "a number such as 1e-9").into())
 }
 
-/// Where the chosen solver lands.
-pub(crate) fn landing(thrown: &Thrown, chosen: &Chosen) -> Result<Landing, Error> {
-    Ok(Landing::of(&thrown.toss, &chosen.backend()?))
+/// Where the chosen solver lands, beside the exact motion.
+pub(crate) fn landing(thrown: &Thrown, chosen: &Chosen) -> Result<Comparison, Error> {
+    compared(&thrown.toss, &chosen.config()?)
+}
+
+fn compared(toss: &Toss, config: &SolverConfig) -> Result<Comparison, Error> {
+    Ok(Comparison::new(Registry::standard(), config, toss, &ExactSolver.land(toss)?)?)
 }
 
 /// Flies the toss `times` times, for a clock outside.
 pub(crate) fn repeat(thrown: &Thrown, chosen: &Chosen, times: u32) -> Result<u32, Error> {
-    let backend = chosen.backend()?;
+    let backend = Registry::standard().configured(&chosen.config()?)?;
     let flights = (0..times).map(|_| backend.solver().land(&thrown.toss).is_ok());
     Ok(flights.map(u32::from).sum())
 }
 
 /// Every solver with each of its schemes, and of those with formulations the one called `formulation`.
-pub(crate) fn candidates(tolerance: &str, step: &str, formulation: &str) -> Result<Vec<Chosen>, Error> {
+pub(crate) fn candidates(typed_tolerance: &str, typed_step: &str, formulation: &str) -> Result<Vec<Chosen>, Error> {
+    let (tolerance, step) = (tolerance(typed_tolerance)?, Dimension::Time.read("step [s]", typed_step)?);
     let wanted = Formulation::named(formulation)?;
-    let mut all = Vec::new();
-    for entry in Registry::standard().entries() {
-        let chosen = |scheme: Option<&str>, formulation: Option<Formulation>| Chosen {
-            solver: entry.name().to_owned(),
-            scheme: scheme.map(str::to_owned),
-            tolerance: scheme.filter(|name| scheme_of(name)).map(|_| tolerance.to_owned()),
-            step: scheme.filter(|name| !scheme_of(name)).map(|_| step.to_owned()),
-            formulation: formulation.map(|formulation| formulation.name().to_owned()),
-        };
-        if !entry.integrates() {
-            all.push(chosen(None, None));
-        }
-        let own = entry.formulations().contains(&wanted).then_some(wanted);
-        if own.is_some() || entry.formulations().is_empty() {
-            all.extend(entry.schemes().iter().map(|scheme| chosen(Some(scheme.name()), own)));
-        }
-    }
-    Ok(all)
-}
-
-impl Landing {
-    fn of(toss: &Toss, backend: &Backend) -> Self {
-        match Self::answered(toss, backend) {
-            Ok(landing) => landing,
-            Err(error) => Self { failure: Some(error.to_string()), ..Self::empty() },
-        }
-    }
-
-    fn answered(toss: &Toss, backend: &Backend) -> Result<Self, Error> {
-        let landed = backend.solver().land(toss)?;
-        let answer = Self { cos_tilt: Some(landed.cos_tilt), outcome: Some(landed.outcome().name()), ..Self::empty() };
-        if backend.solver().name() == ExactSolver::NAME {
-            return Ok(answer);
-        }
-        let exact = ExactSolver.land(toss)?;
-        Ok(Self {
-            cos_tilt_error: Some((landed.cos_tilt - exact.cos_tilt).abs()),
-            attitude_error: Some(landed.state.attitude.angle_to(&exact.state.attitude)),
-            rhs_calls: Some(landed.work.rhs_calls),
-            accepted_steps: Some(landed.work.accepted_steps),
-            rejected_steps: Some(landed.work.rejected_steps),
-            ..answer
-        })
-    }
-
-    fn empty() -> Self {
-        Self {
-            cos_tilt: None,
-            cos_tilt_error: None,
-            attitude_error: None,
-            outcome: None,
-            rhs_calls: None,
-            accepted_steps: None,
-            rejected_steps: None,
-            failure: None,
-        }
-    }
+    let chosen = |config: &SolverConfig| Chosen {
+        solver: config.name().to_owned(),
+        scheme: config.scheme().map(str::to_owned),
+        tolerance: matches!(config.control(), Some(StepControl::Tolerance(_))).then(|| typed_tolerance.to_owned()),
+        step: matches!(config.control(), Some(StepControl::Step(_))).then(|| typed_step.to_owned()),
+        formulation: config.formulation().map(|formulation| formulation.name().to_owned()),
+    };
+    Ok(report::candidates(Registry::standard(), tolerance, step, Some(wanted))?.iter().map(chosen).collect())
 }
 
 /// The error of the chosen solver at up to `points` times along the flight.
 pub(crate) fn growth(thrown: &Thrown, chosen: &Chosen, points: u32) -> Result<Growth, Error> {
-    let backend = chosen.backend()?;
-    let whole = Landing::of(&thrown.toss, &backend);
+    let config = chosen.config()?;
+    let whole = compared(&thrown.toss, &config)?;
     // A flight that fails may have cost as many steps as are allowed.
     let calls = whole.rhs_calls.unwrap_or(if whole.failure.is_some() { MOST_CALLS / 40 } else { 1 });
     let points = u64::from(points).min(2 * MOST_CALLS / calls.max(1)).max(1);
@@ -154,25 +97,25 @@ pub(crate) fn growth(thrown: &Thrown, chosen: &Chosen, points: u32) -> Result<Gr
         cos_tilt_error: vec![],
         attitude_error: vec![],
         rhs_calls: vec![],
-        failure: whole.failure.clone(),
+        failure: whole.failure.as_ref().map(|failed| failed.message.clone()),
     };
     let flight_time = thrown.toss.launch.flight_time();
     for index in 1..points {
         let time = flight_time * (index as f64 / points as f64);
-        growth.push(time, Landing::of(&until(&thrown.toss, time)?, &backend));
+        growth.push(time, compared(&until(&thrown.toss, time)?, &config)?);
     }
     growth.push(flight_time, whole);
     Ok(growth)
 }
 
 impl Growth {
-    fn push(&mut self, time: f64, landing: Landing) {
+    fn push(&mut self, time: f64, landing: Comparison) {
         self.time.push(time);
         self.cos_tilt_error.push(landing.cos_tilt_error);
         self.attitude_error.push(landing.attitude_error);
         self.rhs_calls.push(landing.rhs_calls);
         if self.failure.is_none() {
-            self.failure = landing.failure;
+            self.failure = landing.failure.map(|failed| failed.message);
         }
     }
 }

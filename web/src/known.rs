@@ -4,7 +4,8 @@ use dynamics::error::find_named;
 use dynamics::quantity::NamedUnit;
 use serde_json::{Value, json};
 use toss::catalogue::CATALOGUE;
-use toss::{Dimension, Error, Registry, Scheme, SolverEntry};
+use toss::quantity::Dimension;
+use toss::{Error, Registry};
 
 /// Everything that can be chosen by name.
 pub(crate) fn known() -> Value {
@@ -48,13 +49,4 @@ pub(crate) fn quantity(kind: &str, text: &str) -> Result<Value, Error> {
     let dimension = find_named("quantity", kind, &DIMENSIONS, |(name, _)| name)?.1;
     let given = dimension.given("quantity", text)?;
     Ok(json!({ "si": given.si(), "value": given.value(), "unit": given.unit().name() }))
-}
-
-/// Whether the scheme of this name controls its steps by a tolerance.
-pub(crate) fn scheme_of(name: &str) -> bool {
-    Registry::standard()
-        .entries()
-        .iter()
-        .flat_map(SolverEntry::schemes)
-        .any(|scheme: &Scheme| scheme.name() == name && scheme.is_adaptive())
 }

@@ -39,7 +39,7 @@ pub struct Grid {
 
 /// How many cells were written, and what they say.
 #[derive(Debug, Serialize)]
-pub(crate) struct Answer {
+pub(crate) struct Counted {
     cells: usize,
     heads: usize,
     tails: usize,
@@ -87,7 +87,7 @@ impl Grid {
 }
 
 /// Writes the cells of the part of `grid` that is asked for into `cells`.
-pub(crate) fn map(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<Answer, Error> {
+pub(crate) fn map(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<Counted, Error> {
     grid.check()?;
     match (&grid.spread, thrown.coin()) {
         (Some(spread), _) => probabilities(thrown, grid, part("spread", spread)?, cells)?,
@@ -95,7 +95,7 @@ pub(crate) fn map(thrown: &Thrown, grid: &Grid, cells: &mut Vec<u8>) -> Result<A
         (None, None) => rigid_outcomes(thrown, grid, cells)?,
     }
     let count = |wanted: fn(u8) -> bool| cells.iter().filter(|cell| wanted(**cell)).count();
-    Ok(Answer {
+    Ok(Counted {
         cells: cells.len(),
         heads: count(|cell| cell == HEADS),
         tails: count(|cell| cell == 0),

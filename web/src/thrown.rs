@@ -7,9 +7,8 @@ use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::{
-    Body, BodyRounding, Coin, CoinToss, Dimension, Error, InputError, Launch, Rounding, TimeOfFlight, Toss, Vector3,
-};
+use toss::quantity::{BodyRounding, Dimension, Rounding};
+use toss::{Body, Coin, CoinToss, Error, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 /// A body and its launch as texts. Numbers without a unit are in SI units and radians.
 #[derive(Debug, Clone, Default, Deserialize)]

@@ -1,7 +1,8 @@
 //! Estimates of probabilities, as plain values.
 
+use ::toss::planner::How;
 use ::toss::sampling::{self, Counts, Estimate, Found, Space};
-use ::toss::{Answer, Backend, Choice, How, InputError, Registry, Scene, Stage, Want};
+use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Stage, Want};
 use pyo3::prelude::*;
 
 use crate::errors::Failure;

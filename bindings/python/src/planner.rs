@@ -1,6 +1,7 @@
 //! The planner: which model answers a question at the least cost.
 
-use ::toss::{Choice, ExactSolver, How, Scene, StepControl, Want};
+use ::toss::planner::How;
+use ::toss::{Choice, ExactSolver, Scene, StepControl, Want};
 use pyo3::prelude::*;
 
 use crate::errors::malformed;

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use ::toss::sampling::{long_flight_cone, rate_ratio};
+use ::toss::trace::trace_every;
 use ::toss::{
     Backend, ExactMotion, InputError, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR,
-    TimeOfFlight, Toss, TracePoint, Work, certify, margin, speeds_of_heads, trace_every,
+    TimeOfFlight, Toss, TracePoint, Work, certify, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};

@@ -8,12 +8,20 @@ use crate::{Axis, BLUE, ChartError, EndLabel, SIZE, VERMILION, end_labels, frame
 const GRID: RGBColor = VERMILION;
 const RANDOM: RGBColor = BLUE;
 
-/// The chart as SVG. There is at least one step. Each is a number of launches, the share of heads among so many launches of
+/// The chart as SVG, with the usual title. There is at least one step. Each is a number of launches, the share of heads among so many launches of
 /// the grid (A), the share among so many random launches (B), and the ends of B's interval.
 ///
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
 pub fn running(steps: &[[f64; 5]]) -> Result<String, ChartError> {
+    running_of("", steps)
+}
+
+/// As [`running()`], with what the launches are `of` in its title.
+///
+/// # Errors
+/// [`ChartError`] if it can't be drawn.
+pub fn running_of(of: &str, steps: &[[f64; 5]]) -> Result<String, ChartError> {
     let &[launches, last_grid, last_random, ..] = steps.last().ok_or(ChartError("no steps".to_owned()))?;
     let values = || steps.iter().flat_map(|step| [step[1], step[2]]);
     let (lowest, highest) = values().fold((1.0_f64, 0.0_f64), |(lo, hi), p| (lo.min(p), hi.max(p)));
@@ -21,7 +29,7 @@ pub fn running(steps: &[[f64; 5]]) -> Result<String, ChartError> {
     svg(SIZE, |root| {
         let (lower, upper) = (lowest - margin, highest + margin);
         let (x, y) = (Axis::linear("launches n", 0.0..launches), Axis::linear("P(heads)", lower..upper));
-        let mut chart = frame(root, "P(heads) of the first n launches", (&x, &y), 320)?;
+        let mut chart = frame(root, &format!("P(heads) of the first n launches{of}"), (&x, &y), 320)?;
         let column = |column: usize| steps.iter().map(move |step| (step[0], step[column]));
         let outline: Vec<(f64, f64)> =
             column(3).chain(column(4).rev()).map(|(n, p)| (n, p.clamp(lower, upper))).collect();

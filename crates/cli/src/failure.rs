@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
 
-use crate::json::{SCHEMA, plain_json};
+use crate::output::{SCHEMA, plain_json};
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]
@@ -52,6 +52,16 @@ pub(crate) enum Failure {
         path: String,
         /// The error, with its line and column.
         source: Error,
+    },
+    /// A row of a file of which a value is invalid.
+    #[error("{path}, line {line}: {source}")]
+    Row {
+        /// The file.
+        path: String,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        source: InputError,
     },
     /// A file of a part that is none, or does not fit.
     #[error("{path}: {message}")]
@@ -130,7 +140,7 @@ impl Failure {
             Self::Unanswered(error) | Self::Value { source: error, .. } | Self::Text { source: error, .. } => {
                 error.kind()
             }
-            Self::Arguments(_) | Self::Usage { .. } | Self::Part { .. } => "input",
+            Self::Arguments(_) | Self::Usage { .. } | Self::Row { .. } | Self::Part { .. } => "input",
             Self::Read { .. } => "read",
             Self::Print(_) | Self::Write { .. } => "write",
             Self::Chart(_) => "chart",
@@ -152,6 +162,9 @@ impl Failure {
         match self {
             Self::Unanswered(error) | Self::Value { source: error, .. } => details(error),
             Self::Text { path, source } => with(details(source), "path", json!(path)),
+            Self::Row { path, line, source } => {
+                with(with(input_details(source), "path", json!(path)), "line", json!(line))
+            }
             Self::Part { path, .. } => json!({"path": path}),
             Self::Read { option, path, .. } | Self::Write { option, target: path, .. } => {
                 json!({"field": option, "path": path})
@@ -226,9 +239,8 @@ fn input_details(source: &InputError) -> Value {
         InputError::OutOfRange { field, value, valid } => json!({"field": field, "value": value, "valid": valid}),
         InputError::Malformed { field, value, .. }
         | InputError::LookAlike { field, value, .. }
-        | InputError::UnknownName { field, value, .. } => {
-            json!({"field": field, "value": value})
-        }
+        | InputError::UnknownName { field, value, .. }
+        | InputError::NoEffect { field, value, .. } => json!({"field": field, "value": value}),
         other => json!({"field": other.field()}),
     }
 }

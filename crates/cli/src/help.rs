@@ -5,38 +5,18 @@
 use clap::Command;
 
 /// The groups of options, each with its heading and the names of its options.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &str); 5] = [
     (
         "Coin (or any rigid body; SI units without a unit, with one as in 5.67g, 24mm or 1.7g·cm²)",
-        &["coin", "cylinder", "moments", "inertia"],
+        "coin cylinder moments inertia",
     ),
     (
         "Launch (SI units and radians without a unit; with one as in 15deg, 38rev/s, 600rpm, 2.4m/s, 24mm or 500ms)",
-        &[
-            "rate", "turn", "wobble", "rate_x", "rate_y", "rate_z", "speed", "time", "gravity", "drop", "tilt",
-            "space", "spread", "drag", "bounce", "from", "scene",
-        ],
+        "rate turn wobble rate_x rate_y rate_z speed time gravity drop tilt space spread drag bounce from scene",
     ),
-    ("Solver", &["solver", "scheme", "tolerance", "step", "formulation", "prove"]),
-    (
-        "Sampling",
-        &[
-            "method",
-            "accuracy",
-            "points",
-            "seed",
-            "steps",
-            "replicates",
-            "up_to",
-            "reference",
-            "across",
-            "up",
-            "threads",
-            "heads",
-            "shard",
-        ],
-    ),
-    ("Output", &["format", "margin", "out", "svg", "dt", "repeats", "want", "probability", "shell", "command"]),
+    ("Solver", "solver scheme tolerance step formulation prove"),
+    ("Sampling", "method accuracy points seed steps replicates up_to reference across up threads heads shard"),
+    ("Output", "format margin out svg dt repeats want probability counts shell command"),
 ];
 
 /// What heads is, for commands whose answer has an outcome.
@@ -60,7 +40,7 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "trace",
-        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) (--points N | --dt H) [OPTIONS]",
+        usage: "(--rate WX,WY,WZ | --turn RATE --wobble PSI) (--speed V0 | --time T) (--points N | --dt H | --svg FILE) [OPTIONS]",
         example: "unfair-toss trace --rate 1,1,2.5 --speed 3 --dt 50ms",
         meaning: "Columns: time (s); w, x, y, z, the quaternion from the body to the laboratory; alpha, beta, gamma, its Euler \
                   angles (rad): precession, nutation, spin; normal_x to normal_z, the normal of the heads side, and face_x to \
@@ -116,7 +96,8 @@ const TEXTS: &[Text] = &[
         command: "map",
         usage: "(--space NAME | --rate-x AXIS --rate-y AXIS --rate-z AXIS --speed AXIS) [OPTIONS]",
         example: "unfair-toss map --rate-x 0:40:5 --rate-y 0 --rate-z 20:60:3 --speed 3:5",
-        meaning: "Columns: the coordinate across, the coordinate up, and the probability of heads at this node.",
+        meaning: "With a space by its name, both axes have to have points: unfair-toss map --space paper-fig4 --up speed.\n\n\
+                  Columns: the coordinate across, the coordinate up, and the probability of heads at this node.",
     },
     Text {
         command: "merge",
@@ -134,9 +115,11 @@ const TEXTS: &[Text] = &[
     },
     Text {
         command: "inverse",
-        usage: "--probability P [OPTIONS]",
-        example: "unfair-toss inverse --probability 0.7 --coin us-quarter",
-        meaning: "",
+        usage: "(--probability P | --counts K/N|FILE.csv) [OPTIONS]",
+        example: "unfair-toss inverse --counts 178078/350757",
+        meaning: "With --counts: K of N coins landed on the side that had been up. The answer is the angle ψ between the normal and \
+                  the angular momentum that explains this, with its 95 % interval, if all launches left flat, turned many times and \
+                  had the same ψ; 180° - ψ explains it as well. A file has a person a row, in the columns same and tosses.",
     },
     Text {
         command: "limit",
@@ -176,7 +159,7 @@ impl Text {
         let after = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
         let after: String = after.map(|paragraph| format!("\n\n{paragraph}")).collect();
         let grouped = command.mut_args(|argument| {
-            let group = GROUPS.iter().find(|(_, names)| names.contains(&argument.get_id().as_str()));
+            let group = GROUPS.iter().find(|(_, names)| names.split(' ').any(|name| name == argument.get_id()));
             group.map_or(argument.clone(), |(heading, _)| argument.help_heading(*heading))
         });
         grouped

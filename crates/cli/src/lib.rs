@@ -6,16 +6,10 @@
 
 mod chart;
 mod commands;
-mod estimate_answer;
 mod failure;
 mod help;
-mod input;
-mod json;
-mod launch_rows;
 mod output;
 mod quantity;
-mod rate_args;
-mod shard_args;
 mod solver_args;
 mod space_args;
 mod toss_args;
@@ -28,7 +22,7 @@ use ::toss::Registry;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    compare, convergence, errors, intervals, inverse, limit, list, map, merge, plan, probability, sample, shell,
+    compare, convergence, errors, intervals, inverse, limit, list, map, parts, plan, probability, sample, shell,
     spread, toss, trace,
 };
 use crate::failure::Failure;
@@ -62,7 +56,7 @@ enum Command {
     /// Map the probability of heads over two coordinates of a space
     Map(map::Args),
     /// Add the parts of a probability that `probability --shard` has written
-    Merge(merge::Args),
+    Merge(parts::Args),
     /// Find the ranges of speed that land heads
     Intervals(intervals::Args),
     /// Find the launch that lands heads with a wanted probability
@@ -103,8 +97,8 @@ impl Command {
             Self::Limit(args) => args.run(registry, input),
             Self::Plan(args) => args.run(registry, input),
             Self::Coins(args) => list::coins(args, input),
-            Self::Solvers(args) => list::solvers(args, registry, input),
-            Self::Models(args) => list::models(args, input),
+            Self::Solvers(args) => Ok(list::solvers(args, registry, input)),
+            Self::Models(args) => Ok(list::models(args, input)),
             Self::Spaces(args) => list::spaces(args, input),
             Self::Completions(args) => Ok(args.run(program_with(registry))),
             Self::Man(args) => args.run(program_with(registry)),
@@ -163,17 +157,10 @@ pub fn program() -> clap::Command {
 /// The same, with help texts that name the solvers of `registry`.
 fn program_with(registry: &Registry) -> clap::Command {
     help::described(Cli::command()).mut_subcommands(|command| {
-        let of_plan = command.get_name() == "plan";
-        if !command.get_arguments().any(|argument| argument.get_id() == "solver") {
-            return command;
-        }
-        command.mut_args(|argument| {
-            let name = argument.get_id().as_str();
-            let help = if of_plan { plan::help(registry, name) } else { solver_args::help(registry, name) };
-            match help {
-                Some(help) => argument.help(help),
-                None => argument,
-            }
+        let name = command.get_name().to_owned();
+        command.mut_args(|argument| match solver_args::help(registry, &name, argument.get_id().as_str()) {
+            Some(help) => argument.help(help),
+            None => argument,
         })
     })
 }
@@ -183,7 +170,7 @@ fn answer(registry: &Registry, given: &ArgMatches, streams: &mut Streams<'_>) ->
     let command = Cli::from_arg_matches(given).map_err(Failure::Arguments)?.command;
     let program = program_with(registry);
     let described = given.subcommand().and_then(|(name, given)| Some((program.find_subcommand(name)?, given)));
-    let input = described.map_or_else(Input::new, |(described, given)| input::input(described, given));
+    let input = described.map_or_else(Input::new, |(described, given)| output::input(described, given));
     command.run(registry, &input, streams)
 }
 

@@ -1,14 +1,21 @@
-//! Prints answers as text, JSON or CSV, and writes charts. All commands use these functions, so that their output has
-//! the same form.
+//! Prints answers as text, JSON or CSV, reads and writes files, and writes charts. All commands use these functions, so that
+//! their output has the same form. The JSON is the one that `docs/json.md` describes.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use clap::{ArgMatches, Command};
+use dynamics::quantity::Given;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
+use serde_json::ser::{CompactFormatter, Formatter};
+use serde_json::{Map, Value};
 
 use crate::failure::Failure;
-pub(crate) use crate::json::{Input, json, plain_json, whole, without_sign_of_zero};
+use crate::quantity;
+
+/// The number of the format that `docs/json.md` describes. It grows when a field changes its meaning or goes away.
+pub(crate) const SCHEMA: u32 = 1;
 
 /// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -26,6 +33,24 @@ pub(crate) enum DataFormat {
     Csv,
     /// One JSON value on standard output
     Json,
+}
+
+/// The option for the format of an answer.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FormatArgs {
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+impl FormatArgs {
+    /// The answer as JSON, or its `text`.
+    pub(crate) fn print(&self, input: &Input, answer: &impl Serialize, text: impl FnOnce() -> String) -> String {
+        match self.format {
+            Format::Json => json(input, answer),
+            Format::Text => text(),
+        }
+    }
 }
 
 /// Options of a command that prints a series of data.
@@ -52,6 +77,11 @@ impl SeriesArgs {
         }
     }
 
+    /// Whether a chart is asked for.
+    pub(crate) fn has_chart(&self) -> bool {
+        self.svg.is_some()
+    }
+
     /// What is to be printed: the `data`, or the chart in their place. A chart for a file is written there.
     pub(crate) fn answer(
         &self,
@@ -63,14 +93,39 @@ impl SeriesArgs {
             if whole_file::leads_to(path) {
                 return Ok(chart);
             }
-            whole_file::write(path, &chart).map_err(|source| Failure::Write {
-                option: "svg",
-                target: path.display().to_string(),
-                source,
-            })?;
+            write("svg", path, &chart)?;
         }
         Ok(data(self.format.unwrap_or(DataFormat::Csv)))
     }
+
+    /// As [`SeriesArgs::answer`], for lines of plain data.
+    pub(crate) fn answer_lines(
+        &self,
+        input: &Input,
+        series: &[impl Serialize],
+        draw: impl FnOnce() -> Result<String, Failure>,
+    ) -> Result<String, Failure> {
+        #[derive(Serialize)]
+        struct Lines<'a, T> {
+            series: &'a [T],
+        }
+        let data = |format| match format {
+            DataFormat::Csv => csv(series),
+            DataFormat::Json => json(input, &Lines { series }),
+        };
+        self.answer(data, draw)
+    }
+}
+
+/// The text of the file that an option names.
+pub(crate) fn read(option: &'static str, path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|source| Failure::Read { option, path: path.display().to_string(), source })
+}
+
+/// Writes the file that an option names.
+pub(crate) fn write(option: &'static str, path: &Path, text: &str) -> Result<(), Failure> {
+    let target = || path.display().to_string();
+    whole_file::write(path, text).map_err(|source| Failure::Write { option, target: target(), source })
 }
 
 /// Refuses a file for an answer whose folder is not there, before anything is computed.
@@ -78,18 +133,6 @@ pub(crate) fn require_folder(option: &'static str, path: &Path) -> Result<(), Fa
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let found = folder.map_or(Ok(()), |folder| std::fs::metadata(folder).map(drop));
     found.map_err(|source| Failure::Write { option, target: path.display().to_string(), source })
-}
-
-/// Lines of plain data in `format`.
-pub(crate) fn series(input: &Input, format: DataFormat, series: &[impl Serialize]) -> String {
-    #[derive(Serialize)]
-    struct Answer<'a, T> {
-        series: &'a [T],
-    }
-    match format {
-        DataFormat::Csv => csv(series),
-        DataFormat::Json => json(input, &Answer { series }),
-    }
 }
 
 /// Prints an answer as a whole. A pipe that the reader has closed is no failure.
@@ -100,6 +143,81 @@ pub(crate) fn print(text: &str, out: &mut dyn Write) -> Result<(), Failure> {
     }
     let written = out.write_all(format!("{}\n", text.trim_end()).as_bytes()).and_then(|()| out.flush());
     whole_file::unless_closed(written).map_err(Failure::Print)
+}
+
+/// The input of a command as its JSON answer repeats it.
+pub(crate) type Input = Map<String, Value>;
+
+/// What does not change the answer, only where it goes, in which form, and how fast it is there.
+const NO_INPUT: [&str; 5] = ["format", "svg", "threads", "help", "version"];
+
+/// The options of `command` that were `given` or have a default, by their names, and the command's name.
+pub(crate) fn input(command: &Command, given: &ArgMatches) -> Input {
+    let names = command.get_arguments().map(|argument| argument.get_id().as_str());
+    let options = names.filter(|name| !NO_INPUT.contains(name));
+    let mut input: Input = options.filter_map(|name| Some((name.to_owned(), value(name, given)?))).collect();
+    input.insert("command".to_owned(), command.get_name().into());
+    input
+}
+
+/// A number where the option is one, else the text as it was given. A flag that was not given is no input.
+fn value(name: &str, given: &ArgMatches) -> Option<Value> {
+    fn typed<T: Clone + Send + Sync + 'static>(name: &str, given: &ArgMatches) -> Option<T> {
+        given.try_get_one::<T>(name).ok()?.cloned()
+    }
+    if let Ok(Some(flag)) = given.try_get_one::<bool>(name) {
+        return flag.then(|| true.into());
+    }
+    let texts = || Some(given.try_get_raw(name).ok()??.map(|text| text.to_string_lossy().into_owned()));
+    if name == "parts" {
+        return Some(texts()?.map(Value::from).collect());
+    }
+    let number = typed::<f64>(name, given).or_else(|| typed::<Given>(name, given).map(Given::si)).map(Value::from);
+    let small = || typed::<u32>(name, given).map(u64::from).or_else(|| Some(typed::<usize>(name, given)? as u64));
+    let whole = || typed::<u64>(name, given).or_else(small).map(whole);
+    let list = |text: &str| Some(quantity::list(name, text)?.ok()?.into_iter().map(Given::si).collect::<Vec<f64>>());
+    let text = || texts()?.next().map(|text| list(&text).map_or_else(|| text.clone().into(), Value::from));
+    number.or_else(whole).or_else(text)
+}
+
+/// An answer, which has fields, as JSON.
+pub(crate) fn json(input: &Input, answer: &impl Serialize) -> String {
+    #[derive(Serialize)]
+    struct Answered<'a, T> {
+        schema: u32,
+        input: &'a Input,
+        #[serde(flatten)]
+        answer: &'a T,
+    }
+    plain_json(&Answered { schema: SCHEMA, input, answer })
+}
+
+/// A whole number as JSON: its digits as a text above 2^53, because readers that take numbers for f64, as JavaScript does,
+/// would round it.
+fn whole(number: u64) -> Value {
+    if number <= 1 << 53 { number.into() } else { number.to_string().into() }
+}
+
+/// Plain data as JSON: numbers with the fewest digits that read back as the same number, and no -0.
+pub(crate) fn plain_json(value: &impl Serialize) -> String {
+    let mut text = Vec::new();
+    let written = value.serialize(&mut serde_json::Serializer::with_formatter(&mut text, NoNegativeZero));
+    written.expect("plain data with string keys is always JSON");
+    String::from_utf8(text).expect("JSON is UTF-8")
+}
+
+/// Compact JSON in which -0, which equals 0 and surprises programs, is 0.
+struct NoNegativeZero;
+
+impl Formatter for NoNegativeZero {
+    fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> std::io::Result<()> {
+        CompactFormatter.write_f64(to, without_sign_of_zero(value))
+    }
+}
+
+/// -0 as 0; any other number as it is.
+pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
+    value + 0.0
 }
 
 /// A number with its sign and so many decimal places; what is rounded to 0 has the sign of 0.
@@ -115,6 +233,13 @@ pub(crate) fn csv(lines: impl IntoIterator<Item = impl Serialize>) -> String {
         writer.serialize(line).expect("a line of plain data always fits into memory");
     }
     String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("CSV of UTF-8 is UTF-8")
+}
+
+/// Formats rows of numbers as CSV below a heading.
+pub(crate) fn csv_of_numbers(heading: &str, rows: impl Iterator<Item = Vec<f64>>) -> String {
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(format!("{heading}\n").into_bytes());
+    rows.for_each(|row| writer.serialize(row).expect("numbers always fit into memory"));
+    String::from_utf8(writer.into_inner().expect("memory takes every byte")).expect("numbers are UTF-8")
 }
 
 /// A progress bar for `number` `things` on standard error, with the rate and the time left. It is hidden if standard
@@ -146,4 +271,9 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
         cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// A row of a table.
+pub(crate) fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
 }

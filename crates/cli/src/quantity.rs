@@ -1,25 +1,32 @@
-//! Readers of options that are numbers: quantities, counts, fractions and tolerances, one reader for each kind, so that all
-//! options have one grammar. What a text may be is decided in [`dynamics::quantity`], for the axes of spaces too.
+//! Readers of options: quantities, counts, fractions, tolerances and names, one reader for each kind, so that all options have
+//! one grammar. What a text may be is decided in [`dynamics::quantity`], for the axes of spaces too.
 //!
 //! A reader says what is valid; clap puts the option and the value before it.
 
 use std::ops::RangeInclusive;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dynamics::Dimension;
 use dynamics::quantity::{Given, look_alike, read_count, read_fraction, read_quantities};
+use sampling::Method;
 use toss::InputError;
+use toss::planner::WantKind;
 
-/// What is expected of three rates.
-const RATES: &str = "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm";
-
-/// What is expected of a cylinder.
-const CYLINDER: &str = "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft";
-
-/// What is expected of moments of inertia.
-const MOMENTS: &str = "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";
-
-/// What is expected of an inertia tensor.
-const INERTIA: &str = "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²";
+/// The options that are lists of quantities: name, what is expected, and the kinds of the parts.
+const LISTS: [(&str, &str, &[Dimension]); 4] = [
+    ("rate", "WX,WY,WZ [rad/s], or each with a unit: rad/s, deg/s, °/s, rev/s or rpm", &[Dimension::TurnRate; 3]),
+    (
+        "cylinder",
+        "MASS,RADIUS,THICKNESS [kg, m, m], or each with a unit: kg, g or mg, and m, cm, mm, in or ft",
+        &[Dimension::Mass, Dimension::Length, Dimension::Length],
+    ),
+    ("moments", "I1,I3 or I1,I2,I3 [kg m²], or each with a unit: kg·m², g·cm² or g·mm²", &[Dimension::Inertia; 3]),
+    (
+        "inertia",
+        "JXX,JYY,JZZ,JXY,JXZ,JYZ [kg m²], or each with a unit: kg·m², g·cm² or g·mm²",
+        &[Dimension::Inertia; 6],
+    ),
+];
 
 /// A reader of an option that is a quantity of this kind, in the SI unit.
 pub(crate) fn of(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
@@ -61,6 +68,25 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| expected(text, "a number > 0, such as 1e-9"))
 }
 
+/// A reader of one of these methods by its name.
+pub(crate) fn method(listed: &'static [Method]) -> impl TypedValueParser<Value = Method> {
+    named(listed, Method::name, Method::summary)
+}
+
+/// A reader of what is wanted of a plan by its name.
+pub(crate) fn want() -> impl TypedValueParser<Value = WantKind> {
+    named(&WantKind::ALL, WantKind::name, WantKind::summary)
+}
+
+fn named<T: Copy + Send + Sync + 'static>(
+    listed: &'static [T],
+    name: fn(T) -> &'static str,
+    summary: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let names = PossibleValuesParser::new(listed.iter().map(|one| PossibleValue::new(name(*one)).help(summary(*one))));
+    names.map(move |text| *listed.iter().find(|one| name(**one) == text).expect("clap refuses any other name"))
+}
+
 /// What is wrong with a text that is not what was `expected`.
 fn expected(text: &str, expected: &str) -> String {
     let look_alike = look_alike(text)
@@ -68,58 +94,24 @@ fn expected(text: &str, expected: &str) -> String {
     format!("{}expected {expected}", look_alike.unwrap_or_default())
 }
 
-/// An option that is a list of quantities, in SI units; `None` for any other option.
-pub(crate) fn list(option: &str, text: &str) -> Option<Result<Vec<f64>, InputError>> {
-    let list = match option {
-        "rate" => rates(text).map(Vec::from),
-        "cylinder" => cylinder(text).map(Vec::from),
-        "moments" => moments(text),
-        "inertia" => inertia(text).map(Vec::from),
-        _ => return None,
+/// The quantities of an option that is a list; `None` for any other option.
+pub(crate) fn list(option: &str, text: &str) -> Option<Result<Vec<Given>, InputError>> {
+    let (field, expected, kinds) = LISTS.iter().find(|(name, ..)| *name == option)?;
+    let parts: Vec<&str> = text.split(',').collect();
+    // A body says itself how many moments it has.
+    let of = |index: usize| if *field == "moments" { Some(Dimension::Inertia) } else { kinds.get(index).copied() };
+    let kinds: Option<Vec<Dimension>> = (0..parts.len().max(kinds.len())).map(of).collect();
+    let read = match kinds.filter(|kinds| *field == "moments" || kinds.len() == parts.len()) {
+        Some(kinds) => read_quantities(field, text, expected, &kinds.into_iter().zip(parts).collect::<Vec<_>>()),
+        None => Err(InputError::unreadable(field, text, expected)),
     };
-    Some(list.map(|numbers| numbers.into_iter().map(Given::si).collect()))
+    Some(read)
 }
 
-/// Three rates.
-pub(crate) fn rates(text: &str) -> Result<[Given; 3], InputError> {
-    each("rate", text, RATES, &[Dimension::TurnRate; 3])?.try_into().map_err(|_| malformed("rate", text, RATES))
-}
-
-/// Mass, radius and thickness of a cylinder.
-pub(crate) fn cylinder(text: &str) -> Result<[Given; 3], InputError> {
-    let of = [Dimension::Mass, Dimension::Length, Dimension::Length];
-    each("cylinder", text, CYLINDER, &of)?.try_into().map_err(|_| malformed("cylinder", text, CYLINDER))
-}
-
-/// Moments of inertia, two or three.
-pub(crate) fn moments(text: &str) -> Result<Vec<Given>, InputError> {
-    let number = text.split(',').count();
-    each("moments", text, MOMENTS, &vec![Dimension::Inertia; number])
-}
-
-/// Elements of an inertia tensor.
-pub(crate) fn inertia(text: &str) -> Result<[Given; 6], InputError> {
-    each("inertia", text, INERTIA, &[Dimension::Inertia; 6])?
-        .try_into()
-        .map_err(|_| malformed("inertia", text, INERTIA))
-}
-
-/// Quantities of these kinds, separated by commas.
-fn each(
-    field: &'static str,
-    text: &str,
-    expected: &'static str,
-    dimensions: &[Dimension],
-) -> Result<Vec<Given>, InputError> {
-    let parts: Vec<(Dimension, &str)> = dimensions.iter().copied().zip(text.split(',')).collect();
-    if text.split(',').count() != dimensions.len() {
-        return Err(malformed(field, text, expected));
-    }
-    read_quantities(field, text, expected, &parts)
-}
-
-fn malformed(field: &'static str, text: &str, expected: &'static str) -> InputError {
-    InputError::unreadable(field, text, expected)
+/// The `N` quantities of an option that is a list of as many.
+pub(crate) fn listed<const N: usize>(option: &str, text: &str) -> Result<[Given; N], InputError> {
+    let read = list(option, text).expect("an option that is a list")?;
+    Ok(read.try_into().unwrap_or_else(|_| unreachable!("as many as are expected")))
 }
 
 #[cfg(test)]
@@ -128,14 +120,9 @@ mod tests {
 
     #[test]
     fn what_is_expected_of_lists_names_every_unit() {
-        for (expected, dimension) in [
-            (RATES, Dimension::TurnRate),
-            (CYLINDER, Dimension::Mass),
-            (CYLINDER, Dimension::Length),
-            (MOMENTS, Dimension::Inertia),
-            (INERTIA, Dimension::Inertia),
-        ] {
-            assert!(dimension.units().iter().all(|unit| expected.contains(unit.name())), "{expected}");
+        for (_, expected, kinds) in LISTS {
+            let units = kinds.iter().flat_map(|kind| kind.units());
+            assert!(units.into_iter().all(|unit| expected.contains(unit.name())), "{expected}");
         }
     }
 }

@@ -3,10 +3,11 @@
 
 use clap::Args;
 use dynamics::Frame;
-use dynamics::error::find_named;
+use dynamics::config::one_of;
+use toss::quantity::Dimension;
+use toss::solvers::Proving;
 use toss::{
-    Backend, Dimension, ExactSolver, Formulation, InputError, Proving, QuaternionSolver, Registry, Scheme, Settings,
-    SolverEntry, Stepping,
+    Backend, ExactSolver, Formulation, QuaternionSolver, Registry, Scheme, SolverConfig, SolverEntry, Stepping, TAYLOR,
 };
 
 use crate::failure::Failure;
@@ -15,18 +16,15 @@ use crate::quantity;
 /// The solver and its settings.
 #[derive(Debug, Args)]
 pub(crate) struct SolverArgs {
-    #[arg(long, value_name = "NAME", default_value = ExactSolver::NAME,
-          help = solver_help(Registry::standard()))]
+    #[arg(long, value_name = "NAME", default_value = ExactSolver::NAME)]
     solver: String,
-    #[arg(long, value_name = "NAME", help = scheme_help(Registry::standard()))]
+    #[arg(long, value_name = "NAME")]
     scheme: Option<String>,
-    #[arg(long, value_name = "TOL", allow_hyphen_values = true, value_parser = quantity::tolerance,
-          help = tolerance_help(Registry::standard()))]
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true, value_parser = quantity::tolerance)]
     tolerance: Option<f64>,
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time),
-          help = step_help(Registry::standard()))]
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = quantity::of(Dimension::Time))]
     step: Option<f64>,
-    #[arg(long, value_name = "NAME", alias = "frame", help = formulation_help(Registry::standard()))]
+    #[arg(long, value_name = "NAME", alias = "frame")]
     formulation: Option<String>,
 }
 
@@ -34,132 +32,104 @@ impl SolverArgs {
     /// The solver with its settings.
     pub(crate) fn backend(&self, registry: &Registry) -> Result<Backend, Failure> {
         let entry = registry.named(&self.solver)?;
-        let (scheme, formulation) = (self.scheme(registry, entry)?, self.formulation(registry, entry)?);
-        self.require_steps(registry, entry)?;
-        Ok(registry.backend(&self.solver, &Settings { stepping: self.stepping(registry, scheme)?, formulation })?)
+        let scheme =
+            self.scheme.as_deref().filter(|_| entry.integrates()).map(|name| entry.scheme(name)).transpose()?;
+        self.require_control(registry, scheme.or(entry.default_scheme()))?;
+        Ok(registry.configured(&self.config()?)?)
     }
 
     /// The solver that proves by integration, as `--prove` asks for. Its scheme is taylor unless another one is given.
     pub(crate) fn prover(&self, registry: &Registry) -> Result<QuaternionSolver, Failure> {
         const PROVER: &str = QuaternionSolver::NAME;
-        let entry = registry.named(&self.solver)?;
-        match entry.name() {
-            PROVER => {}
-            ExactSolver::NAME => {
-                let why =
-                    format!("--prove has no effect with --solver exact, whose outcomes are proven; it is for {PROVER}");
-                return Err(Failure::usage("prove", why));
-            }
+        let why = match registry.named(&self.solver)?.name() {
+            PROVER => None,
+            ExactSolver::NAME => Some(format!(
+                "--prove has no effect with --solver exact, whose outcomes are proven; it is for {PROVER}"
+            )),
             name => {
-                let why =
-                    format!("--prove: {name} proves nothing, as it has no bound of its own error; {PROVER} has one");
-                return Err(Failure::usage("prove", why));
+                Some(format!("--prove: {name} proves nothing, as it has no bound of its own error; {PROVER} has one"))
             }
+        };
+        if let Some(why) = why {
+            return Err(Failure::usage("prove", why));
         }
-        let scheme = self.scheme.as_deref().map_or(Ok(Scheme::TAYLOR), |name| entry.scheme(name))?;
-        let solver = QuaternionSolver::new(self.stepping(registry, scheme)?, self.formulation(registry, entry)?);
+        let config = self.config()?;
+        let config = if self.scheme.is_none() { config.with_scheme(TAYLOR.name()) } else { config };
+        let scheme = registry.named(PROVER)?.scheme(config.scheme().unwrap_or_default())?;
+        self.require_control(registry, Some(scheme))?;
+        let settings = config.settings(registry.entries())?;
+        let solver = QuaternionSolver::new(settings.stepping, settings.formulation);
         let proves = Proving::new(solver).map(|_| solver);
         proves.map_err(|error| Failure::usage("prove", format!("--prove: {error}")))
     }
 
-    fn scheme(&self, registry: &Registry, entry: &SolverEntry) -> Result<Scheme, InputError> {
-        match self.scheme.as_deref() {
-            None => Ok(entry.default_scheme().unwrap_or(Stepping::DEFAULT.scheme())),
-            Some(name) if entry.integrates() => entry.scheme(name),
-            // A closed form is refused any scheme, but a name that is none is the clearer complaint.
-            Some(name) => find_named("scheme", name, &all_schemes(registry), |scheme| scheme.name()).copied(),
+    fn config(&self) -> Result<SolverConfig, Failure> {
+        let mut config = SolverConfig::new(self.solver.as_str());
+        if let Some(scheme) = &self.scheme {
+            config = config.with_scheme(scheme.as_str());
         }
+        if let Some(tolerance) = self.tolerance {
+            config = config.with_tolerance(tolerance)?;
+        }
+        if let Some(step) = self.step {
+            config = config.with_step(step)?;
+        }
+        if let Some(name) = &self.formulation {
+            config = config.with_formulation(Formulation::named(name)?);
+        }
+        Ok(config)
     }
 
-    /// Refuses what would have no effect with a solver that takes no steps.
-    fn require_steps(&self, registry: &Registry, entry: &SolverEntry) -> Result<(), Failure> {
-        let given =
-            [("scheme", self.scheme.is_some()), ("tolerance", self.tolerance.is_some()), ("step", self.step.is_some())];
-        match given.into_iter().find(|(_, given)| *given) {
-            Some((option, _)) if !entry.integrates() => {
-                Err(no_effect(option, &format!("--{option}"), (registry, entry), SolverEntry::integrates))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn formulation(&self, registry: &Registry, entry: &SolverEntry) -> Result<Formulation, Failure> {
-        let Some(name) = &self.formulation else { return Ok(Formulation::default()) };
-        let formulation = Formulation::named(name)?;
-        let differs = |entry: &SolverEntry| entry.formulations().contains(&formulation);
-        if differs(entry) {
-            return Ok(formulation);
-        }
-        Err(no_effect("formulation", &format!("--formulation {name}"), (registry, entry), differs))
-    }
-
-    fn stepping(&self, registry: &Registry, scheme: Scheme) -> Result<Stepping, Failure> {
+    /// Refuses a tolerance of equal steps. A scheme that has an error estimate is given no equal steps here either: an option
+    /// that is meant for another scheme is more likely a mistake.
+    fn require_control(&self, registry: &Registry, scheme: Option<Scheme>) -> Result<(), Failure> {
+        let Some(scheme) = scheme else { return Ok(()) };
         let name = scheme.name();
         match (scheme.is_adaptive(), self.tolerance, self.step) {
-            (true, tolerance, None) => {
-                Ok(Stepping::adaptive(scheme, tolerance.unwrap_or(Stepping::DEFAULT_TOLERANCE))?)
-            }
-            (false, None, step) => Ok(Stepping::fixed(scheme, step.unwrap_or(Stepping::DEFAULT_STEP))?),
             (true, _, Some(_)) => {
                 let message = format!("--step is for {}; {name} takes --tolerance", schemes_with_a_step(registry));
                 Err(Failure::usage("step", message))
             }
             (false, Some(_), _) => Err(Failure::usage("tolerance", format!("--tolerance: {name} takes --step"))),
+            _ => Ok(()),
         }
     }
 }
 
-/// The error of an option, `given` so, that has an effect with other solvers of the registry than this one.
-fn no_effect(
-    option: &'static str,
-    given: &str,
-    (registry, entry): (&Registry, &SolverEntry),
-    has_effect: impl Fn(&SolverEntry) -> bool,
-) -> Failure {
-    let (name, others) = (entry.name(), solvers(registry, has_effect));
-    Failure::usage(option, format!("{given} has no effect with --solver {name}; it is for {others}"))
-}
-
-/// What `--help` says of the option called `name`, if it is one of these options.
-pub(crate) fn help(registry: &Registry, name: &str) -> Option<String> {
-    let help = match name {
-        "solver" => solver_help,
-        "scheme" => scheme_help,
-        "tolerance" => tolerance_help,
-        "step" => step_help,
-        "formulation" => formulation_help,
-        _ => return None,
+/// What `--help` says of the option called `name` of `command`, if it is one of these options.
+pub(crate) fn help(registry: &Registry, command: &str, name: &str) -> Option<String> {
+    let solvers = |meant: fn(&SolverEntry) -> bool| {
+        one_of(registry.entries().iter().filter(|entry| meant(entry)).map(SolverEntry::name))
     };
-    Some(help(registry))
-}
-
-fn solver_help(registry: &Registry) -> String {
-    format!("The solver: {}", solvers(registry, |_| true))
-}
-
-fn step_help(registry: &Registry) -> String {
-    format!("Step of {} (s) [default: {}]", schemes_with_a_step(registry), Stepping::DEFAULT_STEP)
-}
-
-fn scheme_help(registry: &Registry) -> String {
-    let (schemes, default) = (schemes(registry, |_| true), Stepping::DEFAULT.scheme().name());
-    format!(
-        "Scheme by which the integrator steps: {schemes}; `unfair-toss solvers` lists those of each solver \
-         [default: {default}, or the first one of the solver]"
-    )
-}
-
-fn tolerance_help(registry: &Registry) -> String {
-    let schemes = schemes(registry, Scheme::is_adaptive);
-    format!("Local error per step of {schemes}, absolute and relative [default: {:e}]", Stepping::DEFAULT_TOLERANCE)
-}
-
-fn formulation_help(registry: &Registry) -> String {
-    format!(
-        "Formulation of the kinematics of an integrator: {} [default: {}]",
-        formulations(registry),
-        Formulation::default().name()
-    )
+    let adaptive = || schemes(registry, Scheme::is_adaptive);
+    Some(match (command, name) {
+        ("plan", "solver") => {
+            format!("An integrator that is used as a cross-check: {}", solvers(SolverEntry::integrates))
+        }
+        ("plan", "scheme") => format!("Scheme of the integrator: {} [default: the cheapest one]", adaptive()),
+        ("compare", _) => return None,
+        (_, "solver") => format!("The solver: {}", solvers(|_| true)),
+        (_, "step") => {
+            format!("Step of {} (s) [default: {}]", schemes_with_a_step(registry), Stepping::DEFAULT_STEP)
+        }
+        (_, "scheme") => format!(
+            "Scheme by which the integrator steps: {}; `unfair-toss solvers` lists those of each solver [default: {}, or \
+             the first one of the solver]",
+            schemes(registry, |_| true),
+            Stepping::DEFAULT.scheme()
+        ),
+        (_, "tolerance") => format!(
+            "Local error per step of {}, absolute and relative [default: {:e}]",
+            adaptive(),
+            Stepping::DEFAULT_TOLERANCE
+        ),
+        (_, "formulation") => format!(
+            "Formulation of the kinematics of an integrator: {} [default: {}]",
+            formulations(registry),
+            Formulation::default()
+        ),
+        _ => return None,
+    })
 }
 
 /// The names of the schemes that take a fixed step.
@@ -167,33 +137,24 @@ fn schemes_with_a_step(registry: &Registry) -> String {
     schemes(registry, |scheme| !scheme.is_adaptive())
 }
 
-/// The names of the solvers for which `meant` is true, such as `gamma, euler or quaternion`.
-pub(crate) fn solvers(registry: &Registry, meant: impl Fn(&SolverEntry) -> bool) -> String {
-    one_of(registry.entries().iter().filter(|entry| meant(entry)).map(|entry| entry.name().to_owned()))
-}
-
 /// The names of the schemes for which `meant` is true, such as `dop853, dopri5 or taylor`.
-pub(crate) fn schemes(registry: &Registry, meant: impl Fn(Scheme) -> bool) -> String {
-    one_of(all_schemes(registry).into_iter().filter(|scheme| meant(*scheme)).map(|scheme| scheme.name().to_owned()))
+fn schemes(registry: &Registry, meant: impl Fn(Scheme) -> bool) -> String {
+    let all = each_once(registry.entries().iter().flat_map(SolverEntry::schemes));
+    one_of(all.into_iter().filter(|scheme| meant(*scheme)).map(Scheme::name))
 }
 
 /// The names of the formulations, each with its behaviour at singular points.
 fn formulations(registry: &Registry) -> String {
-    one_of(each_once(registry.entries().iter().flat_map(SolverEntry::formulations)).into_iter().map(
-        |formulation: Formulation| {
-            let words = match (formulation.frame(), formulation.is_guarded()) {
-                (_, false) => "as the paper prints it: an answer may be wrong without an error",
-                (Frame::Momentum, true) => "no flight is singular",
-                (Frame::Vertical, true) => "the paper's frame: a typed error where it is singular",
-            };
-            format!("{} ({words})", formulation.name())
-        },
-    ))
-}
-
-/// Every scheme that any solver offers, once.
-fn all_schemes(registry: &Registry) -> Vec<Scheme> {
-    each_once(registry.entries().iter().flat_map(SolverEntry::schemes))
+    let all = each_once(registry.entries().iter().flat_map(SolverEntry::formulations));
+    let described = all.into_iter().map(|formulation: Formulation| {
+        let words = match (formulation.frame(), formulation.is_guarded()) {
+            (_, false) => "as the paper prints it: an answer may be wrong without an error",
+            (Frame::Momentum, true) => "no flight is singular",
+            (Frame::Vertical, true) => "the paper's frame: a typed error where it is singular",
+        };
+        format!("{} ({words})", formulation.name())
+    });
+    one_of(described.collect::<Vec<_>>().iter().map(String::as_str))
 }
 
 fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -> Vec<T> {
@@ -203,13 +164,4 @@ fn each_once<'a, T: Copy + PartialEq + 'a>(items: impl Iterator<Item = &'a T>) -
         }
         all
     })
-}
-
-/// Joins the items as in `a, b or c`.
-fn one_of(items: impl Iterator<Item = String>) -> String {
-    let mut items: Vec<String> = items.collect();
-    match (items.pop(), items.is_empty()) {
-        (Some(last), false) => format!("{} or {last}", items.join(", ")),
-        (last, _) => last.unwrap_or_default(),
-    }
 }

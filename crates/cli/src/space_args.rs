@@ -7,15 +7,17 @@ use clap::Args;
 use indicatif::ProgressBar;
 use sampling::enclosure::usual_accuracy;
 use sampling::{
-    AxisOrTie, Coordinate, DescribedSpace, HAND, Plan, Rest, Sampler, Scrambled, Space, named_space, named_spaces,
+    AxisOrTie, Coordinate, DescribedSpace, HAND, Method, Plan, Rest, Sampler, Scrambled, Space, named_space,
+    named_spaces,
 };
-use toss::{Coin, Dimension, Error};
+use toss::Error;
+use toss::quantity::Dimension;
 
+use crate::chart::named;
 use crate::failure::Failure;
-use crate::output::{counter, progress_bar};
+use crate::output::{self, counter, progress_bar};
 use crate::quantity;
-use crate::rate_args::TurnArgs;
-use crate::toss_args::CoinArgs;
+use crate::toss_args::{CoinArgs, TurnArgs};
 
 /// Options for a space of launches, which is given by name, as a file, or by its axes.
 #[derive(Debug, Args)]
@@ -76,7 +78,7 @@ impl SpaceArgs {
     }
 
     fn space_of_axes(&self) -> Result<Space, Failure> {
-        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let body = self.coin.body()?;
         let [x, y, z] = match self.turn.rate(&body)? {
             // Display writes the fewest digits that read back as the same number.
             Some(rate) => [rate.x, rate.y, rate.z].map(|rate| Some(rate.to_string())),
@@ -90,6 +92,20 @@ impl SpaceArgs {
             return Err(Failure::usage("space", message));
         }
         Ok(Space::parse(body, &given)?)
+    }
+
+    /// The space in words, for the title of a chart: by its name, or by its body and its axes as they were typed.
+    pub(crate) fn words(&self, space: &Space) -> String {
+        if let Some(name) = &self.space {
+            return format!("space {name}");
+        }
+        let texts = [&self.rate_x, &self.rate_y, &self.rate_z, &self.speed, &self.gravity, &self.tilt];
+        let typed = Coordinate::ALL.into_iter().zip(texts).filter_map(|(of, text)| {
+            let symbol = of.symbol().split('/').next().unwrap_or_default();
+            text.as_ref().map(|text| format!("{symbol} {text}"))
+        });
+        let axes: Vec<String> = self.turn.words().into_iter().chain(typed).collect();
+        format!("{}: {}", named(space.body()), axes.join(", "))
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its
@@ -115,26 +131,18 @@ impl SpaceArgs {
 pub(crate) fn space_called(name: &str, coin: &CoinArgs) -> Result<Space, Failure> {
     let body = coin.given()?;
     let space = if name.ends_with(".toml") {
-        space_file(Path::new(name))?
+        let text = output::read("space", Path::new(name))?;
+        let described = DescribedSpace::from_toml(&text);
+        described.map_err(|source| Failure::Text { path: name.to_owned(), source })?.space
     } else if name.contains(['.', '/', '\\']) {
         let known: Vec<&str> = named_spaces().map(|(name, _)| name).collect();
-        let message = format!(
-            "space = '{name}' can't be used: expected a file that ends in .toml, or one of {}",
-            known.join(", ")
-        );
+        let known = known.join(", ");
+        let message = format!("space = '{name}' can't be used: expected a file that ends in .toml, or one of {known}");
         return Err(Failure::usage("space", message));
     } else {
         named_space(name)?
     };
     Ok(body.map_or(space, |body| space.with_body(body)))
-}
-
-fn space_file(path: &Path) -> Result<Space, Failure> {
-    let shown = || path.display().to_string();
-    let text =
-        std::fs::read_to_string(path).map_err(|source| Failure::Read { option: "space", path: shown(), source })?;
-    let described = DescribedSpace::from_toml(&text).map_err(|source| Failure::Text { path: shown(), source })?;
-    Ok(described.space)
 }
 
 /// Options for the number and the seed of launches.
@@ -149,22 +157,6 @@ pub(crate) struct PlanArgs {
     seed: Option<u64>,
 }
 
-/// The method by which launches are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum MethodArg {
-    /// A grid over the space (the paper's method A)
-    Grid,
-    /// Independent random launches (the paper's method B)
-    Random,
-    /// Owen-scrambled Sobol points, in 8 scrambles
-    Sobol,
-    /// Integrates over the speed in closed form; the other coordinates by their grid or by Sobol points
-    ExactSpeed,
-    /// Proves both ends of an interval: over the speed in closed form, over up to three other coordinates by bounds for whole
-    /// cells; from horizontal, uniform rates x and y count as one
-    Enclosure,
-}
-
 /// The numbers of launches that are used if no `--points` is given, and the accuracy of an enclosure, if one is given.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Defaults {
@@ -173,13 +165,8 @@ pub(crate) struct Defaults {
     pub(crate) accuracy: Option<f64>,
 }
 
-impl Defaults {
-    /// Those for bodies with I1 ≠ I2, whose launches are proven one by one.
-    fn of_bodies(self) -> Self {
-        const MOST: u64 = 1 << 16;
-        Self { random: self.random.min(MOST), sobol: self.sobol.min(MOST), ..self }
-    }
-}
+/// The most launches of bodies with I1 ≠ I2 by default, which are proven one by one.
+const MOST_OF_BODIES: u64 = 1 << 16;
 
 impl PlanArgs {
     /// Refuses a number or a seed of launches without a method that they are for.
@@ -194,18 +181,19 @@ impl PlanArgs {
     }
 
     /// The plan for sampling `space`.
-    pub(crate) fn plan(&self, method: MethodArg, space: &Space, default: Defaults) -> Result<Plan, Failure> {
+    pub(crate) fn plan(&self, method: Method, space: &Space, default: Defaults) -> Result<Plan, Failure> {
         let seed = self.seed.unwrap_or(1);
-        let default = if space.coin().is_some() { default } else { default.of_bodies() };
-        let scrambled = || Scrambled::new(self.points.unwrap_or(default.sobol), seed);
+        let most = if space.coin().is_some() { u64::MAX } else { MOST_OF_BODIES };
+        let points = |default: u64| self.points.unwrap_or(default.min(most));
+        let scrambled = || Scrambled::new(points(default.sobol), seed);
         let plan = match method {
-            MethodArg::Grid => Plan::Grid,
-            MethodArg::Random => Plan::Random { points: self.points.unwrap_or(default.random), seed },
-            MethodArg::Sobol => Plan::Sobol(scrambled()),
-            MethodArg::Enclosure => {
+            Method::Grid => Plan::Grid,
+            Method::Random => Plan::Random { points: points(default.random), seed },
+            Method::Sobol => Plan::Sobol(scrambled()),
+            Method::Enclosure => {
                 Plan::Enclosure { accuracy: default.accuracy.unwrap_or_else(|| usual_accuracy(space)) }
             }
-            MethodArg::ExactSpeed => {
+            Method::ExactSpeed => {
                 let grid = Plan::ExactSpeed(Rest::Grid);
                 let only_the_speed_is_free = space.free().all(|of| of == Coordinate::Speed);
                 let has_grid = self.points.is_none() && grid.points(space).is_ok();
@@ -252,12 +240,12 @@ const MOST_INTEGRATED_LAUNCHES: u64 = 1_000_000_000;
 
 /// Refuses `launches` that would take years.
 pub(crate) fn require_few(sampler: &Sampler<'_>, launches: u64) -> Result<(), Failure> {
-    let most = if sampler.is_exact() { MOST_LAUNCHES } else { MOST_INTEGRATED_LAUNCHES };
-    if launches <= most {
-        return Ok(());
-    }
-    let by = if sampler.is_exact() { "the exact motion" } else { "an integrator" };
-    Err(Failure::usage("points", format!("{launches} launches would take too long: at most {most} by {by}")))
+    let (most, by) = match sampler.is_exact() {
+        true => (MOST_LAUNCHES, "the exact motion"),
+        false => (MOST_INTEGRATED_LAUNCHES, "an integrator"),
+    };
+    let refused = || format!("{launches} launches would take too long: at most {most} by {by}");
+    if launches > most { Err(Failure::usage("points", refused())) } else { Ok(()) }
 }
 
 /// The largest number of threads.

@@ -1,17 +1,17 @@
-//! The options that describe one toss: the coin and the launch, and for a flight also the solver. The commands about
-//! single tosses share them.
+//! The options that describe one toss: the body, its rate and its launch, and for a flight also the solver. The rate is given by
+//! its components, or by what can be seen of a toss: how fast the coin's normal n turns, and its angle ψ to the angular momentum
+//! S. The commands about single tosses share these options.
 
 use clap::Args;
 use dynamics::data::{NO_BOUNCE, NO_DRAG};
-use dynamics::quantity::Given;
+use dynamics::quantity::{Given, common_unit};
+use dynamics::rate_of_precession;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
-use toss::{
-    Backend, Body, BodyRounding, Coin, Dimension, InputError, QuaternionSolver, Registry, Rounding, TimeOfFlight, Toss,
-};
+use toss::quantity::{BodyRounding, Dimension, Rounding};
+use toss::{Backend, Body, Coin, InputError, Launch, Registry, TimeOfFlight, Toss, Vector3};
 
 use crate::failure::Failure;
 use crate::quantity;
-use crate::rate_args::RateArgs;
 use crate::solver_args::SolverArgs;
 
 /// Options for a coin or another rigid body.
@@ -35,11 +35,16 @@ pub(crate) struct CoinArgs {
 }
 
 impl CoinArgs {
+    /// The body; the paper's coin if none of the options was given.
+    pub(crate) fn body(&self) -> Result<Body, Failure> {
+        Ok(self.given()?.unwrap_or(Coin::PAPER.into()))
+    }
+
     /// The body, if one of the options was given.
     pub(crate) fn given(&self) -> Result<Option<Body>, Failure> {
         let named = |source: InputError| Failure::value(self.option(), source);
         if let Some(text) = &self.cylinder {
-            let [mass, radius, thickness] = quantity::cylinder(text)?.map(Given::quantity);
+            let [mass, radius, thickness] = quantity::listed("cylinder", text)?.map(Given::quantity);
             return Coin::from_cylinder(mass, radius, thickness).map(|coin| Some(coin.into())).map_err(named);
         }
         match self.elements()? {
@@ -58,34 +63,26 @@ impl CoinArgs {
         }
     }
 
-    /// The coin, or the paper's if none of the options was given. A body with I1 ≠ I2 is refused because of what `why`
-    /// says.
-    pub(crate) fn coin(&self, why: &str) -> Result<Coin, Failure> {
-        let Some(body) = self.given()? else { return Ok(Coin::PAPER) };
-        body.coin().ok_or_else(|| self.refused(why))
-    }
-
-    /// The error of a body with I1 ≠ I2 where a coin is needed.
-    pub(crate) fn refused(&self, why: &str) -> Failure {
+    /// The coin, for what is a formula of long flights. A body with I1 ≠ I2 is refused.
+    pub(crate) fn coin(&self) -> Result<Coin, Failure> {
+        let why = "the limit of long flights is a formula for coins; probability estimates P(heads)";
         let option = self.option();
-        Failure::usage(option, format!("--{option}: this body has I1 ≠ I2, and {why}"))
+        let refused = || Failure::usage(option, format!("--{option}: this body has I1 ≠ I2, and {why}"));
+        self.body()?.coin().ok_or_else(refused)
     }
 
     /// The moments or the elements of the tensor as they were given.
     fn elements(&self) -> Result<Option<Vec<Given>>, InputError> {
-        match (&self.moments, &self.inertia) {
-            (Some(text), _) => quantity::moments(text).map(Some),
-            (_, Some(text)) => quantity::inertia(text).map(|elements| Some(elements.into())),
-            (None, None) => Ok(None),
-        }
+        let given = self.moments.as_ref().or(self.inertia.as_ref());
+        given.and_then(|text| quantity::list(self.option(), text)).transpose()
     }
 
     /// The body with these moments or elements of the tensor, in any unit: they decide its motion by their ratios.
     fn of_elements(&self, elements: Vec<f64>) -> Result<Body, InputError> {
-        match (<[f64; 6]>::try_from(elements), self.inertia.is_some()) {
-            (Ok(elements), true) => Body::from_inertia(elements),
-            (Ok(elements), false) => Body::from_listed_moments(&elements),
-            (Err(elements), _) => Body::from_listed_moments(&elements),
+        match <[f64; 6]>::try_from(elements) {
+            Ok(elements) if self.inertia.is_some() => Body::from_inertia(elements),
+            Ok(elements) => Body::from_listed_moments(&elements),
+            Err(elements) => Body::from_listed_moments(&elements),
         }
     }
 
@@ -95,13 +92,92 @@ impl CoinArgs {
     }
 }
 
+/// Options for the rate at which the normal turns, and its angle to the angular momentum.
+#[derive(Debug, Args)]
+pub(crate) struct TurnArgs {
+    /// Rate |S|/I1 at which the normal n turns about the angular momentum S; with --wobble in place of the body rate. It
+    /// stands for ωx = RATE sin ψ, ωy = 0 and ωz = RATE cos ψ I1/I3
+    #[arg(long, value_name = "RATE", allow_hyphen_values = true, requires = "wobble",
+          value_parser = quantity::given(Dimension::TurnRate))]
+    turn: Option<Given>,
+    /// Angle ψ between n and S, from 0 to 180deg; with --turn
+    #[arg(long, value_name = "PSI", allow_hyphen_values = true, requires = "turn",
+          value_parser = quantity::given(Dimension::Angle))]
+    wobble: Option<Given>,
+}
+
+impl TurnArgs {
+    /// The body rate (rad/s) of `body`, if these options were given.
+    pub(crate) fn rate(&self, body: &Body) -> Result<Option<Vector3<f64>>, Failure> {
+        let (Some(turn), Some(wobble)) = (self.turn, self.wobble) else { return Ok(None) };
+        let uneven =
+            || Failure::usage("turn", "--turn: n of a body with I1 ≠ I2 turns unevenly; use the body rate instead");
+        let coin = body.coin().ok_or_else(uneven)?;
+        Ok(Some(rate_of_precession(&coin, turn.si(), wobble.si())?))
+    }
+
+    /// What was typed, for the title of a chart.
+    pub(crate) fn words(&self) -> Option<String> {
+        Some(format!("n turns at {}, ψ = {}", shown(self.turn?), shown(self.wobble?)))
+    }
+}
+
+/// Options for the body rate of a toss.
+#[derive(Debug, Args)]
+pub(crate) struct RateArgs {
+    /// Body rate at launch, in the body frame, with z along the normal of the heads side
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, conflicts_with_all = ["turn", "wobble"])]
+    rate: Option<String>,
+    #[command(flatten)]
+    turn: TurnArgs,
+}
+
+impl RateArgs {
+    /// The launch of `body` with this body rate. Components in one unit are not converted, so that proofs start from them.
+    pub(crate) fn launch(&self, body: &Body, time_of_flight: TimeOfFlight) -> Result<Launch, Failure> {
+        if let Some(rate) = self.turn.rate(body)? {
+            return Ok(Launch::new(rate, time_of_flight)?);
+        }
+        let components = self.components()?;
+        let launch = match common_unit(&components) {
+            Some(unit) => Launch::in_unit(components.map(Given::value), unit.angle_unit(), time_of_flight),
+            None => Launch::new(components.map(Given::si), time_of_flight),
+        };
+        Ok(launch?)
+    }
+
+    /// Whether the rate of [`RateArgs::launch`] is rounded from what was given.
+    fn is_rounded(&self) -> Result<bool, Failure> {
+        if self.rate.is_none() {
+            return Ok(true);
+        }
+        let components = self.components()?;
+        Ok(common_unit(&components).is_none() && !components.into_iter().all(Given::is_exact_in_si))
+    }
+
+    /// What was typed, for the title of a chart.
+    fn words(&self) -> Option<String> {
+        let components = self.components().ok()?;
+        let list = |number: fn(Given) -> String| components.map(number).join(", ");
+        Some(match common_unit(&components) {
+            Some(unit) => format!("ω = ({}) {}", list(|given| given.value().to_string()), unit.name()),
+            None => format!("ω = ({})", list(shown)),
+        })
+    }
+
+    fn components(&self) -> Result<[Given; 3], Failure> {
+        let missing = || Failure::usage("rate", "--rate WX,WY,WZ is needed, or --turn RATE with --wobble PSI");
+        Ok(quantity::listed("rate", self.rate.as_ref().ok_or_else(missing)?)?)
+    }
+}
+
 /// Options for a coin and its launch.
 #[derive(Debug, Args)]
 pub(crate) struct TossArgs {
     #[command(flatten)]
     pub(crate) coin: CoinArgs,
     #[command(flatten)]
-    rate: RateArgs,
+    pub(crate) rate: RateArgs,
     /// Upward speed v0 at launch
     #[arg(long, value_name = "V0", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Speed))]
     speed: Option<Given>,
@@ -118,7 +194,7 @@ pub(crate) struct TossArgs {
     /// Tilt at launch, from horizontal with heads up: a turn about the lab's x axis. A positive one leans the normal
     /// towards -y [default: 0]
     #[arg(long, value_name = "B", allow_hyphen_values = true, value_parser = quantity::given(Dimension::Angle))]
-    tilt: Option<Given>,
+    pub(crate) tilt: Option<Given>,
     /// Air drag is outside the model; the option is refused with the reason
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     drag: Option<String>,
@@ -135,7 +211,7 @@ impl TossArgs {
         if self.bounce.is_some() {
             return Err(NO_BOUNCE.into());
         }
-        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let body = self.coin.body()?;
         let gravity = self.gravity.map_or(DEFAULT_GRAVITY, Given::si);
         let time_of_flight = match (self.speed, self.time) {
             (_, Some(time)) => TimeOfFlight::Given(time.si()),
@@ -149,9 +225,12 @@ impl TossArgs {
         Ok(Toss { body, launch })
     }
 
-    /// The tilt at launch (rad).
-    pub(crate) fn tilt(&self) -> f64 {
-        self.tilt.map_or(0.0, Given::si)
+    /// The launch in the units in which it was typed, for the title of a chart.
+    pub(crate) fn words(&self) -> String {
+        let tilted = self.tilt.filter(|tilt| tilt.si() != 0.0);
+        let tilt = tilted.map_or_else(|| "horizontal".to_owned(), |tilt| format!("at a tilt of {}", shown(tilt)));
+        let rate = self.rate.turn.words().or_else(|| self.rate.words()).unwrap_or_default();
+        format!("launched {tilt}, {rate}")
     }
 
     /// What the conversion of units has rounded.
@@ -162,27 +241,22 @@ impl TossArgs {
     }
 }
 
+/// A quantity in the unit in which it was typed.
+fn shown(given: Given) -> String {
+    format!("{} {}", given.value(), given.unit().name())
+}
+
 /// Options for one toss and the solver that flies it.
 #[derive(Debug, Args)]
 #[command(mut_arg("scheme", |scheme| scheme.alias("method")))]
 pub(crate) struct FlightArgs {
     #[command(flatten)]
-    toss: TossArgs,
+    pub(crate) toss: TossArgs,
     #[command(flatten)]
-    solver: SolverArgs,
+    pub(crate) solver: SolverArgs,
 }
 
 impl FlightArgs {
-    /// The options of the toss.
-    pub(crate) fn toss(&self) -> &TossArgs {
-        &self.toss
-    }
-
-    /// The solver that proves by integration.
-    pub(crate) fn prover(&self, registry: &Registry) -> Result<QuaternionSolver, Failure> {
-        self.solver.prover(registry)
-    }
-
     pub(crate) fn parts(&self, registry: &Registry) -> Result<(Toss, Backend), Failure> {
         Ok((self.toss.toss()?, self.solver.backend(registry)?))
     }

@@ -93,40 +93,66 @@ impl SolverConfig {
         self.formulation
     }
 
-    /// The settings for the solver of `entry`: what is left out is the solver's default.
+    /// The settings for the solver of this name among `entries`: what is left out is the solver's default.
     ///
     /// # Errors
-    /// [`InputError`] for a scheme or a formulation that the solver does not offer, for a tolerance or a step that the scheme
-    /// does not take, and for any of them with a closed form, where it would have no effect.
-    pub fn settings(&self, entry: &SolverEntry) -> Result<Settings, InputError> {
-        let formulation = self.formulation_of(entry)?;
-        let Some(default) = entry.default_scheme() else {
-            self.require_no_steps()?;
-            return Ok(Settings { formulation, ..Settings::default() });
+    /// [`InputError`] for a solver that is not among them, for a scheme that it does not offer, for a tolerance or a step that
+    /// the scheme does not take, and for any setting that would have no effect, with the solvers that it is for.
+    pub fn settings(&self, entries: &[SolverEntry]) -> Result<Settings, InputError> {
+        let entry = find_named("solver", &self.name, entries, |entry| entry.name())?;
+        let scheme = match &self.scheme {
+            None => entry.default_scheme(),
+            Some(name) if entry.integrates() => Some(entry.scheme(name)?),
+            // A closed form takes no scheme, but a name that is none is the clearer complaint.
+            Some(name) => Some(known_scheme(name, entries)?),
         };
-        let scheme: Scheme = self.scheme.as_deref().map_or(Ok(default), |name| entry.scheme(name))?;
-        Ok(Settings { stepping: Stepping::new(scheme, self.control)?, formulation })
+        let control = self.control.map(|control| match control {
+            StepControl::Tolerance(tolerance) => ("tolerance", format!("{tolerance:?}")),
+            StepControl::Step(step) => ("step [s]", format!("{step:?}")),
+        });
+        let stepped = self.scheme.clone().map(|scheme| ("scheme", scheme)).or(control);
+        if let Some((field, value)) = stepped.filter(|_| !entry.integrates()) {
+            return Err(self.no_effect(field, value, entries, SolverEntry::integrates));
+        }
+        let offers = |entry: &SolverEntry| self.formulation.is_none_or(|wanted| entry.formulations().contains(&wanted));
+        if let Some(formulation) = self.formulation.filter(|_| !offers(entry)) {
+            return Err(self.no_effect("formulation", formulation.to_string(), entries, offers));
+        }
+        let formulation = self.formulation.unwrap_or_default();
+        let default = Settings { formulation, ..Settings::default() };
+        scheme
+            .map_or(Ok(default), |scheme| Ok(Settings { stepping: Stepping::new(scheme, self.control)?, formulation }))
     }
 
-    fn formulation_of(&self, entry: &SolverEntry) -> Result<Formulation, InputError> {
-        let Some(formulation) = self.formulation else { return Ok(Formulation::default()) };
-        if entry.formulations().is_empty() {
-            let expected = "none for a closed form, which integrates nothing";
-            return Err(InputError::Malformed { field: "formulation", value: formulation.to_string(), expected });
-        }
-        let field = "formulation of this solver";
-        find_named(field, formulation.name(), entry.formulations(), |offered| offered.name()).copied()
+    fn no_effect(
+        &self,
+        field: &'static str,
+        value: String,
+        entries: &[SolverEntry],
+        has_effect: impl Fn(&SolverEntry) -> bool,
+    ) -> InputError {
+        let others = one_of(entries.iter().filter(|entry| has_effect(entry)).map(SolverEntry::name));
+        InputError::NoEffect { field, value, solver: self.name.clone(), others }
     }
+}
 
-    fn require_no_steps(&self) -> Result<(), InputError> {
-        let expected = "none for a closed form, which takes no steps";
-        let refused = |field, value| Err(InputError::Malformed { field, value, expected });
-        match (&self.scheme, self.control) {
-            (Some(scheme), _) => refused("scheme", scheme.clone()),
-            (None, Some(StepControl::Tolerance(tolerance))) => refused("tolerance", format!("{tolerance:?}")),
-            (None, Some(StepControl::Step(step))) => refused("step [s]", format!("{step:?}")),
-            (None, None) => Ok(()),
+/// The scheme called `name`, if any of the solvers offers it.
+fn known_scheme(name: &str, entries: &[SolverEntry]) -> Result<Scheme, InputError> {
+    let all = entries.iter().flat_map(SolverEntry::schemes).fold(Vec::new(), |mut all, scheme| {
+        if !all.contains(scheme) {
+            all.push(*scheme);
         }
+        all
+    });
+    find_named("scheme", name, &all, |scheme| scheme.name()).copied()
+}
+
+/// Joins names as in `a, b or c`.
+pub fn one_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    match (names.pop(), names.is_empty()) {
+        (Some(last), false) => format!("{} or {last}", names.join(", ")),
+        (last, _) => last.unwrap_or_default().to_owned(),
     }
 }
 
@@ -144,9 +170,9 @@ mod tests {
     #[test]
     fn what_is_left_out_is_the_default_of_the_solver() {
         let own = SolverConfig::new("own");
-        let stepping = |config: &SolverConfig, schemes: &[Scheme]| Ok(config.settings(&entry(schemes))?.stepping);
-        assert_eq!(own.settings(&entry(&Scheme::ALL)), Ok(Settings::default()));
-        assert_eq!(own.settings(&entry(&[])), Ok(Settings::default()));
+        let stepping = |config: &SolverConfig, schemes: &[Scheme]| Ok(config.settings(&[entry(schemes)])?.stepping);
+        assert_eq!(own.settings(&[entry(&Scheme::ALL)]), Ok(Settings::default()));
+        assert_eq!(own.settings(&[entry(&[])]), Ok(Settings::default()));
         assert_eq!(stepping(&own, &[Scheme::RK4]), Stepping::fixed(Scheme::RK4, Stepping::DEFAULT_STEP));
         let fine = own.clone().with_tolerance(1e-6).unwrap();
         assert_eq!(stepping(&fine, &Scheme::ALL), Stepping::adaptive(Scheme::DOP853, 1e-6));
@@ -159,7 +185,7 @@ mod tests {
         let own = SolverConfig::new("own").with_formulation(Formulation::RAW);
         for schemes in [&Scheme::ALL[..], &[]] {
             let entry = entry(schemes).with_formulations(&[Formulation::MOMENTUM, Formulation::RAW]);
-            assert_eq!(own.settings(&entry).unwrap().formulation, Formulation::RAW);
+            assert_eq!(own.settings(&[entry]).unwrap().formulation, Formulation::RAW);
         }
     }
 
@@ -167,13 +193,13 @@ mod tests {
     fn what_would_have_no_effect_or_is_not_offered_is_refused() {
         let own = || SolverConfig::new("own");
         let fields = |config: SolverConfig| {
-            [&Scheme::ALL[..], &[]].map(|schemes| config.settings(&entry(schemes)).err().map(|error| error.field()))
+            [&Scheme::ALL[..], &[]].map(|schemes| config.settings(&[entry(schemes)]).err().map(|error| error.field()))
         };
         assert_eq!(fields(own().with_scheme("heun")), [Some("scheme of this solver"), Some("scheme")]);
         assert_eq!(fields(own().with_tolerance(1e-9).unwrap()), [None, Some("tolerance")]);
         assert_eq!(fields(own().with_step(0.1).unwrap()), [None, Some("step [s]")]);
         let raw = own().with_formulation(Formulation::RAW);
-        assert_eq!(fields(raw), [Some("formulation of this solver"), Some("formulation")]);
+        assert_eq!(fields(raw), [Some("formulation"), Some("formulation")]);
         let rk4_by_tolerance = own().with_scheme("rk4").with_tolerance(1e-9).unwrap();
         assert_eq!(fields(rk4_by_tolerance), [Some("scheme with a tolerance"), Some("scheme")]);
         for step in [0.0, -1.0, f64::NAN] {

@@ -89,6 +89,18 @@ pub enum InputError {
         /// The known names, separated by commas.
         known: String,
     },
+    /// A setting that would have no effect with the solver.
+    #[error("{field} = '{value}' has no effect with solver '{solver}'; it is for {others}")]
+    NoEffect {
+        /// The setting.
+        field: &'static str,
+        /// What was given.
+        value: String,
+        /// The solver.
+        solver: String,
+        /// The solvers with which it has an effect.
+        others: String,
+    },
 }
 
 impl InputError {
@@ -110,7 +122,8 @@ impl InputError {
             | Self::Missing { field, .. }
             | Self::OutsideModel { field, .. }
             | Self::NoBody { field, .. }
-            | Self::UnknownName { field, .. } => field,
+            | Self::UnknownName { field, .. }
+            | Self::NoEffect { field, .. } => field,
         }
     }
 }

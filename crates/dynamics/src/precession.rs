@@ -17,7 +17,7 @@ use crate::error::{InputError, require};
 /// [`InputError`] for a number outside its range, and for a rod with I3 = 0, whose spin does not follow from ψ.
 pub fn rate_of_precession(coin: &Coin, turn: f64, wobble: f64) -> Result<Vector3<f64>, InputError> {
     require("turn [rad/s]", turn, "finite and >= 0", turn >= 0.0)?;
-    require("wobble [rad]", wobble, "0 to π", (0.0..=PI).contains(&wobble))?;
+    require("wobble [rad]", wobble, "0 to π; degrees have their unit, as in 15deg", (0.0..=PI).contains(&wobble))?;
     if coin.i3() == 0.0 {
         let why =
             "a rod with I3 = 0 has no angular momentum along its normal, so that its spin does not follow from it";

@@ -17,6 +17,7 @@
 
 pub mod axis;
 mod block;
+mod certain_line;
 pub mod coordinate;
 pub mod counts;
 #[cfg(feature = "serde")]
@@ -49,8 +50,10 @@ pub mod spread;
 pub mod tally;
 #[cfg(feature = "serde")]
 mod tally_data;
+pub mod wobble;
 
 pub use axis::{Axis, Distribution};
+pub use certain_line::{CertainLine, Piece, certain_line};
 pub use coordinate::Coordinate;
 pub use counts::Counts;
 pub use drawn::Drawn;
@@ -70,3 +73,4 @@ pub use space_builder::SpaceBuilder;
 pub use space_file::{DescribedSpace, named_space, named_spaces};
 pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
 pub use tally::Tally;
+pub use wobble::{SameSide, Wobble};

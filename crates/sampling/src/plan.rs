@@ -37,6 +37,18 @@ impl Method {
     pub fn name(self) -> &'static str {
         ["grid", "random", "sobol", "exact-speed", "enclosure"][self as usize]
     }
+
+    /// What it does, for the help text of an option.
+    pub fn summary(self) -> &'static str {
+        [
+            "A grid over the space, whose axes have their numbers of points (the paper's method A)",
+            "Independent random launches (the paper's method B)",
+            "Owen-scrambled Sobol points, which fill the space more evenly",
+            "Integrates over the speed in closed form; the other coordinates by their grid or by Sobol points",
+            "Proves both ends of an interval: over the speed in closed form, over up to three other coordinates by bounds for \
+             whole cells; from horizontal, uniform rates x and y count as one",
+        ][self as usize]
+    }
 }
 
 /// Writes the [name](Method::name).

@@ -26,8 +26,7 @@
 //! `cargo run --release -p toss --example human`
 
 use toss::catalogue::named_coin;
-use toss::sampling::interval::from_scrambles;
-use toss::sampling::{Axis, Estimate, Interval, Plan, Sampler, Space, clopper_pearson, long_flight_cone, rate_ratio};
+use toss::sampling::{Axis, Estimate, Plan, SameSide, Sampler, Space, Wobble, rate_ratio};
 
 /// For each person, the number of flips that landed on the side they started from (data set dat.bartos2023 of the R
 /// package metadat).
@@ -44,15 +43,17 @@ const FLIPS: [u32; 48] = [
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let (same, flips): (u32, u32) = (SAME.iter().sum(), FLIPS.iter().sum());
-    assert_eq!((same, flips), (178_078, 350_757));
-    let share = f64::from(same) / f64::from(flips);
-    println!("same side     {share:.4}, ψ = {:.1}°", degrees(share)?);
-    println!("all alike     {}", text(clopper_pearson(same.into(), flips.into(), 0.95))?);
-    println!("48 people     {}", text(of_people(share, flips).ok_or("one person tells no interval")?)?);
-    let shares = SAME.iter().zip(FLIPS).map(|(same, flips)| f64::from(*same) / f64::from(flips));
-    let most = shares.fold(0.0, f64::max);
-    println!("the wobbliest {most:.4}, ψ = {:.1}°", degrees(most)?);
+    let counts = SAME.iter().zip(FLIPS).map(|(same, flips)| SameSide::new((*same).into(), flips.into()));
+    let people = counts.collect::<Result<Vec<SameSide>, _>>()?;
+    let apart = Wobble::of(&people)?;
+    let share = apart.share;
+    assert_eq!(apart.counts, SameSide::new(178_078, 350_757)?);
+    println!("same side     {share:.4}, ψ = {:.1}°", apart.angle.to_degrees());
+    println!("all alike     {}", text(&Wobble::of(&[apart.counts])?));
+    println!("48 people     {}", text(&apart));
+    let alone = people.iter().map(|person| Wobble::of(&[*person])).collect::<Result<Vec<_>, _>>()?;
+    let most = alone.iter().max_by(|one, other| one.share.total_cmp(&other.share)).ok_or("there are people")?;
+    println!("the wobbliest {:.4}, ψ = {:.1}°", most.share, most.angle.to_degrees());
 
     let sample = of_a_quarter(share)?;
     let half_width = sample.half_width().ok_or("a sample has an interval")?;
@@ -73,19 +74,8 @@ fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
     Sampler::exact().estimate(&space, Plan::Random { points: 4_000_000, seed: 1 })
 }
 
-/// Student's interval of 95 % for the share, with the people as the sample. The share is a ratio of two sums over
-/// people, which to first order is the mean of one number for each person.
-fn of_people(share: f64, flips: u32) -> Option<Interval> {
-    let weight = 48.0 / f64::from(flips);
-    let of_one = |(same, flips): (&u32, &u32)| share + (f64::from(*same) - share * f64::from(*flips)) * weight;
-    from_scrambles(&SAME.iter().zip(&FLIPS).map(of_one).collect::<Vec<_>>(), 0.95)
-}
-
-fn degrees(probability: f64) -> Result<f64, toss::InputError> {
-    Ok(long_flight_cone(probability)?.to_degrees())
-}
-
-/// An interval of shares with its interval of angles. A smaller angle ψ belongs to a larger share, so the ends swap.
-fn text(Interval { lo, hi }: Interval) -> Result<String, toss::InputError> {
-    Ok(format!("{lo:.4} to {hi:.4}, ψ = {:.1}° to {:.1}° (95 %)", degrees(hi)?, degrees(lo)?))
+/// The interval of the share with that of the angles. A smaller angle ψ belongs to a larger share.
+fn text(found: &Wobble) -> String {
+    let (interval, [least, most]) = (found.interval, found.angles.map(f64::to_degrees));
+    format!("{:.4} to {:.4}, ψ = {least:.1}° to {most:.1}° (95 %)", interval.lo, interval.hi)
 }

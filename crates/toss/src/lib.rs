@@ -90,7 +90,7 @@
 //!
 //! # A plan
 //! You don't need a trajectory to know the outcome. A [`Scene`] says what is wanted and how accurately, and the planner
-//! takes the cheapest model that gives it. Read on at [`Want`], [`MODELS`] and [`Scene::plan`].
+//! takes the cheapest model that gives it. Read on at [`Want`], [`planner`] and [`Scene::plan`].
 //!
 //! ```
 //! use toss::{Answer, Scene, Want};
@@ -174,14 +174,15 @@
 //! assert!(refused(&text.replace("tolerance", "tolerence")).starts_with("unknown field `tolerence`"));
 //! assert!(refused(&text.replace("1e-9", "2")).starts_with("tolerance = 2.0 is outside its valid range"));
 //! let own = SolverConfig::new("exact").with_tolerance(1e-9)?;
-//! assert!(Registry::standard().configured(&own).unwrap_err().to_string().starts_with("tolerance = '1e-9' can't be used"));
+//! assert!(Registry::standard().configured(&own).unwrap_err().to_string().starts_with("tolerance = '1e-9' has no effect"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! *By plan*: a [`Scene`] states an accuracy, and the planner finds the integrator, its scheme and its tolerance.
 //!
 //! ```
-//! use toss::{How, Scene, Want};
+//! use toss::planner::How;
+//! use toss::{Scene, Want};
 //! # use toss::{Coin, Launch, TimeOfFlight, Toss};
 //! # let thrown = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
 //! # let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], thrown)?);
@@ -228,30 +229,53 @@ mod plan;
 mod proofs;
 mod reason;
 mod registry;
+#[cfg(feature = "serde")]
+pub mod report;
 mod rounding;
 mod samples;
 mod scene;
-mod trace;
+pub mod trace;
+
+/// Numbers with their units, and what their conversion rounds.
+pub mod quantity {
+    pub use crate::rounding::{BodyRounding, Rounding};
+    pub use dynamics::{Angle, AngleUnit, Dimension, Quantity, Unit};
+}
+
+/// How the planner decides: what each model offers to a [`Scene`], and why it is passed over.
+pub mod planner {
+    pub use crate::choice::{Candidate, Decision, How, Offer};
+    pub use crate::model::{MODELS, Model};
+    pub use crate::plan::Solution;
+    pub use crate::reason::{Nanoseconds, Reason};
+    pub use crate::scene::{Integrator, WantKind};
+}
+
+/// Our integrators as types, what their proofs say, and what a solver from elsewhere may need.
+pub mod solvers {
+    pub use dynamics::{Checked, ForeignError};
+    pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
+    pub use kinematics_quat::{IntegratedCounts, Integration, Proving};
+}
 
 // The coin, its launch and its flight.
 pub use dynamics::catalogue;
 pub use dynamics::{
-    Angle, AngleUnit, Attitude, Body, Coin, CoinToss, Dimension, EulerAngles, Launch, Outcome, Quantity, State,
-    TimeOfFlight, Toss, Tosses, Unit, Vector3, nalgebra,
+    Attitude, Body, Coin, CoinToss, EulerAngles, Launch, Outcome, State, TimeOfFlight, Toss, Tosses, Vector3, nalgebra,
 };
+pub use trace::{TracePoint, trace};
 
 // Solvers: to choose one, or to write your own.
 pub use dynamics::{
-    Checked, ForeignError, Formulation, FreeRotation, Landing, Scheme, Settings, Solver, SolverConfig, SolverEntry,
-    StepControl, Stepping, Tilt, Work,
+    Formulation, FreeRotation, Landing, Scheme, Settings, Solver, SolverConfig, SolverEntry, StepControl, Stepping,
+    Tilt, Work,
 };
-pub use kinematics_euler::{EulerAnglesSolver, GammaSolver};
-pub use kinematics_quat::{IntegratedCertificate, IntegratedCounts, Integration, Proving, QuaternionSolver, TAYLOR};
+pub use kinematics_quat::{IntegratedCertificate, QuaternionSolver, TAYLOR};
 pub use registry::{Backend, Registry};
 
 // The exact motion, and what follows from it.
 pub use exact::{
-    Batch, Certificate, CoinMotion, ExactMotion, ExactSolver, Margin, RigidAngles, Sensitivity, Stage, certify,
+    Batch, Certificate, CoinMotion, ExactMotion, ExactSolver, Margin, Sensitivity, Stage, certify,
     level_speeds_of_heads, margin, speeds_of_heads,
 };
 pub use numerics::lanes::SimdLevel;
@@ -261,13 +285,8 @@ pub use sampling;
 
 // Questions, and the models that answer them.
 pub use answer::{Answer, Verdict};
-pub use choice::{Candidate, Choice, Decision, How, Offer};
-pub use model::{MODELS, Model};
-pub use plan::Solution;
-pub use reason::{Nanoseconds, Reason};
-pub use rounding::{BodyRounding, Rounding};
-pub use scene::{Integrator, Scene, Want, WantKind};
-pub use trace::{EnclosedPoint, MOST_POINTS, TracePoint, trace, trace_enclosed, trace_enclosed_every, trace_every};
+pub use choice::Choice;
+pub use scene::{Scene, Want};
 
 // Errors.
 pub use dynamics::{Error, InputError, SolveError};

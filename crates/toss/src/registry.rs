@@ -99,7 +99,7 @@ impl Registry {
     /// # Errors
     /// [`InputError`] for an unknown name, and for a setting that the solver does not take.
     pub fn configured(&self, config: &SolverConfig) -> Result<Backend, InputError> {
-        self.backend(config.name(), &config.settings(self.named(config.name())?)?)
+        self.backend(config.name(), &config.settings(&self.entries)?)
     }
 }
 

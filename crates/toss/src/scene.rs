@@ -83,9 +83,23 @@ pub enum WantKind {
 }
 
 impl WantKind {
+    /// All kinds.
+    pub const ALL: [Self; 5] = [Self::Outcome, Self::Tilt, Self::Attitude, Self::Trace, Self::Probability];
+
     /// Its name in files and options, such as `outcome`.
     pub fn name(self) -> &'static str {
         ["outcome", "tilt", "attitude", "trace", "probability"][self as usize]
+    }
+
+    /// What is wanted, for the help text of an option.
+    pub fn summary(self) -> &'static str {
+        [
+            "Heads or tails",
+            "cos θ at landing",
+            "The attitude at landing",
+            "The flight at equally spaced times",
+            "The probability of heads over a space of launches",
+        ][self as usize]
     }
 
     /// What is wanted, in words.

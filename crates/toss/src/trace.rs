@@ -8,7 +8,7 @@ use dynamics::error::require;
 use dynamics::{
     Attitude, Checked, Error, EulerAngles, InputError, Launch, SolveError, Solver, State, TimeOfFlight, Toss, Vector3,
 };
-use exact::RigidAngles;
+pub use exact::RigidAngles;
 use kinematics_quat::{IntegratedCertificate, QuaternionSolver};
 
 /// The largest number of points of a trace. A chart needs some hundreds.

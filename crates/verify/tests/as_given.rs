@@ -5,10 +5,8 @@
 use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use toss::{
-    Angle, AngleUnit, Attitude, Batch, Coin, CoinToss, Launch, Outcome, Quantity, Solver, TimeOfFlight, Tosses, Unit,
-    Vector3, certify,
-};
+use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
+use toss::{Attitude, Batch, Coin, CoinToss, Launch, Outcome, Solver, TimeOfFlight, Tosses, Vector3, certify};
 use verify::measure::reference::Reference;
 
 /// The numbers of a toss, each of which can be moved.

@@ -2,9 +2,7 @@
 
 use chart::{Axis, ChartError, Drawn, Panel, TEXT, VERMILION, centred, frame, svg};
 use plotters::prelude::*;
-use sampling::{Map, Space};
-
-use crate::chart::certain_line::{CertainLine, Piece, certain_line};
+use sampling::{CertainLine, Map, Piece, Space, certain_line};
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1500, 1300);
@@ -28,13 +26,13 @@ fn colour(probability: f64) -> RGBColor {
     RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
-/// The map, which is of `space`, as SVG.
-pub(crate) fn map(map: &Map, space: &Space) -> Result<String, ChartError> {
+/// The map, which is of `space`, as SVG. Its title says `of` what it is.
+pub(crate) fn map(map: &Map, space: &Space, of: &str) -> Result<String, ChartError> {
     let line = certain_line(map, space);
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(HEAD);
         let (left, right) = body.split_horizontally(SIZE.0 - 200);
-        draw_head(&head, &line)?;
+        draw_head(&head, of, &line)?;
         draw_map(&left, map, line.as_ref().map_or(&[], |line| line.pieces.as_slice()))?;
         draw_scale(&right)
     })
@@ -73,9 +71,9 @@ fn draw_map(panel: &Panel<'_>, map: &Map, line: &[Piece]) -> Drawn {
 }
 
 /// The title, and below it what the line is or why there is none.
-fn draw_head(panel: &Panel<'_>, line: &Result<CertainLine, &'static str>) -> Drawn {
+fn draw_head(panel: &Panel<'_>, of: &str, line: &Result<CertainLine, &'static str>) -> Drawn {
     let middle = i32::try_from(SIZE.0 / 2).unwrap_or(0);
-    centred(panel, "P(heads)", (middle, 40))?;
+    centred(panel, &format!("P(heads), {of}"), (middle, 40))?;
     let words = match line {
         Ok(CertainLine { angles: "", .. }) => "the line where heads becomes certain",
         Ok(CertainLine { angles, .. }) => &format!("the line where heads becomes certain, {angles}"),

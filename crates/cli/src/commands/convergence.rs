@@ -6,7 +6,7 @@ use sampling::{RunningStep, Sampler};
 use toss::Registry;
 
 use crate::failure::Failure;
-use crate::output::{self, Input, SeriesArgs};
+use crate::output::{Input, SeriesArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs};
@@ -42,9 +42,8 @@ impl Args {
         let steps = self.steps.unwrap_or(points.min(DEFAULT_STEPS));
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);
         let steps = self.threads.ask(backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
-        self.series.answer(
-            |format| output::series(input, format, &steps),
-            || Ok(chart::running(&steps.iter().map(RunningStep::columns).collect::<Vec<_>>())?),
-        )
+        let columns = || steps.iter().map(RunningStep::columns).collect::<Vec<_>>();
+        let draw = || Ok(chart::running_of(&format!(", {}", self.space.words(&space)), &columns())?);
+        self.series.answer_lines(input, &steps, draw)
     }
 }

@@ -6,7 +6,7 @@ use toss::Error;
 
 use crate::chart::{self, ErrorLine, Reference};
 use crate::failure::Failure;
-use crate::output::{self, Input, SeriesArgs};
+use crate::output::{Input, SeriesArgs};
 use crate::quantity;
 use crate::space_args::{SpaceArgs, ThreadArgs};
 
@@ -49,7 +49,7 @@ impl Args {
         self.space.require_grid_where_points_are(&space, |_| false)?;
         let ask = |sampler: &Sampler<'_>| self.lines(sampler, &space);
         let (lines, reference) = self.threads.ask(Sampler::exact(), (self.launches(), "launches"), ask)?;
-        self.series.answer(|format| output::series(input, format, &lines), || Ok(chart::errors(&lines, &reference)?))
+        self.series.answer_lines(input, &lines, || Ok(chart::errors(&lines, &reference)?))
     }
 
     /// The numbers of launches with which each method is run.

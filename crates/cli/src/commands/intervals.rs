@@ -5,13 +5,13 @@ use dynamics::quantity::Given;
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use sampling::{Coordinate, Distribution, Space};
 use serde::Serialize;
-use toss::{Coin, Dimension, ExactMotion, TimeOfFlight, Toss, speeds_of_heads};
+use toss::quantity::Dimension;
+use toss::{Coin, ExactMotion, TimeOfFlight, Toss, speeds_of_heads};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input, table};
+use crate::output::{FormatArgs, Input, row, table};
 use crate::quantity;
-use crate::rate_args::RateArgs;
-use crate::toss_args::CoinArgs;
+use crate::toss_args::{CoinArgs, RateArgs};
 
 /// The largest number of turns, with one interval each. A longer list would be of no use.
 const MOST_TURNS: f64 = 10_000.0;
@@ -37,13 +37,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "B", allow_hyphen_values = true, default_value = "0",
           value_parser = quantity::given(Dimension::Angle))]
     tilt: Given,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct Speeds {
     /// The ranges of speed (m/s) in which the toss lands heads.
     heads: Vec<[f64; 2]>,
     /// The share of these ranges in the whole range.
@@ -52,7 +51,7 @@ struct Answer {
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
-        let body = self.coin.given()?.unwrap_or(Coin::PAPER.into());
+        let body = self.coin.body()?;
         let [slowest, fastest] = speeds(&self.speed)?;
         if slowest == fastest {
             return Err(Failure::usage("speed", "--speed: a range LO:HI of more than one speed is needed"));
@@ -69,11 +68,8 @@ impl Args {
         let heads = speeds_of_heads(&toss, slowest)?.unwrap_or_default();
         // Folded from 0.0, because `sum` of an empty list is -0.0.
         let length = heads.iter().fold(0.0, |length, [slow, fast]| length + (fast - slow));
-        let answer = Answer { heads, probability: (length / (fastest - slowest)).min(1.0) };
-        Ok(match self.format {
-            Format::Json => output::json(input, &answer),
-            Format::Text => answer.text(),
-        })
+        let answer = Speeds { heads, probability: (length / (fastest - slowest)).min(1.0) };
+        Ok(self.format.print(input, &answer, || answer.text()))
     }
 }
 
@@ -91,10 +87,10 @@ fn speeds(text: &str) -> Result<[f64; 2], Failure> {
     Err(Failure::usage("speed", format!("--speed '{text}': {why}")))
 }
 
-impl Answer {
+impl Speeds {
     fn text(&self) -> String {
-        let mut rows = vec![vec!["from/(m/s)".to_owned(), "to/(m/s)".to_owned()]];
-        rows.extend(self.heads.iter().map(|[slow, fast]| vec![format!("{slow:.12}"), format!("{fast:.12}")]));
+        let mut rows = vec![row(["from/(m/s)", "to/(m/s)"])];
+        rows.extend(self.heads.iter().map(|[slow, fast]| row([&format!("{slow:.12}"), &format!("{fast:.12}")])));
         format!("heads at speeds\n{}\nshare of the range  {:.12}", table(&rows), self.probability)
     }
 }

@@ -8,7 +8,7 @@ use toss::Registry;
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, Input, SeriesArgs};
+use crate::output::{Input, SeriesArgs};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::ThreadArgs;
@@ -47,29 +47,22 @@ struct Line {
 impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
-        let coin =
-            self.coin.coin("the limit of long flights is a formula for coins; probability estimates P(heads)")?;
+        let coin = self.coin.coin()?;
         let backend = self.solver.backend(registry)?;
         // 30° to 90° in steps of 2.5°; beyond 90° the curve is the mirror image.
         let cone_angles: Vec<f64> = (12..=36).map(|step| (2.5 * f64::from(step)).to_radians()).collect();
         let flights = (self.points.saturating_mul(cone_angles.len() as u64), "flights");
         let ask = |sampler: &Sampler<'_>| sampler.long_flight_shares(coin, &cone_angles, (self.points, self.seed));
         let shares = self.threads.ask(backend.sampler(), flights, ask)?;
-        let lines = || shares.iter().map(Line::from).collect::<Vec<_>>();
-        self.series.answer(|format| output::series(input, format, &lines()), || Ok(chart::limit(&shares)?))
-    }
-}
-
-impl From<&LongFlightShare> for Line {
-    fn from(found: &LongFlightShare) -> Self {
-        let interval = found.estimate.interval;
-        Self {
+        let line = |found: &LongFlightShare| Line {
             cone_angle: found.cone_angle,
             limit: found.limit,
             launches: found.estimate.points,
             share: found.estimate.probability,
-            share_lo: interval.map(|interval| interval.lo),
-            share_hi: interval.map(|interval| interval.hi),
-        }
+            share_lo: found.estimate.interval.map(|interval| interval.lo),
+            share_hi: found.estimate.interval.map(|interval| interval.hi),
+        };
+        let lines: Vec<Line> = shares.iter().map(line).collect();
+        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
     }
 }

@@ -6,16 +6,17 @@ use std::collections::BTreeMap;
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
 use toss::catalogue::{BODIES, Body, BodyEntry, CATALOGUE, CatalogueEntry, Shape};
-use toss::{MODELS, Registry, SolverEntry};
+use toss::planner::{MODELS, Model};
+use toss::report::Moments;
+use toss::{Registry, SolverEntry};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input, table};
+use crate::output::{FormatArgs, Input, row, table};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
@@ -37,90 +38,50 @@ struct CoinLine {
 
 impl CoinLine {
     fn of(entry: &CatalogueEntry) -> Result<Self, Failure> {
-        let (mass_g, diameter_mm, thickness_mm) = match entry.body {
-            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
-                (Some(mass_g), Some(diameter_mm), Some(thickness_mm))
-            }
-            Body::Moments(_) => (None, None, None),
+        let size = match entry.body {
+            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => [mass_g, diameter_mm, thickness_mm].map(Some),
+            Body::Moments(_) => [None; 3],
         };
-        let coin = entry.coin()?;
-        Ok(Self {
-            name: entry.name,
-            description: entry.description,
-            mass_g,
-            diameter_mm,
-            thickness_mm,
-            i1: coin.i1(),
-            i2: coin.i1(),
-            i3: coin.i3(),
-            inertia: None,
-            inertia_ratio: Some(coin.inertia_ratio()),
-            source: entry.source,
-        })
+        Ok(Self::new((entry.name, entry.description, entry.source), size, entry.coin()?.into()))
     }
 
     fn of_body(entry: &BodyEntry) -> Result<Self, Failure> {
-        let (mass_g, diameter_mm, thickness_mm) = match entry.shape {
-            Shape::Engraved { mass_g, diameter_mm, thickness_mm, .. } => {
-                (Some(mass_g), Some(diameter_mm), Some(thickness_mm))
-            }
-            Shape::Cuboid { mass_g, .. } => (Some(mass_g), None, None),
-            Shape::Moments(_) => (None, None, None),
+        let size = match entry.shape {
+            Shape::Engraved { mass_g, diameter_mm, thickness_mm, .. } => [mass_g, diameter_mm, thickness_mm].map(Some),
+            Shape::Cuboid { mass_g, .. } => [Some(mass_g), None, None],
+            Shape::Moments(_) => [None; 3],
         };
-        let body = entry.body()?;
-        let [i1, i2, i3] = body.moments().unwrap_or_else(|| body.principal_moments());
-        Ok(Self {
-            name: entry.name,
-            description: entry.description,
-            mass_g,
-            diameter_mm,
-            thickness_mm,
-            i1,
-            i2,
-            i3,
-            inertia: body.moments().is_none().then(|| body.inertia()),
-            inertia_ratio: None,
-            source: entry.source,
-        })
+        Ok(Self::new((entry.name, entry.description, entry.source), size, entry.body()?))
     }
 
-    fn row(&self) -> Vec<String> {
+    fn new(
+        (name, description, source): (&'static str, &'static str, &'static str),
+        [mass_g, diameter_mm, thickness_mm]: [Option<f64>; 3],
+        body: toss::Body,
+    ) -> Self {
+        let (Moments { i1, i2, i3, inertia }, inertia_ratio) =
+            (Moments::from(&body), body.coin().map(|coin| coin.inertia_ratio()));
+        Self { name, description, mass_g, diameter_mm, thickness_mm, i1, i2, i3, inertia, inertia_ratio, source }
+    }
+
+    fn cells(&self) -> [String; 9] {
         let optional = |value: Option<f64>, digits| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"));
-        vec![
-            self.name.to_owned(),
-            optional(self.mass_g, 3),
-            optional(self.diameter_mm, 2),
-            optional(self.thickness_mm, 2),
-            format!("{:.4e}", self.i1),
-            format!("{:.4e}", self.i2),
-            format!("{:.4e}", self.i3),
-            optional(self.inertia_ratio, 4),
-            self.description.to_owned(),
-        ]
+        let [i1, i2, i3] = [self.i1, self.i2, self.i3].map(|moment| format!("{moment:.4e}"));
+        let size = [optional(self.mass_g, 3), optional(self.diameter_mm, 2), optional(self.thickness_mm, 2)];
+        let ([mass, diameter, thickness], ratio) = (size, optional(self.inertia_ratio, 4));
+        [self.name.to_owned(), mass, diameter, thickness, i1, i2, i3, ratio, self.description.to_owned()]
     }
 }
 
 pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
+    const HEADING: [&str; 9] =
+        ["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I2/(kg m²)", "I3/(kg m²)", "k", "what"];
     let lines = CATALOGUE.iter().map(CoinLine::of).chain(BODIES.iter().map(CoinLine::of_body));
     let lines = lines.collect::<Result<Vec<_>, _>>()?;
-    if args.format == Format::Json {
-        return Ok(list(input, "coins", lines));
-    }
-    let mut rows = vec![row([
-        "name",
-        "mass/g",
-        "diameter/mm",
-        "thickness/mm",
-        "I1/(kg m²)",
-        "I2/(kg m²)",
-        "I3/(kg m²)",
-        "k",
-        "what",
-    ])];
-    rows.extend(lines.iter().map(CoinLine::row));
     let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
     sources.dedup();
-    Ok(format!("{}\n\nsources:\n  {}", table(&rows), sources.join("\n  ")))
+    let sources = format!("\n\nsources:\n  {}", sources.join("\n  "));
+    Ok(list(args, input, ("coins", &lines), HEADING, CoinLine::cells, &sources))
 }
 
 #[derive(Serialize)]
@@ -132,31 +93,20 @@ struct SolverLine<'a> {
     formulations: Vec<&'a str>,
 }
 
-impl<'a> From<&'a SolverEntry> for SolverLine<'a> {
-    fn from(entry: &'a SolverEntry) -> Self {
-        let schemes: Vec<&str> = entry.schemes().iter().map(|scheme| scheme.name()).collect();
-        Self {
-            name: entry.name(),
-            summary: entry.summary(),
-            integrates: entry.integrates(),
-            schemes,
-            formulations: entry.formulations().iter().map(|formulation| formulation.name()).collect(),
-        }
-    }
-}
-
-pub(crate) fn solvers(args: &Args, registry: &Registry, input: &Input) -> Result<String, Failure> {
-    let lines: Vec<SolverLine<'_>> = registry.entries().iter().map(SolverLine::from).collect();
-    if args.format == Format::Json {
-        return Ok(list(input, "solvers", lines));
-    }
-    let mut rows = vec![row(["name", "schemes", "formulations", "what"])];
-    rows.extend(lines.iter().map(|line| {
-        let [schemes, formulations] = [&line.schemes, &line.formulations]
-            .map(|names| if names.is_empty() { "-".to_owned() } else { names.join(", ") });
-        row([line.name, &schemes, &formulations, line.summary])
-    }));
-    Ok(table(&rows))
+pub(crate) fn solvers(args: &Args, registry: &Registry, input: &Input) -> String {
+    let line = |entry| SolverLine {
+        name: SolverEntry::name(entry),
+        summary: entry.summary(),
+        integrates: entry.integrates(),
+        schemes: entry.schemes().iter().map(|scheme| scheme.name()).collect(),
+        formulations: entry.formulations().iter().map(|formulation| formulation.name()).collect(),
+    };
+    let lines: Vec<SolverLine<'_>> = registry.entries().iter().map(line).collect();
+    let names = |names: &[&str]| if names.is_empty() { "-".to_owned() } else { names.join(", ") };
+    let cells = |line: &SolverLine<'_>| {
+        [line.name.to_owned(), names(&line.schemes), names(&line.formulations), line.summary.to_owned()]
+    };
+    list(args, input, ("solvers", &lines), ["name", "schemes", "formulations", "what"], cells, "")
 }
 
 #[derive(Serialize)]
@@ -168,25 +118,17 @@ struct ModelLine {
     cost_ns: Option<f64>,
 }
 
-pub(crate) fn models(args: &Args, input: &Input) -> Result<String, Failure> {
-    let lines: Vec<ModelLine> = MODELS
-        .iter()
-        .map(|model| ModelLine {
-            name: model.name,
-            assumes: model.assumes,
-            gives: model.gives,
-            cost_ns: model.cost_ns(),
-        })
-        .collect();
-    if args.format == Format::Json {
-        return Ok(list(input, "models", lines));
-    }
-    let mut rows = vec![row(["name", "ns", "gives", "assumes"])];
-    rows.extend(lines.iter().map(|line| {
-        let cost = line.cost_ns.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.0}"));
-        row([line.name, &cost, line.gives, line.assumes])
-    }));
-    Ok(table(&rows))
+pub(crate) fn models(args: &Args, input: &Input) -> String {
+    let line = |model: &Model| ModelLine {
+        name: model.name,
+        assumes: model.assumes,
+        gives: model.gives,
+        cost_ns: model.cost_ns(),
+    };
+    let lines: Vec<ModelLine> = MODELS.iter().map(line).collect();
+    let cost = |line: &ModelLine| line.cost_ns.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.0}"));
+    let cells = |line: &ModelLine| [line.name.to_owned(), cost(line), line.gives.to_owned(), line.assumes.to_owned()];
+    list(args, input, ("models", &lines), ["name", "ns", "gives", "assumes"], cells, "")
 }
 
 #[derive(Serialize)]
@@ -210,23 +152,25 @@ pub(crate) fn spaces(args: &Args, input: &Input) -> Result<String, Failure> {
         let grid_points = space.grid_points()?;
         lines.push(SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points });
     }
-    if args.format == Format::Json {
-        return Ok(list(input, "spaces", lines));
-    }
     let [x, y, z, v, g, t] = Coordinate::ALL.map(Coordinate::symbol);
-    let mut rows = vec![row(["name", x, y, z, v, g, t, "launches", "what"])];
-    rows.extend(lines.iter().map(|line| {
+    let cells = |line: &SpaceLine| {
         let SpaceLine { name, description, rate_x, rate_y, rate_z, speed, gravity, tilt, grid_points } = line;
-        row([name, rate_x, rate_y, rate_z, speed, gravity, tilt, &grid_points.to_string(), description])
-    }));
-    Ok(table(&rows))
+        let points = grid_points.to_string();
+        [*name, rate_x, rate_y, rate_z, speed, gravity, tilt, &points, description].map(str::to_owned)
+    };
+    Ok(list(args, input, ("spaces", &lines), ["name", x, y, z, v, g, t, "launches", "what"], cells, ""))
 }
 
-/// As `{"name":[..],..}`.
-fn list(input: &Input, name: &'static str, lines: Vec<impl Serialize>) -> String {
-    output::json(input, &BTreeMap::from([(name, lines)]))
-}
-
-fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
-    cells.map(str::to_owned).to_vec()
+/// The lines as `{"name":[..],..}`, or as a table with its heading and a text below it.
+fn list<T: Serialize, const N: usize>(
+    args: &Args,
+    input: &Input,
+    (name, lines): (&str, &[T]),
+    heading: [&str; N],
+    cells: impl Fn(&T) -> [String; N],
+    below: &str,
+) -> String {
+    let rows =
+        || std::iter::once(row(heading)).chain(lines.iter().map(|line| cells(line).to_vec())).collect::<Vec<_>>();
+    args.format.print(input, &BTreeMap::from([(name, lines)]), || table(&rows()) + below)
 }

@@ -1,15 +1,16 @@
 //! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
 //! other coordinates are sampled at each node.
 
-use sampling::{Coordinate, Map, Plan, Sampler, Space, map_nodes};
+use sampling::{Coordinate, Map, Method, Plan, Sampler, Space, map_nodes};
 use serde::Serialize;
 use toss::{InputError, Registry};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs};
+use crate::quantity;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
+use crate::space_args::{Defaults, PlanArgs, SpaceArgs, ThreadArgs, lays_grid, require_few};
 
 /// The numbers of launches at each node.
 const DEFAULTS: Defaults = Defaults { random: 1024, sobol: 1024, accuracy: None };
@@ -25,8 +26,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "COORDINATE", default_value = "rate_z")]
     up: String,
     /// How the launches of a node are chosen
-    #[arg(long, value_enum, default_value_t = MethodArg::ExactSpeed)]
-    method: MethodArg,
+    #[arg(long, value_parser = quantity::method(&Method::ALL), default_value_t = Method::ExactSpeed)]
+    method: Method,
     #[command(flatten)]
     plan: PlanArgs,
     #[command(flatten)]
@@ -52,9 +53,9 @@ impl Args {
         let mapped = self.threads.ask(backend.sampler(), (nodes, "nodes"), ask)?;
         let data = |format| match format {
             DataFormat::Csv => csv(&mapped),
-            DataFormat::Json => output::json(input, &Answer::from(&mapped)),
+            DataFormat::Json => output::json(input, &Nodes::from(&mapped)),
         };
-        self.series.answer(data, || Ok(chart::map(&mapped, &space)?))
+        self.series.answer(data, || Ok(chart::map(&mapped, &space, &self.space.words(&space))?))
     }
 }
 
@@ -79,7 +80,7 @@ fn csv(map: &Map) -> String {
 }
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct Nodes<'a> {
     across: &'static str,
     up: &'static str,
     across_values: &'a [f64],
@@ -88,7 +89,7 @@ struct Answer<'a> {
     probability: Vec<Vec<f64>>,
 }
 
-impl<'a> From<&'a Map> for Answer<'a> {
+impl<'a> From<&'a Map> for Nodes<'a> {
     fn from(map: &'a Map) -> Self {
         let ((across, columns), (up, rows)) = (&map.across, &map.up);
         let row = |nodes: &[sampling::Node]| nodes.iter().map(|node| node.probability).collect();

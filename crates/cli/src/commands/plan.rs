@@ -4,16 +4,13 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use toss::{
-    Candidate, Choice, Decision, Error, ExactSolver, How, Integrator, MOST_POINTS, Nanoseconds, QuaternionSolver,
-    Reason, Registry, Scene, Scheme, SolverEntry, StepControl, Want,
-};
+use toss::planner::{Candidate, Decision, How, Integrator, Nanoseconds, Reason, WantKind};
+use toss::trace::MOST_POINTS;
+use toss::{Error, ExactSolver, QuaternionSolver, Registry, Scene, StepControl, Want};
 
-use crate::estimate_answer::name_of;
 use crate::failure::Failure;
-use crate::output::{self, Format, Input, table};
+use crate::output::{self, FormatArgs, Input, row, table};
 use crate::quantity;
-use crate::solver_args;
 use crate::space_args::space_called;
 use crate::toss_args::TossArgs;
 
@@ -25,8 +22,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     toss: TossArgs,
     /// What is wanted
-    #[arg(long, value_enum, required_unless_present = "scene")]
-    want: Option<WantArg>,
+    #[arg(long, value_parser = quantity::want(), required_unless_present = "scene")]
+    want: Option<WantKind>,
     /// The largest acceptable error: of cos θ, of an attitude (rad) or of a probability
     #[arg(long, value_name = "EPS", allow_hyphen_values = true, required_unless_present = "scene",
           value_parser = quantity::tolerance)]
@@ -40,11 +37,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME|FILE.toml",
           conflicts_with_all = ["rate", "turn", "wobble", "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     space: Option<String>,
-    #[arg(long, value_name = "NAME",
-          help = solver_help(Registry::standard()))]
+    #[arg(long, value_name = "NAME")]
     solver: Option<String>,
-    #[arg(long, value_name = "NAME", alias = "method", requires = "solver",
-          help = scheme_help(Registry::standard()))]
+    #[arg(long, value_name = "NAME", alias = "method", requires = "solver")]
     scheme: Option<String>,
     /// Prove the error of --want tilt or attitude by integration: for the solver quaternion with the scheme taylor, which
     /// is then its default
@@ -55,45 +50,12 @@ pub(crate) struct Args {
           conflicts_with_all = ["want", "accuracy", "space", "solver", "prove", "points", "coin", "cylinder", "moments", "inertia", "rate", "turn", "wobble",
                                 "speed", "time", "gravity", "drop", "tilt", "drag", "bounce"])]
     scene: Option<PathBuf>,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
-
-fn solver_help(registry: &Registry) -> String {
-    format!("An integrator that is used as a cross-check: {}", solver_args::solvers(registry, SolverEntry::integrates))
-}
-
-fn scheme_help(registry: &Registry) -> String {
-    let schemes = solver_args::schemes(registry, Scheme::is_adaptive);
-    format!("Scheme of the integrator: {schemes} [default: the cheapest one]")
-}
-
-/// What `--help` says of the option called `name`, if it depends on the registry.
-pub(crate) fn help(registry: &Registry, name: &str) -> Option<String> {
-    match name {
-        "solver" => Some(solver_help(registry)),
-        "scheme" => Some(scheme_help(registry)),
-        _ => None,
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum WantArg {
-    /// Heads or tails
-    Outcome,
-    /// cos θ at landing
-    Tilt,
-    /// The attitude at landing
-    Attitude,
-    /// The flight at equally spaced times
-    Trace,
-    /// The probability of heads over a space of launches
-    Probability,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct Chosen {
     model: &'static str,
     solver: String,
     /// The scheme of an integrator.
@@ -123,10 +85,8 @@ impl Args {
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        Ok(match self.format {
-            Format::Json => output::json(input, &Answer::new(&scene, &decision)?),
-            Format::Text => Answer::new(&scene, &decision)?.text(&decision.choice),
-        })
+        let chosen = Chosen::new(&scene, &decision)?;
+        Ok(self.format.print(input, &chosen, || chosen.text(decision.choice.model.gives)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -135,20 +95,20 @@ impl Args {
             space_called(self.space.as_deref().ok_or_else(missing)?, &self.toss.coin)
         };
         let want = match self.want {
-            Some(want) if want != WantArg::Trace && self.points.is_some() => {
+            Some(want) if want != WantKind::Trace && self.points.is_some() => {
                 return Err(Failure::usage(
                     "points",
                     "--points is for --want trace; a plan chooses its launches itself",
                 ));
             }
-            Some(WantArg::Probability) => Want::Probability(space()?),
+            Some(WantKind::Probability) => Want::Probability(space()?),
             _ if self.space.is_some() => {
                 return Err(Failure::usage("space", "--space is for --want probability; a toss has --rate"));
             }
-            Some(WantArg::Outcome) => Want::Outcome(self.toss.toss()?),
-            Some(WantArg::Tilt) => Want::Tilt(self.toss.toss()?),
-            Some(WantArg::Attitude) => Want::Attitude(self.toss.toss()?),
-            Some(WantArg::Trace) | None => {
+            Some(WantKind::Outcome) => Want::Outcome(self.toss.toss()?),
+            Some(WantKind::Tilt) => Want::Tilt(self.toss.toss()?),
+            Some(WantKind::Attitude) => Want::Attitude(self.toss.toss()?),
+            Some(WantKind::Trace) | None => {
                 Want::Trace { toss: self.toss.toss()?, points: self.points.unwrap_or(DEFAULT_POINTS) }
             }
         };
@@ -159,12 +119,7 @@ impl Args {
 }
 
 fn scene_file(path: &Path) -> Result<Scene, Failure> {
-    let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| Failure::Read {
-        option: "scene",
-        path: shown.clone(),
-        source,
-    })?;
+    let text = output::read("scene", path)?;
     let scene = if path.extension().is_some_and(|extension| extension == "json") {
         serde_json::from_str(&text).map_err(|error| {
             let (line, column) = (error.line(), error.column());
@@ -178,25 +133,26 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
             Error::in_text(&text, error.span().map(|span| span.start), error.message().to_owned())
         })
     };
-    scene.map_err(|source| Failure::Text { path: shown, source })
+    scene.map_err(|source| Failure::Text { path: path.display().to_string(), source })
 }
 
-impl Answer {
+impl Chosen {
     fn new(scene: &Scene, decision: &Decision) -> Result<Self, Failure> {
-        let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
+        let choice = &decision.choice;
+        let other = |(model, why): &(Candidate, Reason)| PassedOver { model: model.to_string(), why: why.to_string() };
         let mut answer = Self {
-            model: model.name,
+            model: choice.model.name,
             solver: ExactSolver::NAME.to_owned(),
             scheme: None,
             method: None,
             tolerance: None,
             points: None,
-            expected_error: *expected_error,
+            expected_error: choice.expected_error,
             certified: scene.by.as_ref().is_some_and(|by| by.prove),
-            expected_cost_ns: *expected_cost_ns,
-            passed_over: decision.passed_over.iter().map(PassedOver::new).collect(),
+            expected_cost_ns: choice.expected_cost_ns,
+            passed_over: decision.passed_over.iter().map(other).collect(),
         };
-        match (how, &scene.want) {
+        match (&choice.how, &scene.want) {
             (How::Integrator(entry, stepping), _) => {
                 answer.solver = entry.name().to_owned();
                 answer.scheme = Some(stepping.scheme().name());
@@ -206,7 +162,7 @@ impl Answer {
                 };
             }
             (How::Sampling(plan), Want::Probability(space)) => {
-                answer.method = Some(name_of(*plan));
+                answer.method = Some(plan.method().name());
                 answer.points = match plan {
                     sampling::Plan::Enclosure { .. } => None,
                     plan => Some(plan.points(space)?),
@@ -217,7 +173,7 @@ impl Answer {
         Ok(answer)
     }
 
-    fn text(&self, choice: &Choice) -> String {
+    fn text(&self, gives: &str) -> String {
         let mut settings = self.solver.clone();
         settings.extend(self.scheme.or(self.method).map(|name| format!(", {name}")));
         settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
@@ -228,13 +184,13 @@ impl Answer {
             error => format!("{error:.1e}"),
         };
         let mut rows = vec![
-            vec!["model".to_owned(), self.model.to_owned(), choice.model.gives.to_owned()],
-            vec!["solver".to_owned(), settings, String::new()],
-            vec!["expected".to_owned(), format!("error {error}"), format!("in {}", Nanoseconds(self.expected_cost_ns))],
+            row(["model", self.model, gives]),
+            row(["solver", &settings, ""]),
+            row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(self.expected_cost_ns))]),
         ];
         let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
         let others = self.passed_over.iter().zip(heading);
-        rows.extend(others.map(|(other, heading)| vec![heading.to_owned(), other.model.clone(), other.why.clone()]));
+        rows.extend(others.map(|(other, heading)| row([heading, &other.model, &other.why])));
         table(&rows)
     }
 }
@@ -244,10 +200,4 @@ fn rounded_up(bound: f64) -> String {
     let shown = format!("{bound:.1e}");
     let is_below = shown.parse().is_ok_and(|shown: f64| shown < bound);
     if is_below { format!("{:.1e}", bound + 0.05 * 10f64.powf(bound.log10().floor())) } else { shown }
-}
-
-impl PassedOver {
-    fn new((candidate, reason): &(Candidate, Reason)) -> Self {
-        Self { model: candidate.to_string(), why: reason.to_string() }
-    }
 }

@@ -1,16 +1,17 @@
 //! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
 //! interval of the estimate with it, as far as the method has one.
 
-use sampling::{Estimate, Interval, Plan, Sampler, Space};
-use toss::{Answer as Answered, Backend, How, Integration, Proving, Registry, Scene, Solver, Want};
+use sampling::{Estimate, Found, Interval, IntervalKind, Method, Plan, Sampler, Space};
+use toss::planner::How;
+use toss::solvers::{Integration, Proving};
+use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
 
-use crate::estimate_answer::{Answer, name_of, text};
+use crate::commands::parts::ShardArgs;
 use crate::failure::Failure;
-use crate::output::{self, Format, Input};
+use crate::output::{Format, FormatArgs, Input};
 use crate::quantity;
-use crate::shard_args::ShardArgs;
 use crate::solver_args::SolverArgs;
-use crate::space_args::{Defaults, MethodArg, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
+use crate::space_args::{Defaults, PlanArgs, SpaceArgs, ThreadArgs, lays_grid};
 
 /// Largest error if neither a method nor an accuracy is given.
 const DEFAULT_ACCURACY: f64 = 1e-4;
@@ -24,8 +25,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     space: SpaceArgs,
     /// How launches are chosen [default: the cheapest one that serves, with as many launches as it takes]
-    #[arg(long, value_enum)]
-    method: Option<MethodArg>,
+    #[arg(long, value_parser = quantity::method(&Method::ALL))]
+    method: Option<Method>,
     /// Largest acceptable error of the probability, if no method is given [default: 1e-4, and 1e-3 for a body with
     /// I1 ≠ I2], or of enclosure [default: 1e-10, 1e-6
     /// or 1e-3 with one, two or three coordinates beside the speed]
@@ -42,9 +43,8 @@ pub(crate) struct Args {
     prove: bool,
     #[command(flatten)]
     shard: ShardArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 impl Args {
@@ -55,7 +55,7 @@ impl Args {
         }
         let backend = self.solver.backend(registry)?;
         if let (true, Some(method)) = (self.shard.is_given(), self.method) {
-            if self.format == Format::Json {
+            if self.format.format == Format::Json {
                 return Err(Failure::usage("format", "--format has no effect with --shard: the part itself is JSON"));
             }
             let plan = self.plan_of(method, &space)?;
@@ -65,14 +65,10 @@ impl Args {
             Some(method) => self.by_method(method, &space, &backend)?,
             None => self.by_plan(&space, &backend)?,
         };
-        Ok(match self.format {
-            Format::Json => output::json(input, &Answer::new(&found, plan)),
-            Format::Text => {
-                let chosen =
-                    format!("\nmethod       {}, chosen for an error of {:e}", name_of(plan), self.accuracy(&space));
-                text(&found, backend.solver().name()) + if self.method.is_none() { &chosen } else { "" }
-            }
-        })
+        let chosen = || format!("\nmethod       {}, chosen for an error of {:e}", plan.method(), self.accuracy(&space));
+        Ok(self.format.print(input, &report::Estimate::new(&found, plan), || {
+            text(&found, backend.solver().name()) + &if self.method.is_none() { chosen() } else { String::new() }
+        }))
     }
 
     /// The answer of which each outcome is proven by integration.
@@ -88,21 +84,16 @@ impl Args {
         let plan = self.plan_of(self.method.ok_or_else(needed)?, space)?;
         let ask = |sampler: &Sampler<'_>| sampler.estimate(space, plan);
         let found = self.threads.ask(Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
-        let (mut answer, counts) = (Answer::new(&found, plan), proving.counts());
-        answer.certified = counts.undecided() == 0;
-        answer.integrated_by = Some(counts.into());
-        Ok(match self.format {
-            Format::Json => output::json(input, &answer),
-            Format::Text => {
-                let kinds = Integration::ALL.map(|kind| format!("{kind} {}", counts.by(kind)));
-                format!("{}\nproven by    integration: {}", text(&found, proving.name()), kinds.join(", "))
-            }
-        })
+        let counts = proving.counts();
+        Ok(self.format.print(input, &report::Estimate::new(&found, plan).integrated(&counts), || {
+            let kinds = Integration::ALL.map(|kind| format!("{kind} {}", counts.by(kind)));
+            format!("{}\nproven by    integration: {}", text(&found, proving.name()), kinds.join(", "))
+        }))
     }
 
     /// The plan of a method.
-    fn plan_of(&self, method: MethodArg, space: &Space) -> Result<Plan, Failure> {
-        if self.accuracy.is_some() && method != MethodArg::Enclosure {
+    fn plan_of(&self, method: Method, space: &Space) -> Result<Plan, Failure> {
+        if self.accuracy.is_some() && method != Method::Enclosure {
             let message =
                 "--accuracy can't be used with this --method: it is for enclosure, or chooses the method itself";
             return Err(Failure::usage("accuracy", message));
@@ -112,7 +103,7 @@ impl Args {
         Ok(plan)
     }
 
-    fn by_method(&self, method: MethodArg, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
+    fn by_method(&self, method: Method, space: &Space, backend: &Backend) -> Result<(Plan, Estimate), Failure> {
         let plan = self.plan_of(method, space)?;
         if let Plan::Enclosure { .. } = plan {
             return Ok((plan, self.enclosed(backend.sampler(), space, plan)?));
@@ -146,7 +137,7 @@ impl Args {
             scene.choose_and_run_reporting(Registry::standard(), &|more| counter.inc(more))
         })??;
         match (choice.how, answer) {
-            (How::Sampling(plan), Answered::Probability(found)) => Ok((plan, *found)),
+            (How::Sampling(plan), Answer::Probability(found)) => Ok((plan, *found)),
             _ => Err(no_sample()),
         }
     }
@@ -160,4 +151,48 @@ impl Args {
 /// The error of a planner that answers a probability by something else than a sample.
 fn no_sample() -> Failure {
     Failure::usage("accuracy", "--accuracy: the plan for this space is no sample; --method chooses one")
+}
+
+/// An estimate as text.
+pub(crate) fn text(found: &Estimate, solver: &str) -> String {
+    let (probability, kind) = (found.probability, &found.interval_kind);
+    let (probability, interval) = match (found.interval, found.half_width()) {
+        (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
+            (probability.to_string(), format!("± {error:.1e} ({kind})"))
+        }
+        (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
+            (format!("{probability:.0$}", digits_for(error)), format!("{lo} to {hi} ({kind})"))
+        }
+        (Some(Interval { lo, hi }), Some(error)) => {
+            let digits = digits_for(error);
+            (format!("{probability:.digits$}"), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
+        }
+        _ => (format!("{probability:.6}"), kind.to_string()),
+    };
+    let launches = match found.found {
+        Found::Counts(counts) => {
+            format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
+        }
+        Found::Shares { .. } if *kind == IntervalKind::Proven => format!("all, in {} cells", found.points),
+        Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
+    };
+    let mut lines = vec![
+        format!("P(heads)     {probability}"),
+        format!("interval     {interval}"),
+        format!("launches     {launches}"),
+        format!("solver       {solver}"),
+    ];
+    if let Found::Counts(counts) = found.found
+        && counts.are_certified()
+    {
+        let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.proven().by(stage)));
+        lines.push(format!("proven by    {}", stages.join(", ")));
+    }
+    lines.join("\n")
+}
+
+/// The number of decimal places that show two digits of `error`, at least six.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 6 and 17")]
+fn digits_for(error: f64) -> usize {
+    (1.0 - error.log10().floor()).clamp(6.0, 17.0) as usize
 }

@@ -1,19 +1,22 @@
 //! `unfair-toss sample` prints single launches of a space and how each lands, as CSV or as lines of JSON, so that other
 //! programs can work with them. With `-` it reads the launches from standard input instead.
 //!
-//! Rows are printed as they are solved, some thousands at a time, so that their number is not limited by the memory.
+//! Rows are printed as they are solved, some thousands at a time, so that their number is not limited by the memory. Every
+//! mistake of a row that was read is reported with its line and column, since such files have many lines.
 
-use std::io::Read;
+use std::io::{Read, Write};
 
+use csv::StringRecord;
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use rayon::prelude::*;
-use sampling::{Coordinate, Drawn, Plan, Scrambled, Space};
-use toss::{Backend, Coin, Error, Registry, Toss};
+use sampling::{Drawn, Method, Plan, Scrambled, Space};
+use serde::Serialize;
+use toss::quantity::Dimension;
+use toss::{Backend, Body, Error, InputError, Launch, Registry, TimeOfFlight, Toss, Verdict};
 
 use crate::Streams;
-use crate::commands::sample_rows::{Given, Row, Writer};
 use crate::failure::Failure;
-use crate::launch_rows;
-use crate::output::DataFormat;
+use crate::output::{DataFormat, plain_json, without_sign_of_zero};
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs, require_few};
@@ -38,9 +41,9 @@ pub(crate) struct Args {
     /// Number of launches
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = quantity::count::<u64>(1..=u64::MAX))]
     points: Option<u64>,
-    /// How launches are chosen [default: random]
-    #[arg(long, value_enum)]
-    method: Option<DrawArg>,
+    /// How launches are chosen, sobol with one scramble [default: random]
+    #[arg(long, value_parser = quantity::method(&[Method::Grid, Method::Random, Method::Sobol]))]
+    method: Option<Method>,
     /// Seed of the random launches or of the scramble [default: 1]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantity::seed)]
     seed: Option<u64>,
@@ -51,17 +54,6 @@ pub(crate) struct Args {
     /// Output format
     #[arg(long, value_enum, default_value_t = DataFormat::Csv)]
     format: DataFormat,
-}
-
-/// The method by which launches are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum DrawArg {
-    /// A grid over the space, whose axes have their numbers of points
-    Grid,
-    /// Independent random launches
-    Random,
-    /// Sobol points with one scramble, which fill the space more evenly
-    Sobol,
 }
 
 impl Args {
@@ -84,8 +76,7 @@ impl Args {
     }
 
     fn answer_input(&self, backend: &Backend, input: &mut dyn Read, writer: &mut Writer<'_>) -> Result<(), Failure> {
-        let body = self.space.coin.given()?.unwrap_or(Coin::PAPER.into());
-        let mut launches = launch_rows::read(input, body)?;
+        let mut launches = read(input, self.space.coin.body()?)?;
         loop {
             let chunk: Vec<Result<Given, Failure>> = launches.by_ref().take(CHUNK).collect();
             if chunk.is_empty() || writer.is_closed() {
@@ -118,32 +109,25 @@ impl Args {
         let seed = self.seed.unwrap_or(1);
         let points =
             || self.points.ok_or_else(|| Failure::usage("points", "--points N is needed, the number of launches"));
-        match self.method.unwrap_or(DrawArg::Random) {
-            DrawArg::Random => Ok(Plan::Random { points: points()?, seed }),
-            DrawArg::Sobol => Ok(Plan::Sobol(Scrambled { points: points()?, scrambles: 1, seed })),
-            DrawArg::Grid if self.points.is_some() => {
+        match self.method.unwrap_or(Method::Random) {
+            Method::Random => Ok(Plan::Random { points: points()?, seed }),
+            Method::Sobol => Ok(Plan::Sobol(Scrambled { points: points()?, scrambles: 1, seed })),
+            Method::Grid if self.points.is_some() => {
                 Err(Failure::usage("points", "--points: a grid takes its points from the axes, LO:HI:POINTS"))
             }
-            DrawArg::Grid if self.seed.is_some() => {
+            Method::Grid if self.seed.is_some() => {
                 Err(Failure::usage("seed", "--seed: no launch of a grid is drawn at random"))
             }
-            DrawArg::Grid => Ok(Plan::Grid),
+            _ => Ok(Plan::Grid),
         }
     }
 }
 
-/// A launch of `space` as a row.
+/// A launch of `space`.
 fn given(space: &Space, drawn: &Drawn) -> Given {
-    let value = |of: Coordinate| drawn.values[of as usize];
-    Given {
-        rate: [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ].map(value),
-        speed: Some(value(Coordinate::Speed)),
-        time: None,
-        gravity: Some(value(Coordinate::Gravity)),
-        drop: space.drop(),
-        tilt: value(Coordinate::Tilt),
-        toss: drawn.toss,
-    }
+    let [wx, wy, wz, speed, gravity, tilt] = drawn.values;
+    let (speed, gravity, drop) = (Some(speed), Some(gravity), space.drop());
+    Given { row: Row { wx, wy, wz, speed, gravity, drop, tilt, ..Row::default() }, toss: drawn.toss }
 }
 
 /// Solves the launches, and writes them with their landings in their order.
@@ -168,5 +152,229 @@ fn landed(backend: &Backend, given: &Given, index: u64) -> Result<Row, Error> {
     let landed = backend.solver().tilt(toss).and_then(|tilt| Ok((tilt, backend.verdict(toss, tilt)?)));
     let failed = |source| Error::Launch { index, toss: Box::new(*toss), source };
     let (tilt, verdict) = landed.map_err(failed)?;
-    Ok(Row::new(given, tilt.cos_tilt, verdict))
+    Ok(given.row.landed(toss, tilt.cos_tilt, verdict))
+}
+
+/// A launch with its row, in which what belongs to its landing is not filled in yet.
+#[derive(Debug, Clone, Copy)]
+struct Given {
+    row: Row,
+    toss: Toss,
+}
+
+/// A row: body rate (rad/s), speed (m/s) or time of flight (s), gravity (m/s²), drop (m) and tilt (rad), all as they were
+/// given; time of flight (s), cos θ at landing, outcome, and whether it is proven.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+struct Row {
+    wx: f64,
+    wy: f64,
+    wz: f64,
+    speed: Option<f64>,
+    time: Option<f64>,
+    gravity: Option<f64>,
+    drop: Option<f64>,
+    tilt: f64,
+    flight_time: f64,
+    cos_tilt: f64,
+    outcome: &'static str,
+    certified: bool,
+}
+
+impl Row {
+    fn landed(self, toss: &Toss, cos_tilt: f64, verdict: Verdict) -> Self {
+        let plain = |value: Option<f64>| value.map(without_sign_of_zero);
+        Self {
+            wx: without_sign_of_zero(self.wx),
+            wy: without_sign_of_zero(self.wy),
+            wz: without_sign_of_zero(self.wz),
+            speed: plain(self.speed),
+            time: plain(self.time),
+            drop: plain(self.drop),
+            tilt: without_sign_of_zero(self.tilt),
+            flight_time: without_sign_of_zero(toss.launch.flight_time()),
+            cos_tilt: without_sign_of_zero(cos_tilt),
+            outcome: verdict.outcome().name(),
+            certified: verdict.is_proven(),
+            ..self
+        }
+    }
+}
+
+/// Writes rows to standard output as they come.
+struct Writer<'a> {
+    out: &'a mut (dyn Write + Send),
+    format: DataFormat,
+    rows: u64,
+    is_closed: bool,
+}
+
+impl<'a> Writer<'a> {
+    fn new(out: &'a mut (dyn Write + Send), format: DataFormat) -> Self {
+        Self { out, format, rows: 0, is_closed: false }
+    }
+
+    /// Number of rows that were written.
+    fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// Whether the reader of standard output has gone, so that no more rows are wanted.
+    fn is_closed(&self) -> bool {
+        self.is_closed
+    }
+
+    fn write(&mut self, rows: &[Row]) -> Result<(), Failure> {
+        let text = match self.format {
+            DataFormat::Csv => self.csv(rows),
+            DataFormat::Json => rows.iter().map(|row| plain_json(row) + "\n").collect::<String>().into_bytes(),
+        };
+        self.rows += rows.len() as u64;
+        self.print(&text)
+    }
+
+    /// Prints the heading of a table without rows.
+    fn head(&mut self) -> Result<(), Failure> {
+        if self.rows > 0 || self.format != DataFormat::Csv {
+            return Ok(());
+        }
+        let table = self.csv(&[Row::default()]);
+        let heading = table.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default();
+        self.print(heading)
+    }
+
+    /// Ends the output.
+    fn finish(&mut self) -> Result<(), Failure> {
+        whole_file::unless_closed(self.out.flush()).map_err(Failure::Print)
+    }
+
+    fn csv(&self, rows: &[Row]) -> Vec<u8> {
+        let mut writer = csv::WriterBuilder::new().has_headers(self.rows == 0).from_writer(Vec::new());
+        for row in rows {
+            writer.serialize(row).expect("a row of plain data always fits into memory");
+        }
+        writer.into_inner().expect("memory takes every byte")
+    }
+
+    fn print(&mut self, text: &[u8]) -> Result<(), Failure> {
+        match self.out.write_all(text) {
+            Err(closed) if closed.kind() == std::io::ErrorKind::BrokenPipe => self.is_closed = true,
+            written => written.map_err(Failure::Print)?,
+        }
+        Ok(())
+    }
+}
+
+/// The columns that describe a launch: heading, field of an error, and kind of quantity.
+const COLUMNS: [(&str, &str, Dimension); 8] = [
+    ("wx", "rate x [rad/s]", Dimension::TurnRate),
+    ("wy", "rate y [rad/s]", Dimension::TurnRate),
+    ("wz", "rate z [rad/s]", Dimension::TurnRate),
+    ("speed", "speed [m/s]", Dimension::Speed),
+    ("time", "time [s]", Dimension::Time),
+    ("gravity", "gravity [m/s²]", Dimension::Acceleration),
+    ("drop", "drop [m]", Dimension::Length),
+    ("tilt", "tilt [rad]", Dimension::Angle),
+];
+
+/// The columns of an answer, which may be there and are passed over, so that an output can be read again.
+const ANSWERS: [&str; 4] = ["flight_time", "cos_tilt", "outcome", "certified"];
+
+/// The launches of `body` in a text of CSV.
+///
+/// # Errors
+/// [`Failure::Text`] for a heading that is unknown, missing or there twice. Each launch has its own errors.
+fn read<R: Read>(text: R, body: Body) -> Result<impl Iterator<Item = Result<Given, Failure>>, Failure> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
+    let headings = reader.headers().map_err(|error| unreadable(&error))?.clone();
+    let places = places(&headings)?;
+    let width = headings.len();
+    Ok(reader.into_records().map(move |record| {
+        let record = record.map_err(|error| unreadable(&error))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        launch(&record, &places, body).map_err(|error| {
+            let column = COLUMNS.iter().position(|(_, field, _)| *field == error.field()).and_then(|of| places[of]);
+            at(line, column.unwrap_or(width - 1), error.to_string())
+        })
+    }))
+}
+
+/// The name of a column that may also be called as in spaces or as its option.
+fn column_name(heading: &str) -> &str {
+    match heading {
+        "rate_x" | "rate-x" => "wx",
+        "rate_y" | "rate-y" => "wy",
+        "rate_z" | "rate-z" => "wz",
+        other => other,
+    }
+}
+
+/// The place of each of [`COLUMNS`] among the headings.
+fn places(headings: &StringRecord) -> Result<[Option<usize>; 8], Failure> {
+    let known = COLUMNS.map(|(name, ..)| name);
+    let headings: Vec<&str> = headings.iter().map(column_name).collect();
+    for (column, heading) in headings.iter().copied().enumerate() {
+        if !known.contains(&heading) && !ANSWERS.contains(&heading) {
+            return Err(at(1, column, format!("column '{heading}' is unknown; known: {}", known.join(", "))));
+        }
+        if headings.iter().take(column).any(|other| *other == heading) {
+            return Err(at(1, column, format!("column '{heading}' is there twice")));
+        }
+    }
+    let places = known.map(|name| headings.iter().position(|heading| *heading == name));
+    let [x, y, z, speed, time, ..] = places;
+    let missing = known.into_iter().zip([x, y, z]).find(|(_, place)| place.is_none()).map(|(name, _)| name);
+    let missing = missing.or_else(|| speed.or(time).is_none().then_some("speed or time"));
+    missing.map_or(Ok(places), |name| Err(at(1, headings.len(), format!("column {name} is missing"))))
+}
+
+/// The launch in a record.
+fn launch(record: &StringRecord, places: &[Option<usize>; 8], body: Body) -> Result<Given, InputError> {
+    let mut values = [None; 8];
+    for (value, ((_, field, dimension), place)) in values.iter_mut().zip(COLUMNS.iter().zip(places)) {
+        let cell = place.and_then(|place| record.get(place)).filter(|cell| !cell.is_empty());
+        *value = cell.map(|cell| dimension.read(field, cell)).transpose()?;
+    }
+    let [x, y, z, speed, time, gravity, drop, tilt] = values;
+    let missing = |field| InputError::Missing { field, expected: "a number" };
+    let rate = [
+        x.ok_or_else(|| missing("rate x [rad/s]"))?,
+        y.ok_or_else(|| missing("rate y [rad/s]"))?,
+        z.ok_or_else(|| missing("rate z [rad/s]"))?,
+    ];
+    let thrown = gravity.or(drop);
+    let time_of_flight = match (speed, time) {
+        (Some(speed), None) => TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop),
+        (None, Some(time)) if thrown.is_none() => TimeOfFlight::Given(time),
+        (None, None) => {
+            return Err(InputError::Missing { field: "speed [m/s]", expected: "a speed, or a time of flight" });
+        }
+        _ => {
+            let (value, expected) = ("given twice".to_owned(), "a time alone, without speed, gravity and drop");
+            return Err(InputError::Malformed { field: "time [s]", value, expected });
+        }
+    };
+    let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt.unwrap_or(0.0))?;
+    let gravity = speed.map(|_| gravity.unwrap_or(DEFAULT_GRAVITY));
+    let [wx, wy, wz] = rate;
+    let tilt = tilt.unwrap_or(0.0);
+    let row = Row { wx, wy, wz, speed, time, gravity, drop, tilt, ..Row::default() };
+    Ok(Given { row, toss: Toss { body, launch } })
+}
+
+/// The error of a place in the text: a line from 1, and a column of the table from 0.
+fn at(line: u64, column: usize, message: String) -> Failure {
+    let line = usize::try_from(line).unwrap_or(usize::MAX);
+    Failure::Text { path: "standard input".to_owned(), source: Error::Text { line, column: column + 1, message } }
+}
+
+/// The error of a text that is no table.
+fn unreadable(error: &csv::Error) -> Failure {
+    let line = error.position().map_or(1, csv::Position::line);
+    let message = match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("{len} cells, but the heading has {expected_len}")
+        }
+        _ => error.to_string(),
+    };
+    at(line, 0, message)
 }

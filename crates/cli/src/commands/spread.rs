@@ -2,12 +2,14 @@
 //! relative spread of the launch with which heads is still as probable, and that of each input alone, and says how finely
 //! smaller spreads were looked at.
 
+use dynamics::quantity::Given;
 use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread};
 use serde::Serialize;
+use toss::report::Precision;
 use toss::{Error, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
-use crate::output::{self, Format, Input};
+use crate::output::{FormatArgs, Input};
 use crate::quantity;
 use crate::space_args::ThreadArgs;
 use crate::toss_args::TossArgs;
@@ -27,24 +29,16 @@ pub(crate) struct Args {
     seed: u64,
     #[command(flatten)]
     threads: ThreadArgs,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
-struct Answer {
-    answer: &'static str,
-    /// The largest relative spread; the largest one that was tried where any will do.
-    spread: Option<f64>,
-    /// P(heads) at this spread.
-    probability: Option<f64>,
+struct Spreads {
+    #[serde(flatten)]
+    together: Precision,
     interval: Option<[f64; 2]>,
     interval_kind: Option<String>,
-    /// At how many spreads P(heads) was estimated.
-    looks: Option<u32>,
-    /// P(heads) at all smaller spreads from the smallest that is tried, as far as the estimates are right.
-    at_least: Option<f64>,
     alone: Vec<Alone>,
 }
 
@@ -52,21 +46,15 @@ struct Answer {
 #[derive(Serialize)]
 struct Alone {
     input: &'static str,
-    answer: &'static str,
-    spread: Option<f64>,
-    probability: Option<f64>,
-    looks: Option<u32>,
-    at_least: Option<f64>,
+    #[serde(flatten)]
+    found: Precision,
 }
 
 impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = self.space()?;
         let (together, alone) = self.threads.run(|| self.answers(&space))??;
-        Ok(match self.format {
-            Format::Json => output::json(input, &Answer::new(&together, &alone)),
-            Format::Text => text(&together, &alone),
-        })
+        Ok(self.format.print(input, &Spreads::new(&together, &alone), || text(&together, &alone)))
     }
 
     /// The space that consists of the toss alone.
@@ -81,7 +69,7 @@ impl Args {
         };
         let rate = launch.rate();
         let space = Space::builder(body).rate_x(rate.x).rate_y(rate.y).rate_z(rate.z).speed(speed).gravity(gravity);
-        Ok(space.tilt(self.toss.tilt()).build()?.with_drop(drop)?)
+        Ok(space.tilt(self.toss.tilt.map_or(0.0, Given::si)).build()?.with_drop(drop)?)
     }
 
     /// The largest spreads of all inputs together, and of each of them alone.
@@ -95,37 +83,20 @@ impl Args {
     }
 }
 
-/// The parts of an answer: its name, and the spread with what is known of it.
-fn parts(found: &LargestSpread) -> (&'static str, Option<&SufficientSpread>) {
+/// The spread with what is known of it, if there is one.
+fn sufficient(found: &LargestSpread) -> Option<&SufficientSpread> {
     match found {
-        LargestSpread::UpTo(found) => ("up_to", Some(found)),
-        LargestSpread::Any(found) => ("any", Some(found)),
-        LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
-        LargestSpread::BelowSmallest(_) => ("below_smallest", None),
+        LargestSpread::UpTo(found) | LargestSpread::Any(found) => Some(found),
+        LargestSpread::TossIsNotHeads(_) | LargestSpread::BelowSmallest(_) => None,
     }
 }
 
-impl Answer {
+impl Spreads {
     fn new(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Self {
-        let (answer, found) = parts(together);
-        let alone = alone.iter().map(|(of, found)| {
-            let (answer, found) = parts(found);
-            Alone {
-                input: of.name(),
-                answer,
-                spread: found.map(|found| found.spread),
-                probability: found.map(|found| found.estimate.probability),
-                looks: found.map(|found| found.looks),
-                at_least: found.map(|found| found.at_least),
-            }
-        });
-        let estimate = found.map(|found| &found.estimate);
+        let estimate = sufficient(together).map(|found| &found.estimate);
+        let alone = alone.iter().map(|(of, found)| Alone { input: of.name(), found: found.into() });
         Self {
-            answer,
-            spread: found.map(|found| found.spread),
-            probability: estimate.map(|found| found.probability),
-            looks: found.map(|found| found.looks),
-            at_least: found.map(|found| found.at_least),
+            together: together.into(),
             interval: estimate.and_then(|found| found.interval).map(|interval| [interval.lo, interval.hi]),
             interval_kind: estimate.map(|found| found.interval_kind.to_string()),
             alone: alone.collect(),
@@ -135,7 +106,7 @@ impl Answer {
 
 fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
     let mut lines = vec![format!("spread       {}", in_words(together))];
-    if let (_, Some(SufficientSpread { estimate, looks, at_least, .. })) = parts(together) {
+    if let Some(SufficientSpread { estimate, looks, at_least, .. }) = sufficient(together) {
         lines.push(format!("P(heads)     {:.6} at this spread", estimate.probability));
         let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
@@ -167,8 +138,8 @@ fn in_words(found: &LargestSpread) -> String {
 
 /// The spread in percent, to three digits.
 fn in_short(found: &LargestSpread) -> String {
-    match parts(found) {
-        ("any", _) => "any".to_owned(),
+    match (found, sufficient(found)) {
+        (LargestSpread::Any(_), _) => "any".to_owned(),
         (_, Some(found)) => {
             let percent = 100.0 * found.spread;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 12")]

@@ -2,16 +2,18 @@
 //! laboratory frame, whose z axis points up.
 
 use serde::Serialize;
-use toss::{
-    Dimension, EnclosedPoint, MOST_POINTS, Registry, Solver, Toss, TracePoint, trace, trace_enclosed,
-    trace_enclosed_every, trace_every,
-};
+use toss::quantity::Dimension;
+use toss::trace::{EnclosedPoint, MOST_POINTS, trace_enclosed, trace_enclosed_every, trace_every};
+use toss::{Registry, Solver, Toss, TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
+
+/// Points that are printed beside a chart if no number is given.
+const DEFAULT_POINTS: usize = 101;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -32,31 +34,7 @@ pub(crate) struct Args {
     pub(crate) series: SeriesArgs,
 }
 
-/// One line: time (s), attitude quaternion, Euler angles (rad), the coin's normal and a vector fixed in its face (both
-/// in LF), and cos θ, where θ is the angle between the normal and the vertical.
-#[derive(Serialize)]
-struct Line {
-    time: f64,
-    w: f64,
-    x: f64,
-    y: f64,
-    z: f64,
-    alpha: f64,
-    beta: f64,
-    gamma: f64,
-    normal_x: f64,
-    normal_y: f64,
-    normal_z: f64,
-    face_x: f64,
-    face_y: f64,
-    face_z: f64,
-    cos_tilt: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error_bound: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    attitude_error_bound: Option<f64>,
-}
-
+/// A point as JSON. As CSV its numbers stand in a line, in the columns of [`COLUMNS`].
 #[derive(Serialize)]
 struct Point {
     time: f64,
@@ -77,9 +55,9 @@ struct Point {
 type Bounded = (TracePoint, Option<[f64; 2]>);
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct Points<'a> {
     solver: &'a str,
-    points: Vec<Point>,
+    points: &'a [Point],
 }
 
 impl Args {
@@ -87,28 +65,29 @@ impl Args {
         self.series.validate()?;
         let (toss, backend) = self.flight.parts(registry)?;
         let flight = self.flight(registry, &toss, backend.solver())?;
+        let points: Vec<Point> = flight.iter().map(Point::from).collect();
         let data = |format| match format {
-            DataFormat::Csv => output::csv(flight.iter().map(Line::from)),
-            DataFormat::Json => {
-                let points = flight.iter().map(Point::from).collect();
-                output::json(input, &Answer { solver: backend.solver().name(), points })
-            }
+            DataFormat::Csv => csv(&points),
+            DataFormat::Json => output::json(input, &Points { solver: backend.solver().name(), points: &points }),
         };
         self.series.answer(data, || {
             // As many points as the motion needs, whatever number is printed.
             let drawn = trace(backend.solver(), &toss, chart::points_to_draw(&toss))?;
-            Ok(chart::flight(&drawn, &toss, backend.solver().tilt(&toss)?.outcome())?)
+            let solver = backend.solver();
+            let scheme = solver.stepping().map(|stepping| format!(", {}", stepping.scheme())).unwrap_or_default();
+            let by = format!("solver {}{scheme}", solver.name());
+            Ok(chart::flight(&drawn, &toss, solver.tilt(&toss)?.outcome(), (&self.flight.toss.words(), &by))?)
         })
     }
-}
 
-impl Args {
     /// The points, with their bounds if they are asked for.
     fn flight(&self, registry: &Registry, toss: &Toss, solver: &dyn Solver) -> Result<Vec<Bounded>, Failure> {
-        let missing = || Failure::usage("points", "one of --points N and --dt H is needed");
+        // Who asks for a chart alone may not care for the number of points.
+        let points = self.points.or(self.series.has_chart().then_some(DEFAULT_POINTS));
+        let missing = || Failure::usage("points", "one of --points N and --dt H is needed, or --svg FILE");
         if self.prove {
-            let solver = self.flight.prover(registry)?;
-            let enclosed = match (self.points, self.dt) {
+            let solver = self.flight.solver.prover(registry)?;
+            let enclosed = match (points, self.dt) {
                 (_, Some(step)) => trace_enclosed_every(&solver, toss, step)?,
                 (points, None) => trace_enclosed(&solver, toss, points.ok_or_else(missing)?)?,
             };
@@ -117,7 +96,7 @@ impl Args {
             };
             return Ok(enclosed.into_iter().map(bounds).collect());
         }
-        let flight = match (self.points, self.dt) {
+        let flight = match (points, self.dt) {
             (_, Some(step)) => trace_every(solver, toss, step)?,
             (points, None) => trace(solver, toss, points.ok_or_else(missing)?)?,
         };
@@ -125,35 +104,25 @@ impl Args {
     }
 }
 
-impl From<&Bounded> for Line {
-    fn from((point, bounds): &Bounded) -> Self {
-        let [w, x, y, z] = point.attitude.components().map(without_sign_of_zero);
-        let [normal_x, normal_y, normal_z] = <[f64; 3]>::from(point.normal).map(without_sign_of_zero);
-        let [face_x, face_y, face_z] = <[f64; 3]>::from(point.face).map(without_sign_of_zero);
-        let angles = [point.angles.alpha, point.angles.beta, point.angles.gamma];
-        let [alpha, beta, gamma] = angles.map(without_sign_of_zero);
-        let [time, cos_tilt] = [point.time, point.cos_tilt].map(without_sign_of_zero);
-        let (error_bound, attitude_error_bound) = (bounds.map(|[bound, _]| bound), bounds.map(|[_, bound]| bound));
-        Self {
-            time,
-            w,
-            x,
-            y,
-            z,
-            alpha,
-            beta,
-            gamma,
-            normal_x,
-            normal_y,
-            normal_z,
-            face_x,
-            face_y,
-            face_z,
-            cos_tilt,
-            error_bound,
-            attitude_error_bound,
-        }
+impl Point {
+    /// The numbers of a line of CSV.
+    fn numbers(&self) -> Vec<f64> {
+        let Self { time, attitude, alpha, beta, gamma, normal, face, cos_tilt, error_bound, attitude_error_bound } =
+            self;
+        let angles = [*alpha, *beta, *gamma];
+        let first = [*time].into_iter().chain(*attitude).chain(angles).chain(*normal).chain(*face).chain([*cos_tilt]);
+        first.map(without_sign_of_zero).chain(*error_bound).chain(*attitude_error_bound).collect()
     }
+}
+
+/// The columns of CSV: time (s), attitude quaternion, Euler angles (rad), the coin's normal and a vector fixed in its face (both
+/// in LF), and cos θ, where θ is the angle between the normal and the vertical; with `--prove` also the bounds.
+const COLUMNS: &str = "time,w,x,y,z,alpha,beta,gamma,normal_x,normal_y,normal_z,face_x,face_y,face_z,cos_tilt,error_bound,attitude_error_bound";
+
+fn csv(points: &[Point]) -> String {
+    let width = points[0].numbers().len();
+    let heading = COLUMNS.split(',').take(width).collect::<Vec<_>>().join(",");
+    output::csv_of_numbers(&heading, points.iter().map(Point::numbers))
 }
 
 impl From<&Bounded> for Point {

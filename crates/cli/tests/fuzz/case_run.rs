@@ -1,26 +1,18 @@
-//! Runs one case, in this process or by the program, in a folder of its own; and the smallest case that shows the same.
+//! Runs one case in this process, in a folder of its own.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs;
-use std::io::Write;
 use std::os::unix::ffi::OsStrExt;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::sync::{Mutex, mpsc};
 use std::time::{Duration, Instant};
 
 use unfair_toss::Streams;
 
-use crate::check::{Ran, violations};
+use crate::check::Ran;
 use crate::command_line::Case;
-
-/// How a case is run in a folder, which is empty.
-pub(crate) type Runner = fn(&Case, &Path) -> Ran;
-
-/// The address space of the program, in KiB. A thread alone reserves some MiB.
-const ADDRESS_SPACE: u64 = 4 << 20;
 
 /// A run that takes longer than this is not waited for.
 const GIVEN_UP: Duration = Duration::from_secs(20);
@@ -32,7 +24,7 @@ static ALONE: Mutex<()> = Mutex::new(());
 static PANICS: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 /// Runs the case by the library of the program.
-pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
+pub(crate) fn run(case: &Case, folder: &Path) -> Ran {
     let _alone = ALONE.lock().expect("no case ends this thread");
     write_files(case, folder);
     std::env::set_current_dir(folder).expect("the folder is there");
@@ -64,30 +56,6 @@ pub(crate) fn in_process(case: &Case, folder: &Path) -> Ran {
     Ran { code, out, err, panics, wall, memory: peak_of_memory(), files: taken_files(folder) }
 }
 
-/// Runs the case by the program itself, with bounded memory.
-pub(crate) fn the_program(case: &Case, folder: &Path) -> Ran {
-    write_files(case, folder);
-    let began = Instant::now();
-    let limited = format!("ulimit -v {ADDRESS_SPACE} && ulimit -t {} && exec \"$@\"", GIVEN_UP.as_secs());
-    let mut program = Command::new("sh");
-    program.args(["-c", &limited, "sh", env!("CARGO_BIN_EXE_unfair-toss")]).args(case.flat()).current_dir(folder);
-    program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = program.spawn().expect("the program starts");
-    // A program may end before it has read all.
-    _ = child.stdin.take().expect("it is piped").write_all(&case.input);
-    let output = child.wait_with_output().expect("the program ends");
-    let (code, wall) = (output.status.code(), began.elapsed());
-    Ran {
-        code,
-        out: output.stdout,
-        err: output.stderr,
-        panics: Vec::new(),
-        wall,
-        memory: 0,
-        files: taken_files(folder),
-    }
-}
-
 /// The largest memory of this process (KiB) since it was last forgotten; 0 where the system does not tell.
 fn peak_of_memory() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -117,28 +85,6 @@ fn taken_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
             (entry.file_name().to_string_lossy().into_owned(), content)
         })
         .collect()
-}
-
-/// The case without the arguments that are not needed for a violation.
-pub(crate) fn shortened(runner: Runner, case: Case, folder: &Path) -> Case {
-    if runner(&case, folder).is_slow() {
-        return case;
-    }
-    let mut best = case;
-    let mut at = best.arguments.len();
-    while at > 1 {
-        at -= 1;
-        // Without a number of points for example, a command may take long.
-        if best.arguments[at].last().is_some_and(|last| last.as_bytes().iter().all(u8::is_ascii_digit)) {
-            continue;
-        }
-        let mut fewer = best.clone();
-        fewer.arguments.remove(at);
-        if !violations(&fewer, &runner(&fewer, folder)).is_empty() {
-            best = fewer;
-        }
-    }
-    best
 }
 
 /// The case as it can be pasted into a shell.

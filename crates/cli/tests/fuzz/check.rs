@@ -33,13 +33,6 @@ pub(crate) struct Ran {
     pub(crate) files: BTreeMap<String, Vec<u8>>,
 }
 
-impl Ran {
-    /// Whether it took longer than any run may.
-    pub(crate) fn is_slow(&self) -> bool {
-        self.wall > LONGEST
-    }
-}
-
 /// The claims that a run of `case` breaks.
 pub(crate) fn violations(case: &Case, ran: &Ran) -> Vec<String> {
     let mut found: Vec<String> = ran.panics.iter().map(|message| format!("a panic: {message}")).collect();
@@ -49,7 +42,7 @@ pub(crate) fn violations(case: &Case, ran: &Ran) -> Vec<String> {
     if ran.memory > MOST_MEMORY {
         found.push(format!("took {} KiB", ran.memory));
     }
-    if ran.is_slow() {
+    if ran.wall > LONGEST {
         found.push(format!("took {:?}", ran.wall));
     }
     found

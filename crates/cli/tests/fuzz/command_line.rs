@@ -11,20 +11,7 @@ use crate::source::Source;
 use crate::values::{Kind, kind, value, value_of};
 
 /// The options without which a command has hardly any answer.
-const CORE: &[&str] = &[
-    "rate",
-    "speed",
-    "time",
-    "rate_x",
-    "rate_y",
-    "rate_z",
-    "space",
-    "scene",
-    "want",
-    "accuracy",
-    "probability",
-    "method",
-];
+const CORE: &str = "rate speed time rate_x rate_y rate_z space scene want accuracy probability method";
 
 /// What is given to the program.
 #[derive(Debug, Clone)]
@@ -113,13 +100,7 @@ fn options(source: &mut Source, command: &Command) -> Vec<Vec<OsString>> {
         let percent = match argument.get_id().as_str() {
             "drag" | "bounce" if source.careful => 0,
             _ if argument.is_required_set() => 97,
-            id if CORE.contains(&id) => {
-                if source.careful {
-                    98
-                } else {
-                    90
-                }
-            }
+            id if CORE.split(' ').any(|core| core == id) => 90 + 8 * usize::from(source.careful),
             // Without it, a command may take a number that is good for people and too slow for a hundred thousand cases.
             _ if kind(argument) == Kind::Count => 100,
             "format" => 60,

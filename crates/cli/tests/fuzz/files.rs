@@ -158,7 +158,7 @@ fn change(source: &mut Source, value: &mut Value) {
             }
         }
         _ => {
-            let extreme = Value::from(format!("@{}@", source.pick(EXTREME)));
+            let extreme = Value::from(format!("@{}@", source.pick(&EXTREME)));
             *value =
                 source.pick(&[json!({}), json!([]), json!([[1]]), json!(true), json!(""), json!("x"), extreme]).clone();
         }

@@ -22,23 +22,22 @@ mod values;
 
 use std::collections::BTreeMap;
 
-use case_run::{Runner, in_process, pasted, shortened, the_program};
+use case_run::{pasted, run};
 use check::violations;
 use command_line::Case;
 
 /// Runs `number` cases from the one with the number `first`, and panics with those in which something does not hold.
-fn fuzz(runner: Runner, first: u64, number: u64) {
+fn fuzz(first: u64, number: u64) {
     let program = unfair_toss::program();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (mut failures, mut codes) = (Vec::new(), BTreeMap::<(String, Option<i32>), u64>::new());
     for index in first..first + number {
         let case = Case::new(&program, index);
-        let ran = runner(&case, folder.path());
+        let ran = run(&case, folder.path());
         *codes.entry((case.command(), ran.code)).or_default() += 1;
-        if !violations(&case, &ran).is_empty() {
-            let case = shortened(runner, case, folder.path());
-            let found = violations(&case, &runner(&case, folder.path())).join("\n  ");
-            failures.push(format!("case {index}: {}\n  {found}\n", pasted(&case)));
+        let found = violations(&case, &ran);
+        if !found.is_empty() {
+            failures.push(format!("case {index}: {}\n  {}\n", pasted(&case), found.join("\n  ")));
             eprintln!("{}", failures[failures.len() - 1]);
         }
         if failures.len() == 20 {
@@ -62,23 +61,12 @@ fn fuzz(runner: Runner, first: u64, number: u64) {
 }
 
 #[test]
-fn generated_input_in_process() {
-    fuzz(in_process, 0, 3_000);
-}
-
-#[test]
-fn generated_input_by_the_program() {
-    fuzz(the_program, 1_000_000, 100);
+fn generated_input() {
+    fuzz(0, 3_000);
 }
 
 #[test]
 #[ignore = "takes minutes"]
-fn more_generated_input_in_process() {
-    fuzz(in_process, 3_000, 97_000);
-}
-
-#[test]
-#[ignore = "takes minutes"]
-fn more_generated_input_by_the_program() {
-    fuzz(the_program, 1_000_100, 1_900);
+fn more_generated_input() {
+    fuzz(3_000, 97_000);
 }

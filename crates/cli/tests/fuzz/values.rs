@@ -68,13 +68,13 @@ pub(crate) fn value(source: &mut Source, kind: Kind, listed: &[String]) -> OsStr
     match source.below(100) {
         _ if source.careful => valid(source, kind, listed).into(),
         0..80 => valid(source, kind, listed).into(),
-        80..86 => source.pick(EXTREME).to_string().into(),
+        80..86 => source.pick(&EXTREME).to_string().into(),
         86..90 => {
             let other = *source.pick(&[Kind::Name, Kind::Count, Kind::List(3), Kind::Axis, Kind::Number]);
             valid(source, other, listed).into()
         }
-        _ if kind == Kind::Output => source.pick(OUTPUTS).to_string().into(),
-        90..97 => source.pick(GARBAGE).to_string().into(),
+        _ if kind == Kind::Output => source.pick(&OUTPUTS).to_string().into(),
+        90..97 => source.pick(&GARBAGE).to_string().into(),
         _ => garbage(source),
     }
 }
@@ -83,7 +83,7 @@ pub(crate) fn value(source: &mut Source, kind: Kind, listed: &[String]) -> OsStr
 fn valid(source: &mut Source, kind: Kind, listed: &[String]) -> String {
     match kind {
         Kind::Listed if !listed.is_empty() => source.pick(listed).clone(),
-        Kind::Listed | Kind::Name => source.pick(NAMES).to_string(),
+        Kind::Listed | Kind::Name => source.pick(&NAMES).to_string(),
         Kind::Count | Kind::Whole => count(source),
         Kind::List(length) => {
             let length = if source.careful || source.chance(90) { length } else { source.below(8) };
@@ -94,7 +94,7 @@ fn valid(source: &mut Source, kind: Kind, listed: &[String]) -> String {
         Kind::Input if source.careful => source.pick(&["file.toml", "file.toml", "cheated", "tails"]).to_string(),
         Kind::Input => source.pick(&["file.toml", "file.json", "cheated", "tails", "missing.toml", "."]).to_string(),
         Kind::Output => {
-            let outputs = if source.careful { &OUTPUTS[..6] } else { OUTPUTS };
+            let outputs = if source.careful { &OUTPUTS[..6] } else { OUTPUTS.as_slice() };
             source.pick(outputs).to_string()
         }
         Kind::Number => number(source),
@@ -102,7 +102,7 @@ fn valid(source: &mut Source, kind: Kind, listed: &[String]) -> String {
 }
 
 fn count(source: &mut Source) -> String {
-    let counts = if source.careful || source.chance(85) { SMALL } else { HUGE };
+    let counts = if source.careful || source.chance(85) { SMALL } else { HUGE.as_slice() };
     source.pick(counts).to_string()
 }
 
@@ -110,18 +110,18 @@ fn count(source: &mut Source) -> String {
 pub(crate) fn number(source: &mut Source) -> String {
     match source.below(100) {
         _ if source.careful => source.pick(&ORDINARY[..13]).to_string(),
-        0..60 => source.pick(ORDINARY).to_string(),
+        0..60 => source.pick(&ORDINARY).to_string(),
         60..85 => format!("{:.3}", 4.0 * source.fraction()),
-        85..90 => source.pick(EXTREME).to_string(),
+        85..90 => source.pick(&EXTREME).to_string(),
         90..92 => format!("{:e}", source.any_number()),
-        _ => format!("{}{}", source.pick(ORDINARY), source.pick(UNITS)),
+        _ => format!("{}{}", source.pick(&ORDINARY), source.pick(UNITS)),
     }
 }
 
 /// A coordinate of a space. The points of its grid are few, or so many that they have to be refused.
 pub(crate) fn axis(source: &mut Source) -> String {
     let (one, other) = (number(source), number(source));
-    let counts = if source.careful || source.chance(90) { &["1", "2", "3", "4"] } else { HUGE };
+    let counts = if source.careful || source.chance(90) { &["1", "2", "3", "4"] } else { HUGE.as_slice() };
     let points = *source.pick(counts);
     match source.below(100) {
         _ if source.has_grid => source.pick(&["0:9:3", "3:5:4", "1:2:2", &one]).to_string(),
@@ -148,6 +148,6 @@ fn garbage(source: &mut Source) -> OsString {
             .filter(|letter| *letter != '/')
             .collect::<String>()
             .into(),
-        _ => format!("{}{}", source.pick(GARBAGE), source.pick(EXTREME)).into(),
+        _ => format!("{}{}", source.pick(&GARBAGE), source.pick(&EXTREME)).into(),
     }
 }

@@ -12,7 +12,8 @@ use std::time::Instant;
 use anyhow::Context;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space, named_space};
-use toss::{Error, Nanoseconds};
+use toss::Error;
+use toss::planner::Nanoseconds;
 
 use crate::host::Host;
 use crate::slope::slope;

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use anyhow::{Context, anyhow, ensure};
 use dynamics::{Body, Toss};
-use toss::{Attitude, Coin, Launch, Quantity, Registry, TimeOfFlight};
+use toss::quantity::{Angle, Quantity};
+use toss::{Attitude, Coin, Launch, Registry, TimeOfFlight};
 
 use crate::measure::subject::Subject;
 
@@ -74,7 +75,7 @@ pub fn read(text: &str) -> anyhow::Result<Toss> {
 pub fn tilt(launch: &Launch) -> Option<f64> {
     let attitude = launch.attitude();
     let horizontal = (attitude == Attitude::IDENTITY).then_some(0.0);
-    attitude.tilt().map(toss::Angle::radians).or(horizontal)
+    attitude.tilt().map(Angle::radians).or(horizontal)
 }
 
 /// Whether the launch is horizontal, with heads up.

@@ -15,9 +15,10 @@ use rayon::prelude::*;
 use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
 use toss::catalogue::CATALOGUE;
+use toss::planner::Model;
 use toss::{
-    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Model, Outcome, Registry, Scene, TimeOfFlight,
-    TracePoint, Vector3, Want, level_speeds_of_heads,
+    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, TimeOfFlight, TracePoint,
+    Vector3, Want, level_speeds_of_heads,
 };
 
 use crate::measure::case;

@@ -16,9 +16,9 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use dynamics::Toss;
 use numerics::DoubleDouble;
+use toss::quantity::{Angle, AngleUnit, Quantity};
 use toss::{
-    Angle, AngleUnit, Attitude, Coin, CoinToss, ExactSolver, Landing, Launch, Outcome, Quantity, SolveError, Solver,
-    TimeOfFlight, Vector3,
+    Attitude, Coin, CoinToss, ExactSolver, Landing, Launch, Outcome, SolveError, Solver, TimeOfFlight, Vector3,
 };
 
 /// Precision of the arithmetic in binary digits.

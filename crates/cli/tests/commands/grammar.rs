@@ -1,35 +1,17 @@
 //! One grammar for all options: each option of each command, as the program itself defines them, is given wrong values of every
 //! kind. The answer is an error with code 2 that names the option, the value and what is valid.
 
-mod common;
-
-use std::ffi::OsString;
-
+use crate::common::{json, run, stderr, stdout};
+use crate::registry::answer;
 use clap::{Arg, Command};
-use common::{json, run, stderr, stdout};
 use serde_json::Value;
-use unfair_toss::Streams;
+use toss::Registry;
 
 /// Values that no option takes, but one that is the name of a file.
 const WRONG: [&str; 9] = ["abc", "−3", "3−4", "15º", "30±1", "0x10", "1e999x", "7 apples", "~"];
 
 /// Options that are no numbers.
-const TEXTS: [&str; 14] = [
-    "coin",
-    "solver",
-    "scheme",
-    "formulation",
-    "method",
-    "want",
-    "format",
-    "across",
-    "up",
-    "space",
-    "scene",
-    "svg",
-    "out",
-    "shard",
-];
+const TEXTS: &str = "coin solver scheme formulation method want format across up space scene svg out shard";
 
 /// Options whose values are whole numbers.
 const COUNTS: [&str; 7] = ["points", "seed", "threads", "steps", "repeats", "replicates", "up_to"];
@@ -41,95 +23,55 @@ const OUTSIDE: [&str; 2] = ["drag", "bounce"];
 const FILES: [&str; 3] = ["svg", "out", "scene"];
 
 /// The other options of a command line with `option`, such that the value of the option is what is wrong with it.
-fn others(command: &str, option: &str) -> &'static str {
-    let toss = |command: &str| matches!(command, "toss" | "trace" | "compare" | "spread" | "plan" | "intervals");
-    match (command, option) {
-        ("plan", "scene") | ("map" | "errors" | "convergence", "space") => "",
-        ("plan", "space") => "--want probability --accuracy 1e-3",
-        ("plan", "want" | "accuracy" | "points") => "--rate 1,2,3 --speed 3 --want trace --accuracy 1e-6",
-        ("plan", "scheme") => "--rate 1,2,3 --speed 3 --want tilt --accuracy 1e-6 --solver gamma",
-        ("plan", "rate") => "--speed 3 --want tilt --accuracy 1e-6",
-        ("plan", "turn") => "--wobble 1 --speed 3 --want tilt --accuracy 1e-6",
-        ("plan", "wobble") => "--turn 1 --speed 3 --want tilt --accuracy 1e-6",
-        ("plan", "time") => "--rate 1,2,3 --want tilt --accuracy 1e-6",
-        ("plan", _) => "--rate 1,2,3 --speed 3 --want tilt --accuracy 1e-6",
-        ("intervals", "rate") => "--speed 3:4",
-        ("intervals", "turn") => "--wobble 1 --speed 3:4",
-        ("intervals", "wobble") => "--turn 1 --speed 3:4",
-        ("intervals", _) => "--rate 1,2,3 --speed 3:4",
-        ("trace", "dt") => "--rate 1,2,3 --speed 3",
-        ("trace", "rate") => "--speed 3 --points 3",
-        ("trace", "turn") => "--wobble 1 --speed 3 --points 3",
-        ("trace", "wobble") => "--turn 1 --speed 3 --points 3",
-        ("trace", "time") => "--rate 1,2,3 --points 3",
-        ("trace", "scheme" | "tolerance" | "formulation") => "--rate 1,2,3 --speed 3 --points 3 --solver gamma",
-        ("trace", "step") => "--rate 1,2,3 --speed 3 --points 3 --solver gamma --scheme rk4",
-        ("trace", _) => "--rate 1,2,3 --speed 3 --points 3",
-        ("spread", "rate") => "--speed 3 --heads 0.9",
-        ("spread", "turn") => "--wobble 1 --speed 3 --heads 0.9",
-        ("spread", "wobble") => "--turn 1 --speed 3 --heads 0.9",
-        ("spread", "time") => "--rate 1,2,3 --heads 0.9",
-        ("spread", _) => "--rate 1,2,3 --speed 3 --heads 0.9",
-        (command, "rate") if toss(command) => "--speed 3",
-        (command, "turn") if toss(command) => "--wobble 1 --speed 3",
-        (command, "wobble") if toss(command) => "--turn 1 --speed 3",
-        (command, "time") if toss(command) => "--rate 1,2,3",
-        ("toss", "scheme" | "tolerance" | "formulation") => "--rate 1,2,3 --speed 3 --solver gamma",
-        ("toss", "step") => "--rate 1,2,3 --speed 3 --solver gamma --scheme rk4",
-        (command, _) if toss(command) => "--rate 1,2,3 --speed 3",
-        ("inverse", _) => "--probability 0.7",
-        ("limit", "scheme" | "tolerance" | "formulation") => "--points 9 --solver gamma",
-        ("limit", "step") => "--points 9 --solver gamma --scheme rk4",
-        ("limit", _) => "--points 9",
-        ("probability" | "sample", "space") => "--points 8 --method random",
-        ("probability" | "sample" | "map" | "errors" | "convergence", "turn") => "--wobble 1 --speed 3",
-        ("probability" | "sample" | "map" | "errors" | "convergence", "wobble") => "--turn 1 --speed 3",
-        ("probability", "shard") => "--space tails --method random --points 8 --out /no/such/folder/part.json",
-        ("probability", "out") => "--space tails --method random --points 8 --shard 1/2",
-        ("probability", "accuracy") => "--space tails",
-        ("map", "step") => {
-            "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3 --method random --points 8 --solver gamma --scheme rk4"
-        }
-        ("map", "scheme" | "tolerance" | "formulation") => {
-            "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3 --method random --points 8 --solver gamma"
-        }
-        ("map", _) => "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3",
-        ("errors", _) => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --up-to 8 --replicates 1 --reference 0.5",
-        ("convergence", "scheme" | "tolerance" | "formulation") => {
-            "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3 --solver gamma"
-        }
-        ("convergence", "step") => "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3 --solver gamma --scheme rk4",
-        ("convergence", _) => "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3",
-        (_, "scheme" | "tolerance" | "formulation") => {
-            "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random --solver gamma"
-        }
-        (_, "step") => {
-            "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random --solver gamma --scheme rk4"
-        }
-        ("probability" | "sample", _) => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random",
+fn others(command: &str, option: &str) -> Vec<String> {
+    let answered = match command {
+        "toss" | "compare" => "--rate 1,2,3 --speed 3",
+        "trace" => "--rate 1,2,3 --speed 3 --points 3",
+        "spread" => "--rate 1,2,3 --speed 3 --heads 0.9",
+        "plan" => "--rate 1,2,3 --speed 3 --want tilt --accuracy 1e-6",
+        "intervals" => "--rate 1,2,3 --speed 3:4",
+        "inverse" => "--probability 0.7",
+        "limit" => "--points 9",
+        "probability" | "sample" => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --points 8 --method random",
+        "map" => "--rate-x 1:2:2 --rate-y 1 --rate-z 1:2:2 --speed 3",
+        "errors" => "--rate-x 1:2 --rate-y 1 --rate-z 1 --speed 3 --up-to 8 --replicates 1 --reference 0.5",
+        "convergence" => "--rate-x 1:2:4 --rate-y 1 --rate-z 1 --speed 3",
         _ => "",
-    }
+    };
+    let rates = "--rate --rate-x --rate-y --rate-z";
+    // What is left out, and what stands in its place.
+    let (without, with) = match (command, option) {
+        (_, "turn") => (rates, "--wobble 1"),
+        (_, "wobble") => (rates, "--turn 1"),
+        (_, "time") => ("--speed", ""),
+        (_, "counts") => ("--probability", ""),
+        ("plan", "scene") => ("--rate --speed --want --accuracy", ""),
+        ("plan", "space") => ("--rate --speed --want", "--want probability"),
+        ("plan", "points") => ("--want", "--want trace"),
+        ("trace", "dt") => ("--points", ""),
+        (_, "space") => ("--rate-x --rate-y --rate-z --speed", ""),
+        ("probability", "shard") => ("", "--out /no/such/folder/part.json"),
+        ("probability", "out") => ("", "--shard 1/2"),
+        ("probability", "accuracy") => ("--points --method", ""),
+        ("compare", _) => ("", ""),
+        ("map", "step") => ("", "--method random --points 8 --solver gamma --scheme rk4"),
+        ("map", "scheme" | "tolerance" | "formulation") => ("", "--method random --points 8 --solver gamma"),
+        (_, "step") => ("", "--solver gamma --scheme rk4"),
+        (_, "scheme" | "tolerance" | "formulation") => ("", "--solver gamma"),
+        _ => ("", ""),
+    };
+    let pairs: Vec<&str> = answered.split_whitespace().collect();
+    let kept = pairs.chunks(2).filter(|pair| !without.split(' ').any(|name| name == pair[0])).flatten().copied();
+    kept.chain(with.split_whitespace()).map(str::to_owned).collect()
 }
 
 /// A run in this process: code, standard output and standard error.
 fn ran(arguments: &[String]) -> (u8, String, String) {
-    let arguments: Vec<OsString> =
-        std::iter::once("unfair-toss").chain(arguments.iter().map(String::as_str)).map(OsString::from).collect();
-    let (mut input, mut out, mut err) = (std::io::empty(), Vec::new(), Vec::new());
-    let code = unfair_toss::run(&arguments, Streams { input: &mut input, out: &mut out, err: &mut err });
-    let plain = |text: Vec<u8>| anstream_free(&String::from_utf8(text).expect("UTF-8"));
-    (code, plain(out), plain(err))
+    answer(Registry::standard(), arguments.iter().map(String::as_str))
 }
 
-/// A text without the colours of a terminal.
-fn anstream_free(text: &str) -> String {
-    let mut plain = String::new();
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once('\u{1b}') {
-        plain.push_str(before);
-        rest = after.split_once('m').map_or("", |(_, after)| after);
-    }
-    plain + rest
+fn is_text(id: &str) -> bool {
+    TEXTS.split(' ').any(|text| text == id)
 }
 
 /// A text in which an option is called as in messages: `rate x` for `--rate-x`.
@@ -141,16 +83,9 @@ fn spaced(text: &str) -> String {
 fn line(command: &Command, option: &Arg, value: &str) -> Vec<String> {
     let (command, id) = (command.get_name(), option.get_id().as_str());
     let long = format!("--{}", option.get_long().expect("an option"));
-    let others: Vec<&str> = others(command, id).split_whitespace().collect();
-    let mut line = vec![command.to_owned(), long.clone(), value.to_owned()];
-    let mut others = others.into_iter();
-    while let Some(other) = others.next() {
-        let value = others.next().expect("each has a value");
-        if other != long {
-            line.extend([other.to_owned(), value.to_owned()]);
-        }
-    }
-    line
+    let others = others(command, id);
+    let kept = others.chunks(2).filter(|pair| pair[0] != long).flatten().cloned();
+    [command.to_owned(), long.clone(), value.to_owned()].into_iter().chain(kept).collect()
 }
 
 /// Every option with a value of every command.
@@ -177,7 +112,7 @@ fn complaint(line: &[String], id: &str, value: &str) -> Option<String> {
         && !["expected", "known:", "possible values", "valid range"].iter().any(|word| message.contains(word))
     {
         "does not say what is valid".to_owned()
-    } else if value.contains('−') && !TEXTS.contains(&id) && !OUTSIDE.contains(&id) && !message.contains("U+2212") {
+    } else if value.contains('−') && !is_text(id) && !OUTSIDE.contains(&id) && !message.contains("U+2212") {
         "does not name the look-alike".to_owned()
     } else {
         return None;
@@ -227,7 +162,7 @@ fn counts_are_whole_numbers_in_a_range_that_is_said() {
     let (mut complaints, mut counts) = (Vec::new(), 0);
     for (command, option) in options(&program) {
         let id = option.get_id().as_str();
-        if TEXTS.contains(&id) || OUTSIDE.contains(&id) {
+        if is_text(id) || OUTSIDE.contains(&id) {
             continue;
         }
         let (code, _, message) = ran(&line(command, option, "-5"));
@@ -283,7 +218,7 @@ fn counts_fractions_and_coordinates_may_be_written_in_any_of_their_forms() {
 
 /// A reader that takes numbers for f64 would round 2^53 + 1.
 #[test]
-fn seeds_that_no_f64_holds_are_texts_in_json_and_are_read_again() {
+fn seeds_that_no_f64_holds_are_texts_in_json() {
     for (seed, expected) in [
         ("9007199254740992", Value::from(1_u64 << 53)),
         ("9007199254740993", "9007199254740993".into()),
@@ -291,14 +226,5 @@ fn seeds_that_no_f64_holds_are_texts_in_json_and_are_read_again() {
     ] {
         let answer = json(&format!("probability --space tails --method random --points 8 --seed {seed}"), 0);
         assert_eq!((&answer["seed"], &answer["input"]["seed"]), (&expected, &expected));
-        let folder = tempfile::tempdir().unwrap();
-        let part = folder.path().join("part.json").display().to_string();
-        let sharded =
-            format!("probability --space tails --method random --points 8 --seed {seed} --shard 1/1 --out {part}");
-        assert_eq!(run(&sharded).status.code(), Some(0));
-        let written: Value = serde_json::from_str(&std::fs::read_to_string(&part).unwrap()).unwrap();
-        assert_eq!(written["plan"]["seed"], expected);
-        assert_eq!(json(&format!("merge {part}"), 0)["seed"], expected);
-        assert!(stdout(&run(&sharded)).contains("which held it already"), "{seed}");
     }
 }

@@ -28,9 +28,9 @@ fn registry() -> Registry {
     Registry::standard().with(mine.with_schemes(&[Scheme::DOPRI5])).expect("a name of its own")
 }
 
-/// What the program answers to `line`: its exit code, standard output and standard error, without colours.
-fn answer(registry: &Registry, line: &str) -> (u8, String, String) {
-    let arguments: Vec<OsString> = std::iter::once("unfair-toss").chain(line.split(' ')).map(OsString::from).collect();
+/// What the program answers to these arguments: its exit code, standard output and standard error, without colours.
+pub(crate) fn answer<'a>(registry: &Registry, line: impl IntoIterator<Item = &'a str>) -> (u8, String, String) {
+    let arguments: Vec<OsString> = std::iter::once("unfair-toss").chain(line).map(OsString::from).collect();
     let (mut out, mut err) = (anstream::StripStream::new(Vec::new()), anstream::StripStream::new(Vec::new()));
     let streams = Streams { input: &mut std::io::empty(), out: &mut out, err: &mut err };
     let code = run_with(registry, &arguments, streams);
@@ -42,23 +42,23 @@ fn answer(registry: &Registry, line: &str) -> (u8, String, String) {
 fn the_commands_know_a_solver_from_elsewhere() {
     const TOSS: &str = "--rate 1,1,2.5 --speed 3";
     let registry = registry();
-    let (code, out, err) = answer(&registry, &format!("toss {TOSS} --solver mine"));
+    let (code, out, err) = answer(&registry, format!("toss {TOSS} --solver mine").split(' '));
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("heads"), "{out}");
-    let (_, out, _) = answer(&registry, "solvers");
+    let (_, out, _) = answer(&registry, ["solvers"]);
     assert!(out.lines().any(|line| line.starts_with("mine") && line.contains("dopri5")), "{out}");
-    let (_, out, _) = answer(&registry, &format!("compare {TOSS}"));
+    let (_, out, _) = answer(&registry, format!("compare {TOSS}").split(' '));
     assert!(out.lines().any(|line| line.starts_with("mine") && line.contains("dopri5")), "{out}");
-    let (_, out, _) = answer(&registry, "toss --help");
+    let (_, out, _) = answer(&registry, ["toss", "--help"]);
     assert!(out.contains("quaternion or mine"), "{out}");
-    let (code, _, err) = answer(Registry::standard(), &format!("toss {TOSS} --solver mine"));
+    let (code, _, err) = answer(Registry::standard(), format!("toss {TOSS} --solver mine").split(' '));
     assert!(code == 2 && err.contains("mine"), "{err}");
 }
 
 #[test]
 fn the_planner_takes_a_solver_from_elsewhere() {
     const PLAN: &str = "plan --rate 1,1,2.5 --speed 3 --want tilt --accuracy 1e-6 --solver mine";
-    let (code, out, err) = answer(&registry(), PLAN);
+    let (code, out, err) = answer(&registry(), PLAN.split(' '));
     assert_eq!(code, 0, "{err}");
     assert!(out.contains("mine, dopri5, tolerance"), "{out}");
 }

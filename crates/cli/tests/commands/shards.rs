@@ -1,11 +1,9 @@
 //! Parts of an estimate: any partition merges to the whole, a part that is there is not computed again, and what would
 //! count a launch twice or not at all is refused with the name of its file.
 
-mod common;
-
 use std::path::Path;
 
-use common::{json, run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 
 /// Writes part `index` of `number` of the estimate with these options into `folder`, and returns its path.
 fn part(folder: &Path, options: &str, index: usize, number: usize) -> String {
@@ -32,6 +30,7 @@ fn ninety_seven_parts_in_any_order_are_the_whole() {
         "--space paper-fig4 --method sobol --points 16384",
         "--space paper-fig4 --method grid",
         "--rate-x 1:9 --rate-y x --rate-z 1:9 --speed 3:5 --method exact-speed --points 4096",
+        "--coin us-quarter-engraved --rate-x 20:30 --rate-y 5 --rate-z 3 --speed 3:4 --method sobol --points 2048",
     ] {
         let folder = tempfile::tempdir().unwrap();
         let parts: Vec<String> = (1..=97).rev().map(|index| part(folder.path(), options, index, 97)).collect();
@@ -150,6 +149,8 @@ fn options_of_parts_that_do_not_fit_are_refused() {
         assert_eq!(output.status.code(), Some(2), "{options}");
         assert!(stderr(&output).contains(words), "{options}: {}", stderr(&output));
     }
+    let enclosed = run("probability --space tails --method enclosure --shard 1/3 --out -");
+    assert!(enclosed.status.code() == Some(2) && stderr(&enclosed).contains("none to number"), "{}", stderr(&enclosed));
     let output = run("probability --space paper-fig4 --shard 1/3 --out -");
     assert!(output.status.code() == Some(2) && stderr(&output).contains("--method"), "{}", stderr(&output));
 }

@@ -1,10 +1,12 @@
 //! Tests of the line: it lies where the exact motion has its edge, whatever the grid of the map.
 
 use Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
-use sampling::{Plan, Rest, Sampler};
-use toss::{Coin, CoinMotion, CoinToss, Launch, TimeOfFlight, Vector3};
+use dynamics::{Coin, CoinToss, Launch, TimeOfFlight, Vector3};
+use exact::CoinMotion;
 
 use super::*;
+use crate::plan::{Plan, Rest, Scrambled};
+use crate::sampler::Sampler;
 
 /// The line over two coordinates of a space.
 fn drawn(coin: Coin, texts: &[(Coordinate, &str)], axes: [Coordinate; 2]) -> Result<CertainLine, &'static str> {
@@ -19,7 +21,7 @@ fn line(coin: Coin, texts: &[(Coordinate, &str)], axes: [Coordinate; 2]) -> Resu
 }
 
 fn sobol() -> Rest {
-    Rest::Sobol(sampling::Scrambled::new(8, 1))
+    Rest::Sobol(Scrambled::new(8, 1))
 }
 
 /// The least cos θ of the motion from a launch: 0 on the edge.
@@ -117,8 +119,8 @@ fn where_there_is_no_line_the_reason_is_given() {
         (fixed, [RateX, RateY], "varies"),
         (with(RateY, "0"), [RateX, Tilt], "tilt"),
         (
-            [(RateX, "1"), (RateY, "1"), (RateZ, "1"), (Speed, "3:5:3"), (sampling::Coordinate::Gravity, "9:10:2")],
-            [Speed, sampling::Coordinate::Gravity],
+            [(RateX, "1"), (RateY, "1"), (RateZ, "1"), (Speed, "3:5:3"), (Coordinate::Gravity, "9:10:2")],
+            [Speed, Coordinate::Gravity],
             "neither axis",
         ),
         (

@@ -6,25 +6,31 @@
 //! frame at a launch with the tilt b, the edge is where (s · v)² = ωx² + ωy² and s · v has the sign of k ωz. From horizontal
 //! that is k |ωz| = sqrt(ωx² + ωy²), ψ = 45° or 135°. Over two rates it is a conic section.
 
-use sampling::{AxisOrTie, Coordinate, Map, Space};
+use crate::coordinate::Coordinate;
+use crate::map::Map;
+use crate::space::{AxisOrTie, Space};
 
 /// How many places a curved line is computed at, from one side of the map to the other. With more of them the whole pixels
 /// of the drawing would make it uneven.
 const PLACES: u32 = 80;
 
 /// A piece of the line, as points of the map.
-pub(super) type Piece = Vec<(f64, f64)>;
+pub type Piece = Vec<(f64, f64)>;
 
 /// The line of a map.
-#[derive(Debug)]
-pub(super) struct CertainLine {
-    pub(super) pieces: Vec<Piece>,
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertainLine {
+    /// Its pieces.
+    pub pieces: Vec<Piece>,
     /// The angles ψ on it, where they are the same all along: from horizontal.
-    pub(super) angles: &'static str,
+    pub angles: &'static str,
 }
 
-/// The line on `map`, which is of `space`; or else why there is none.
-pub(super) fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'static str> {
+/// The line on `map`, which is of `space`.
+///
+/// # Errors
+/// The reason why there is none, in words.
+pub fn certain_line(map: &Map, space: &Space) -> Result<CertainLine, &'static str> {
     let axes = [map.across.0, map.up.0];
     let is_of_motion = |of: Coordinate| of <= Coordinate::RateZ || of == Coordinate::Tilt;
     if space.free().any(|of| is_of_motion(of) && !axes.contains(&of)) {

@@ -1,14 +1,12 @@
 //! Single launches, drawn from a space or read from standard input.
 
-mod common;
-
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use common::{assert_refused, json, run, stderr, stdout};
+use crate::common::{json, run, stderr, stdout};
 use serde_json::Value;
 
-const DOCUMENT: &str = include_str!("../../../docs/json.md");
+const DOCUMENT: &str = include_str!("../../../../docs/json.md");
 
 const HEADING: &str = "wx,wy,wz,speed,time,gravity,drop,tilt,flight_time,cos_tilt,outcome,certified";
 
@@ -140,18 +138,6 @@ fn mistakes_in_the_input_are_found_by_line_and_column() {
 
 #[test]
 fn options_that_do_not_fit_are_refused() {
-    assert_refused(&[
-        ("sample --space tails", ["--points N is needed", "number of launches"]),
-        ("sample --space tails --method grid --points 3", ["--points: a grid", "axes"]),
-        ("sample --space tails --method grid --seed 3", ["--seed", "grid"]),
-        ("sample --space tails --points 0", ["'0' for '--points", "from 1 to 2^64 - 1"]),
-        ("sample --points 3", ["a space is needed", "--space"]),
-        ("sample - --points 3", ["--points", "cannot be used with"]),
-        ("sample - --tilt 3", ["--tilt", "cannot be used with"]),
-        ("sample file.csv", ["invalid value 'file.csv'", "-"]),
-        ("sample --rate-x 0:9:5 --rate-y 0 --rate-z 1 --speed 3 --points 9", ["rate x [rad/s] = '0:9:5'", "no grid"]),
-        ("sample --space tails --points 100000000000000", ["100000000000000 launches", "too long"]),
-    ]);
     let failing =
         json("sample --rate-x 9 --rate-y x --rate-z 0 --speed 3 --points 1 --solver gamma --formulation vertical", 1);
     assert_eq!(failing["error"]["launch"]["rate"][0], 9.0);

@@ -1,0 +1,64 @@
+//! Runs the commands about how a launch changes its outcome as a user does: `intervals` and `inverse`.
+
+use crate::common::{assert_near, json, run, stderr, stdout};
+
+#[test]
+fn speeds_of_heads_are_found_and_add_up_to_the_probability() {
+    for (drop, number) in [("", 2), ("--drop 1.2", 3)] {
+        let toss = format!("--rate 20,5,3 --tilt 0.4 {drop}");
+        let answer = json(&format!("intervals --speed 3:9 {toss}"), 0);
+        let intervals = answer["heads"].as_array().unwrap();
+        assert!(intervals.len() > number);
+        let outcome = |speed: f64| json(&format!("toss {toss} --speed {speed}"), 0)["outcome"].clone();
+        let mut length = 0.0;
+        for interval in intervals {
+            let [slow, fast] = [0, 1].map(|end| interval[end].as_f64().unwrap());
+            length += fast - slow;
+            assert_eq!((outcome(slow + 1e-9), outcome(fast - 1e-9)), ("heads".into(), "heads".into()));
+            assert!(slow == 3.0 || outcome(slow - 1e-9) == "tails", "{slow}");
+            assert!(fast == 9.0 || outcome(fast + 1e-9) == "tails", "{fast}");
+        }
+        assert_near(&answer["probability"], length / 6.0, 1e-15);
+    }
+    let exact = json("probability --rate-x 20 --rate-y 5 --rate-z 3 --tilt 0.4 --speed 3:9 --method exact-speed", 0);
+    let answer = json("intervals --rate 20,5,3 --tilt 0.4 --speed 3:9", 0);
+    assert_near(&answer["probability"], exact["probability"].as_f64().unwrap(), 1e-13);
+    assert!(stdout(&run("intervals --rate 2,2,0.5 --speed 3:5")).ends_with("share of the range  0.000000000000\n"));
+}
+
+#[test]
+fn a_wobble_explains_counts_of_one_hand_and_of_people() {
+    // The flips of F. Bartoš et al., arXiv 2310.04153.
+    let all = json("inverse --counts 178078/350757", 0);
+    assert_near(&all["probability"], 178_078.0 / 350_757.0, 1e-16);
+    let again = json(&format!("inverse --probability {}", all["probability"]), 0);
+    assert_eq!((&all["cone_angle"], &all["rate_ratio"]), (&again["cone_angle"], &again["rate_ratio"]));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("people.csv");
+    let counted = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        format!("inverse --counts {}", path.display())
+    };
+    let people = counted("person,same,tosses\nA,56,100\nB, 61 ,100\nC,2e1,100\n");
+    let found = json(&people, 0);
+    assert_eq!(
+        (&found["same"], &found["tosses"], found["people"].as_array().unwrap().len()),
+        (&137.into(), &300.into(), 3)
+    );
+    assert!(found["people"][2]["cone_angle"].is_null() && found["interval_kind"] == "student 95 % of 3 people");
+    assert!(stdout(&run(&people)).contains("assumed      long flights from horizontal"));
+    for (text, line, field, words) in [
+        ("same,tosses\n3,4\n5,4\n", 3, "same", "same = 5.0 is outside its valid range: 0 to the number of tosses"),
+        ("same,tosses\n0,0\n", 2, "tosses", "tosses = 0.0 is outside its valid range: at least 1"),
+        ("same,tosses\n-1,4\n", 2, "same", "same = '-1' can't be used: expected a whole number"),
+        ("same,flips\n1,4\n", 1, "tosses", "tosses is missing: expected the columns same and tosses"),
+        ("same,tosses\n", 1, "counts", "a person in a row"),
+        ("same,tosses\n1,2,3\n", 2, "counts", "a table of CSV"),
+    ] {
+        let command = counted(text);
+        let error = json(&command, 2)["error"].clone();
+        assert_eq!((&error["line"], &error["field"]), (&line.into(), &field.into()), "{error}");
+        let said = stderr(&run(&command));
+        assert!(said.contains(&format!("people.csv, line {line}: ")) && said.contains(words), "{said}");
+    }
+}

@@ -1,0 +1,83 @@
+//! Runs the commands about many launches as a user does, and checks their numbers, their refusals and their charts. The
+//! libraries have tests of their own; these show that options reach them and answers come back unchanged.
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::common::{json, run, stderr, stdout};
+
+const SPACE: &str = "--rate-x 1:60:30 --rate-y 4 --rate-z 7 --speed 3:5:20";
+
+#[test]
+fn a_space_is_read_from_a_file_and_its_errors_have_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let command = format!("probability --space {} --method grid", path.display());
+    std::fs::write(&path, "coin = 'disc'\nrate_x = '0:40:20'\nrate_y = 'x'\nrate_z = 30\nspeed = '3:5:20'\n").unwrap();
+    assert_eq!(json(&command, 0)["heads"], 400);
+    assert!(json(&format!("{command} --coin paper"), 0)["tails"].as_u64() > Some(0));
+    std::fs::write(&path, "rate_x = 1\nrate_y = 1\nrate_z = 1\nspeed = '5:3'\n").unwrap();
+    let error = json(&command, 2);
+    assert_eq!((&error["error"]["line"], &error["error"]["column"]), (&4.into(), &9.into()));
+    let message = stderr(&run(&command));
+    assert!(message.contains("mine.toml, line 4, column 9: speed [m/s] = 3.0 is outside"), "{message}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_command_that_is_killed_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("chart.svg");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_unfair-toss"))
+        .args("errors --space paper-fig4 --up-to 24 --replicates 10000 --svg".split(' '))
+        .arg(&path)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(child.try_wait().unwrap(), None, "it is still at work");
+    // SIGTERM instead of the SIGINT of Ctrl-C: both end the program, but a test that runs in the background ignores
+    // SIGINT.
+    let stopped = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(stopped.success());
+    let output = child.wait_with_output().unwrap();
+    assert!(!output.status.success() && output.stdout.is_empty());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn every_command_over_a_space_takes_a_drop() {
+    // The same flights: with a drop of h = 1 m the time is (v0 + √(v0² + 2 g h))/g.
+    let heads = |options: &str| json(&format!("probability {SPACE} --method grid {options}"), 0)["heads"].as_u64();
+    let sampled = stdout(&run(&format!("sample {SPACE} --method grid --drop 1m")));
+    let rows: Vec<Vec<&str>> = sampled.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 600);
+    for row in &rows {
+        let [speed, time] = [row[3], row[8]].map(|cell| cell.parse::<f64>().unwrap());
+        assert!((time - (speed + (speed * speed + 2.0 * 9.81).sqrt()) / 9.81).abs() < 1e-15, "{row:?}");
+        assert_eq!((row[6], row[11]), ("1.0", "true"));
+    }
+    // Without a drop exact-speed would be chosen.
+    assert_ne!(json("probability --space tails --drop 1 --accuracy 1e-2", 0)["method"], "exact-speed");
+    let counted = rows.iter().filter(|row| row[10] == "heads").count() as u64;
+    assert_eq!(heads("--drop 1m"), Some(counted));
+    assert_ne!(heads("--drop 0.5m"), Some(counted));
+    assert_eq!(heads("--drop 1 --solver quaternion"), Some(counted));
+    for command in [
+        &format!("convergence {SPACE} --steps 3 --drop 0.2"),
+        "probability --rate-x 1:60 --rate-y 4 --rate-z 7 --speed 3:5 --method sobol --points 64 --drop -0.2",
+        "probability --space paper-fig4 --drop 1m --accuracy 1e-2",
+        "map --rate-x 1:9:2 --rate-y 4 --rate-z 7:9:2 --speed 3:5 --method random --points 64 --drop 1",
+    ] {
+        let output = run(command);
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_hand_spreads_what_has_a_single_value() {
+    let by_spread =
+        "probability --rate-x 20 --rate-y x --rate-z 0 --speed 3:4 --spread 5% --method random --points 999";
+    let by_axes = "probability --rate-x normal:20:1 --rate-y x --rate-z 0 --speed 3:4 --method random --points 999";
+    assert_eq!(json(by_spread, 0)["heads"], json(by_axes, 0)["heads"]);
+}
