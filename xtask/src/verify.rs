@@ -40,6 +40,9 @@ pub(crate) struct Verify {
     /// Multiply the time limit of every check, for a slow machine or a slow solver
     #[arg(long, value_name = "FACTOR")]
     time_factor: Option<String>,
+    /// With --replay: print what this row, given as CHECK / SUBJECT, measures on the toss, and the verdict
+    #[arg(long, value_name = "ROW", requires = "replay")]
+    row: Option<String>,
     #[command(flatten)]
     foreign: Foreign,
     #[command(flatten)]
@@ -86,7 +89,7 @@ struct Instead {
     /// List the checks and what they claim
     #[arg(long)]
     list: bool,
-    /// Fly one toss, given as the hex floats of a worst input, by every solver, scheme and formulation, and take every
+    /// Fly one toss, given as the text of a worst input, by every solver, scheme and formulation, and take every
     /// measure of proofs, batches and margins on it
     #[arg(long, value_name = "INPUT")]
     replay: Option<String>,
@@ -109,7 +112,10 @@ impl Verify {
     fn arguments(&self) -> Vec<String> {
         let Instead { list, replay } = &self.instead;
         match replay {
-            Some(input) => ["replay".into(), input.clone()].into_iter().chain(self.foreign.arguments()).collect(),
+            Some(input) => {
+                let row = self.row.iter().flat_map(|row| ["--row".to_owned(), row.clone()]);
+                ["replay".into(), input.clone()].into_iter().chain(row).chain(self.foreign.arguments()).collect()
+            }
             None if *list => vec!["list".into()],
             None => self.run_arguments(),
         }
@@ -188,8 +194,9 @@ mod tests {
             ("--quick --format github --time-factor 3", "run --quick --format github --time-factor 3"),
             ("--list", "list"),
             ("--only margins --quick", "run --quick --only margins"),
-            ("--replay i1=0x1p0", "replay i1=0x1p0"),
-            ("--replay i1=0x1p0 --command a", "replay i1=0x1p0 --command a"),
+            ("--replay i1=1", "replay i1=1"),
+            ("--replay i1=1 --command a", "replay i1=1 --command a"),
+            ("--replay i1=1 --row a", "replay i1=1 --row a"),
             ("--quick --command a --claim 1e-9 --memory-mb 9", "run --quick --command a --claim 1e-9 --memory-mb 9"),
             (
                 "--command a --answer-seconds 1 --total-seconds 2",

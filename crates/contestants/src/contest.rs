@@ -5,16 +5,14 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use toss::{
-    CoinToss, ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping,
+    ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping,
     TimeOfFlight, Toss,
 };
 use verify::Effort;
 use verify::host::Host;
-use verify::measure::any_case::AnyCase;
 use verify::measure::atlas::Atlas;
 use verify::measure::atlas::hazards::HAZARDS;
-use verify::measure::case::Case;
-use verify::measure::reference::Reference;
+use verify::measure::reference::ExactLanding;
 use verify::measure::run::{Answer, Run};
 use verify::measure::subject::{Subject, subjects, tight, usual};
 use verify::measure::survey::Survey;
@@ -122,7 +120,7 @@ impl Contest {
         mut show: impl FnMut(&str),
     ) -> anyhow::Result<(Self, Vec<Sample>)> {
         let registry = [ours(), entries.to_vec()].concat();
-        let survey = Survey::new(&[], size.launches)?;
+        let survey = Survey::random(&[], size.launches)?;
         let (at_usual, at_tight) = (subjects(&registry, usual)?, subjects(&registry, tight)?);
         let mut contestants = Vec::new();
         for (usual, tight) in at_usual.iter().zip(&at_tight) {
@@ -142,15 +140,15 @@ impl Contest {
             let atlas = Atlas::new(&registry)?;
             for (contestant, subject) in contestants.iter_mut().zip(&at_usual) {
                 show(&format!("{}: slow and fast coins", contestant.name));
-                contestant.meet_hazards(&atlas, subject, &survey.cases)?;
+                contestant.meet_hazards(&atlas, subject, &survey.tosses)?;
             }
         }
         let samples = if size.swept == 0 {
             Vec::new()
         } else {
             show("all: work against error");
-            let cases = survey.cases.iter().take(size.swept).copied().map(AnyCase::Coin).collect();
-            let problem = Problem { name: SURVEY.to_owned(), stresses: "ordinary launches".to_owned(), cases };
+            let tosses = survey.tosses.iter().take(size.swept).copied().collect();
+            let problem = Problem { name: SURVEY.to_owned(), stresses: "ordinary launches".to_owned(), tosses };
             Sweep::new(&registry, &[problem], Effort::Quick)?.samples
         };
         Ok((Self { host: Host::here(), launches: size.launches, contestants }, samples))
@@ -191,11 +189,11 @@ impl Contest {
 
 impl Flown {
     fn new(subject: &Subject, survey: &Survey) -> Self {
-        let launches = survey.cases.iter().zip(&survey.references);
-        let runs: Vec<Run> = launches.map(|(case, reference)| Run::new(subject, case, reference)).collect();
+        let launches = survey.tosses.iter().zip(&survey.exact);
+        let runs: Vec<Run> = launches.map(|(toss, exact)| Run::new(subject, toss, exact)).collect();
         let largest = |of: fn(&Run) -> Option<f64>| runs.iter().filter_map(of).fold(0.0, f64::max);
         let count = |of: fn(&Run) -> bool| runs.iter().filter(|run| of(run)).count() as u64;
-        let estimate = |case: &Case| subject.solver.tilt(&case.toss.into()).ok()?.error;
+        let estimate = |toss: &Toss| subject.solver.tilt(toss).ok()?.error;
         let answered = runs.iter().filter_map(|run| run.rhs_calls);
         Self {
             setting: setting(subject.stepping),
@@ -204,15 +202,15 @@ impl Flown {
             failures: count(|run| run.failure.is_some()),
             failure: runs.iter().find_map(|run| run.failure.clone()),
             beyond_estimate: count(|run| run.answer == Answer::SilentlyWrong),
-            estimate: survey.cases.iter().filter_map(estimate).fold(0.0, f64::max),
+            estimate: survey.tosses.iter().filter_map(estimate).fold(0.0, f64::max),
             calls: answered.sum::<u64>() as f64 / runs.len().max(1) as f64,
-            ns: nanoseconds(&*subject.solver, &survey.cases[..TIMED.min(survey.cases.len())]),
+            ns: nanoseconds(&*subject.solver, &survey.tosses[..TIMED.min(survey.tosses.len())]),
         }
     }
 }
 
 impl Contestant {
-    fn meet_hazards(&mut self, atlas: &Atlas, subject: &Subject, ordinary: &[Case]) -> Result<(), InputError> {
+    fn meet_hazards(&mut self, atlas: &Atlas, subject: &Subject, ordinary: &[Toss]) -> anyhow::Result<()> {
         let worst = |id: &str| atlas.worst(id, &self.name).unwrap_or(Answer::TypedError);
         let of_coins = HAZARDS.iter().filter(|hazard| hazard.is_of_coins());
         self.hazards = of_coins.map(|hazard| (hazard.id.to_owned(), worst(hazard.id))).collect();
@@ -220,9 +218,9 @@ impl Contestant {
         self.long_flight = long.and_then(|spot| spot.run.err_attitude);
         for factor in SPEEDS {
             let mut worst = Answer::Right;
-            for case in ordinary.iter().take(AT_EACH_SPEED) {
-                let case = at_speed(case, factor)?;
-                let run = Run::new(&with_step_over(subject, factor)?, &case, &Reference::new(&case.toss));
+            for toss in ordinary.iter().take(AT_EACH_SPEED) {
+                let toss = at_speed(toss, factor)?;
+                let run = Run::new(&with_step_over(subject, factor)?, &toss, &ExactLanding::new(&toss)?);
                 worst = worst.max(run.answer);
             }
             self.speeds.push(worst);
@@ -231,12 +229,11 @@ impl Contestant {
     }
 }
 
-/// The launch of `case` with its body rate times `factor`, and with its time of flight divided by it.
-fn at_speed(case: &Case, factor: f64) -> Result<Case, InputError> {
-    let launch = case.toss.launch;
+/// The toss with its body rate times `factor`, and with its time of flight divided by it.
+fn at_speed(toss: &Toss, factor: f64) -> Result<Toss, InputError> {
+    let launch = toss.launch;
     let time = TimeOfFlight::Given(launch.flight_time() / factor);
-    let launch = Launch::new(launch.rate() * factor, time)?.with_tilt(case.tilt)?;
-    Ok(Case { toss: CoinToss { launch, ..case.toss }, tilt: case.tilt })
+    Ok(Toss { launch: Launch::new(launch.rate() * factor, time)?.with_attitude(launch.attitude()), ..*toss })
 }
 
 /// `subject` with its step, if it has one, divided by `factor`.
@@ -259,18 +256,17 @@ fn setting(stepping: Option<Stepping>) -> String {
     }
 }
 
-/// The shortest time per launch (ns) of some passes over `cases`.
-fn nanoseconds(solver: &dyn Solver, cases: &[Case]) -> f64 {
-    let tosses: Vec<Toss> = cases.iter().map(|case| case.toss.into()).collect();
+/// The shortest time per launch (ns) of some passes over `tosses`.
+fn nanoseconds(solver: &dyn Solver, tosses: &[Toss]) -> f64 {
     let pass = || {
         let began = Instant::now();
-        for toss in &tosses {
+        for toss in tosses {
             // Failed flights take time, too.
             let _ = std::hint::black_box(solver.land(std::hint::black_box(toss)));
         }
         began.elapsed().as_nanos() as f64
     };
-    (0..TIMES).map(|_| pass()).fold(f64::INFINITY, f64::min) / cases.len().max(1) as f64
+    (0..TIMES).map(|_| pass()).fold(f64::INFINITY, f64::min) / tosses.len().max(1) as f64
 }
 
 #[cfg(test)]

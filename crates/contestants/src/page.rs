@@ -1,7 +1,6 @@
 //! The page, the table and the chart of a record. They follow from the record alone, so that anybody can draw them
 //! again and see that they are current.
 
-use verify::measure::any_case::AnyCase;
 use verify::measure::run::Answer;
 use verify::measure::work_precision::problems::Problem;
 use verify::measure::work_precision::{Sample, Sweep};
@@ -42,9 +41,8 @@ pub fn page(contest: &Contest) -> String {
 /// If it can't be drawn.
 pub fn chart(contest: &Contest, samples: &[Sample]) -> anyhow::Result<String> {
     let launches = samples.first().and_then(|sample| sample.inputs.split(' ').next()?.parse().ok()).unwrap_or(1);
-    let survey = verify::measure::survey::Survey::new(&[], launches)?;
-    let cases = survey.cases.into_iter().map(AnyCase::Coin).collect();
-    let problem = Problem { name: SURVEY.to_owned(), stresses: String::new(), cases };
+    let survey = verify::measure::survey::Survey::random(&[], launches)?;
+    let problem = Problem { name: SURVEY.to_owned(), stresses: String::new(), tosses: survey.tosses };
     let sweep = Sweep::of(&[problem], samples.to_vec());
     let colours = [ours(), in_rust(), vec![crate::solvers::scipy::named("true")]].concat();
     Ok(charts::recorded(&sweep, SURVEY, &contest.host.date, &colours)?)

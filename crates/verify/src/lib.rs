@@ -36,7 +36,7 @@ pub mod watch;
 pub use commands::main;
 pub use error::Error;
 pub use judge::{LeftOut, Row, Status, judge};
-pub use measure::check::{Basis, Check, Judges};
+pub use measure::check::{Basis, Check, Judges, Measure};
 pub use measure::checks::CHECKS;
 pub use measure::context::{Context, Records};
 pub use measure::effort::Effort;

@@ -91,7 +91,7 @@ pub fn run(
 /// Measures all of `checks`, until nobody receives the results.
 fn measure(checks: &[&'static Check], context: &Context, sender: &Sender<Sent>) {
     for check in checks {
-        let result = catch_unwind(AssertUnwindSafe(|| (check.measure)(context)));
+        let result = catch_unwind(AssertUnwindSafe(|| check.measure(context)));
         if sender.send(result).is_err() {
             return;
         }

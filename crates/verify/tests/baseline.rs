@@ -29,7 +29,7 @@ fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let mut rows = Vec::new();
     for check in CHECKS.iter().filter(|check| CHECKED.contains(&check.id)) {
-        rows.extend(judge(check, (check.measure)(&context).expect("a measurement"), &bounds));
+        rows.extend(judge(check, check.measure(&context).expect("a measurement"), &bounds));
     }
     let failing = rows.iter().filter(|row| !row.status.passes()).map(|row| format!("{} / {}", row.check, row.subject));
     (Baseline::of(&rows, context.records().sweep), failing.collect())

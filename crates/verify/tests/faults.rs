@@ -188,7 +188,7 @@ fn failing_rows(solver: SolverEntry) -> Vec<Row> {
     CHECKS
         .iter()
         .filter(|check| check.judges == Judges::Solver && !LEFT_OUT.contains(&check.id))
-        .flat_map(|check| judge(check, (check.measure)(&context).expect("a measurement"), &bounds))
+        .flat_map(|check| judge(check, check.measure(&context).expect("a measurement"), &bounds))
         .filter(|row| !row.status.passes())
         .collect()
 }

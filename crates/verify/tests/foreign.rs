@@ -94,7 +94,7 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     registry.extend(foreigners());
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let checks = CHECKS.iter().filter(|check| check.judges == Judges::Solver);
-    checks.flat_map(|check| judge(check, (check.measure)(&context).expect("rows, whatever happens"), &bounds)).collect()
+    checks.flat_map(|check| judge(check, check.measure(&context).expect("rows, whatever happens"), &bounds)).collect()
 });
 
 /// The rows of the solver called `name`. A comparison of two solvers, `a ~ b`, counts as a row of b alone.

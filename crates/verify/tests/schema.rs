@@ -154,13 +154,14 @@ fn report() -> Value {
     let stepper = stepper.with_schemes(&[Scheme::DOPRI5, Scheme::RK4]);
     let registry = [ExactSolver::entry(), stepper, SolverEntry::new("refuses", "", |_| Box::new(Refuses))];
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
-    let computed = (context.atlas(), context.long_flights(), context.convergence(), context.trial());
-    assert!(computed.0.is_ok() && computed.1.is_ok() && computed.2.is_ok() && computed.3.is_ok());
-    assert!(context.sweep().is_ok() && context.probabilities().is_ok() && context.fig4().is_ok());
+    assert!(context.atlas.get(&context).is_ok() && context.long_flights.get(&context).is_ok());
+    assert!(context.convergence.get(&context).is_ok() && context.trial.get(&context).is_ok());
+    assert!(context.sweep.get(&context).is_ok() && context.probabilities.get(&context).is_ok());
+    assert!(context.fig4.get(&context).is_ok());
     let bounds = Bounds::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("bounds");
     let of = |id: &str| -> Vec<Row> {
         let check: &Check = CHECKS.iter().find(|check| check.id == id).expect("a check");
-        judge(check, (check.measure)(&context).expect("measurements"), &bounds)
+        judge(check, check.measure(&context).expect("measurements"), &bounds)
     };
     let mut rows = [of("reference-cos-tilt"), of("convergence-order"), of("certified-outcomes")].concat();
     rows.extend(unused_bounds(&rows, &bounds, |_, _| true));

@@ -111,7 +111,11 @@ fn the_program_of_another_crate_keeps_its_files_in_its_own_folder_and_knows_its_
     assert_eq!(output.status.code(), Some(1), "{table}");
     let repeat = "repeat with: cargo run --release --example own_solver -- replay \"";
     let command = table.lines().find_map(|line| line.trim().strip_prefix(repeat)).expect(&table);
-    let output = program(&["replay", command.trim_end_matches('"')], folder.path());
+    let (toss, row) = command.trim_end_matches('"').split_once("\" --row \"").expect(&table);
+    let output = program(&["replay", toss, "--row", row], folder.path());
+    let judged = String::from_utf8(output.stdout).unwrap();
+    assert!(judged.contains("random-attitude / two-turns") && judged.contains("FAIL"), "{judged}");
+    let output = program(&["replay", toss], folder.path());
     let answers = String::from_utf8(output.stdout).unwrap();
     assert!(answers.contains("two-turns") && answers.contains("right"), "{answers}");
     assert!(!answers.contains("gamma"), "the solvers are those of the suite: {answers}");

@@ -9,7 +9,7 @@ use verify::judge::bounds::Bounds;
 use verify::judge::time::Timing;
 use verify::measure::replay::Commands;
 use verify::watch::{self, End};
-use verify::{Basis, Check, Context, Effort, Judges, Measurement, Row};
+use verify::{Basis, Check, Context, Effort, Judges, Measure, Measurement, Row};
 
 const QUICK: Check = Check {
     id: "quick",
@@ -18,23 +18,27 @@ const QUICK: Check = Check {
     judges: Judges::Library,
     ceiling: 10.0,
     unit: "1",
-    measure: |_| Ok(vec![Measurement::figure("quick", "all", 0.0, 1, String::new())]),
+    measure: Measure::Own(|_| Ok(vec![Measurement::figure("quick", "all", 0.0, 1, String::new())])),
 };
 
 static FINE: Check = QUICK;
-static PANICS: Check = Check { id: "panics", measure: |_| panic!("out of order"), ..QUICK };
+static PANICS: Check = Check { id: "panics", measure: Measure::Own(|_| panic!("out of order")), ..QUICK };
 static WAITS: Check = Check {
     id: "waits",
-    measure: |_| loop {
-        std::thread::sleep(Duration::from_secs(1));
-    },
+    measure: Measure::Own(|_| {
+        loop {
+            std::thread::sleep(Duration::from_secs(1));
+        }
+    }),
     ..QUICK
 };
 static COMPUTES: Check = Check {
     id: "computes",
-    measure: |_| loop {
-        std::hint::spin_loop();
-    },
+    measure: Measure::Own(|_| {
+        loop {
+            std::hint::spin_loop();
+        }
+    }),
     ..QUICK
 };
 /// What became of each of `checks`, with limits of 50 s times `factor`.

@@ -60,7 +60,7 @@ mod tests {
         judges: Judges::Solver,
         ceiling: 10.0,
         unit: "1",
-        measure: |_| Ok(Vec::new()),
+        measure: crate::Measure::Own(|_| Ok(Vec::new())),
     };
 
     #[test]

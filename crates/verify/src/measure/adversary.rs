@@ -1,58 +1,138 @@
 //! This file makes launches that an adversary would choose to break a solver: random ones of all sizes, and ones at and
 //! next to every special case. Launches of ordinary size hardly ever come near enough to a singular point to provoke a
-//! wrong answer.
+//! wrong answer. A search flies them by every solver and scheme in its default formulation, for answers that are wrong
+//! without an error: the worst fault of a solver, because you cannot see it.
 //!
 //! n is the coin's normal, S its angular momentum, k = I3/I1 its inertia ratio, ψ the cone angle between n and S, β the
 //! angle of n to the vertical.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use dynamics::Toss;
+use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use rand::{RngExt, SeedableRng};
-use toss::{Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
+use rayon::prelude::*;
+use toss::{
+    Coin, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3,
+};
 
-use crate::measure::case::Case;
-use crate::measure::throws::throw;
+use super::case;
+use super::measurement::Worst;
+use super::reference::ExactLanding;
+use super::replay::Replay;
+use super::run::{Answer, Run};
+use super::subject::{Subject, by_scheme};
+use super::tosses::{decades, one, stream, throw};
+
+const SEED: u64 = 20_261_121;
+
+/// Tolerances; launches take them in turn.
+const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+
+/// Steps of schemes without a tolerance, in units of 1/|ω|; launches take them in turn.
+const STEPS: [f64; 2] = [0.1, 0.03];
+
+/// Steps of slow launches, in units of 1/|ω|; the slow launches take them in turn, with every scheme that takes steps. The
+/// smallest ones are so many that rounding is all there is.
+const SLOW_STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
+
+/// What the search found for one solver and scheme.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Findings {
+    /// The subject's name.
+    pub subject: String,
+    /// Launches that were tried.
+    pub launches: u64,
+    /// Launches that were refused with an error.
+    pub refused: u64,
+    /// Launches that were answered wrongly without an error.
+    pub silently_wrong: u64,
+    /// Launches that were answered by a solver without an error estimate.
+    pub unclaimed: u64,
+    /// The first refused launch.
+    pub first_refused: Option<Worst>,
+    /// The first launch that was answered wrongly.
+    pub first_wrong: Option<Worst>,
+}
+
+/// Tries `launches` adversarial launches with every solver of `registry`, each integrator by every scheme.
+///
+/// # Errors
+/// If a scheme takes neither a tolerance nor steps, or the exact motion fails.
+pub fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<Vec<Findings>> {
+    let contestants: Vec<_> = registry.iter().flat_map(by_scheme).collect();
+    let fly = |index: u64| -> anyhow::Result<Vec<Run>> {
+        let toss = launch(SEED, index);
+        let exact = ExactLanding::new(&toss)?;
+        contestants.iter().map(|by| Ok(Run::new(&subject(*by, &toss, index)?, &toss, &exact))).collect()
+    };
+    let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<anyhow::Result<_>>()?;
+    let findings = |(column, by): (usize, &(&SolverEntry, Option<Scheme>))| {
+        let of = |answer: Answer| (0..).zip(&runs).filter(move |(_, runs)| runs[column].answer == answer);
+        let first = |answer: Answer| -> anyhow::Result<Option<Worst>> {
+            let Some((index, runs)) = of(answer).next() else { return Ok(None) };
+            let toss = launch(SEED, index);
+            let replay = Replay::toss(&toss, &subject(*by, &toss, index)?);
+            Ok(Some(Worst { input: case::text(&toss), failure: runs[column].failure.clone(), replay }))
+        };
+        Ok(Findings {
+            subject: runs.first().map(|runs| runs[column].subject.clone()).unwrap_or_default(),
+            launches,
+            refused: of(Answer::TypedError).count() as u64,
+            silently_wrong: of(Answer::SilentlyWrong).count() as u64,
+            unclaimed: of(Answer::Unclaimed).count() as u64,
+            first_refused: first(Answer::TypedError)?,
+            first_wrong: first(Answer::SilentlyWrong)?,
+        })
+    };
+    contestants.iter().enumerate().map(findings).collect()
+}
+
+/// A solver with its scheme, if it is an integrator, with its settings for launch number `index`.
+fn subject((entry, scheme): (&SolverEntry, Option<Scheme>), toss: &Toss, index: u64) -> Result<Subject, InputError> {
+    let turn = usize::try_from(index).unwrap_or(0);
+    let slow_turn = usize::try_from(index / SLOW_EVERY).unwrap_or(0);
+    let stepping = |scheme: Scheme| {
+        let step = match is_slow(index) && scheme.takes_steps() {
+            true => SLOW_STEPS[slow_turn % SLOW_STEPS.len()],
+            false if scheme.is_adaptive() => return Stepping::adaptive(scheme, TOLERANCES[turn % TOLERANCES.len()]),
+            false => STEPS[turn % STEPS.len()],
+        };
+        // For a coin at rest 1/|ω| is infinite, and the longest step will do.
+        let rate = toss.launch.turn_rate().max(f64::MIN_POSITIVE);
+        Stepping::fixed(scheme, (step / rate).min(f64::MAX))
+    };
+    Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
+}
 
 /// One launch in so many is slow: all its rates are below 1e-3 rad/s, and it turns by up to 300 rad in hours to years.
 pub const SLOW_EVERY: u64 = 40;
 
 /// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
-///
-/// # Errors
-/// Never: every launch is valid.
-pub fn launch(seed: u64, index: u64) -> Result<Case, InputError> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(index);
-    let k = inertia_ratio(&mut rng);
+pub fn launch(seed: u64, index: u64) -> Toss {
+    drawn(&mut stream(seed, index), index).expect("every launch is valid").into()
+}
+
+fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
+    let k = inertia_ratio(rng);
     let coin = Coin::from_moments(1.0, k)?;
-    let mut rate = rate(&mut rng, k);
+    let mut rate = rate(rng, k);
     if is_slow(index) && rate.amax() > 0.0 {
-        rate = rate / rate.amax() * decades(&mut rng, -9.0, -3.0);
+        rate = rate / rate.amax() * decades(rng, -9.0, -3.0);
     }
     let still = CoinToss { coin, launch: Launch::new(rate, TimeOfFlight::Given(0.0))? };
     let motion = CoinMotion::new(&still);
-    let tilt = tilt(&mut rng, motion.cone_angle());
-    let time = time(&mut rng, &motion, &rate);
+    let tilt = tilt(rng, motion.cone_angle());
+    let time = time(rng, &motion, &rate);
     let launch = Launch::new(rate, throw(TimeOfFlight::Given(time), index))?.with_tilt(tilt)?;
     // The motion depends on the ratio of the moments alone, whatever their size (kg m²).
-    let i1 = decades(&mut rng, -12.0, 3.0);
-    Ok(Case { toss: CoinToss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch }, tilt })
+    let i1 = decades(rng, -12.0, 3.0);
+    Ok(CoinToss { coin: Coin::from_moments(i1, (k * i1).min(2.0 * i1))?, launch })
 }
 
 /// Whether launch number `index` is a slow one.
 pub fn is_slow(index: u64) -> bool {
     index % SLOW_EVERY == SLOW_EVERY - 1
-}
-
-/// One of `values`, each equally likely.
-fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
-    values[rng.random_range(0..N)]
-}
-
-/// 10 to a power that is uniform between `low` and `high`.
-fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
-    10f64.powf(rng.random_range(low..high))
 }
 
 /// A number of either sign and of a size from 1e-17 to 1, equally likely in each decade.

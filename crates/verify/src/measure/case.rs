@@ -1,185 +1,186 @@
-//! A case is a toss that the report can write down in full and the command line can repeat. Hex floats hold every bit
-//! of the inputs, so a failure can be reproduced exactly.
+//! The text of a toss, such as `i1=5e-7 i3=2.5e-7 rate=1.0,1.0,2.5 tilt=0.0 time=0.5`. The report writes down every worst
+//! case in this form, and the command `replay` reads it back to the same toss, because the shortest decimals of an f64 that
+//! read back are exact.
 
 use std::collections::BTreeMap;
 
-use anyhow::{Context, ensure};
-use toss::{Coin, CoinToss, Launch, Quantity, TimeOfFlight, Vector3};
+use anyhow::{Context, anyhow, ensure};
+use dynamics::{Body, Toss};
+use toss::{Attitude, Coin, Launch, Quantity, Registry, TimeOfFlight};
 
 use crate::measure::subject::Subject;
 
-/// A toss whose attitude at launch is a turn about the laboratory's x axis, as the command line can repeat it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Case {
-    /// The toss.
-    pub toss: CoinToss,
-    /// The tilt at launch (rad): the angle of that turn.
-    pub tilt: f64,
-}
-
-impl Case {
-    /// All inputs as `NAME=HEX` fields, separated by spaces.
-    pub fn hex(&self) -> String {
-        let CoinToss { coin, launch } = self.toss;
-        let rate = launch.rate();
-        let mut fields = match coin.cylinder().map(|given| given.map(Quantity::to_f64)) {
-            None => vec![("i1", coin.i1()), ("i3", coin.i3())],
-            Some([mass, radius, thickness]) => vec![("mass", mass), ("radius", radius), ("thickness", thickness)],
-        };
-        fields.extend([("rate_x", rate.x), ("rate_y", rate.y), ("rate_z", rate.z), ("tilt", self.tilt)]);
-        match launch.time_of_flight() {
-            TimeOfFlight::Given(time) => fields.push(("time", time)),
-            TimeOfFlight::Ballistic { speed, gravity } => {
-                fields.extend([("speed", speed), ("gravity", gravity)]);
-            }
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-                fields.extend([("speed", speed), ("gravity", gravity), ("drop", drop)]);
-            }
+/// All that the toss was given by, as `NAME=VALUE` fields in SI units.
+pub fn text(toss: &Toss) -> String {
+    let body = match (toss.body.coin().map(|coin| (coin, coin.cylinder())), toss.body.moments()) {
+        (Some((_, Some(cylinder))), _) => {
+            let [mass, radius, thickness] = cylinder.map(Quantity::to_f64);
+            format!("mass={mass:?} radius={radius:?} thickness={thickness:?}")
         }
-        fields.iter().map(|(name, value)| format!("{name}={}", hex_float(*value))).collect::<Vec<_>>().join(" ")
-    }
-
-    /// Reads a case from a line that [`Case::hex`] wrote.
-    ///
-    /// # Errors
-    /// If a field is missing, unknown or can't be read, or the toss is invalid.
-    pub fn from_hex(line: &str) -> anyhow::Result<Self> {
-        let mut fields = fields(line)?;
-        let mut take = |name: &str| fields.remove(name).with_context(|| format!("{name} is missing"));
-        let coin = match take("mass") {
-            Ok(mass) => Coin::from_cylinder(mass, take("radius")?, take("thickness")?)?,
-            Err(_) => Coin::from_moments(take("i1")?, take("i3")?)?,
-        };
-        let rate = Vector3::new(take("rate_x")?, take("rate_y")?, take("rate_z")?);
-        let tilt = take("tilt")?;
-        let time_of_flight = match take("time") {
-            Ok(time) => TimeOfFlight::Given(time),
-            Err(_) => {
-                let (speed, gravity) = (take("speed")?, take("gravity")?);
-                match take("drop") {
-                    Ok(drop) => TimeOfFlight::BallisticTo { speed, gravity, drop },
-                    Err(_) => TimeOfFlight::Ballistic { speed, gravity },
-                }
-            }
-        };
-        ensure!(fields.is_empty(), "unknown fields: {}", fields.into_keys().collect::<Vec<_>>().join(", "));
-        let launch = Launch::new(rate, time_of_flight)?.with_tilt(tilt)?;
-        Ok(Self { toss: CoinToss { coin, launch }, tilt })
-    }
-
-    /// The command of `unfair-toss` that solves this toss with the solver and settings of `subject`.
-    pub fn command(&self, subject: &Subject) -> String {
-        let CoinToss { coin, launch } = self.toss;
-        let rate = launch.rate();
-        let flight = match launch.time_of_flight() {
-            TimeOfFlight::Given(time) => format!("--time {time:?}"),
-            TimeOfFlight::Ballistic { speed, gravity } => format!("--speed {speed:?} --gravity {gravity:?}"),
-            TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-                format!("--speed {speed:?} --gravity {gravity:?} --drop {drop:?}")
-            }
-        };
-        let body = match coin.cylinder().map(|given| given.map(Quantity::to_f64)) {
-            None => format!("--moments {:?},{:?}", coin.i1(), coin.i3()),
-            Some([mass, radius, thickness]) => format!("--cylinder {mass:?},{radius:?},{thickness:?}"),
-        };
-        format!(
-            "cargo run -q --release --bin unfair-toss -- toss {body} --rate {:?},{:?},{:?} {flight} --tilt {:?} {}",
-            rate.x,
-            rate.y,
-            rate.z,
-            self.tilt,
-            subject.options()
-        )
-    }
+        (Some((coin, None)), _) => format!("i1={:?} i3={:?}", coin.i1(), coin.i3()),
+        (None, Some(moments)) => format!("moments={}", list(&moments)),
+        (None, None) => format!("inertia={}", list(&toss.body.inertia())),
+    };
+    let rate: [f64; 3] = toss.launch.rate().into();
+    let attitude = match tilt(&toss.launch) {
+        Some(tilt) => format!("tilt={tilt:?}"),
+        None => format!("attitude={}", list(&toss.launch.attitude().given_components())),
+    };
+    let flight = match toss.launch.time_of_flight() {
+        TimeOfFlight::Given(time) => format!("time={time:?}"),
+        TimeOfFlight::Ballistic { speed, gravity } => format!("speed={speed:?} gravity={gravity:?}"),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            format!("speed={speed:?} gravity={gravity:?} drop={drop:?}")
+        }
+    };
+    format!("{body} rate={} {attitude} {flight}", list(&rate))
 }
 
-/// The fields of a line of hex floats by their names.
+/// Reads a toss from fields as [`text`] writes them. What follows a `#` is a comment; a launch without a tilt is horizontal.
 ///
 /// # Errors
-/// If a field can't be read, or is given twice.
-pub(super) fn fields(line: &str) -> anyhow::Result<BTreeMap<&str, f64>> {
-    let mut fields = BTreeMap::new();
-    for field in line.split_whitespace() {
-        let (name, text) = field.split_once('=').with_context(|| format!("'{field}' is no NAME=VALUE"))?;
-        let value = from_hex_float(text).with_context(|| format!("{name}: '{text}' is no hex float"))?;
-        ensure!(fields.insert(name, value).is_none(), "{name} is given twice");
-    }
-    Ok(fields)
+/// If a field is missing, unknown or can't be read, or the toss is invalid.
+pub fn read(text: &str) -> anyhow::Result<Toss> {
+    let mut fields = Fields::of(text.split_once('#').map_or(text, |(fields, _)| fields))?;
+    let body = if let Some(moments) = fields.take("moments")? {
+        Body::from_moments(moments)?
+    } else if let Some(elements) = fields.take("inertia")? {
+        Body::from_inertia(elements)?
+    } else if let Some([mass]) = fields.take("mass")? {
+        Coin::from_cylinder(mass, fields.one("radius")?, fields.one("thickness")?)?.into()
+    } else {
+        Coin::from_moments(fields.one("i1")?, fields.one("i3")?)?.into()
+    };
+    let rate: [f64; 3] = fields.take("rate")?.context("rate is missing")?;
+    let attitude = match (fields.take("attitude")?, fields.take("tilt")?) {
+        (Some(components), None) => Attitude::from_components(components)?,
+        (None, tilt) => {
+            Launch::new(rate, TimeOfFlight::Given(0.0))?.with_tilt(tilt.map_or(0.0, |[tilt]| tilt))?.attitude()
+        }
+        (Some(_), Some(_)) => return Err(anyhow!("either an attitude or a tilt is needed")),
+    };
+    let flight = match fields.take("time")? {
+        Some([time]) => TimeOfFlight::Given(time),
+        None => {
+            let (speed, gravity) = (fields.one("speed")?, fields.one("gravity")?);
+            TimeOfFlight::thrown(speed, gravity, fields.take("drop")?.map(|[drop]| drop))
+        }
+    };
+    ensure!(fields.0.is_empty(), "unknown fields: {}", fields.0.into_keys().collect::<Vec<_>>().join(", "));
+    Ok(Toss { body, launch: Launch::new(rate, flight)?.with_attitude(attitude) })
 }
 
-/// `value` as a hexadecimal floating-point literal of C99, which keeps every bit.
-pub(super) fn hex_float(value: f64) -> String {
-    let bits = value.to_bits();
-    let (fraction, exponent) = (bits & 0x000f_ffff_ffff_ffff, (bits >> 52) & 0x7ff);
-    let sign = if value.is_sign_negative() { "-" } else { "" };
-    match (exponent, fraction) {
-        (0, 0) => format!("{sign}0x0p+0"),
-        (0, _) => format!("{sign}0x0.{fraction:013x}p-1022"),
-        _ => format!("{sign}0x1.{fraction:013x}p{:+}", exponent.cast_signed() - 1023),
-    }
+/// The angle of the turn about the laboratory's x axis (rad) by which the launch is tilted; `None` for other attitudes.
+pub fn tilt(launch: &Launch) -> Option<f64> {
+    let attitude = launch.attitude();
+    let horizontal = (attitude == Attitude::IDENTITY).then_some(0.0);
+    attitude.tilt().map(toss::Angle::radians).or(horizontal)
 }
 
-/// Reads a literal that [`hex_float`] wrote; `None` for anything else.
-fn from_hex_float(text: &str) -> Option<f64> {
-    let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
-    let (digits, exponent) = rest.strip_prefix("0x")?.split_once('p')?;
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, "0000000000000"));
-    let (whole, exponent) = (whole.parse::<u64>().ok()?, exponent.parse::<i32>().ok()?);
-    if fraction.len() != 13 || whole > 1 || !(-1022..=1023).contains(&exponent) {
-        return None;
+/// Whether the launch is horizontal, with heads up.
+pub fn is_horizontal(launch: &Launch) -> bool {
+    tilt(launch) == Some(0.0)
+}
+
+/// The command of `unfair-toss` that solves the toss with the solver and settings of `subject`; `None` for a solver that is
+/// none of this workspace.
+pub fn command(toss: &Toss, subject: &Subject) -> Option<String> {
+    Registry::standard().named(subject.entry.name()).ok()?;
+    let tilt = tilt(&toss.launch)?;
+    let body = match (toss.body.coin().map(|coin| (coin, coin.cylinder())), toss.body.moments()) {
+        (Some((_, Some(cylinder))), _) => format!("--cylinder {}", list(&cylinder.map(Quantity::to_f64))),
+        (Some((coin, None)), _) => format!("--moments {}", list(&[coin.i1(), coin.i3()])),
+        (None, Some(moments)) => format!("--moments {}", list(&moments)),
+        (None, None) => format!("--inertia {}", list(&toss.body.inertia())),
+    };
+    let rate: [f64; 3] = toss.launch.rate().into();
+    let flight = match toss.launch.time_of_flight() {
+        TimeOfFlight::Given(time) => format!("--time {time:?}"),
+        TimeOfFlight::Ballistic { speed, gravity } => format!("--speed {speed:?} --gravity {gravity:?}"),
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
+            format!("--speed {speed:?} --gravity {gravity:?} --drop {drop:?}")
+        }
+    };
+    let (rate, by) = (list(&rate), subject.options());
+    let program = "cargo run -q --release --bin unfair-toss -- toss";
+    Some(format!("{program} {body} --rate {rate} {flight} --tilt {tilt:?} {by}"))
+}
+
+fn list(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>().join(",")
+}
+
+/// Numbers by the name of their field.
+struct Fields<'a>(BTreeMap<&'a str, Vec<f64>>);
+
+impl<'a> Fields<'a> {
+    fn of(text: &'a str) -> anyhow::Result<Self> {
+        let mut fields = BTreeMap::new();
+        for field in text.split_whitespace() {
+            let (name, values) = field.split_once('=').with_context(|| format!("'{field}' is no NAME=VALUE"))?;
+            let number = |text: &str| text.parse().map_err(|_| anyhow!("{name}: '{text}' is no number"));
+            let numbers = values.split(',').map(number).collect::<anyhow::Result<_>>()?;
+            ensure!(fields.insert(name, numbers).is_none(), "{name} is given twice");
+        }
+        Ok(Self(fields))
     }
-    let fraction = u64::from_str_radix(fraction, 16).ok()?;
-    let biased = if whole == 0 { 0 } else { u64::try_from(exponent + 1023).ok()? };
-    Some(sign * f64::from_bits(biased << 52 | fraction))
+
+    fn take<const N: usize>(&mut self, name: &str) -> anyhow::Result<Option<[f64; N]>> {
+        let Some(numbers) = self.0.remove(name) else { return Ok(None) };
+        let found = numbers.len();
+        numbers.try_into().map(Some).map_err(|_| anyhow!("{name}: {N} numbers are needed, not {found}"))
+    }
+
+    fn one(&mut self, name: &str) -> anyhow::Result<f64> {
+        self.take(name)?.map(|[number]: [f64; 1]| number).with_context(|| format!("{name} is missing"))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::adversary;
 
     #[test]
-    fn a_case_survives_a_round_trip_through_its_hex_line() {
-        for index in 0..500 {
-            let case = crate::measure::adversary::launch(3, index).unwrap();
-            assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
-        }
+    fn a_toss_of_any_body_reads_back_from_its_text() {
         let thrown = [
+            TimeOfFlight::Given(3.0),
             TimeOfFlight::Ballistic { speed: 0.1, gravity: 9.81 },
             TimeOfFlight::BallisticTo { speed: 0.1, gravity: 9.81, drop: 1.3 },
         ];
-        for thrown in thrown {
-            let launch = Launch::new(Vector3::new(-0.0, 5e-324, f64::MAX), thrown).unwrap();
-            for coin in [Coin::DISC, Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap()] {
-                let case = Case { toss: CoinToss { coin, launch }, tilt: 0.0 };
-                assert_eq!(Case::from_hex(&case.hex()).unwrap(), case);
-            }
+        let bodies = [
+            Coin::DISC.into(),
+            Coin::from_cylinder(0.003, 0.01874, 0.00114).unwrap().into(),
+            Body::from_moments([1.0, 2.0, 2.25]).unwrap(),
+            Body::from_inertia([2.0, 3.0, 4.0, 0.1, -0.2, 1e-300]).unwrap(),
+        ];
+        let launch = |flight| Launch::new([-0.0, 5e-324, f64::MAX], flight).unwrap();
+        let launches = thrown.map(launch).into_iter();
+        let turned = Attitude::from_components([0.5, -0.25, 1.0 / 3.0, 2.0]).unwrap();
+        let launches = launches.flat_map(|level| [level, level.with_tilt(-0.1).unwrap(), level.with_attitude(turned)]);
+        let tosses = launches.flat_map(|launch| bodies.map(|body| Toss { body, launch }));
+        for toss in tosses.chain((0..500).map(|index| adversary::launch(3, index))) {
+            assert_eq!(read(&text(&toss)).unwrap(), toss);
+            assert_eq!(text(&read(&format!("{} # a remark", text(&toss))).unwrap()), text(&toss));
         }
-        assert_eq!(from_hex_float(&hex_float(-0.0)).unwrap().to_bits(), (-0.0_f64).to_bits());
     }
 
     #[test]
-    fn reading_a_broken_hex_line_names_the_broken_field() {
-        let line = crate::measure::adversary::launch(3, 0).unwrap().hex();
-        let first = line.split_once(' ').unwrap().0;
+    fn reading_a_broken_text_names_the_broken_field() {
+        let line = "i1=1.0 i3=0.5 rate=1.0,1.0,2.5 tilt=0.1 time=0.5";
         for (broken, message) in [
-            (line.replace("tilt", "tlit"), "tilt is missing"),
-            (line.replace("i1=0x1", "i1=0x3"), "i1: '0x3"),
-            (format!("{line} {first}"), "i1 is given twice"),
-            (format!("{line} spin=0x0p+0"), "unknown fields: spin"),
+            (line.replace("i3", "i2"), "i3 is missing"),
+            (line.replace("i1=1.0", "i1=0x3"), "i1: '0x3' is no number"),
+            (line.replace("1.0,1.0", "1.0"), "rate: 3 numbers are needed, not 2"),
+            (line.replace("time", "speed"), "gravity is missing"),
+            (format!("{line} i1=1.0"), "i1 is given twice"),
+            (format!("{line} spin=0.0"), "unknown fields: spin"),
             (format!("{line} spin"), "'spin' is no NAME=VALUE"),
-            (line.replace("i1=0x1", "i1=-0x1"), "I1"),
+            (line.replace("i1=", "i1=-"), "I1"),
+            (line.replace("i1=1.0 i3=0.5", "moments=1.0,2.0,9.0"), "I3"),
         ] {
-            let error = Case::from_hex(&broken).unwrap_err().to_string();
+            let error = read(&broken).unwrap_err().to_string();
             assert!(error.contains(message), "{error}");
         }
-    }
-
-    #[test]
-    fn hex_floats_keep_every_bit() {
-        assert_eq!(hex_float(1.0), "0x1.0000000000000p+0");
-        assert_eq!(hex_float(-0.1), "-0x1.999999999999ap-4");
-        assert_eq!(hex_float(5e-324), "0x0.0000000000001p-1022");
-        assert_eq!(hex_float(-0.0), "-0x0p+0");
-        assert_eq!(hex_float(f64::MAX), "0x1.fffffffffffffp+1023");
     }
 }

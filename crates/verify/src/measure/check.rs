@@ -1,11 +1,23 @@
-//! A check is a claim about the solvers, the kind of evidence for it, and a function that measures it for every
-//! subject. All checks have this one type, so that they are run, judged and reported by the same code.
+//! A check is a claim about the solvers or the library, the kind of evidence for it, and how it is measured. Most checks are
+//! data: a deviation of one toss, the tosses on which it is taken, and how the deviations become one number. What does not
+//! fit that has a function of its own.
 
+use std::fmt;
+use std::sync::Arc;
+
+use dynamics::Toss;
+use rayon::prelude::*;
 use serde::Serialize;
+use toss::{CoinToss, Landing, SolveError};
 
 use crate::measure::context::Context;
 pub use crate::measure::measurement::Judges;
-use crate::measure::measurement::Measurement;
+use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::reference::{ExactLanding, Reference};
+use crate::measure::run::Allowance;
+use crate::measure::subject::Subject;
+use crate::measure::survey::{Landings, Survey};
+use crate::measure::tosses::tries;
 
 /// The kind of evidence that a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -59,6 +71,364 @@ pub struct Check {
     pub ceiling: f64,
     /// Unit of the measured value; "1" for a pure number.
     pub unit: &'static str,
-    /// Measures every subject; one measurement for each row of the report.
-    pub measure: fn(&Context) -> anyhow::Result<Vec<Measurement>>,
+    /// How it is measured; one measurement for each row of the report.
+    pub measure: Measure,
+}
+
+/// How a check is measured.
+#[derive(Clone, Copy)]
+pub enum Measure {
+    /// Deviations of what the library says of tosses, in sets of them, one for each row.
+    Tosses(fn() -> Vec<Set>, Fold),
+    /// Deviations of the landings of a survey, of every subject.
+    Landings {
+        /// The survey.
+        of: fn(&Context) -> anyhow::Result<&Survey>,
+        /// The deviation.
+        deviation: OfLanding,
+        /// What is allowed without a bound.
+        allowed: Allowed,
+    },
+    /// Both of these, one after the other.
+    Both(&'static [Measure; 2]),
+    /// What no deviation of a single toss is.
+    Own(fn(&Context) -> anyhow::Result<Vec<Measurement>>),
+}
+
+impl fmt::Debug for Measure {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.write_str(match self {
+            Self::Tosses(..) => "Tosses",
+            Self::Landings { .. } => "Landings",
+            Self::Both(_) => "Both",
+            Self::Own(_) => "Own",
+        })
+    }
+}
+
+/// How the deviations of a set become what is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fold {
+    /// The largest.
+    Largest,
+    /// The number of tosses with any.
+    Count,
+    /// The mean.
+    Mean,
+    /// The median.
+    Median,
+}
+
+/// A toss, with its exact landing where that was computed before.
+#[derive(Clone)]
+pub struct Case {
+    /// The toss.
+    pub toss: Toss,
+    /// The landing in 256 bits.
+    pub reference: Option<Arc<Reference>>,
+}
+
+/// A named set of cases, and a deviation that is taken on each of them.
+pub struct Set {
+    subject: String,
+    of_coins: bool,
+    cases: Cases,
+    quick: Quick,
+    deviation: OfToss,
+}
+
+/// Makes the cases of a set.
+type Cases = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync>;
+
+/// A deviation of a toss that needs no reference, where there is one.
+type Quick = Box<dyn Fn(&Toss) -> Option<f64> + Sync>;
+
+/// A deviation of a toss.
+type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
+
+impl Set {
+    /// The cases that `cases` makes, in the row of `subject`.
+    pub(super) fn of_cases(
+        subject: impl Into<String>,
+        cases: impl Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync + 'static,
+        deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
+    ) -> Self {
+        let quick = Box::new(|_: &Toss| None);
+        Self { subject: subject.into(), of_coins: false, cases: Box::new(cases), quick, deviation: Box::new(deviation) }
+    }
+
+    /// The tosses of any bodies that `tosses` makes, in the row of `subject`.
+    pub(super) fn new(
+        subject: impl Into<String>,
+        tosses: impl Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
+        deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
+    ) -> Self {
+        let case = |toss| Case { toss, reference: None };
+        Self::of_cases(subject, move |context| Ok(tosses(context)?.into_iter().map(case).collect()), deviation)
+    }
+
+    /// The tosses of coins that `tosses` makes, on which alone the deviation is taken.
+    pub(super) fn of_coins(
+        subject: &str,
+        tosses: impl Fn(&Context) -> anyhow::Result<Vec<Toss>> + Sync + 'static,
+        deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
+    ) -> Self {
+        let of_coin = move |toss: &Toss, reference: &Reference| {
+            deviation(&toss.of_coin("the measure", "it is taken on coins alone")?, reference)
+        };
+        Self { of_coins: true, ..Self::new(subject, tosses, of_coin) }
+    }
+
+    /// The tosses of coins that `tosses` makes of a [number](tries).
+    pub(super) fn of_tries(
+        subject: &str,
+        tosses: impl Fn(u64) -> anyhow::Result<Vec<CoinToss>> + Sync + 'static,
+        deviation: impl Fn(&CoinToss, &Reference) -> Deviation + Sync + 'static,
+    ) -> Self {
+        let all = move |context: &Context| Ok(tosses(tries(context.effort))?.into_iter().map(Toss::from).collect());
+        Self::of_coins(subject, all, deviation)
+    }
+
+    /// The same set, whose deviations are taken by `quick` where it says something; of the largest alone those that are not
+    /// near it.
+    pub(super) fn quickly(self, quick: impl Fn(&Toss) -> Option<f64> + Sync + 'static) -> Self {
+        Self { quick: Box::new(quick), ..self }
+    }
+
+    fn measured(&self, check: &str, fold: Fold, cases: &[Case]) -> Measurement {
+        let name = &*self.subject;
+        let quick = |case: &Case| (self.quick)(&case.toss);
+        let thorough = |case: &Case| {
+            let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).map(Arc::new));
+            let unsolved =
+                || SolveError::failed("the 256-bit reference", std::io::Error::other("it solves no such toss"));
+            (self.deviation)(&case.toss, &*reference.ok_or_else(unsolved)?)
+        };
+        let found: Vec<Deviation> = match fold {
+            Fold::Count => cases.par_iter().map(|case| quick(case).map_or_else(|| thorough(case), Ok)).collect(),
+            _ => shares(cases, quick, thorough),
+        };
+        let worst = |index: usize, failure| Worst::of_library(&cases[index].toss, failure);
+        let mut sizes: Vec<f64> = found.iter().map(|found| found.clone().unwrap_or(f64::INFINITY)).collect();
+        let figure = |measured: f64, input| Measurement::figure(check, name, measured, cases.len() as u64, input);
+        let measured = match fold {
+            Fold::Largest => Measurement::without_estimate(name, &found, worst),
+            Fold::Count => Measurement::count(name, &found, worst),
+            Fold::Mean => {
+                let largest = sizes.iter().copied().fold(0.0, f64::max);
+                figure(sizes.iter().sum::<f64>() / sizes.len() as f64, format!("largest error {largest:.3e}"))
+            }
+            Fold::Median => {
+                sizes.sort_by(f64::total_cmp);
+                let at = |part: usize| sizes.get(sizes.len() * part / 100).copied().unwrap_or(f64::NAN);
+                figure(at(50), format!("95 % are below {:.0}", at(95)))
+            }
+        };
+        measured.of_the_library()
+    }
+}
+
+/// A landing beside the exact one.
+#[derive(Clone, Copy)]
+pub struct Landed<'a> {
+    /// The toss.
+    pub toss: &'a Toss,
+    /// Its family; empty if there are none.
+    pub family: &'static str,
+    /// The exact landing.
+    pub exact: &'a ExactLanding,
+    /// The landing.
+    pub landing: &'a Landing,
+}
+
+/// A deviation of a landing; `None` if it is not judged.
+pub type OfLanding = fn(&Landed<'_>) -> Option<f64>;
+
+/// What is allowed a solver that has no bound.
+#[derive(Debug, Clone, Copy)]
+pub enum Allowed {
+    /// A part of what its estimate allows.
+    By(fn(&Allowance) -> f64),
+    /// This.
+    UpTo(f64),
+    /// Nothing is judged without a bound.
+    NotJudged,
+}
+
+/// The largest deviation of `subject`, which has these `landings`; `None` of a solver for coins among bodies.
+pub(super) fn of_landings(
+    survey: &Survey,
+    (subject, landings): (&Subject, &Landings),
+    deviation: OfLanding,
+    allowed: Allowed,
+) -> Option<Measurement> {
+    if landings.is_empty() {
+        return None;
+    }
+    let family = |index: usize| survey.families.get(index).copied().unwrap_or_default();
+    let judged = landings.iter().enumerate().filter_map(|(index, landing)| {
+        let (toss, exact) = (&survey.tosses[index], &survey.exact[index]);
+        match landing {
+            Ok(landing) => Some((index, Ok(deviation(&Landed { toss, family: family(index), exact, landing })?))),
+            Err(error) => Some((index, Err(error.clone()))),
+        }
+    });
+    let (indices, deviations): (Vec<usize>, Vec<Deviation>) = judged.unzip();
+    let toss = |index: usize| survey.tosses[indices[index]];
+    let found = Measurement::largest(subject, &deviations, toss, |index| match allowed {
+        Allowed::By(part) => Ok(survey.allowance(subject, landings, indices[index])?.as_ref().map(part)),
+        Allowed::UpTo(most) => Ok(Some(most)),
+        Allowed::NotJudged => Ok(None),
+    });
+    Some(if matches!(allowed, Allowed::NotJudged) { found.without_claim() } else { found })
+}
+
+impl Check {
+    /// What most checks of solvers have in common.
+    pub(super) const OF_SOLVERS: Self = Self {
+        id: "",
+        claim: "",
+        basis: Basis::ClosedForm,
+        judges: Judges::Solver,
+        ceiling: 0.0,
+        unit: "1",
+        measure: Measure::Own(|_| Ok(Vec::new())),
+    };
+
+    /// What most checks of the library have in common.
+    pub(super) const OF_LIBRARY: Self = Self { judges: Judges::Library, ..Self::OF_SOLVERS };
+
+    /// Measures every row.
+    ///
+    /// # Errors
+    /// If what is measured can't be made.
+    pub fn measure(&self, context: &Context) -> anyhow::Result<Vec<Measurement>> {
+        self.measured(self.measure, context)
+    }
+
+    fn measured(&self, measure: Measure, context: &Context) -> anyhow::Result<Vec<Measurement>> {
+        let rows: Vec<Measurement> = match measure {
+            Measure::Own(measure) => return measure(context),
+            Measure::Both([one, other]) => {
+                return Ok([self.measured(*one, context)?, self.measured(*other, context)?].concat());
+            }
+            Measure::Tosses(sets, fold) => {
+                let row = |set: Set| anyhow::Ok(set.measured(self.id, fold, &(set.cases)(context)?));
+                sets().into_iter().map(row).collect::<anyhow::Result<_>>()?
+            }
+            Measure::Landings { of, deviation, allowed } => {
+                let survey = of(context)?;
+                let each = context.subjects.iter().zip(&survey.landings);
+                each.filter_map(|by| of_landings(survey, by, deviation, allowed)).collect()
+            }
+        };
+        Ok(rows.into_iter().map(|row| self.repeating(row)).collect())
+    }
+
+    /// The same measurement, whose worst case is repeated by this check's measure.
+    fn repeating(&self, measurement: Measurement) -> Measurement {
+        let row = format!("{} / {}", self.id, measurement.subject);
+        measurement.with_worst(|worst| Worst { replay: worst.replay.in_row(row.clone()), ..worst })
+    }
+
+    /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses,
+    /// or not of such a body, have none.
+    ///
+    /// # Errors
+    /// [`SolveError`] for a phase above 2^53 rad.
+    pub fn again(
+        &self,
+        context: &Context,
+        toss: &Toss,
+        is_asked: &dyn Fn(&str) -> bool,
+    ) -> anyhow::Result<Vec<Measurement>> {
+        self.again_by(self.measure, context, toss, is_asked)
+    }
+
+    fn again_by(
+        &self,
+        measure: Measure,
+        context: &Context,
+        toss: &Toss,
+        is_asked: &dyn Fn(&str) -> bool,
+    ) -> anyhow::Result<Vec<Measurement>> {
+        Ok(match measure {
+            Measure::Own(_) => Vec::new(),
+            Measure::Both([one, other]) => {
+                let [one, other] = [one, other].map(|part| self.again_by(*part, context, toss, is_asked));
+                [one?, other?].concat()
+            }
+            Measure::Tosses(sets, fold) => {
+                let is_solved = Reference::of(toss).is_some();
+                let takes = |set: &Set| is_solved && (!set.of_coins || toss.coin().is_some());
+                let sets = sets().into_iter().filter(|set| is_asked(&set.subject) && takes(set));
+                let case = Case { toss: *toss, reference: None };
+                sets.map(|set| self.repeating(set.measured(self.id, fold, std::slice::from_ref(&case)))).collect()
+            }
+            Measure::Landings { deviation, allowed, .. } => {
+                let subjects = context.subjects.iter().filter(|subject| is_asked(&subject.name));
+                let again = |subject: &Subject| {
+                    let landings = vec![subject.solver.land(toss)];
+                    let survey = Survey {
+                        tosses: vec![*toss],
+                        families: Vec::new(),
+                        exact: vec![ExactLanding::new(toss)?],
+                        landings: Vec::new(),
+                    };
+                    anyhow::Ok(of_landings(&survey, (subject, &landings), deviation, allowed))
+                };
+                subjects.filter_map(|subject| again(subject).transpose()).collect::<anyhow::Result<_>>()?
+            }
+        })
+    }
+}
+
+/// More than the error of the exact motion, of cos θ or of half the angle of an attitude: twice what its own checks allow.
+pub(super) const EXACT: f64 = 2e-15;
+
+/// The part of a bound that the error of the exact motion is at most, where it judges.
+const PART: f64 = 0.02;
+
+/// Errors divided by their `bounds`, the larger one, if the exact motion can judge them: `errors` are against it.
+pub(super) fn by_exact_motion(errors: [f64; 2], bounds: [f64; 2]) -> Option<f64> {
+    let can_judge = bounds.iter().all(|bound| EXACT <= PART * bound);
+    can_judge.then(|| (errors[0] / bounds[0]).max(errors[1] / bounds[1]))
+}
+
+/// The deviations of `cases` by `quick`, such as the exact motion, which costs far less than the 256-bit reference; where it
+/// says nothing, and for all near the largest, by `thorough`, so that no row rests on the exact motion alone.
+pub(super) fn shares<T: Sync>(
+    cases: &[T],
+    quick: impl Fn(&T) -> Option<f64> + Sync,
+    thorough: impl Fn(&T) -> Deviation + Sync,
+) -> Vec<Deviation> {
+    let judged: Vec<Option<f64>> = cases.par_iter().map(&quick).collect();
+    let largest = judged.iter().flatten().copied().fold(0.0, f64::max);
+    // Whatever exceeds its bound, or may be the largest, is within the two errors of the largest found.
+    let is_far = |share: f64| share < (largest - 2.0 * PART).min(1.0 - PART);
+    let all = cases.par_iter().zip(judged);
+    all.map(|(case, share)| match share {
+        Some(share) if is_far(share) => Ok(share),
+        _ => thorough(case),
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_is_judged_thoroughly_and_what_the_exact_motion_cannot_judge_too() {
+        assert_eq!(by_exact_motion([1e-13, 4e-13], [1e-12, 2e-12]), Some(0.2));
+        assert_eq!(by_exact_motion([1e-14, 4e-13], [1e-13 * 0.99, 2e-12]), None);
+        let cases = [0.3, 0.31, 0.2, -1.0, 0.29, 0.26];
+        let thorough = |case: &f64| Ok(case + 100.0);
+        let found = shares(&cases, |case| Some(*case).filter(|case| *case > 0.0), thorough);
+        assert_eq!(found, [Ok(100.3), Ok(100.31), Ok(0.2), Ok(99.0), Ok(100.29), Ok(0.26)]);
+        let found = shares(&[2.0, 0.99, 0.97], |case| Some(*case), thorough);
+        assert_eq!(found, [Ok(102.0), Ok(100.99), Ok(0.97)], "all that may be above 1");
+        let found = shares(&[f64::NAN, 0.5], |case| Some(*case), |_| Ok(7.0));
+        assert_eq!(found, [Ok(7.0), Ok(7.0)], "what is no number");
+    }
 }

@@ -8,21 +8,18 @@ use std::sync::OnceLock;
 use anyhow::{Context as _, ensure};
 use sampling::RunningStep;
 use serde::Serialize;
-use toss::{Error, InputError, SolverEntry};
+use toss::SolverEntry;
 
+use crate::measure::adversary::{Findings, search};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::bodies::{self, BodyFindings, Family};
+use crate::measure::check::Case;
+use crate::measure::checks::long_bodies;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
-use crate::measure::planner::Trial;
-use crate::measure::planner::summary::PlannerSummary;
-use crate::measure::reference::coins::{self, ReferenceCoin};
-use crate::measure::reference::motions::ReferenceData;
-use crate::measure::reference::probabilities::ReferenceProbabilities;
-use crate::measure::rigid_errors::{self, Judged};
-use crate::measure::search::{Findings, search};
+use crate::measure::planner::{PlannerSummary, Trial};
+use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
 use crate::measure::tables::{Probability, fig4, probabilities};
@@ -47,17 +44,52 @@ pub struct Context {
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
     pub expected: Expected,
-    survey: OnceLock<Survey>,
-    atlas: OnceLock<Atlas>,
-    long_flights: OnceLock<LongFlights>,
-    search: OnceLock<Vec<Findings>>,
-    bodies: OnceLock<Vec<BodyFindings>>,
-    rigid_errors: OnceLock<Vec<(&'static Family, Vec<Judged>)>>,
-    sweep: OnceLock<Sweep>,
-    convergence: OnceLock<Vec<Convergence>>,
-    trial: OnceLock<Trial>,
-    probabilities: OnceLock<Vec<Probability>>,
-    fig4: OnceLock<Vec<RunningStep>>,
+    /// The landings of every subject from random launches.
+    pub survey: Shared<Survey>,
+    /// The landings of bodies by every subject.
+    pub bodies: Shared<Survey>,
+    /// Long flights of bodies, by family, with their references.
+    pub(crate) long_bodies: Shared<Vec<Vec<Case>>>,
+    /// The atlas of failures.
+    pub atlas: Shared<Atlas>,
+    /// The long flights.
+    pub long_flights: Shared<LongFlights>,
+    /// What the search by adversarial launches found.
+    pub search: Shared<Vec<Findings>>,
+    /// The sweep of tolerances and steps.
+    pub sweep: Shared<Sweep>,
+    /// The errors by fixed step.
+    pub convergence: Shared<Vec<Convergence>>,
+    /// Random scenes, solved as planned.
+    pub trial: Shared<Trial>,
+    /// P(heads) of every named space by every method.
+    pub probabilities: Shared<Vec<Probability>>,
+    /// The running shares of heads in Fig. 4's space.
+    pub fig4: Shared<Vec<RunningStep>>,
+}
+
+/// A result that is computed when it is first asked for.
+pub struct Shared<T> {
+    found: OnceLock<T>,
+    make: fn(&Context) -> anyhow::Result<T>,
+}
+
+impl<T> Shared<T> {
+    fn by(make: fn(&Context) -> anyhow::Result<T>) -> Self {
+        Self { found: OnceLock::new(), make }
+    }
+
+    /// The result for the run of `context`, of which it is a part.
+    ///
+    /// # Errors
+    /// If it can't be made.
+    pub fn get(&self, context: &Context) -> anyhow::Result<&T> {
+        if let Some(found) = self.found.get() {
+            return Ok(found);
+        }
+        let made = (self.make)(context)?;
+        Ok(self.found.get_or_init(|| made))
+    }
 }
 
 impl Context {
@@ -74,115 +106,33 @@ impl Context {
             subjects: subjects(registry, tight).context("the registry's solvers can't be made")?,
             data: ReferenceData::inside()?,
             reference_probabilities: ReferenceProbabilities::inside()?,
-            coins: coins::inside()?,
+            coins: ReferenceCoin::inside()?,
             problems: problems::all()?,
             expected: Expected::of_this_workspace()?,
-            survey: OnceLock::new(),
-            atlas: OnceLock::new(),
-            long_flights: OnceLock::new(),
-            search: OnceLock::new(),
-            bodies: OnceLock::new(),
-            rigid_errors: OnceLock::new(),
-            sweep: OnceLock::new(),
-            convergence: OnceLock::new(),
-            trial: OnceLock::new(),
-            probabilities: OnceLock::new(),
-            fig4: OnceLock::new(),
+            survey: Shared::by(|context| Survey::random(&context.subjects, context.effort.launches())),
+            bodies: Shared::by(|context| Survey::of_bodies(&context.subjects, context.effort)),
+            long_bodies: Shared::by(|context| Ok(long_bodies(context.effort))),
+            atlas: Shared::by(|context| Atlas::new(&context.registry)),
+            long_flights: Shared::by(|context| LongFlights::new(&context.registry)),
+            search: Shared::by(|context| search(&context.registry, context.effort.adversarial_launches())),
+            sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
+            convergence: Shared::by(|context| convergence(&context.registry)),
+            trial: Shared::by(|context| Trial::new(context.effort)),
+            probabilities: Shared::by(|_| probabilities()),
+            fig4: Shared::by(|_| fig4()),
         })
-    }
-
-    /// The landings of every subject from random launches; computed on the first call.
-    ///
-    /// # Errors
-    /// Never: the space of launches is fixed and valid.
-    pub fn survey(&self) -> Result<&Survey, InputError> {
-        once(&self.survey, || Survey::new(&self.subjects, self.effort.launches()))
-    }
-
-    /// The atlas of failures; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`Atlas::new`].
-    pub fn atlas(&self) -> anyhow::Result<&Atlas> {
-        once(&self.atlas, || Atlas::new(&self.registry))
-    }
-
-    /// The long flights; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`LongFlights::new`].
-    pub fn long_flights(&self) -> anyhow::Result<&LongFlights> {
-        once(&self.long_flights, || LongFlights::new(&self.registry))
-    }
-
-    /// What the search by adversarial launches found; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`search`].
-    pub fn search(&self) -> Result<&Vec<Findings>, InputError> {
-        once(&self.search, || search(&self.registry, self.effort.adversarial_launches()))
-    }
-
-    /// The landings of bodies by every subject that solves them; computed on the first call.
-    pub fn bodies(&self) -> &[BodyFindings] {
-        self.bodies.get_or_init(|| bodies::survey(&self.subjects, self.effort))
-    }
-
-    /// The errors of the exact motion of bodies in each family; computed on the first call.
-    pub(crate) fn rigid_errors(&self) -> &[(&'static Family, Vec<Judged>)] {
-        self.rigid_errors.get_or_init(|| rigid_errors::of_families(self.effort))
-    }
-
-    /// The sweep of tolerances and steps; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`Sweep::new`].
-    pub fn sweep(&self) -> Result<&Sweep, Error> {
-        once(&self.sweep, || Sweep::new(&self.registry, &self.problems, self.effort))
-    }
-
-    /// The errors by fixed step; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`convergence`].
-    pub fn convergence(&self) -> anyhow::Result<&Vec<Convergence>> {
-        once(&self.convergence, || convergence(&self.registry))
-    }
-
-    /// Random scenes, solved as planned and by every other model; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`Trial::new`].
-    pub fn trial(&self) -> anyhow::Result<&Trial> {
-        once(&self.trial, || Trial::new(self.effort))
-    }
-
-    /// P(heads) of every named space by every method; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`probabilities`].
-    pub fn probabilities(&self) -> anyhow::Result<&Vec<Probability>> {
-        once(&self.probabilities, probabilities)
-    }
-
-    /// The running shares of heads in Fig. 4's space; computed on the first call.
-    ///
-    /// # Errors
-    /// As [`fig4`].
-    pub fn fig4(&self) -> anyhow::Result<&Vec<RunningStep>> {
-        once(&self.fig4, fig4)
     }
 
     /// The shared results that have been computed so far, for the reports.
     pub fn records(&self) -> Records<'_> {
         Records {
-            atlas: self.atlas.get(),
-            long_flights: self.long_flights.get(),
-            sweep: self.sweep.get(),
-            convergence: self.convergence.get(),
-            planner: self.trial.get().map(Trial::summary),
-            probabilities: self.probabilities.get(),
-            fig4: self.fig4.get(),
+            atlas: self.atlas.found.get(),
+            long_flights: self.long_flights.found.get(),
+            sweep: self.sweep.found.get(),
+            convergence: self.convergence.found.get(),
+            planner: self.trial.found.get().map(Trial::summary),
+            probabilities: self.probabilities.found.get(),
+            fig4: self.fig4.found.get(),
         }
     }
 }
@@ -216,12 +166,4 @@ fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
         ensure!(names.insert(entry.name()), "the registry has two solvers called '{}'", entry.name());
     }
     Ok(())
-}
-
-/// The content of `cell`, which is computed by `make` if the cell is empty.
-fn once<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
-    if cell.get().is_none() {
-        let _ = cell.set(make()?);
-    }
-    Ok(cell.get().expect("it was just set"))
 }

@@ -19,9 +19,9 @@ use toss::{
     Stepping,
 };
 
-use crate::measure::random_flights::random_flights;
 use crate::measure::reference::Reference;
 use crate::measure::subject::Subject;
+use crate::measure::tosses::random_flights;
 
 /// Number of flights whose errors are added up, so that a cancellation in a single flight does not look like a higher
 /// order.

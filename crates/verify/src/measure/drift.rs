@@ -1,4 +1,4 @@
-//! This file computes how far conserved quantities of a free coin have drifted between launch and landing, relative to
+//! This file computes how far conserved quantities of a free body have drifted between launch and landing, relative to
 //! their values at launch. Any drift is an error of the solver, and is found without a reference solution.
 //!
 //! S is the angular momentum, n the coin's normal, BF the body frame and TF the transport frame, in which S is
@@ -7,61 +7,63 @@
 //! two ways through the attitude; the drift of S as a vector is the stronger test.
 
 use dynamics::Toss;
-use dynamics::body_rate::{angular_momentum, angular_momentum_tf, kinetic_energy};
-use toss::{CoinToss, State};
+use toss::{State, Vector3};
 
-/// The state of `toss` at launch.
-pub fn at_launch(toss: &CoinToss) -> State {
-    State { attitude: toss.launch.attitude(), rate: toss.launch.rate() }
+/// The states at launch and at landing.
+fn both<T>(toss: &Toss, landing: &State, of: impl Fn(&State) -> T) -> [T; 2] {
+    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
+    [of(&launch), of(landing)]
+}
+
+/// S in TF at launch and at landing.
+fn momenta(toss: &Toss, landing: &State) -> [Vector3<f64>; 2] {
+    both(toss, landing, |state| state.attitude.body_to_lab(&toss.body.angular_momentum(&state.rate)))
 }
 
 /// Relative drift of |S|.
-pub fn momentum(toss: &CoinToss, landing: &State) -> f64 {
-    let [before, after] = [&at_launch(toss), landing].map(|state| angular_momentum(&toss.coin, &state.rate).norm());
+pub fn momentum(toss: &Toss, landing: &State) -> f64 {
+    let [before, after] = both(toss, landing, |state| toss.body.angular_momentum(&state.rate).norm());
     (after - before).abs() / before
 }
 
 /// Relative drift of the kinetic energy.
-pub fn energy(toss: &CoinToss, landing: &State) -> f64 {
-    let [before, after] = [&at_launch(toss), landing].map(|state| kinetic_energy(&toss.coin, &state.rate));
+pub fn energy(toss: &Toss, landing: &State) -> f64 {
+    let [before, after] = both(toss, landing, |state| toss.body.kinetic_energy(&state.rate));
     (after - before).abs() / before
 }
 
 /// Drift of n·S, computed in BF, relative to |S|.
-pub fn normal_momentum_body(toss: &CoinToss, landing: &State) -> f64 {
-    let launch = at_launch(toss);
-    let momentum = angular_momentum_tf(&toss.coin, &launch);
-    let [before, after] = [&launch, landing].map(|state| state.attitude.lab_to_body(&momentum));
+pub fn normal_momentum_body(toss: &Toss, landing: &State) -> f64 {
+    let [momentum, _] = momenta(toss, landing);
+    let [before, after] = both(toss, landing, |state| state.attitude.lab_to_body(&momentum));
     (after.z - before.z).abs() / momentum.norm()
 }
 
 /// Drift of n·S, computed in TF, relative to |S|.
-pub fn normal_momentum(toss: &CoinToss, landing: &State) -> f64 {
-    let launch = at_launch(toss);
-    let momentum = angular_momentum_tf(&toss.coin, &launch);
-    let [before, after] = [&launch, landing].map(|state| state.attitude.normal().dot(&momentum));
+pub fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
+    let [momentum, _] = momenta(toss, landing);
+    let [before, after] = both(toss, landing, |state| state.attitude.normal().dot(&momentum));
     (after - before).abs() / momentum.norm()
 }
 
-/// Drift of S as a vector in TF, relative to |S|.
-pub fn momentum_vector(toss: &CoinToss, landing: &State) -> f64 {
-    let [before, after] = [&at_launch(toss), landing].map(|state| angular_momentum_tf(&toss.coin, state));
+/// Drift of S as a vector in TF, relative to |S|; of a body that is no coin, as [`of_body`] has it.
+pub fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
+    if toss.coin().is_none() {
+        return of_body(toss, landing)[2];
+    }
+    let [before, after] = momenta(toss, landing);
     (after - before).norm() / before.norm()
 }
 
 /// Drifts of a landing of any body: of |S|, of the kinetic energy, and of S as a vector in TF. They are relative to
 /// those of a body that turns as fast about its largest axis, because a rod that spins about itself has next to none.
-pub fn of_rigid(toss: &Toss, landing: &State) -> [f64; 3] {
-    let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
-    let body = &toss.body;
-    let (largest, rate) = (body.principal_moments()[2], launch.rate.norm());
-    let [before, after] =
-        [&launch, landing].map(|state| state.attitude.body_to_lab(&body.angular_momentum(&state.rate)));
-    let energy = body.kinetic_energy(&landing.rate) - body.kinetic_energy(&launch.rate);
-    let vector = (after - before).norm();
+pub fn of_body(toss: &Toss, landing: &State) -> [f64; 3] {
+    let (largest, rate) = (toss.body.principal_moments()[2], toss.launch.rate().norm());
+    let [before, after] = momenta(toss, landing);
+    let energy = toss.body.kinetic_energy(&landing.rate) - toss.body.kinetic_energy(&toss.launch.rate());
     [
         (after.norm() - before.norm()).abs() / (largest * rate),
         2.0 * energy.abs() / (largest * rate * rate),
-        vector / (largest * rate),
+        (after - before).norm() / (largest * rate),
     ]
 }

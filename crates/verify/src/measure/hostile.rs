@@ -6,14 +6,13 @@
 //! moments are here too, and rates with components of different sizes.
 
 use dynamics::Toss;
+use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use rand::{RngExt, SeedableRng};
 use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
-use super::bodies::{FAMILIES, flown_for};
-use super::case::Case;
 use super::effort::Effort;
 use super::subject::Subject;
+use super::tosses::{FAMILIES, decades, flown_for, one};
 
 const SEED: u64 = 20_270_115;
 
@@ -30,8 +29,6 @@ const LONGEST: f64 = 1e6;
 pub(super) struct Flight {
     /// The toss.
     pub(super) toss: Toss,
-    /// The toss in words that can be copied.
-    pub(super) input: String,
     /// The solver with its settings.
     pub(super) by: Subject,
 }
@@ -57,43 +54,25 @@ fn most_steps(index: u64, of_most: f64) -> f64 {
 
 /// The random numbers for the flight `index` of a kind.
 fn stream(kind: u64, index: u64) -> ChaCha8Rng {
-    let mut rng = ChaCha8Rng::seed_from_u64(SEED + kind);
-    rng.set_stream(index);
-    rng
-}
-
-/// 10 to a power that is uniform between `low` and `high`.
-fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
-    10f64.powf(rng.random_range(low..high))
-}
-
-/// One of `values`, each equally likely.
-fn one<const N: usize>(rng: &mut ChaCha8Rng, values: [f64; N]) -> f64 {
-    values[rng.random_range(0..N)]
+    super::tosses::stream(SEED + kind, index)
 }
 
 /// Flight number `index` of a coin by a solver and its `scheme`, most of them in about so many `steps` or fewer.
 ///
 /// # Errors
-/// Never: every launch is valid.
-pub(super) fn of_coin(
-    entry: &SolverEntry,
-    scheme: Scheme,
-    index: u64,
-    steps: f64,
-) -> Result<(Case, Flight), InputError> {
+/// If the scheme takes neither a tolerance nor steps.
+pub(super) fn of_coin(entry: &SolverEntry, scheme: Scheme, index: u64, steps: f64) -> Result<Flight, InputError> {
     let mut rng = stream(0, index);
     let settings = Settings::drawn(scheme, &mut rng);
     let phase = settings.phase(most_steps(index, steps), &mut rng);
-    let case = coin(&mut rng, phase)?;
-    let by = settings.subject(entry, case.toss.launch.turn_rate())?;
-    Ok((case, Flight { toss: case.toss.into(), input: case.hex(), by }))
+    let toss = coin(&mut rng, phase);
+    Ok(Flight { toss: toss.into(), by: settings.subject(entry, toss.launch.turn_rate())? })
 }
 
 /// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
 ///
 /// # Errors
-/// Never.
+/// As [`of_coin`].
 pub(super) fn of_body(
     entry: &SolverEntry,
     scheme: Scheme,
@@ -104,9 +83,7 @@ pub(super) fn of_body(
     let settings = Settings::drawn(scheme, &mut rng);
     let phase = settings.phase(most_steps(index, steps), &mut rng);
     let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
-    let by = settings.subject(entry, toss.launch.turn_rate())?;
-    let input = format!("{}: {:?}, {:?}", by.options(), toss.body.tensor(), toss.launch);
-    Ok(Some(Flight { toss, input, by }))
+    Ok(Some(Flight { toss, by: settings.subject(entry, toss.launch.turn_rate())? }))
 }
 
 /// A scheme with its tolerance, or with its step in units of 1/|ω|.
@@ -148,10 +125,7 @@ impl Settings {
 }
 
 /// A coin that turns by about `phase` (rad).
-///
-/// # Errors
-/// Never: every launch is valid.
-pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError> {
+fn coin(rng: &mut ChaCha8Rng, phase: f64) -> CoinToss {
     let sign = one(rng, [-1.0, 1.0]);
     let k = match rng.random_range(0..6) {
         0 => 0.0,
@@ -179,8 +153,12 @@ pub(super) fn coin(rng: &mut ChaCha8Rng, phase: f64) -> Result<Case, InputError>
     }
     let rate = rate * decades(rng, -3.0, 3.0);
     let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
-    let launch = Launch::new(rate, TimeOfFlight::Given(phase / rate.norm()))?.with_tilt(tilt)?;
-    Ok(Case { toss: CoinToss { coin: Coin::from_moments(1.0, k)?, launch }, tilt })
+    thrown(k, rate, phase / rate.norm(), tilt)
+}
+
+fn thrown(k: f64, rate: Vector3<f64>, time: f64, tilt: f64) -> CoinToss {
+    let launch = Launch::new(rate, TimeOfFlight::Given(time)).and_then(|launch| launch.with_tilt(tilt));
+    CoinToss { coin: Coin::from_moments(1.0, k).expect("k is from 0 to 2"), launch: launch.expect("finite numbers") }
 }
 
 /// A body of any of the families for a plan, which turns by up to 300 rad. `None` where the family has no such body.
@@ -193,21 +171,17 @@ pub(super) fn planned_body(index: u64) -> (ChaCha8Rng, Option<Toss>) {
 }
 
 /// A coin for a plan: half of them rods that spin fast and turn by up to 1000 rad.
-///
-/// # Errors
-/// Never: every launch is valid.
-pub(super) fn planned(index: u64) -> Result<(ChaCha8Rng, Case), InputError> {
+pub(super) fn planned(index: u64) -> (ChaCha8Rng, CoinToss) {
     let mut rng = stream(100, index);
     if rng.random() {
         let phase = decades(&mut rng, -1.0, 2.5);
-        let case = coin(&mut rng, phase)?;
-        return Ok((rng, case));
+        let toss = coin(&mut rng, phase);
+        return (rng, toss);
     }
     let across = decades(&mut rng, -3.0, 0.0);
     let rate = Vector3::from_fn(|_, _| rng.random_range(-across..across));
     let rate = Vector3::new(rate.x, rate.y, one(&mut rng, [-1.0, 1.0])) * decades(&mut rng, -1.0, 2.0);
-    let time = TimeOfFlight::Given(decades(&mut rng, 0.0, 3.0) / rate.norm());
+    let time = decades(&mut rng, 0.0, 3.0) / rate.norm();
     let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..3.0) };
-    let toss = CoinToss { coin: Coin::from_moments(1.0, 0.0)?, launch: Launch::new(rate, time)?.with_tilt(tilt)? };
-    Ok((rng, Case { toss, tilt }))
+    (rng, thrown(0.0, rate, time, tilt))
 }

@@ -3,10 +3,10 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::{Coin, CoinToss, InputError, Launch, Scheme, SolveError, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{Coin, InputError, Launch, Scheme, SolveError, SolverEntry, Stepping, TimeOfFlight, Toss};
 
 use crate::measure::drift;
-use crate::measure::reference::Reference;
+use crate::measure::reference::ExactLanding;
 use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, subjects, usual};
 
@@ -62,8 +62,8 @@ impl LongFlights {
         let flights: Vec<(&Subject, f64)> =
             subjects.iter().flat_map(|subject| TIMES.map(|time| (subject, time))).collect();
         let fly = |(subject, time): (&Subject, f64)| -> Result<LongFlight, InputError> {
-            let launch = Launch::new(Vector3::new(1.0, 1.0, 2.5), TimeOfFlight::Given(time))?;
-            let found = Drift::new(subject, &CoinToss { coin: Coin::PAPER, launch }).map_err(|error| error.to_string());
+            let toss = Toss::new(Coin::PAPER, Launch::new([1.0, 1.0, 2.5], TimeOfFlight::Given(time))?);
+            let found = Drift::new(subject, &toss).map_err(|error| error.to_string());
             Ok(LongFlight { subject: subject.name.clone(), time, found })
         };
         Ok(Self(flights.into_par_iter().with_max_len(1).map(fly).collect::<Result<_, _>>()?))
@@ -85,11 +85,11 @@ fn stepping(scheme: Scheme) -> Result<Stepping, InputError> {
 }
 
 impl Drift {
-    fn new(subject: &Subject, toss: &CoinToss) -> Result<Self, SolveError> {
-        let landing = subject.solver.land(&(*toss).into())?;
+    fn new(subject: &Subject, toss: &Toss) -> Result<Self, SolveError> {
+        let landing = subject.solver.land(toss)?;
         Ok(Self {
-            err_attitude: Reference::new(toss).attitude_error(&landing.state.attitude),
-            allowed: Allowance::new(subject, &(*toss).into(), landing.error).map(|allowance| allowance.attitude),
+            err_attitude: ExactLanding::new(toss)?.attitude_error(&landing.state.attitude),
+            allowed: Allowance::new(subject, toss, landing.error).map(|allowance| allowance.attitude),
             momentum: drift::momentum(toss, &landing.state),
             energy: drift::energy(toss, &landing.state),
             normal_momentum: drift::normal_momentum(toss, &landing.state),

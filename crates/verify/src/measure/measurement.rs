@@ -6,12 +6,12 @@
 
 use std::cmp::Ordering;
 
+use dynamics::Toss;
 use serde::Serialize;
 use toss::SolveError;
 
-use super::case::Case;
+use super::case;
 use super::replay::Replay;
-use super::run::Allowance;
 use super::subject::Subject;
 
 /// What a row judges. A row about a solver stands or falls with the entry of the registry; a row about the library does
@@ -77,7 +77,7 @@ pub enum Claim {
 /// The worst case of a measurement.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Worst {
-    /// The case's input, as hex floats or in words.
+    /// The case's toss as [text](case::text), or what was measured in words.
     pub input: String,
     /// The error, if the subject failed.
     pub failure: Option<String>,
@@ -89,62 +89,39 @@ pub struct Worst {
 pub type Deviation = Result<f64, SolveError>;
 
 impl Measurement {
-    /// The largest of the deviations of `subject`, which are in the order of their cases. `allowed` selects the part of
-    /// the subject's allowance that applies to them. A NaN or a failure counts as infinite.
+    /// The largest of the deviations of `subject`, which are in the order of their tosses; `allowed` returns the deviation
+    /// that its estimate allows for a toss, `None` if it has no estimate. A NaN or a failure counts as infinite.
     pub fn largest(
         subject: &Subject,
-        deviations: impl IntoIterator<Item = Deviation>,
-        case: impl Fn(usize) -> Case,
-        allowed: fn(&Allowance) -> f64,
-    ) -> Self {
-        Self::largest_within(subject, deviations, &case, |index| {
-            Ok(Allowance::of(subject, case(index).toss)?.map(|allowance| allowed(&allowance)))
-        })
-    }
-
-    /// The largest of the deviations of `subject`; `allowed` returns the deviation that its estimate allows for a case,
-    /// `None` if it has no estimate.
-    pub fn largest_within(
-        subject: &Subject,
-        deviations: impl IntoIterator<Item = Deviation>,
-        case: impl Fn(usize) -> Case,
+        deviations: &[Deviation],
+        toss: impl Fn(usize) -> Toss,
         allowed: impl Fn(usize) -> Result<Option<f64>, SolveError>,
     ) -> Self {
-        let deviations: Vec<Deviation> = deviations.into_iter().collect();
-        let worst = |index, failure| worst(&case(index), subject, failure);
-        let claim = Claim::of(&deviations, allowed, worst);
-        Self { claim, ..Self::without_estimate(&subject.name, &deviations, worst) }
+        let worst = |index, failure| Worst::by(&toss(index), subject, failure);
+        let claim = Claim::of(deviations, allowed, worst);
+        Self { claim, ..Self::without_estimate(&subject.name, deviations, worst) }
     }
 
-    /// The largest of the deviations of the exact motion in the set of cases called `name`.
-    pub fn of_set(name: &str, deviations: &[Deviation], case: impl Fn(usize) -> Case) -> Self {
-        Self::without_estimate(name, deviations, |index, failure| of_library(&case(index), failure)).of_the_library()
-    }
-
-    /// The number of cases of `subject` for which `found` is true; the first one becomes the worst case.
-    pub fn count(subject: &Subject, found: &[Result<bool, SolveError>], case: impl Fn(usize) -> Case) -> Self {
-        Self::counted(&subject.name, found, |index, failure| worst(&case(index), subject, failure))
-    }
-
-    /// The number of cases for which `found` is true of the exact motion, in the set called `name`; the first one
-    /// becomes the worst case.
-    pub fn count_of_set(name: &str, found: &[Result<bool, SolveError>], case: impl Fn(usize) -> Case) -> Self {
-        Self::counted(name, found, |index, failure| of_library(&case(index), failure)).of_the_library()
-    }
-
-    fn counted(name: &str, found: &[Result<bool, SolveError>], worst: impl Fn(usize, Option<String>) -> Worst) -> Self {
-        let each: Vec<Deviation> = found.iter().map(|found| found.clone().map(f64::from)).collect();
-        let sum: Deviation = each.iter().cloned().sum();
-        Self { measured: sum.unwrap_or(f64::INFINITY), ..Self::without_estimate(name, &each, worst) }
-    }
-
-    fn without_estimate(name: &str, deviations: &[Deviation], worst: impl Fn(usize, Option<String>) -> Worst) -> Self {
+    /// The largest of the deviations of what is called `name`, without a claim.
+    pub fn without_estimate(
+        name: &str,
+        deviations: &[Deviation],
+        worst: impl Fn(usize, Option<String>) -> Worst,
+    ) -> Self {
         let (measured, worst) = match largest(deviations) {
             Some((index, size, failure)) => (size, Some(worst(index, failure))),
             None => (f64::INFINITY, None),
         };
         let cases = deviations.len() as u64;
         Self { subject: name.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
+    }
+
+    /// The number of cases with a deviation; the first one becomes the worst case. With a failure it is infinite.
+    pub fn count(name: &str, deviations: &[Deviation], worst: impl Fn(usize, Option<String>) -> Worst) -> Self {
+        let each: Vec<Deviation> =
+            deviations.iter().map(|found| found.clone().map(|size| f64::from(size != 0.0))).collect();
+        let sum: Deviation = each.iter().cloned().sum();
+        Self { measured: sum.unwrap_or(f64::INFINITY), ..Self::without_estimate(name, &each, worst) }
     }
 
     /// A single number that belongs to no toss; the command that repeats it runs the whole check.
@@ -180,13 +157,12 @@ impl Measurement {
         Self { judges: Some(Judges::Library), ..self }
     }
 
-    /// The same measurement of a difference to `subject`, whose solver the commands repeat too.
+    /// The same measurement, whose worst cases are changed by `change`.
     #[must_use]
-    pub fn beside(mut self, subject: &Subject) -> Self {
-        let both = |worst: Worst| Worst { replay: worst.replay.beside(subject), ..worst };
-        self.worst = self.worst.map(both);
+    pub fn with_worst(mut self, change: impl Fn(Worst) -> Worst) -> Self {
+        self.worst = self.worst.map(&change);
         if let Claim::Allows { worst, .. } = &mut self.claim {
-            *worst = worst.take().map(both);
+            *worst = worst.take().map(change);
         }
         self
     }
@@ -256,11 +232,22 @@ fn largest(deviations: &[Deviation]) -> Option<(usize, f64, Option<String>)> {
     worst
 }
 
-fn worst(case: &Case, subject: &Subject, failure: Option<String>) -> Worst {
-    Worst { input: case.hex(), failure, replay: Replay::toss(case, subject) }
-}
+impl Worst {
+    /// The toss, which the solver of `subject` repeats.
+    pub fn by(toss: &Toss, subject: &Subject, failure: Option<String>) -> Self {
+        Self { input: case::text(toss), failure, replay: Replay::toss(toss, subject) }
+    }
 
-/// The worst case of a measurement of the library itself, whose replay takes that measure again.
-fn of_library(case: &Case, failure: Option<String>) -> Worst {
-    Worst { input: case.hex(), failure, replay: Replay::Toss { input: case.hex(), command: None } }
+    /// The toss, of which the library is measured.
+    pub fn of_library(toss: &Toss, failure: Option<String>) -> Self {
+        let input = case::text(toss);
+        Self { input: input.clone(), failure, replay: Replay::Toss { input, command: None, row: None } }
+    }
+
+    /// The same case with a remark behind it, which is no part of its text.
+    #[must_use]
+    pub fn remarking(self, remark: &str) -> Self {
+        let input = if remark.is_empty() { self.input } else { format!("{} # {remark}", self.input) };
+        Self { input, ..self }
+    }
 }

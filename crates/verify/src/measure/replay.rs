@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use toss::Registry;
+use dynamics::Toss;
 
-use super::case::Case;
+use super::case;
 use super::subject::Subject;
 
 /// What repeats a worst case.
@@ -13,35 +13,40 @@ use super::subject::Subject;
 pub enum Replay {
     /// One toss by one solver.
     Toss {
-        /// The toss as hex floats, which the command `replay` of a suite takes.
+        /// The toss as [text](case::text), which the command `replay` of a suite takes.
         input: String,
         /// The command of `unfair-toss` with the solver and its settings, if it is a solver of this workspace.
         command: Option<String>,
+        /// The row whose quantity is measured again, as `CHECK / SUBJECT`, if it is one of single tosses.
+        row: Option<String>,
     },
     /// The whole check of this id, for a number that belongs to no toss.
     Check(String),
 }
 
 impl Replay {
-    /// Repeats `case` by the solver of `subject`.
-    pub fn toss(case: &Case, subject: &Subject) -> Self {
-        Self::Toss { input: case.hex(), command: command(case, subject) }
+    /// Repeats `toss` by the solver of `subject`.
+    pub fn toss(toss: &Toss, subject: &Subject) -> Self {
+        Self::Toss { input: case::text(toss), command: case::command(toss, subject), row: None }
     }
 
     /// Repeats the toss by the solver of `subject` too, with which the other was compared.
     #[must_use]
     pub fn beside(self, subject: &Subject) -> Self {
-        let Self::Toss { input, command: by_the_other } = self else { return self };
-        let first = Case::from_hex(&input).ok().and_then(|case| command(&case, subject));
+        let Self::Toss { input, command: by_the_other, row } = self else { return self };
+        let first = case::read(&input).ok().and_then(|toss| case::command(&toss, subject));
         let both = first.zip(by_the_other).map(|(first, then)| format!("{first} && {then}"));
-        Self::Toss { input, command: both }
+        Self::Toss { input, command: both, row }
     }
-}
 
-/// The command of `unfair-toss` that solves `case`, if the solver of `subject` is one of this workspace.
-fn command(case: &Case, subject: &Subject) -> Option<String> {
-    let is_ours = Registry::standard().named(subject.entry.name()).is_ok();
-    is_ours.then(|| case.command(subject))
+    /// The same, as the worst case of `row`.
+    #[must_use]
+    pub fn in_row(self, row: String) -> Self {
+        match self {
+            Self::Toss { input, command, .. } => Self::Toss { input, command, row: Some(row) },
+            whole @ Self::Check(_) => whole,
+        }
+    }
 }
 
 /// How the program of a suite is started from a shell.
@@ -68,11 +73,13 @@ impl Commands {
         match (self, replay) {
             (Self::With(commands, options), _) => commands.line(replay) + options,
             (Self::Workspace, Replay::Toss { command: Some(command), .. }) => command.clone(),
-            (Self::Workspace, Replay::Toss { input, command: None }) => {
-                format!("cargo xtask verify --replay \"{input}\"")
+            (Self::Workspace, Replay::Toss { input, row, .. }) => {
+                format!("cargo xtask verify --replay \"{input}\"{}", option(row))
             }
             (Self::Workspace, Replay::Check(check)) => format!("cargo xtask verify --only {check}"),
-            (Self::Program(program), Replay::Toss { input, .. }) => format!("{program} replay \"{input}\""),
+            (Self::Program(program), Replay::Toss { input, row, .. }) => {
+                format!("{program} replay \"{input}\"{}", option(row))
+            }
             (Self::Program(program), Replay::Check(check)) => format!("{program} --only {check}"),
         }
     }
@@ -85,6 +92,10 @@ impl Commands {
             Self::Program(program) => format!("{program} --bless"),
         }
     }
+}
+
+fn option(row: &Option<String>) -> String {
+    row.as_ref().map(|row| format!(" --row \"{row}\"")).unwrap_or_default()
 }
 
 fn of(path: &Path) -> String {
@@ -117,16 +128,18 @@ mod tests {
 
     #[test]
     fn only_the_workspaces_own_suite_repeats_a_toss_by_its_command_line() {
-        let case = crate::measure::adversary::launch(3, 0).unwrap();
-        let replay = Replay::toss(&case, &Subject::exact());
+        let toss = crate::measure::adversary::launch(3, 0);
+        let (replay, input) = (Replay::toss(&toss, &Subject::exact()), case::text(&toss));
         assert!(Commands::Workspace.line(&replay).starts_with("cargo run -q --release --bin unfair-toss -- toss "));
         let elsewhere = Commands::Program("checks".to_owned());
-        assert_eq!(elsewhere.line(&replay), format!("checks replay \"{}\"", case.hex()));
+        assert_eq!(elsewhere.line(&replay), format!("checks replay \"{input}\""));
+        let of_row = format!("checks replay \"{input}\" --row \"c / s\"");
+        assert_eq!(elsewhere.line(&replay.in_row("c / s".to_owned())), of_row);
         assert_eq!(elsewhere.line(&Replay::Check("c".to_owned())), "checks --only c");
-        let foreign = Replay::Toss { input: case.hex(), command: None };
-        assert_eq!(Commands::Workspace.line(&foreign), format!("cargo xtask verify --replay \"{}\"", case.hex()));
+        let foreign = Replay::Toss { input: input.clone(), command: None, row: None };
+        assert_eq!(Commands::Workspace.line(&foreign), format!("cargo xtask verify --replay \"{input}\""));
         let with = |commands| Commands::With(Box::new(commands), " --claim 1".to_owned());
-        let line = format!("cargo xtask verify --replay \"{}\" --claim 1", case.hex());
+        let line = format!("cargo xtask verify --replay \"{input}\" --claim 1");
         assert_eq!(with(Commands::Workspace).line(&foreign), line);
         assert_eq!(with(elsewhere.clone()).line(&Replay::Check("c".to_owned())), "checks --only c --claim 1");
         assert_eq!(with(elsewhere).bless(), "checks --bless --claim 1");

@@ -5,13 +5,11 @@
 use dynamics::Toss;
 use exact::motion::COS_TILT_ERROR;
 use serde::{Deserialize, Serialize};
-use toss::{CoinToss, Landing, Outcome, SolveError};
+use toss::{Landing, Outcome, SolveError};
 
-use super::any_case::{AnyCase, AnyReference};
-use super::case::Case;
-use super::drift;
-use super::reference::Reference;
+use super::reference::ExactLanding;
 use super::subject::Subject;
+use super::{case, drift};
 
 /// How good an answer is, from the best to the worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -63,9 +61,8 @@ impl Allowance {
     ///
     /// # Errors
     /// As [`Solver::tilt`](toss::Solver::tilt).
-    pub fn of(subject: &Subject, toss: impl Into<Toss>) -> Result<Option<Self>, SolveError> {
-        let toss = toss.into();
-        Ok(Self::new(subject, &toss, subject.solver.tilt(&toss)?.error))
+    pub fn of(subject: &Subject, toss: &Toss) -> Result<Option<Self>, SolveError> {
+        Ok(Self::new(subject, toss, subject.solver.tilt(toss)?.error))
     }
 
     /// The errors that an error estimate allows.
@@ -80,7 +77,7 @@ impl Allowance {
 pub struct Run {
     /// The subject's name.
     pub subject: String,
-    /// The toss, as hex floats.
+    /// The toss, as [text](case::text).
     pub inputs: String,
     /// How good the answer is.
     pub answer: Answer,
@@ -107,108 +104,53 @@ pub struct Run {
 }
 
 impl Run {
-    /// Solves `case` with `subject` and compares the answer with `reference`.
-    pub fn new(subject: &Subject, case: &Case, reference: &Reference) -> Self {
-        Self::of_compared(subject, case.hex(), Compared::new(subject, &case.toss, reference))
-    }
-
-    /// Solves a `case` of any body with `subject` and compares the answer with `reference`.
-    pub fn of_any(subject: &Subject, case: &AnyCase, reference: &AnyReference) -> Self {
-        match (case, reference) {
-            (AnyCase::Coin(case), AnyReference::Coin(reference)) => Self::new(subject, case, reference),
-            (AnyCase::Coin(case), _) => Self::new(subject, case, &Reference::new(&case.toss)),
-            (AnyCase::Rigid(case), _) => {
-                Self::of_compared(subject, case.hex(), Compared::rigid(subject, &case.toss, reference))
-            }
+    /// Solves `toss` with `subject` and compares the answer with the exact one.
+    pub fn new(subject: &Subject, toss: &Toss, exact: &ExactLanding) -> Self {
+        let failed = Self {
+            subject: subject.name.clone(),
+            inputs: case::text(toss),
+            answer: Answer::TypedError,
+            failure: None,
+            err_cos_tilt: None,
+            err_attitude: None,
+            err_by_allowance: None,
+            err_invariants: None,
+            outcome_ok: None,
+            norm_error: None,
+            rhs_calls: None,
+            accepted_steps: None,
+            rejected_steps: None,
+        };
+        match subject.solver.land(toss) {
+            Ok(landing) => failed.answered(&landing, toss, exact, Allowance::new(subject, toss, landing.error)),
+            Err(error) => Self { failure: Some(error.to_string()), ..failed },
         }
     }
 
-    fn of_compared(subject: &Subject, inputs: String, compared: Result<Compared, SolveError>) -> Self {
-        match compared {
-            Ok(compared) => compared.run(subject, inputs),
-            Err(error) => Self {
-                subject: subject.name.clone(),
-                inputs,
-                answer: Answer::TypedError,
-                failure: Some(error.to_string()),
-                err_cos_tilt: None,
-                err_attitude: None,
-                err_by_allowance: None,
-                err_invariants: None,
-                outcome_ok: None,
-                norm_error: None,
-                rhs_calls: None,
-                accepted_steps: None,
-                rejected_steps: None,
-            },
-        }
-    }
-}
-
-/// An answer with its errors.
-struct Compared {
-    landing: Landing,
-    err_cos_tilt: f64,
-    err_attitude: f64,
-    err_invariants: f64,
-    outcome_ok: Option<bool>,
-    allowance: Option<Allowance>,
-}
-
-impl Compared {
-    fn new(subject: &Subject, toss: &CoinToss, reference: &Reference) -> Result<Self, SolveError> {
-        let landing = subject.solver.land(&(*toss).into())?;
+    fn answered(self, landing: &Landing, toss: &Toss, exact: &ExactLanding, allowance: Option<Allowance>) -> Self {
         let outcome = landing.outcome();
-        Ok(Self {
-            err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
-            err_attitude: reference.attitude_error(&landing.state.attitude),
-            err_invariants: drift::momentum_vector(toss, &landing.state),
-            outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
-            allowance: Allowance::new(subject, &(*toss).into(), landing.error),
-            landing,
-        })
-    }
-
-    fn rigid(subject: &Subject, toss: &Toss, reference: &AnyReference) -> Result<Self, SolveError> {
-        let landing = subject.solver.land(toss)?;
-        let outcome = landing.outcome();
-        let [.., vector] = drift::of_rigid(toss, &landing.state);
-        Ok(Self {
-            err_cos_tilt: reference.cos_tilt_error(landing.cos_tilt),
-            err_attitude: reference.attitude_error(&landing.state.attitude),
-            err_invariants: vector,
-            outcome_ok: (outcome != Outcome::Undecided).then(|| outcome == reference.outcome()),
-            allowance: Allowance::new(subject, toss, landing.error),
-            landing,
-        })
-    }
-
-    fn answer(&self) -> Answer {
-        let within =
-            |allowance: Allowance| self.err_cos_tilt <= allowance.cos_tilt && self.err_attitude <= allowance.attitude;
-        match self.allowance.map(within) {
-            _ if self.outcome_ok == Some(false) => Answer::SilentlyWrong,
+        let outcome_ok = (outcome != Outcome::Undecided).then(|| outcome == exact.outcome());
+        let cos_tilt = exact.cos_tilt_error(landing.cos_tilt);
+        let attitude = exact.attitude_error(&landing.state.attitude);
+        let within = |allowance: Allowance| cos_tilt <= allowance.cos_tilt && attitude <= allowance.attitude;
+        let answer = match allowance.map(within) {
+            _ if outcome_ok == Some(false) => Answer::SilentlyWrong,
             Some(true) => Answer::Right,
             Some(false) => Answer::SilentlyWrong,
             None => Answer::Unclaimed,
-        }
-    }
-
-    fn run(&self, subject: &Subject, inputs: String) -> Run {
-        Run {
-            subject: subject.name.clone(),
-            inputs,
-            answer: self.answer(),
-            failure: None,
-            err_cos_tilt: Some(self.err_cos_tilt),
-            err_attitude: Some(self.err_attitude),
-            err_by_allowance: self.allowance.map(|allowance| self.err_attitude / allowance.attitude),
-            err_invariants: Some(self.err_invariants).filter(|drift| drift.is_finite()),
-            outcome_ok: self.outcome_ok,
-            norm_error: Some(self.landing.norm_error),
-            rhs_calls: Some(self.landing.work.rhs_calls),
-            accepted_steps: Some(self.landing.work.accepted_steps),
-            rejected_steps: Some(self.landing.work.rejected_steps),
+        };
+        Self {
+            answer,
+            err_cos_tilt: Some(cos_tilt),
+            err_attitude: Some(attitude),
+            err_by_allowance: allowance.map(|allowance| attitude / allowance.attitude),
+            err_invariants: Some(drift::momentum_vector(toss, &landing.state)).filter(|drift| drift.is_finite()),
+            outcome_ok,
+            norm_error: Some(landing.norm_error),
+            rhs_calls: Some(landing.work.rhs_calls),
+            accepted_steps: Some(landing.work.accepted_steps),
+            rejected_steps: Some(landing.work.rejected_steps),
+            ..self
         }
     }
 }

@@ -127,6 +127,13 @@ pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
     }
 }
 
+/// The solver of `entry` with each of its schemes, or once without if it is a closed form.
+pub(crate) fn by_scheme(entry: &SolverEntry) -> impl Iterator<Item = (&SolverEntry, Option<Scheme>)> {
+    let schemes = if entry.integrates() { entry.schemes() } else { &[] };
+    let closed_form = (!entry.integrates()).then_some(None);
+    schemes.iter().copied().map(Some).chain(closed_form).map(move |scheme| (entry, scheme))
+}
+
 /// Every solver of `registry`, each integrator with every one of its schemes, set up by `stepping`.
 ///
 /// # Errors
@@ -135,24 +142,10 @@ pub fn subjects(
     registry: &[SolverEntry],
     stepping: fn(Scheme) -> Result<Stepping, InputError>,
 ) -> Result<Vec<Subject>, InputError> {
-    let of_entry = |entry: &SolverEntry| by_every_scheme(entry, Formulation::default(), stepping);
-    registry.iter().map(of_entry).collect::<Result<Vec<_>, _>>().map(|all| all.into_iter().flatten().collect())
-}
-
-/// The solver of `entry` in `formulation` with every one of its schemes, or once if it is a closed form.
-///
-/// # Errors
-/// If `stepping` returns one.
-pub fn by_every_scheme(
-    entry: &SolverEntry,
-    formulation: Formulation,
-    stepping: fn(Scheme) -> Result<Stepping, InputError>,
-) -> Result<Vec<Subject>, InputError> {
-    if !entry.integrates() {
-        return Ok(vec![Subject::new(entry, None, formulation)]);
-    }
-    let subject = |scheme: &Scheme| Ok(Subject::new(entry, Some(stepping(*scheme)?), formulation));
-    entry.schemes().iter().map(subject).collect()
+    let subject = |(entry, scheme): (&SolverEntry, Option<Scheme>)| {
+        Ok(Subject::new(entry, scheme.map(stepping).transpose()?, Formulation::default()))
+    };
+    registry.iter().flat_map(by_scheme).map(subject).collect()
 }
 
 /// The solver that proves what it integrates, at a tolerance.

@@ -10,7 +10,7 @@ use super::words::{Block, margin, measured, number, relation};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
-use crate::measure::planner::summary::Line;
+use crate::measure::planner::Line;
 use crate::measure::tables::Probability;
 use crate::render::charts::Chart;
 use crate::render::{Report, left_out};

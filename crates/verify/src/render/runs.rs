@@ -2,8 +2,9 @@
 //! measure on it, with one line for each of their quantities.
 
 use crate::measure::atlas::conditioning::Conditioning;
-use crate::measure::measurement::Deviation;
+use crate::measure::measurement::Measurement;
 use crate::measure::run::Run;
+use crate::{Check, Row};
 
 /// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
 pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
@@ -27,11 +28,22 @@ pub fn text(runs: &[Run], conditioning: Option<Conditioning>) -> String {
     runs.iter().map(|run| line(run).trim_end().to_owned() + "\n").collect::<String>() + &rounding
 }
 
-/// The deviation that each check of the library, given with its part, measures on the toss, or why it failed.
-pub fn of_library<'a>(measured: impl IntoIterator<Item = (&'a str, &'a str, &'a Deviation)>) -> String {
-    let line = |(check, part, deviation): (&str, &str, &Deviation)| {
-        let found = deviation.as_ref().map_or_else(ToString::to_string, |size| format!("{size:.1e}"));
-        format!("{check:<22} {part:<14} {found}\n")
-    };
-    measured.into_iter().map(line).collect()
+/// What a check of the library measures on the toss, or why it failed.
+pub fn of_library(check: &Check, found: &Measurement) -> String {
+    let failure = found.worst.as_ref().and_then(|worst| worst.failure.clone());
+    let measured = failure.unwrap_or_else(|| format!("{:.1e} {}", found.measured, check.unit));
+    format!("{:<27} {:<31} {measured}\n", check.id, found.subject)
+}
+
+/// What a row measures on the toss, what is allowed, and the verdict.
+pub fn of_row(row: &Row) -> String {
+    let number = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:e}"));
+    let (measured, bound, unit) = (number(row.measured), number(row.bound), &row.unit);
+    let failure = row.failure.as_ref().map(|failure| format!(": {failure}")).unwrap_or_default();
+    format!(
+        "{} / {}\nmeasured {measured} {unit}, allowed {bound}\n{}{failure}\n",
+        row.check,
+        row.subject,
+        row.status.name()
+    )
 }

@@ -239,7 +239,7 @@ impl Suite {
     }
 
     /// Its own bounds and, for what these leave open, those of this workspace.
-    fn all_bounds(&self) -> anyhow::Result<Bounds> {
+    pub(crate) fn all_bounds(&self) -> anyhow::Result<Bounds> {
         let own = match &self.bounds {
             Some(bounds) => bounds.clone(),
             None => Bounds::read_if_any(&self.folder.join("bounds.toml"))?,

@@ -23,7 +23,7 @@ static MEASURED: LazyLock<Vec<(&'static Check, Vec<Measurement>)>> = LazyLock::n
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let left_out = ["cheated-heads-forever", "cross-method-attitude"];
     let checks = CHECKS.iter().filter(|check| check.judges == Judges::Solver && !left_out.contains(&check.id));
-    checks.map(|check| (check, (check.measure)(&context).expect("rows, whatever happens"))).collect()
+    checks.map(|check| (check, check.measure(&context).expect("rows, whatever happens"))).collect()
 });
 
 /// The rows of the solver called `name`, judged with `bounds`.

@@ -10,7 +10,7 @@ const CHECK: Check = Check {
     judges: Judges::Solver,
     ceiling: 1e-3,
     unit: "1",
-    measure: |_| Ok(Vec::new()),
+    measure: crate::Measure::Own(|_| Ok(Vec::new())),
 };
 
 fn figure(measured: f64) -> Measurement {

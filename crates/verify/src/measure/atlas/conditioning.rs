@@ -4,9 +4,7 @@
 use anyhow::ensure;
 use faer::Mat;
 use serde::Serialize;
-use toss::{CoinToss, Launch, Sensitivity};
-
-use crate::measure::any_case::{AnyCase, RigidCase};
+use toss::{Launch, Sensitivity, Toss};
 
 /// Sizes of the derivative of a landing by relative changes of the launch: changes of ω are relative to |ω|, changes of
 /// the time of flight to that time.
@@ -24,21 +22,8 @@ impl Conditioning {
     ///
     /// # Errors
     /// If the singular values can't be found, which finite numbers never cause.
-    pub fn new(toss: &CoinToss) -> anyhow::Result<Option<Self>> {
-        Sensitivity::new(&(*toss).into()).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
-    }
-
-    /// The conditioning of a toss of any body.
-    ///
-    /// # Errors
-    /// As [`Conditioning::new`].
-    pub fn of_any(case: &AnyCase) -> anyhow::Result<Option<Self>> {
-        match case {
-            AnyCase::Coin(case) => Self::new(&case.toss),
-            AnyCase::Rigid(RigidCase { toss, .. }) => {
-                Sensitivity::new(toss).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
-            }
-        }
+    pub fn new(toss: &Toss) -> anyhow::Result<Option<Self>> {
+        Sensitivity::new(toss).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
     }
 
     fn by(Sensitivity { attitude, cos_tilt }: &Sensitivity, launch: &Launch) -> anyhow::Result<Self> {
@@ -72,7 +57,7 @@ mod tests {
         // ω = (0, 0, 2) rad/s for 3 s turns by 6 rad. Relative changes of ωz and of the time have the same effect;
         // changes of ωx and ωy tip the coin over, by 6 |sin 3 / 3| rad per unit.
         let launch = Launch::new(Vector3::new(0.0, 0.0, 2.0), TimeOfFlight::Given(3.0)).unwrap();
-        let sphere = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let sphere = Toss::new(Coin::from_moments(1.0, 1.0).unwrap(), launch);
         let found = Conditioning::new(&sphere).unwrap().unwrap();
         let tipped = 6.0 * (3.0_f64.sin() / 3.0).abs();
         for (value, expected) in found.attitude.into_iter().zip([6.0 * 2f64.sqrt(), tipped, tipped]) {

@@ -8,10 +8,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use toss::{Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight};
-
-use crate::measure::any_case::{AnyCase, RigidCase};
-use crate::measure::case::Case;
+use toss::{Body, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Toss};
 
 /// A place where some method fails.
 pub struct Hazard {
@@ -22,7 +19,7 @@ pub struct Hazard {
     /// What the distance is and its unit.
     pub distance: &'static str,
     /// The toss at a distance; 0 is the place of the failure itself.
-    pub case: fn(f64) -> Result<AnyCase, InputError>,
+    pub toss: fn(f64) -> Result<Toss, InputError>,
     /// The distances, from far to near.
     pub distances: &'static [f64],
 }
@@ -30,7 +27,7 @@ pub struct Hazard {
 impl Hazard {
     /// Whether its tosses are those of coins, which every solver solves.
     pub fn is_of_coins(&self) -> bool {
-        self.distances.first().is_some_and(|distance| matches!((self.case)(*distance), Ok(AnyCase::Coin(_))))
+        self.distances.first().is_some_and(|distance| (self.toss)(*distance).is_ok_and(|toss| toss.coin().is_some()))
     }
 }
 
@@ -43,43 +40,43 @@ pub const HAZARDS: &[Hazard] = &[
         id: "F1",
         name: "sin β = 0: n along the vertical",
         distance: "tilt at launch (rad)",
-        case: |distance| case([9.0, 4.0, 3.0], distance, 1.5),
+        toss: |distance| coin([9.0, 4.0, 3.0], distance, 1.5),
         distances: DECADES,
     },
     Hazard {
         id: "F2",
         name: "α' = 0: the precession turns back",
         distance: "ωy/ωx at launch, which is α' sin β/ωx",
-        case: |distance| case([0.3, 0.3 * distance, 5.0], 1.0, 5.0),
+        toss: |distance| coin([0.3, 0.3 * distance, 5.0], 1.0, 5.0),
         distances: DECADES,
     },
     Hazard {
         id: "F3",
         name: "cos β = 0: launch on edge",
         distance: "angle at launch (rad)",
-        case: |distance| case([2.0, 5.0, 1.0], FRAC_PI_2 - distance, 0.9),
+        toss: |distance| coin([2.0, 5.0, 1.0], FRAC_PI_2 - distance, 0.9),
         distances: DECADES,
     },
     Hazard {
         id: "F4",
         name: "ωz = 0: no spin",
         distance: "ωz/Ω at launch",
-        case: |distance| case([3.0, 4.0, 5.0 * distance], 0.0, 0.5),
+        toss: |distance| coin([3.0, 4.0, 5.0 * distance], 0.0, 0.5),
         distances: DECADES,
     },
     Hazard {
         id: "F5",
         name: "Ω = 0: pure spin",
         distance: "Ω/ωz at launch",
-        case: |distance| case([3.0 * distance, 4.0 * distance, 5.0], 1.0, 2.0),
+        toss: |distance| coin([3.0 * distance, 4.0 * distance, 5.0], 1.0, 2.0),
         distances: DECADES,
     },
     Hazard {
         id: "F6",
         name: "a large phase",
         distance: "1/phase at landing (1/rad)",
-        case: |distance| {
-            let rate = CoinMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?.toss).precession_rate();
+        toss: |distance| {
+            let rate = CoinMotion::new(&tilted([0.0, 4.0, 6.5], 0.5, 1.0)?).precession_rate();
             regular(if distance == 0.0 { 1e300 } else { 1.0 / (distance * rate) })
         },
         // Distances between 1e-6 and 1e-16 are left out: there an integrator only reaches its largest number of steps,
@@ -90,10 +87,10 @@ pub const HAZARDS: &[Hazard] = &[
         id: "F7",
         name: "cos θ = 0: landing on edge",
         distance: "time left to the flip, in times of flight",
-        case: |distance| {
+        toss: |distance| {
             let falling = |time| tilted([2.0, 5.0, 1.0], 1.0, time);
-            let flip = CoinMotion::new(&falling(0.0)?.toss).first_flip().unwrap_or(f64::NAN);
-            Ok(AnyCase::Coin(falling(flip / (1.0 + distance))?))
+            let flip = CoinMotion::new(&falling(0.0)?).first_flip().unwrap_or(f64::NAN);
+            Ok(falling(flip / (1.0 + distance))?.into())
         },
         distances: DECADES,
     },
@@ -101,28 +98,28 @@ pub const HAZARDS: &[Hazard] = &[
         id: "F8",
         name: "a long flight",
         distance: "1 s/time of flight",
-        case: |distance| regular(1.0 / distance),
+        toss: |distance| regular(1.0 / distance),
         distances: &[1e0, 1e-1, 1e-2, 1e-3, 1e-4],
     },
     Hazard {
         id: "F9",
         name: "separatrix: from both sides, by turns",
         distance: "relative distance of ω1 from it",
-        case: |distance| body([1.0, 2.0, 2.25], [0.75 * (1.0 + side(distance) * distance), 1.0, 1.0], 10.0),
+        toss: |distance| body([1.0, 2.0, 2.25], [0.75 * (1.0 + side(distance) * distance), 1.0, 1.0], 10.0),
         distances: DECADES,
     },
     Hazard {
         id: "F10",
         name: "middle axis: a turn next to it",
         distance: "ω1/ω2 and ω3/ω2 at launch",
-        case: |distance| body([1.0, 2.0, 2.25], [2.0 * distance, 2.0, -2.0 * distance], 6.0),
+        toss: |distance| body([1.0, 2.0, 2.25], [2.0 * distance, 2.0, -2.0 * distance], 6.0),
         distances: DECADES,
     },
     Hazard {
         id: "F11",
         name: "nearly round: symmetric or spherical but for a little, by turns",
         distance: "difference of the moments, relative to them",
-        case: |distance| {
+        toss: |distance| {
             let third = if side(distance) > 0.0 { 1.9 } else { 1.0 - 0.5 * distance };
             body([1.0, 1.0 + distance, third], [3.0, -2.0, 4.0], 2.0)
         },
@@ -132,7 +129,7 @@ pub const HAZARDS: &[Hazard] = &[
         id: "F12",
         name: "plate to rod: I3 = I1 + I2, and I1 = 0 at last",
         distance: "I1/I2",
-        case: |distance| body([0.75 * distance, 1.0, 1.0 + 0.75 * distance], [3.0, -2.0, 1.0], 2.0),
+        toss: |distance| body([0.75 * distance, 1.0, 1.0 + 0.75 * distance], [3.0, -2.0, 1.0], 2.0),
         distances: DECADES,
     },
 ];
@@ -143,23 +140,24 @@ fn side(distance: f64) -> f64 {
 }
 
 /// A body with these moments (kg m²) at `rate` (rad/s) from a tilt of 0.5 rad, for `time` (s).
-fn body(moments: [f64; 3], rate: [f64; 3], time: f64) -> Result<AnyCase, InputError> {
-    RigidCase::new(moments, rate, 0.5, time).map(AnyCase::Rigid)
+fn body(moments: [f64; 3], rate: [f64; 3], time: f64) -> Result<Toss, InputError> {
+    let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(0.5)?;
+    Ok(Toss { body: Body::from_moments(moments)?, launch })
 }
 
 /// The paper's coin at `rate` (rad/s) from `tilt` (rad), for `time` (s).
-fn case(rate: [f64; 3], tilt: f64, time: f64) -> Result<AnyCase, InputError> {
-    tilted(rate, tilt, time).map(AnyCase::Coin)
+fn coin(rate: [f64; 3], tilt: f64, time: f64) -> Result<Toss, InputError> {
+    tilted(rate, tilt, time).map(Toss::from)
 }
 
-fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<Case, InputError> {
+fn tilted(rate: [f64; 3], tilt: f64, time: f64) -> Result<CoinToss, InputError> {
     let launch = Launch::new(rate, TimeOfFlight::Given(time))?.with_tilt(tilt)?;
-    Ok(Case { toss: CoinToss { coin: Coin::PAPER, launch }, tilt })
+    Ok(CoinToss { coin: Coin::PAPER, launch })
 }
 
 /// A flight for `time` (s) on which β stays between 29° and 74°, far from every singular place.
-fn regular(time: f64) -> Result<AnyCase, InputError> {
-    case([0.0, 4.0, 6.5], 0.5, time)
+fn regular(time: f64) -> Result<Toss, InputError> {
+    coin([0.0, 4.0, 6.5], 0.5, time)
 }
 
 #[cfg(test)]
@@ -173,7 +171,7 @@ mod tests {
     fn each_hazard_has_a_single_cause_of_failure() {
         for hazard in HAZARDS {
             for &distance in hazard.distances {
-                let AnyCase::Coin(Case { toss, .. }) = (hazard.case)(distance).unwrap() else {
+                let Some(toss) = (hazard.toss)(distance).unwrap().coin() else {
                     assert!(!hazard.is_of_coins());
                     continue;
                 };

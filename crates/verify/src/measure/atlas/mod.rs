@@ -9,13 +9,14 @@ pub mod conditioning;
 pub mod expected;
 pub mod hazards;
 
+use dynamics::Toss;
 use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Formulation, InputError, SolverEntry};
 
-use crate::measure::any_case::{AnyCase, AnyReference};
+use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Answer, Run};
-use crate::measure::subject::{Subject, by_every_scheme, usual};
+use crate::measure::subject::{Subject, by_scheme, usual};
 use conditioning::Conditioning;
 use hazards::{HAZARDS, Hazard};
 
@@ -79,9 +80,9 @@ impl Atlas {
 ///
 /// # Errors
 /// Never for the library's own solvers.
-pub fn replay(registry: &[SolverEntry], case: &AnyCase) -> anyhow::Result<Vec<Run>> {
-    let reference = AnyReference::new(case)?;
-    Ok(contestants(registry)?.iter().map(|subject| Run::of_any(subject, case, &reference)).collect())
+pub fn replay(registry: &[SolverEntry], toss: &Toss) -> anyhow::Result<Vec<Run>> {
+    let exact = ExactLanding::new(toss)?;
+    Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, toss, &exact)).collect())
 }
 
 /// The names of the contestants, in their order, without solving anything.
@@ -99,22 +100,20 @@ fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
         let one = [Formulation::default()];
         let formulations = if entry.formulations().is_empty() { &one } else { entry.formulations() };
         for &formulation in formulations {
-            contestants.extend(by_every_scheme(entry, formulation, usual)?);
+            for (entry, scheme) in by_scheme(entry) {
+                contestants.push(Subject::new(entry, scheme.map(usual).transpose()?, formulation));
+            }
         }
     }
     Ok(contestants)
 }
 
 fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Result<Vec<Spot>> {
-    let case: AnyCase = (hazard.case)(distance)?;
-    let reference = AnyReference::new(&case)?;
-    let conditioning = Conditioning::of_any(&case)?;
-    let spot = |subject: &Subject| Spot {
-        hazard: hazard.id,
-        distance,
-        conditioning,
-        run: Run::of_any(subject, &case, &reference),
-    };
+    let toss = (hazard.toss)(distance)?;
+    let exact = ExactLanding::new(&toss)?;
+    let conditioning = Conditioning::new(&toss)?;
+    let spot =
+        |subject: &Subject| Spot { hazard: hazard.id, distance, conditioning, run: Run::new(subject, &toss, &exact) };
     // Each contestant is a task of its own for the threads, because a few take a second and would delay those after
     // them.
     Ok(contestants.par_iter().with_max_len(1).map(spot).collect())

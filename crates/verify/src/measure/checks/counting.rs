@@ -8,7 +8,7 @@ use toss::{
     SolverEntry, Tilt, TimeOfFlight, Toss, Tosses, Vector3, certify,
 };
 
-use crate::measure::check::{Basis, Check, Judges};
+use crate::measure::check::{Basis, Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -20,22 +20,18 @@ pub(super) const GRID_LAUNCHES: Check = Check {
     claim: "A grid holds the launches of its definition in their order, and no others: along an axis from lo to hi \
             the n points lo + i (hi - lo)/(n - 1), both ends included, the speed varying fastest. Measured: the \
             largest distance of a coordinate from its place, divided by hi - lo.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-12,
-    unit: "1",
-    measure: |_| Ok(vec![grid_launches()?]),
+    measure: Measure::Own(|_| Ok(vec![grid_launches()?])),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const GRID_COUNTS: Check = Check {
     id: "grid-counts",
     claim: "On a grid as many launches land heads and tails as the 256-bit reference counts over the grid's \
             definition. Measured: the sum of the differences; one launch is enough to fail.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
-    ceiling: 0.0,
     unit: "launches",
-    measure: grid_counts,
+    measure: Measure::Own(grid_counts),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const ONE_BY_ONE: Check = Check {
@@ -44,10 +40,9 @@ pub(super) const ONE_BY_ONE: Check = Check {
             launches that fill no whole block or register. Measured: the sum of the differences over all plans; one \
             launch is enough to fail.",
     basis: Basis::CrossMethod,
-    judges: Judges::Solver,
-    ceiling: 0.0,
     unit: "launches",
-    measure: one_by_one,
+    measure: Measure::Own(one_by_one),
+    ..Check::OF_SOLVERS
 };
 
 /// The axes of a grid as (coordinate, lo, hi, n), from the slowest to the fastest varying.
@@ -239,7 +234,7 @@ fn counted(
     Ok(Measurement::figure(ONE_BY_ONE.id, subject, difference, launches, input))
 }
 
-fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {
+pub(super) fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {
     match sampler.estimate(space, plan)?.found {
         Found::Counts(counts) => Ok(counts),
         Found::Shares { .. } => anyhow::bail!("a plan of launches gave a share instead of counts"),

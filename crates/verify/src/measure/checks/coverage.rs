@@ -12,8 +12,8 @@ use sampling::Coordinate::{Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{Axis, Coordinate, Plan, Rest, Sampler, Scrambled, Space, clopper_pearson};
 use toss::{Body, Coin};
 
-use super::methods::in_the_box_of_four;
-use crate::measure::check::{Basis, Check, Judges};
+use super::probability::in_the_box_of_four;
+use crate::measure::check::{Basis, Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
@@ -24,10 +24,8 @@ pub(super) const COVERAGE: Check = Check {
             coordinates, number of launches and range of probabilities, and in all sums of these. Measured: how far a \
             fraction is below 0.94 beyond chance, of which a fraction of 0.94 has 1e-7; any shortfall fails.",
     basis: Basis::CrossMethod,
-    judges: Judges::Library,
-    ceiling: 0.0,
-    unit: "1",
-    measure: coverage,
+    measure: Measure::Own(coverage),
+    ..Check::OF_LIBRARY
 };
 
 /// The least fraction of intervals that have to contain the probability.

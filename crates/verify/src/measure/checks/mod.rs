@@ -1,106 +1,84 @@
 //! The list of all checks of the suite. A check is one claim about the solvers, the kernels or the sampling methods,
-//! and how it is measured; each file of this folder holds the checks of one kind, so a new check is a constant and
+//! and how it is measured; each file of this folder holds the checks of one family, so a new check is a constant and
 //! one line below.
 
-mod adversarial;
-mod atlas;
-mod batch;
-mod bodies;
-mod certified;
-mod claims;
-mod coins;
 mod counting;
 mod coverage;
-mod detest;
-mod enclosed;
-mod enclosure;
-mod figures;
-mod first_return;
-mod hostile;
-mod integrated;
-mod integrated_bodies;
-mod invariants;
-mod judged;
-mod long_flights;
-mod margins;
-mod mean_error;
-mod methods;
-mod numbers;
-pub mod of_toss;
-mod order;
-mod paper;
+mod exact;
+mod hard_places;
+mod landings;
 mod planner;
 mod probability;
-mod random;
-mod rigid;
-mod sensitivity;
-mod tolerance;
-mod work_precision;
+mod proofs;
+mod reference;
+mod work;
 
 use crate::measure::check::Check;
 
+pub(super) use exact::long_bodies;
+
 /// All checks, in the order in which they run.
 pub const CHECKS: &[Check] = &[
-    numbers::COS_TILT,
-    numbers::ATTITUDE,
-    detest::STATE,
-    random::COS_TILT,
-    random::ATTITUDE,
-    random::CROSS_METHOD,
-    claims::MEASURED,
-    certified::COS_TILT,
-    certified::ATTITUDE,
-    certified::EULER_ANGLES,
-    certified::OUTCOMES,
-    certified::BOUNDS,
-    integrated::BOUNDS,
-    integrated::OUTCOMES,
-    integrated::TIGHTNESS,
-    batch::COS_TILT,
-    batch::ATTITUDE,
-    batch::OUTCOMES,
-    batch::SIMD_LEVELS,
-    rigid::COS_TILT,
-    rigid::ATTITUDE,
-    rigid::COMPENSATED_COS_TILT,
-    rigid::COMPENSATED_ATTITUDE,
-    rigid::OUTCOMES,
-    bodies::WITHIN_ESTIMATE,
-    bodies::STATED,
-    bodies::ATTITUDE,
-    bodies::CONSERVED,
-    bodies::PUBLISHED,
-    mean_error::COS_TILT,
-    mean_error::TERMS,
-    margins::MARGINS,
-    margins::SPEEDS,
-    coins::MOMENTS,
-    first_return::ATTITUDE,
-    invariants::MOMENTUM,
-    invariants::ENERGY,
-    invariants::NORMAL_MOMENTUM_BODY,
-    invariants::NORMAL_MOMENTUM_TRANSPORT,
-    invariants::MOMENTUM_VECTOR,
-    invariants::PROJECTION,
-    atlas::ANSWERS,
-    atlas::TILT_WORK,
-    atlas::RETURN_WORK,
-    adversarial::SILENTLY_WRONG,
-    adversarial::REFUSED,
-    long_flights::ERROR,
-    long_flights::DRIFT,
-    hostile::WITHIN_ESTIMATE,
-    sensitivity::DERIVATIVES,
-    work_precision::WITHIN_ESTIMATE,
-    order::ORDER,
-    tolerance::PROPORTION,
+    reference::COS_TILT,
+    reference::ATTITUDE,
+    reference::DETEST,
+    landings::COS_TILT,
+    landings::ATTITUDE,
+    landings::CROSS_METHOD,
+    landings::CLAIMS,
+    exact::COS_TILT,
+    exact::ATTITUDE,
+    exact::EULER_ANGLES,
+    exact::OUTCOMES,
+    exact::BOUNDS,
+    proofs::BOUNDS,
+    proofs::OUTCOMES,
+    proofs::TIGHTNESS,
+    exact::BATCH_COS_TILT,
+    exact::BATCH_ATTITUDE,
+    exact::BATCH_OUTCOMES,
+    exact::SIMD_LEVELS,
+    exact::RIGID_COS_TILT,
+    exact::RIGID_ATTITUDE,
+    exact::RIGID_COMPENSATED_COS_TILT,
+    exact::RIGID_COMPENSATED_ATTITUDE,
+    exact::RIGID_OUTCOMES,
+    landings::BODIES_WITHIN_ESTIMATE,
+    landings::BODIES_STATED,
+    landings::BODIES_ATTITUDE,
+    landings::BODIES_CONSERVED,
+    reference::PUBLISHED,
+    exact::MEAN_COS_TILT,
+    exact::TERMS,
+    exact::MARGINS,
+    exact::SPEEDS,
+    reference::MOMENTS,
+    landings::FIRST_RETURN,
+    landings::MOMENTUM,
+    landings::ENERGY,
+    landings::NORMAL_MOMENTUM_BODY,
+    landings::NORMAL_MOMENTUM_TRANSPORT,
+    landings::MOMENTUM_VECTOR,
+    landings::PROJECTION,
+    hard_places::ANSWERS,
+    hard_places::TILT_WORK,
+    hard_places::RETURN_WORK,
+    hard_places::SILENTLY_WRONG,
+    hard_places::REFUSED,
+    hard_places::LONG_ERROR,
+    hard_places::LONG_DRIFT,
+    hard_places::HOSTILE,
+    exact::DERIVATIVES,
+    work::WITHIN_ESTIMATE,
+    work::ORDER,
+    work::PROPORTION,
     planner::DELIVERS,
     planner::EXPECTS,
-    hostile::PLANS,
-    paper::CHEATED_IN_FLIGHT,
-    paper::CHEATED_FOREVER,
-    paper::TAILS_IN_FLIGHT,
-    paper::FIRST_FLIP,
+    planner::PLANS,
+    reference::CHEATED_IN_FLIGHT,
+    reference::CHEATED_FOREVER,
+    reference::TAILS_IN_FLIGHT,
+    reference::FIRST_FLIP,
     probability::LONG_FLIGHT,
     probability::LONG_FLIGHT_SHARE,
     probability::TABLES,
@@ -109,13 +87,13 @@ pub const CHECKS: &[Check] = &[
     counting::GRID_LAUNCHES,
     counting::GRID_COUNTS,
     counting::ONE_BY_ONE,
-    figures::SHARES,
-    figures::SHARE_BOUNDS,
-    figures::ISOTROPIC,
-    figures::FIGURES,
-    enclosure::FIGURES,
-    enclosure::OVERLAP,
-    methods::ERRORS,
+    probability::SHARES,
+    probability::SHARE_BOUNDS,
+    probability::ISOTROPIC,
+    probability::FIGURES,
+    probability::ENCLOSURES,
+    probability::OVERLAP,
+    probability::ERRORS,
     coverage::COVERAGE,
-    methods::EXACT_COVERAGE,
+    probability::EXACT_COVERAGE,
 ];

@@ -1,17 +1,27 @@
-//! These checks test probabilities of heads: the limit of long flights, and the named spaces by every sampling method
-//! and solver. Each is compared with the paper's number, with the exact motion, or with another method.
+//! The checks of probabilities: the limit of long flights, the named spaces by every sampling method and solver, reference
+//! numbers of many digits for spaces of which only some inputs vary, proven intervals, and the accuracy of the sampling
+//! methods with the coverage of their intervals. Each is compared with the paper's number, with the exact motion, with a
+//! reference, or with another method. What they count is in `counting`, how often intervals contain P(heads) in `coverage`.
+//!
+//! ψ is the cone angle between the coin's normal and its angular momentum S, k = I3/I1 the inertia ratio, and p(ψ) the
+//! probability of heads of long flights.
 
 use anyhow::Context as _;
+use rayon::prelude::*;
+use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
+use sampling::enclosure::{coordinates, require_enclosable};
 use sampling::{
-    Counts, Found, Plan, RunningStep, Sampler, Space, clopper_pearson, long_flight_probability, named_space,
-    random_tosses,
+    Coordinate, ESTIMATORS, Estimate, Found, Interval, Plan, Rest, RunningStep, Sampler, Scrambled, Space,
+    clopper_pearson, long_flight_probability, named_space, random_tosses, rms_error,
 };
 use toss::{Coin, CoinMotion, CoinToss, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Vector3};
 
-use crate::measure::check::{Basis, Check, Judges};
+use super::counting::counts;
+use crate::measure::check::{Basis, Check, Measure};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
+use crate::measure::planner;
 use crate::measure::subject::{Subject, usual};
 use crate::measure::tables::Probability;
 
@@ -19,22 +29,18 @@ pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
     claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
             most the bound, for cone angles ψ from 45° to 90°.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-12,
-    unit: "1",
-    measure: long_flight,
+    measure: Measure::Own(long_flight),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const LONG_FLIGHT_SHARE: Check = Check {
     id: "long-flight-share",
     claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
             the long-flight probability p(ψ) by at most the bound.",
-    basis: Basis::ClosedForm,
-    judges: Judges::Library,
     ceiling: 1e-4,
-    unit: "1",
-    measure: long_flight_share,
+    measure: Measure::Own(long_flight_share),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const TABLES: Check = Check {
@@ -42,10 +48,9 @@ pub(super) const TABLES: Check = Check {
     claim: "P(heads) by every sampling method differs from the paper's by at most the bound: 0.66 in Fig. 4, 1 for \
             the cheated toss, 0 for the tails toss.",
     basis: Basis::PublishedFigure,
-    judges: Judges::Library,
     ceiling: 0.005,
-    unit: "1",
-    measure: published,
+    measure: Measure::Own(published),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
@@ -54,10 +59,8 @@ pub(super) const FIG4_GRID_IN_RANDOM: Check = Check {
             random launches (its method B), which misses the probability at most once in a million. Measured: the \
             distance from the interval; any distance fails.",
     basis: Basis::CrossMethod,
-    judges: Judges::Library,
-    ceiling: 0.0,
-    unit: "1",
-    measure: grid_in_random,
+    measure: Measure::Own(grid_in_random),
+    ..Check::OF_LIBRARY
 };
 
 pub(super) const FIG4_SAME_COUNTS: Check = Check {
@@ -65,10 +68,10 @@ pub(super) const FIG4_SAME_COUNTS: Check = Check {
     claim: "On the grid of Fig. 4's space every other solver counts as many heads and as many tails as the exact \
             motion. Measured: the sum of the two differences; one launch is enough to fail.",
     basis: Basis::CrossMethod,
-    judges: Judges::Solver,
     ceiling: 1000.0,
     unit: "launches",
-    measure: same_counts,
+    measure: Measure::Own(same_counts),
+    ..Check::OF_SOLVERS
 };
 
 fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -82,11 +85,12 @@ fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let input = format!("P = {}, {}", found.probability, found.interval_kind);
         Measurement::figure(TABLES.id, &subject, (found.probability - expected).abs(), found.points, input)
     };
-    Ok(context.probabilities()?.iter().map(measure).collect())
+    Ok(context.probabilities.get(context)?.iter().map(measure).collect())
 }
 
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let &RunningStep { launches, grid, random, .. } = context.fig4()?.last().context("the series is empty")?;
+    let &RunningStep { launches, grid, random, .. } =
+        context.fig4.get(context)?.last().context("the series is empty")?;
     let heads = (random * launches as f64).round() as u64;
     let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
@@ -94,24 +98,17 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, launches, input)])
 }
 
-fn counts(space: &Space, sampler: &Sampler<'_>) -> anyhow::Result<Counts> {
-    match sampler.estimate(space, Plan::Grid)?.found {
-        Found::Counts(counts) => Ok(counts),
-        Found::Shares { .. } => anyhow::bail!("a grid gave a share instead of counts"),
-    }
-}
-
 fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let space = match context.effort {
         Effort::Quick => named_space("paper-fig4")?.with_grid_of(10_000)?,
         Effort::Standard | Effort::Deep => named_space("paper-fig4")?,
     };
-    let exact = counts(&space, &Sampler::exact())?;
+    let exact = counts(&space, &Sampler::exact(), Plan::Grid)?;
     let one = random_tosses(&space, 1, 0..1)[0];
     let measure = |entry: &SolverEntry| {
         let stepping = entry.schemes().first().map(|scheme| usual(*scheme)).transpose()?;
         let subject = Subject::new(entry, stepping, Formulation::default());
-        let (difference, undecided, input) = match counts(&space, &Sampler::by(subject.solver.as_ref())) {
+        let (difference, undecided, input) = match counts(&space, &Sampler::by(subject.solver.as_ref()), Plan::Grid) {
             Ok(counts) => {
                 let [heads, tails, undecided] = [counts.heads(), counts.tails(), counts.undecided()];
                 let difference = heads.abs_diff(exact.heads()) + tails.abs_diff(exact.tails());
@@ -159,4 +156,342 @@ fn worst_cone(
     let (deviation, cone) = worst.ok_or_else(|| anyhow::anyhow!("no cone angle in the reference numbers"))?;
     let input = format!("ψ = {}°", cone.to_degrees());
     Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * cones.len() as u64, input)])
+}
+
+pub(super) const SHARES: Check = Check {
+    id: "exact-speed-share",
+    claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
+            most the bound.",
+    ceiling: 1e-9,
+    measure: Measure::Own(|context| worst_share(context, SHARES.id, |error, _| error)),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const SHARE_BOUNDS: Check = Check {
+    id: "exact-speed-error-bound",
+    claim: "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
+            the method states. Measured: the largest error divided by that error bound; it fails above the bound of \
+            this check.",
+    ceiling: 1.0,
+    measure: Measure::Own(|context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound)),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const ISOTROPIC: Check = Check {
+    id: "isotropic-long-flights",
+    claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
+            1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
+    ceiling: 1e-6,
+    measure: Measure::Own(isotropic),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const FIGURES: Check = Check {
+    id: "probability-figures",
+    claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the bound.",
+    ceiling: 1e-3,
+    measure: Measure::Own(figures),
+    ..Check::OF_LIBRARY
+};
+
+fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
+    let mut worst = (f64::NEG_INFINITY, String::new());
+    for reference in &context.reference_probabilities.shares {
+        let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
+        let Found::Shares { rounding_error } = found.found else {
+            anyhow::bail!("exact-speed gave counts instead of a share")
+        };
+        let measured = measure((found.probability - reference.probability).abs(), rounding_error);
+        if measured > worst.0 {
+            worst = (measured, reference.name.clone());
+        }
+    }
+    let cases = context.reference_probabilities.shares.len() as u64;
+    Ok(vec![Measurement::figure(check, "exact", worst.0, cases, worst.1)])
+}
+
+/// Compares means of p(ψ) over isotropic directions with the reference, by the midpoint rule. Directions that are
+/// uniform on the sphere have a uniform cosine of the polar angle, and both hemispheres have the same mean, so one
+/// is enough. The polar angle of S is ψ; that of ω gives tan ψ = tan(polar)/k.
+fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    const PARTS: u32 = 1_000_000;
+    let mean = |k: f64| {
+        let probability = |part: u32| {
+            let cosine = (f64::from(part) + 0.5) / f64::from(PARTS);
+            let cone = (1.0 - cosine * cosine).sqrt().atan2(k * cosine);
+            long_flight_probability(cone, cone)
+        };
+        (0..PARTS).map(probability).sum::<f64>() / f64::from(PARTS)
+    };
+    [
+        ("isotropic angular momentum", 1.0),
+        ("isotropic rate, k = 0.5", 0.5),
+        ("isotropic rate, k = 1.0", 1.0),
+        ("isotropic rate, k = 1.98", 1.98),
+        ("isotropic rate, k = 2.0", 2.0),
+    ]
+    .into_iter()
+    .map(|(name, k)| {
+        let (found, figure) = (mean(k), context.reference_probabilities.figure(name)?);
+        let input = format!("{found:.9} for {figure:.9}");
+        Ok(Measurement::figure(ISOTROPIC.id, name, (found - figure).abs(), u64::from(PARTS), input))
+    })
+    .collect()
+}
+
+/// The name of a reference probability, and the space of launches that it belongs to.
+struct Figure {
+    name: &'static str,
+    coin: Coin,
+    axes: [(Coordinate, String); 4],
+}
+
+impl Figure {
+    fn space(&self) -> anyhow::Result<Space> {
+        let texts: Vec<_> = self.axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
+        Ok(Space::parse(self.coin, &texts)?)
+    }
+}
+
+/// All reference probabilities with their spaces.
+fn all() -> anyhow::Result<Vec<Figure>> {
+    Ok(known()?.into_iter().chain(finite_flights()?).collect())
+}
+
+/// Range of speeds (m/s) whose flights last some 10^8 turns, so the long-flight limit holds.
+const LONG: &str = "0:1e9";
+
+fn known() -> anyhow::Result<Vec<Figure>> {
+    let coin = |k: f64| Coin::from_moments(1.0, k);
+    // Three independent normal components of equal deviation have an isotropic direction. S = (I1 ωx, I1 ωy, I3 ωz), so
+    // with k = 0.5 an isotropic S needs twice the deviation in ωz.
+    let isotropic = |deviation_z: f64| {
+        let [x, z] = [1.0, deviation_z].map(|deviation| format!("normal:0:{deviation}"));
+        [(RateX, x.clone()), (RateY, x), (RateZ, z), (Speed, LONG.to_owned())]
+    };
+    let turns = |number: f64| number * std::f64::consts::TAU;
+    Ok(vec![
+        Figure { name: "isotropic angular momentum", coin: coin(0.5)?, axes: isotropic(2.0) },
+        Figure { name: "isotropic rate, k = 0.5", coin: coin(0.5)?, axes: isotropic(1.0) },
+        Figure { name: "isotropic rate, k = 1.0", coin: coin(1.0)?, axes: isotropic(1.0) },
+        Figure { name: "isotropic rate, k = 1.98", coin: coin(1.98)?, axes: isotropic(1.0) },
+        Figure { name: "isotropic rate, k = 2.0", coin: coin(2.0)?, axes: isotropic(1.0) },
+        // J. B. Keller, Am. Math. Mon. 93 (1986), 191: no spin, 36 to 40 turns a second.
+        Figure {
+            name: "Keller's box",
+            coin: Coin::DISC,
+            axes: axes(format!("{}:{}", turns(36.0), turns(40.0)), "0", "0", "2.1:2.7"),
+        },
+        Figure {
+            name: "box of four coordinates",
+            coin: Coin::PAPER,
+            axes: axes("1:60".to_owned(), "1:60", "1:60", "3:5"),
+        },
+    ])
+}
+
+/// Flights too short for the long-flight limit, with precession rates ωL from 2 to 20 rad/s.
+fn finite_flights() -> anyhow::Result<Vec<Figure>> {
+    let figure = |(name, degrees): (&'static str, f64)| {
+        // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ.
+        let cone = degrees.to_radians();
+        let (x, cot) = (format!("{}:{}", 2.0 * cone.sin(), 20.0 * cone.sin()), cone.cos() / cone.sin());
+        let z = if degrees == 90.0 { "0" } else { "x" };
+        Ok(Figure { name, coin: Coin::from_moments(1.0, cot)?, axes: axes(x, "0", z, "3:5") })
+    };
+    let flights = [
+        ("finite flights, 60 degrees", 60.0),
+        ("finite flights, 75 degrees", 75.0),
+        ("finite flights, 90 degrees", 90.0),
+    ];
+    flights.into_iter().map(figure).collect()
+}
+
+fn axes(x: String, y: &str, z: &str, speed: &str) -> [(Coordinate, String); 4] {
+    [(RateX, x), (RateY, y.to_owned()), (RateZ, z.to_owned()), (Speed, speed.to_owned())]
+}
+
+fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let points = match context.effort {
+        Effort::Quick => 1 << 19,
+        Effort::Standard | Effort::Deep => 1 << 22,
+    };
+    let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, 1)));
+    all()?
+        .into_iter()
+        .map(|of| {
+            let (name, found) = (of.name, Sampler::exact().estimate(&of.space()?, plan)?);
+            let figure = context.reference_probabilities.figure(name)?;
+            let interval = found.interval.map_or(String::new(), |i| format!(", {:.8} to {:.8}", i.lo, i.hi));
+            let input = format!("{:.8} for {figure:.8}{interval}", found.probability);
+            Ok(Measurement::figure(FIGURES.id, name, (found.probability - figure).abs(), points, input))
+        })
+        .collect()
+}
+
+pub(super) const ENCLOSURES: Check = Check {
+    id: "enclosure-figures",
+    claim: "The proven interval of P(heads) to ± 1e-9 (± 1e-5 over two coordinates) contains the reference number. Measured: its \
+            distance from the middle divided by the half-width.",
+    ceiling: 1.0,
+    measure: Measure::Own(enclosures),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const OVERLAP: Check = Check {
+    id: "enclosures-overlap",
+    claim: "On random spaces, the proven intervals of P(heads) to two accuracies overlap. Measured: the distance of their middles \
+            divided by the sum of the half-widths.",
+    basis: Basis::CrossMethod,
+    ceiling: 1.0,
+    measure: Measure::Own(overlap),
+    ..Check::OF_LIBRARY
+};
+
+/// Middle and half-width of the proven interval.
+fn enclosed(space: &Space, accuracy: f64) -> anyhow::Result<[f64; 2]> {
+    let found = Sampler::exact().estimate(space, Plan::Enclosure { accuracy })?;
+    let Interval { lo, hi } = found.interval.ok_or_else(|| anyhow::anyhow!("an enclosure without an interval"))?;
+    Ok([0.5 * (lo + hi), 0.5 * (hi - lo)])
+}
+
+/// Accuracies that take some hundredths of a second.
+fn accuracy_for(space: &Space) -> f64 {
+    match coordinates(space) {
+        0 | 1 => 1e-9,
+        2 => 1e-5,
+        _ => 2e-2,
+    }
+}
+
+fn enclosures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let mut measurements = Vec::new();
+    for of in all()? {
+        let space = of.space()?;
+        // The flights of some spaces make 10^8 turns, and have as many edges.
+        if require_enclosable(&space).is_err() || space.axis(Speed).bounds()[1] > 1e3 {
+            continue;
+        }
+        let figure = context.reference_probabilities.figure(of.name)?;
+        let [middle, half_width] = enclosed(&space, accuracy_for(&space))?;
+        let input = format!("{middle:.12} ± {half_width:.1e} for {figure:.12}");
+        // A reference number that is rounded to f64 is off by 1e-16.
+        let ratio = ((middle - figure).abs() - f64::EPSILON).max(0.0) / half_width;
+        measurements.push(Measurement::figure(ENCLOSURES.id, of.name, ratio, 1, input));
+    }
+    Ok(measurements)
+}
+
+/// The spaces are those of the planner's scenes: rates and the tilt are values or ranges, and the speed is a range.
+fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    const SEED: u64 = 64;
+    let spaces = match context.effort {
+        Effort::Quick => 30,
+        Effort::Standard => 300,
+        Effort::Deep => 1500,
+    };
+    let names =
+        ["one coordinate beside the speed", "two coordinates beside the speed", "three coordinates beside the speed"];
+    let mut worst = names.map(|_| (0.0, String::new()));
+    let mut cases = names.map(|_| 0);
+    for index in 0..spaces {
+        let space = planner::space(SEED, index)?;
+        let number = coordinates(&space);
+        if require_enclosable(&space).is_err() || number == 0 {
+            continue;
+        }
+        let accuracy = accuracy_for(&space);
+        let [[rough, rough_half], [fine, fine_half]] = [enclosed(&space, 5.0 * accuracy)?, enclosed(&space, accuracy)?];
+        // Spaces whose launches all show one face have a width of a rounding.
+        let ratio = (rough - fine).abs() / (rough_half + fine_half).max(f64::MIN_POSITIVE);
+        cases[number - 1] += 1;
+        if ratio > worst[number - 1].0 {
+            worst[number - 1] =
+                (ratio, format!("space {index}: {rough} ± {rough_half:.1e} and {fine} ± {fine_half:.1e}"));
+        }
+    }
+    let all = names.into_iter().zip(worst).zip(cases).filter(|(_, cases)| *cases > 0);
+    Ok(all.map(|((name, (ratio, input)), cases)| Measurement::figure(OVERLAP.id, name, ratio, cases, input)).collect())
+}
+
+pub(super) const ERRORS: Check = Check {
+    id: "sampling-errors",
+    claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
+            reference number, is at most the bound.",
+    ceiling: 0.02,
+    measure: Measure::Own(errors),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const EXACT_COVERAGE: Check = Check {
+    id: "clopper-pearson-coverage",
+    claim: "Of 10 000 intervals of Clopper and Pearson for P(heads) at the 95 % level, at least 95 % contain the \
+            reference number. Measured: how far the fraction is below 0.95; any shortfall fails.",
+    measure: Measure::Own(exact_coverage),
+    ..Check::OF_LIBRARY
+};
+
+/// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s, whose P(heads)
+/// is among the reference numbers.
+fn four_coordinates() -> anyhow::Result<Space> {
+    let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
+    Ok(Space::parse(Coin::PAPER, &axes)?)
+}
+
+fn probability(context: &Context) -> anyhow::Result<f64> {
+    context.reference_probabilities.figure("box of four coordinates")
+}
+
+fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let replicates = match context.effort {
+        Effort::Quick => 16,
+        Effort::Standard => 64,
+        Effort::Deep => 256,
+    };
+    let (space, probability) = (four_coordinates()?, probability(context)?);
+    let mut measurements = Vec::new();
+    for estimator in ESTIMATORS {
+        for exponent in [14, 16, 18] {
+            let estimates = estimator.estimates(&Sampler::exact(), &space, 1 << exponent, replicates)?;
+            let subject = format!("{}/2^{exponent}", estimator.name);
+            let input = format!("{} replicates", estimates.len());
+            let error = rms_error(&estimates, probability);
+            measurements.push(Measurement::figure(ERRORS.id, &subject, error, estimates.len() as u64, input));
+        }
+    }
+    Ok(measurements)
+}
+
+const REPLICATES: u64 = 10_000;
+
+/// The number of the replicates for which `holds`, called with a seed and the probability, is true.
+fn covered(context: &Context, holds: impl Fn(u64, f64) -> anyhow::Result<bool> + Sync) -> anyhow::Result<u64> {
+    let probability = probability(context)?;
+    let is_covered = |seed| holds(seed, probability).map(u64::from);
+    (1..=REPLICATES).into_par_iter().map(is_covered).sum()
+}
+
+/// The number of intervals over the box of four coordinates, and of those that contain its probability.
+pub(super) fn in_the_box_of_four(
+    context: &Context,
+    plan: impl Fn(u64, u64) -> Plan + Sync,
+) -> anyhow::Result<[u64; 2]> {
+    let space = four_coordinates()?;
+    let covered = covered(context, |seed, probability| {
+        let found = Sampler::exact().estimate(&space, plan(1024, seed))?;
+        Ok(found.interval.is_some_and(|interval| interval.contains(probability)))
+    })?;
+    Ok([REPLICATES, covered])
+}
+
+fn exact_coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let space = four_coordinates()?;
+    let share = covered(context, |seed, probability| {
+        let Estimate { found, .. } = Sampler::exact().estimate(&space, Plan::Random { points: 1000, seed })?;
+        let Found::Counts(counts) = found else { anyhow::bail!("random launches gave a share instead of counts") };
+        Ok(clopper_pearson(counts.heads(), counts.points(), 0.95).contains(probability))
+    })? as f64
+        / REPLICATES as f64;
+    let input = format!("{share} of the intervals from 1000 launches");
+    Ok(vec![Measurement::figure(EXACT_COVERAGE.id, "random", (0.95 - share).max(0.0), REPLICATES, input)])
 }

@@ -4,20 +4,22 @@
 //! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
 //! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
 //! k the inertia ratio, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
-//! the attitude. A test compares it with numbers from outside the workspace, which [`motions`] and [`probabilities`]
-//! read.
+//! the attitude. Other bodies take elliptic functions, which `rigid` has. Tests compare it with numbers from [`outside`]
+//! the workspace.
 
-pub mod coins;
-pub mod motions;
-pub mod probabilities;
-pub mod rigid;
+pub mod outside;
+mod rigid;
 
 use std::cmp::Ordering;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
+use dynamics::Toss;
 use numerics::DoubleDouble;
-use toss::{Angle, AngleUnit, Attitude, Coin, CoinToss, Launch, Outcome, Quantity, TimeOfFlight, Vector3};
+use toss::{
+    Angle, AngleUnit, Attitude, Coin, CoinToss, ExactSolver, Landing, Launch, Outcome, Quantity, SolveError, Solver,
+    TimeOfFlight, Vector3,
+};
 
 /// Precision of the arithmetic in binary digits.
 const PRECISION: usize = 256;
@@ -28,14 +30,60 @@ fn big(value: f64) -> Big {
     Big::try_from(value).expect("a validated toss is finite").with_precision(PRECISION).value()
 }
 
+/// The exact landing of a toss of any body.
+pub enum ExactLanding {
+    /// In 256 bits.
+    InDigits(Reference),
+    /// By the exact motion in double-double: of a body on the separatrix, about a principal axis, or with two equal moments.
+    ByMotion(Landing),
+}
+
+impl ExactLanding {
+    /// Solves `toss`.
+    ///
+    /// # Errors
+    /// [`SolveError`] for a phase above 2^53 rad.
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        match Reference::of(toss) {
+            Some(reference) => Ok(Self::InDigits(reference)),
+            None => ExactSolver.land(toss).map(Self::ByMotion),
+        }
+    }
+
+    /// Absolute error of a computed cos θ.
+    pub fn cos_tilt_error(&self, found: f64) -> f64 {
+        match self {
+            Self::InDigits(reference) => reference.cos_tilt_error(found),
+            Self::ByMotion(landing) => (found - landing.cos_tilt).abs(),
+        }
+    }
+
+    /// Angle between a computed attitude and the exact one (rad).
+    pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
+        match self {
+            Self::InDigits(reference) => reference.attitude_error(attitude),
+            Self::ByMotion(landing) => landing.state.attitude.angle_to(attitude),
+        }
+    }
+
+    /// The outcome.
+    pub fn outcome(&self) -> Outcome {
+        match self {
+            Self::InDigits(reference) => reference.outcome(),
+            Self::ByMotion(landing) => landing.outcome(),
+        }
+    }
+}
+
 /// The landing of a toss in 256 bits.
 pub struct Reference {
     attitude: [Big; 4],
-    rate: [Big; 3],
+    /// Of a coin.
+    rate: Option<[Big; 3]>,
 }
 
 impl Reference {
-    /// Solves `toss`.
+    /// Solves the toss of a coin.
     pub fn new(toss: &CoinToss) -> Self {
         let [x, y, z] = rates(&toss.launch);
         let k = inertia_ratio(&toss.coin);
@@ -62,7 +110,22 @@ impl Reference {
         let launch = quaternion(&toss.launch.attitude());
         let (sin_spin, cos_spin) = (half_spin * big(2.0)).sin_cos();
         let rate = [&x * &cos_spin - &y * &sin_spin, x * sin_spin + y * cos_spin, z];
-        Self { attitude: product(&product(&launch, &turn), &spin), rate }
+        Self { attitude: product(&product(&launch, &turn), &spin), rate: Some(rate) }
+    }
+
+    /// Solves the toss of a coin, or of another body that was given by its moments, with a rate in rad/s and a given time.
+    /// `None` for others, and for a body with two equal moments or a launch about a principal axis, which need no elliptic
+    /// function.
+    pub fn of(toss: &Toss) -> Option<Self> {
+        match toss.coin() {
+            Some(toss) => Some(Self::new(&toss)),
+            None => rigid::attitude(toss).map(|attitude| Self { attitude, rate: None }),
+        }
+    }
+
+    /// Whether the toss is one of a body that needs elliptic functions, and [`Reference::of`] solves it.
+    pub(crate) fn is_elliptic(toss: &Toss) -> bool {
+        rigid::solves(toss)
     }
 
     /// Absolute error of a computed cos θ.
@@ -103,9 +166,14 @@ impl Reference {
         to_f64(&(other.cos_tilt() - self.cos_tilt()))
     }
 
-    /// Largest absolute error of a component of a computed body rate (rad/s).
+    /// Largest absolute error of a component of a computed body rate (rad/s) of a coin; 0 for other bodies.
     pub fn rate_error(&self, rate: &Vector3<f64>) -> f64 {
-        self.rate.iter().zip(rate).map(|(exact, found)| to_f64(&(exact - big(*found))).abs()).fold(0.0, f64::max)
+        self.rate
+            .iter()
+            .flatten()
+            .zip(rate)
+            .map(|(exact, found)| to_f64(&(exact - big(*found))).abs())
+            .fold(0.0, f64::max)
     }
 
     fn cos_tilt(&self) -> Big {
@@ -175,8 +243,9 @@ mod tests {
 
     use dashu_float::DBig;
 
-    use super::motions::ReferenceData;
+    use super::outside::ReferenceData;
     use super::*;
+    use crate::measure::case::is_horizontal;
 
     fn decimal(text: &str) -> Big {
         let value = DBig::from_str(text).unwrap().with_precision(40).value();
@@ -189,10 +258,10 @@ mod tests {
     fn the_256_bit_motion_agrees_with_the_independent_numbers() {
         let mut exact_inputs = 0;
         for flight in ReferenceData::inside().unwrap().flights {
-            let reference = Reference::new(&flight.case.toss);
+            let reference = Reference::of(&flight.toss).unwrap();
             let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt_digits))).abs();
-            let time = flight.case.toss.launch.time_of_flight();
-            let exact = flight.case.tilt == 0.0
+            let time = flight.toss.launch.time_of_flight();
+            let exact = is_horizontal(&flight.toss.launch)
                 && matches!(time, TimeOfFlight::Given(_) | TimeOfFlight::BallisticTo { gravity: 1.625, .. });
             exact_inputs += usize::from(exact);
             let within = if exact { 1e-31 } else { 3e-16 };

@@ -7,60 +7,23 @@
 //! `exact::rigid`: the symbols too.
 
 use dashu_float::FBig;
-use dashu_float::round::mode::HalfEven;
 use dynamics::Toss;
-use toss::{Attitude, Outcome, TimeOfFlight};
+use toss::TimeOfFlight;
 
-use super::{PRECISION, big, product, to_f64, turn};
+use super::{Big, PRECISION, big, product, to_f64};
 
-type Big = FBig<HalfEven>;
 type Matrix = [[Big; 3]; 3];
 
-/// The landing of a toss in 256 bits.
-pub struct RigidReference {
-    attitude: [Big; 4],
+/// The attitude at landing of a body with I1 ≠ I2; see [`Reference::of`](super::Reference::of).
+pub(super) fn attitude(toss: &Toss) -> Option<[Big; 4]> {
+    let TimeOfFlight::Given(time) = toss.launch.time_of_flight() else { return None };
+    let landed = turned(toss.body.moments()?, toss.launch.rate().into(), time)?;
+    Some(product(&super::quaternion(&toss.launch.attitude()), &landed))
 }
 
-impl RigidReference {
-    /// Solves the toss of a body that was given by its moments, with rates in rad/s and a given time. `None` for
-    /// others, and for a body with two equal moments or a launch about a principal axis, which need no elliptic
-    /// function.
-    pub fn new(toss: &Toss) -> Option<Self> {
-        let TimeOfFlight::Given(time) = toss.launch.time_of_flight() else { return None };
-        let rate: [f64; 3] = toss.launch.rate().into();
-        let landed = turned(toss.body.moments()?, rate, time)?;
-        let launch = super::quaternion(&toss.launch.attitude());
-        Some(Self { attitude: product(&launch, &landed) })
-    }
-
-    /// Whether [`RigidReference::new`] solves the toss.
-    pub fn solves(toss: &Toss) -> bool {
-        let rate: [f64; 3] = toss.launch.rate().into();
-        toss.body.moments().is_some_and(|moments| Sorted::new(moments, rate).is_some())
-    }
-
-    /// cos θ at landing.
-    fn cos_tilt(&self) -> Big {
-        let [w, x, y, z] = &self.attitude;
-        w * w + z * z - x * x - y * y
-    }
-
-    /// Absolute error of a computed cos θ.
-    pub fn cos_tilt_error(&self, cos_tilt: f64) -> f64 {
-        to_f64(&(self.cos_tilt() - big(cos_tilt))).abs()
-    }
-
-    /// The outcome.
-    pub fn outcome(&self) -> Outcome {
-        Outcome::of(to_f64(&self.cos_tilt()), 0.0)
-    }
-
-    /// Angle between a computed attitude and the exact one (rad).
-    pub fn attitude_error(&self, attitude: &Attitude) -> f64 {
-        let [w, x, y, z] = turn(&attitude.components().map(big), &self.attitude);
-        let sine = to_f64(&(&x * &x + &y * &y + &z * &z).sqrt());
-        2.0 * sine.atan2(to_f64(&w).abs())
-    }
+/// Whether a body needs elliptic functions, and [`attitude`] solves its toss.
+pub(super) fn solves(toss: &Toss) -> bool {
+    toss.body.moments().is_some_and(|moments| Sorted::new(moments, toss.launch.rate().into()).is_some())
 }
 
 /// A launch in the axes in which its momentum circles the third.

@@ -14,10 +14,10 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use toss::{Error, Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
+use toss::{Error, Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping, Toss};
 
-use crate::measure::any_case::{AnyCase, AnyReference, RigidCase};
 use crate::measure::effort::Effort;
+use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Allowance, Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
@@ -39,7 +39,7 @@ pub struct Sample {
     pub tol: Option<f64>,
     /// The step (s) of a scheme with fixed steps.
     pub step: Option<f64>,
-    /// The toss as hex floats, or the number of launches.
+    /// The toss as [text](crate::measure::case::text), or the number of launches.
     pub inputs: String,
     /// The worst answer over the launches.
     pub status: Answer,
@@ -90,9 +90,9 @@ impl Sweep {
     /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, Error> {
         let jobs = jobs(registry, problems, effort)?;
-        let references: Vec<Vec<AnyReference>> = problems
+        let references: Vec<Vec<ExactLanding>> = problems
             .iter()
-            .map(|problem| problem.cases.par_iter().map(AnyReference::new).collect::<Result<_, _>>())
+            .map(|problem| problem.tosses.par_iter().map(ExactLanding::new).collect::<Result<_, _>>())
             .collect::<Result<_, _>>()?;
         let mut samples: Vec<Sample> =
             jobs.par_iter().map(|job| job.sample(&problems[job.problem], &references[job.problem])).collect();
@@ -105,7 +105,7 @@ impl Sweep {
 
     /// A sweep of `problems` from samples that were already taken.
     pub fn of(problems: &[Problem], samples: Vec<Sample>) -> Self {
-        let problem = |problem: &Problem| (problem.name.clone(), problem.stresses.clone(), problem.cases.len());
+        let problem = |problem: &Problem| (problem.name.clone(), problem.stresses.clone(), problem.tosses.len());
         Self { problems: problems.iter().map(problem).collect(), samples }
     }
 
@@ -149,7 +149,7 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
         for entry in registry {
             let mut push = |stepping| {
                 let subject = Subject::new(entry, stepping, Formulation::default());
-                if problem.cases.iter().all(|case| states_an_error(&subject, case)) {
+                if problem.tosses.iter().all(|toss| states_an_error(&subject, toss)) {
                     jobs.push(Job { problem: index, subject });
                 }
             };
@@ -172,17 +172,16 @@ fn jobs(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Resul
     Ok(jobs)
 }
 
-/// Whether `subject` can be judged by its error estimate on `case`; of coins, that is for the check to say.
-fn states_an_error(subject: &Subject, case: &AnyCase) -> bool {
-    let AnyCase::Rigid(RigidCase { toss, .. }) = case else { return true };
-    Allowance::of(subject, *toss).is_ok_and(|allowance| allowance.is_some())
+/// Whether `subject` can be judged by its error estimate on `toss`; of coins, that is for the check to say.
+fn states_an_error(subject: &Subject, toss: &Toss) -> bool {
+    toss.coin().is_some() || Allowance::of(subject, toss).is_ok_and(|allowance| allowance.is_some())
 }
 
 impl Job {
-    fn sample(&self, problem: &Problem, references: &[AnyReference]) -> Sample {
+    fn sample(&self, problem: &Problem, references: &[ExactLanding]) -> Sample {
         let subject = &self.subject;
-        let run = |(case, reference)| Run::of_any(subject, case, reference);
-        let runs: Vec<Run> = problem.cases.iter().zip(references).map(run).collect();
+        let run = |(toss, exact)| Run::new(subject, toss, exact);
+        let runs: Vec<Run> = problem.tosses.iter().zip(references).map(run).collect();
         let largest = |of: fn(&Run) -> Option<f64>| {
             runs.iter().map(of).try_fold(0.0, |largest: f64, value| Some(largest.max(value?)))
         };
@@ -228,9 +227,9 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
     let time = |index: usize| {
         let job = &jobs[index];
         let fly = || {
-            for case in &problems[job.problem].cases {
+            for toss in &problems[job.problem].tosses {
                 // Failed flights are timed too, because they also take time.
-                let _ = std::hint::black_box(std::hint::black_box(case).land(&*job.subject.solver));
+                let _ = std::hint::black_box(job.subject.solver.land(std::hint::black_box(toss)));
             }
         };
         (index, repeat(fly, budget))

@@ -7,13 +7,11 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
 use sampling::Space;
 use serde::Deserialize;
 use toss::catalogue::named_coin;
-use toss::{Coin, CoinToss, Launch, TimeOfFlight};
+use toss::{Body, Coin, CoinToss, Launch, TimeOfFlight, Toss};
 
 use crate::data;
-use crate::measure::any_case::{AnyCase, RigidCase};
-use crate::measure::case::Case;
-use crate::measure::random_flights::random_flights;
-use crate::measure::throws::throw;
+use crate::measure::case;
+use crate::measure::tosses::{random_flights, throw};
 
 /// One flight, or an ensemble of random flights.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,18 +21,18 @@ pub struct Problem {
     /// What it stresses, in words.
     pub stresses: String,
     /// Its tosses.
-    pub cases: Vec<AnyCase>,
+    pub tosses: Vec<Toss>,
 }
 
 impl Problem {
     /// The largest |ω| at launch of its tosses (rad/s).
     pub fn fastest(&self) -> f64 {
-        self.cases.iter().map(|case| case.launch().turn_rate()).fold(0.0, f64::max)
+        self.tosses.iter().map(|toss| toss.launch.turn_rate()).fold(0.0, f64::max)
     }
 
-    /// The toss as hex floats, or the number of launches.
+    /// The toss as [text](case::text), or the number of launches.
     pub fn inputs(&self) -> String {
-        if let [case] = self.cases.as_slice() { case.hex() } else { format!("{} launches", self.cases.len()) }
+        if let [toss] = &self.tosses[..] { case::text(toss) } else { format!("{} launches", self.tosses.len()) }
     }
 }
 
@@ -76,36 +74,27 @@ pub fn all() -> anyhow::Result<Vec<Problem>> {
 impl Entry {
     fn problem(self) -> anyhow::Result<Problem> {
         let coin = self.coin.as_deref().map(named_coin).transpose()?;
-        let cases = match (coin, self.moments, self.rate, self.rate_range) {
-            (Some(coin), None, Some(rate), None) => vec![AnyCase::Coin(self.flight(coin, rate)?)],
-            (Some(coin), None, None, Some(rates)) => {
-                self.ensemble(coin, rates)?.into_iter().map(AnyCase::Coin).collect()
-            }
-            (None, Some(moments), Some(rate), None) => vec![AnyCase::Rigid(self.body(moments, rate)?)],
+        let tosses = match (coin, self.moments, self.rate, self.rate_range) {
+            (Some(coin), None, Some(rate), None) => vec![self.flight(coin.into(), rate)?],
+            (Some(coin), None, None, Some(rates)) => self.ensemble(coin, rates)?,
+            (None, Some(moments), Some(rate), None) => vec![self.flight(Body::from_moments(moments)?, rate)?],
             _ => bail!("{}: a coin with rate or rate_range, or moments with rate, is needed", self.name),
         };
-        ensure!(!cases.is_empty(), "{}: no launches", self.name);
-        Ok(Problem { name: self.name, stresses: self.stresses, cases })
+        ensure!(!tosses.is_empty(), "{}: no launches", self.name);
+        Ok(Problem { name: self.name, stresses: self.stresses, tosses })
     }
 
-    fn flight(&self, coin: Coin, rate: [f64; 3]) -> anyhow::Result<Case> {
+    fn flight(&self, body: Body, rate: [f64; 3]) -> anyhow::Result<Toss> {
         let time = match (self.speed, self.time) {
             (Some(speed), None) => TimeOfFlight::thrown(speed, self.gravity.unwrap_or(DEFAULT_GRAVITY), self.drop),
             (None, Some(time)) if self.gravity.or(self.drop).is_none() => TimeOfFlight::Given(time),
             _ => bail!("{}: either a speed, with gravity and drop as needed, or a time is needed", self.name),
         };
-        let launch = Launch::new(rate, time)?.with_tilt(self.tilt)?;
-        Ok(Case { toss: CoinToss { coin, launch }, tilt: self.tilt })
-    }
-
-    fn body(&self, moments: [f64; 3], rate: [f64; 3]) -> anyhow::Result<RigidCase> {
-        let time = self.time.with_context(|| format!("{}: a body needs a time", self.name))?;
-        ensure!(self.speed.or(self.gravity).or(self.drop).is_none(), "{}: a body has a time alone", self.name);
-        Ok(RigidCase::new(moments, rate, self.tilt, time)?)
+        Ok(Toss { body, launch: Launch::new(rate, time)?.with_tilt(self.tilt)? })
     }
 
     /// Random launches of `coin`, whose times of flight are given in every form.
-    fn ensemble(&self, coin: Coin, rates: [f64; 2]) -> anyhow::Result<Vec<Case>> {
+    fn ensemble(&self, coin: Coin, rates: [f64; 2]) -> anyhow::Result<Vec<Toss>> {
         let span = |range: Option<[f64; 2]>| {
             let [from, to] = range.with_context(|| format!("{}: an ensemble needs ranges", self.name))?;
             anyhow::Ok(format!("{from:?}:{to:?}"))
@@ -114,14 +103,9 @@ impl Entry {
         let axes = [(RateX, &*rates), (RateY, &rates), (RateZ, &rates), (Speed, &speeds), (Tilt, &tilts)];
         let space = Space::parse(coin, &axes)?;
         let tosses = random_flights(&space, 1, self.launches.unwrap_or(0))?;
-        // The attitude at launch is a turn about x, whose quaternion has the sine of half the tilt as its x component.
-        let tilt = |toss: &CoinToss| 2.0 * toss.launch.attitude().components()[1].asin();
         let vary = |(turn, toss): (u64, CoinToss)| {
             let launch = Launch::new(toss.launch.rate(), throw(toss.launch.time_of_flight(), turn))?;
-            Ok(Case {
-                toss: CoinToss { launch: launch.with_attitude(toss.launch.attitude()), ..toss },
-                tilt: tilt(&toss),
-            })
+            Ok(Toss::new(toss.coin, launch.with_attitude(toss.launch.attitude())))
         };
         (0..).zip(tosses).map(vary).collect()
     }

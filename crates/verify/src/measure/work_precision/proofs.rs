@@ -5,7 +5,7 @@ use dynamics::Toss;
 use toss::SolveError;
 
 use super::problems::Problem;
-use crate::measure::any_case::{AnyCase, AnyReference};
+use crate::measure::reference::ExactLanding;
 use crate::measure::subject::taylor;
 
 /// The flights of a problem at one tolerance.
@@ -26,16 +26,11 @@ pub struct Proof {
 /// # Errors
 /// [`SolveError`] for a phase above 2^53 rad, which no problem has.
 pub fn proofs(problem: &Problem) -> Result<Vec<Proof>, SolveError> {
-    let toss = |case: &AnyCase| match case {
-        AnyCase::Coin(case) => Toss::from(case.toss),
-        AnyCase::Rigid(case) => case.toss,
-    };
-    let tosses: Vec<Toss> = problem.cases.iter().map(toss).collect();
-    let references: Vec<AnyReference> = problem.cases.iter().map(AnyReference::new).collect::<Result<_, _>>()?;
-    (0..=24).map(|step| proof(&tosses, &references, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
+    let exact: Vec<ExactLanding> = problem.tosses.iter().map(ExactLanding::new).collect::<Result<_, _>>()?;
+    (0..=24).map(|step| proof(&problem.tosses, &exact, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
 }
 
-fn proof(tosses: &[Toss], references: &[AnyReference], tolerance: f64) -> Result<Proof, SolveError> {
+fn proof(tosses: &[Toss], references: &[ExactLanding], tolerance: f64) -> Result<Proof, SolveError> {
     let solver = taylor(tolerance)?;
     let mut largest = Proof { tolerance, calls: 0.0, error: 0.0, bound: 0.0 };
     for (toss, reference) in tosses.iter().zip(references) {

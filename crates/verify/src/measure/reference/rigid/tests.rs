@@ -3,6 +3,7 @@
 use dynamics::Body;
 use toss::{Launch, Vector3};
 
+use super::super::turn;
 use super::*;
 
 /// Integrates Euler's equations and Q' = ½ Q (0, ω) by Taylor series of order 40 in 256 bits.
@@ -68,7 +69,9 @@ fn the_256_bit_motion_is_that_of_an_integration_in_256_bits() {
 fn what_it_does_not_solve_it_refuses() {
     let solved = |moments: [f64; 3], rate: [f64; 3]| {
         let launch = Launch::new(Vector3::from(rate), TimeOfFlight::Given(1.0)).unwrap();
-        RigidReference::new(&Toss { body: Body::from_moments(moments).unwrap(), launch }).is_some()
+        let toss = Toss { body: Body::from_moments(moments).unwrap(), launch };
+        assert_eq!(attitude(&toss).is_some(), solves(&toss));
+        solves(&toss)
     };
     assert!(solved([1.0, 2.0, 2.5], [0.1, 0.2, 0.3]));
     assert!(!solved([1.0, 2.0, 2.0], [0.1, 0.2, 0.3]) && !solved([1.0, 2.0, 2.5], [0.0, 0.2, 0.0]));

@@ -1,0 +1,355 @@
+//! The checks of every subject (a solver with its settings) on random launches of coins and on bodies in families each of
+//! which is hard for a method of its own: by the 256-bit reference, by what a free body conserves, by each other and by what
+//! they claim. Random launches show errors between the special cases that other checks choose. Solvers that refuse bodies
+//! have no rows of them: what they must refuse is in the atlas.
+//!
+//! Of what is conserved (a) to (c) are the checks that the paper itself applies: the length of the angular momentum S, the
+//! kinetic energy, and n·S, where n is the coin's normal.
+
+use std::f64::consts::TAU;
+
+use dynamics::phase::RoughPhases;
+use exact::motion::COS_TILT_ERROR;
+use toss::{CoinMotion, CoinToss, Formulation, Launch, State, TimeOfFlight, Toss};
+
+use crate::measure::case::is_horizontal;
+use crate::measure::check::{Allowed, Basis, Check, Landed, Measure, ceiling, of_landings};
+use crate::measure::context::Context;
+use crate::measure::drift;
+use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::subject::{Subject, tight};
+use crate::measure::survey::{Answer, Landings, Survey};
+
+/// The landings of the random launches.
+const fn random(deviation: fn(&Landed<'_>) -> Option<f64>) -> Measure {
+    let allowed = Allowed::By(|allowance| allowance.attitude);
+    Measure::Landings { of: |context| context.survey.get(context), deviation, allowed }
+}
+
+pub(super) const COS_TILT: Check = Check {
+    id: "random-cos-tilt",
+    claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the bound.",
+    ceiling: ceiling::COS_TILT,
+    measure: Measure::Landings {
+        of: |context| context.survey.get(context),
+        deviation: |landed| Some(landed.exact.cos_tilt_error(landed.landing.cos_tilt)),
+        allowed: Allowed::By(|allowance| allowance.cos_tilt),
+    },
+    ..Check::OF_SOLVERS
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "random-attitude",
+    claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the bound.",
+    ceiling: ceiling::ATTITUDE,
+    unit: "rad",
+    measure: random(attitude_error),
+    ..COS_TILT
+};
+
+fn attitude_error(landed: &Landed<'_>) -> Option<f64> {
+    Some(landed.exact.attitude_error(&landed.landing.state.attitude))
+}
+
+pub(super) const CROSS_METHOD: Check = Check {
+    id: "cross-method-attitude",
+    claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
+            and any other, differ by at most the bound.",
+    basis: Basis::CrossMethod,
+    ceiling: 2.0 * ceiling::ATTITUDE,
+    unit: "rad",
+    measure: Measure::Own(cross_method),
+    ..Check::OF_SOLVERS
+};
+
+fn cross_method(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey.get(context)?;
+    let subjects: Vec<_> = context.subjects.iter().zip(&survey.landings).collect();
+    let mut measurements = Vec::new();
+    for (index, one) in subjects.iter().enumerate() {
+        for other in &subjects[index + 1..] {
+            let [a, b] = [one.0.stepping, other.0.stepping];
+            if a == b || a.is_none() || b.is_none() {
+                measurements.push(pair(survey, *one, *other));
+            }
+        }
+    }
+    Ok(measurements)
+}
+
+fn pair(
+    survey: &Survey,
+    (one, of_one): (&Subject, &Landings),
+    (other, of_other): (&Subject, &Landings),
+) -> Measurement {
+    let difference = |(a, b): (&Answer, &Answer)| match (a, b) {
+        (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
+        (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+    };
+    let deviations: Vec<Deviation> = of_one.iter().zip(of_other).map(difference).collect();
+    // The two errors may add up, so the difference may be as large as the sum of both allowances.
+    let allowed = |index: usize| {
+        let both = (survey.allowance(one, of_one, index)?, survey.allowance(other, of_other, index)?);
+        Ok(both.0.zip(both.1).map(|(one, other)| one.attitude + other.attitude))
+    };
+    let found = Measurement::largest(other, &deviations, |index| survey.tosses[index], allowed);
+    let found = found.with_worst(|worst| Worst { replay: worst.replay.beside(one), ..worst });
+    Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..found }
+}
+
+pub(super) const CLAIMS: Check = Check {
+    id: "claims-measured",
+    claim: "A solver claims no errors that are far larger than its own. Measured: on random launches, the median of its \
+            error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, \
+            or by four roundings of the phase if they are larger; horizontal and tilted launches apart. It fails above \
+            the bound, or at a thousand without one.",
+    ceiling: LARGEST_RATIO,
+    measure: Measure::Own(claims),
+    ..Check::OF_SOLVERS
+};
+
+/// The largest ratio that is no fault. Error estimates hold for every launch, also those near the places where a method
+/// fails, so that those of honest solvers are a few hundred times too large for most launches.
+const LARGEST_RATIO: f64 = 1000.0;
+
+/// |ω| (rad/s) below which launches are left out: whatever a solver claims for a coin that hardly turns, its error is
+/// rounding.
+const SLOW: f64 = 1.0;
+
+/// A solver that claims enough would be right everywhere, where checks judge it by its own error estimate.
+fn claims(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.survey.get(context)?;
+    let (horizontal, tilted): (Vec<usize>, Vec<usize>) =
+        (0..survey.tosses.len()).partition(|index| is_horizontal(&survey.tosses[*index].launch));
+    let row = |(subject, landings): (&Subject, &Landings)| {
+        let classes = [("horizontal", &horizontal), ("tilted", &tilted)];
+        Measurement::worst_of(
+            classes.map(|(name, class)| claims_of_class(survey, subject, landings, name, class)).into(),
+        )
+    };
+    Ok(context.subjects.iter().zip(&survey.landings).filter_map(row).collect())
+}
+
+/// The ratio of `subject` over the launches of one class.
+fn claims_of_class(
+    survey: &Survey,
+    subject: &Subject,
+    landings: &Landings,
+    name: &str,
+    class: &[usize],
+) -> Measurement {
+    let figure = |ratio, cases, input| Measurement::figure(CLAIMS.id, &subject.name, ratio, cases, input);
+    let (mut claims, mut phases, mut largest) = (Vec::new(), Vec::new(), 0.0_f64);
+    for &index in class {
+        let toss = &survey.tosses[index];
+        // Launches that fail are counted by other checks.
+        let (Ok(landing), Some(coin)) = (&landings[index], toss.coin()) else { continue };
+        if toss.launch.turn_rate() < SLOW {
+            continue;
+        }
+        largest = largest.max(survey.exact[index].attitude_error(&landing.state.attitude));
+        let Some(claim) = landing.error else {
+            return figure(f64::NAN, 0, "it claims no error".to_owned()).claiming(None);
+        };
+        match RoughPhases::new(&coin).largest() {
+            Ok(phase) => {
+                claims.push(claim);
+                phases.push(phase);
+            }
+            Err(error) => return figure(f64::NAN, 0, error.to_string()).claiming(Some(0.0)),
+        }
+    }
+    let (number, claim, phase) = (claims.len() as u64, median(&mut claims), median(&mut phases));
+    let rounding = 4.0 * f64::EPSILON * (1.0 + phase);
+    let input = format!("{name} launches: claims {claim:.1e} in the median, largest error {largest:.1e} rad");
+    figure(claim / largest.max(rounding), number, input).claiming(Some(LARGEST_RATIO))
+}
+
+/// The median; not a number if there are none.
+fn median(numbers: &mut [f64]) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+pub(super) const FIRST_RETURN: Check = Check {
+    id: "vertical-frame-to-first-return",
+    claim: "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return \
+            there, the attitude differs from the 256-bit reference by at most the bound.",
+    ceiling: ceiling::ATTITUDE,
+    unit: "rad",
+    measure: Measure::Own(first_return),
+    ..COS_TILT
+};
+
+/// Horizontal launches as the paper solves them: Euler angles and the γ-ODE in the vertical frame, in which both systems are
+/// singular at launch, sin β = 0, and must leave it with the right attitude.
+fn first_return(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let mut subjects = Vec::new();
+    for entry in context.registry.iter().filter(|entry| entry.formulations().contains(&Formulation::VERTICAL)) {
+        for scheme in entry.schemes().iter().filter(|scheme| scheme.is_adaptive()) {
+            subjects.push(Subject::new(entry, Some(tight(*scheme)?), Formulation::VERTICAL));
+        }
+    }
+    let survey = Survey::of(&subjects, returning_flights(context)?, Vec::new())?;
+    let allowed = Allowed::By(|allowance| allowance.attitude);
+    let each = subjects.iter().zip(&survey.landings);
+    Ok(each.filter_map(|by| of_landings(&survey, by, attitude_error, allowed)).collect())
+}
+
+/// The horizontal launches of the survey, each ending just before its first return.
+fn returning_flights(context: &Context) -> anyhow::Result<Vec<Toss>> {
+    /// Phase (rad) before the first return at which each flight ends.
+    const DISTANCE: f64 = 0.1;
+    /// Distance (rad) that the cone angle ψ keeps from 0 and π, where n stays near the vertical, and from π/2, where the
+    /// coin turns end over end. The vertical frame's solvers divide by sin β, and such flights come too near to sin β = 0.
+    const CLEARANCE: f64 = 0.1;
+    let horizontal = context.survey.get(context)?.tosses.iter().filter(|toss| is_horizontal(&toss.launch));
+    let mut tosses = Vec::new();
+    for toss in horizontal.filter_map(Toss::coin) {
+        let motion = CoinMotion::new(&toss);
+        let from_right_angle = (motion.cone_angle() - TAU / 4.0).abs();
+        if from_right_angle < CLEARANCE || TAU / 4.0 - from_right_angle < CLEARANCE {
+            continue;
+        }
+        let time = TimeOfFlight::Given((TAU - DISTANCE) / motion.precession_rate());
+        tosses.push(CoinToss { launch: Launch::new(toss.launch.rate(), time)?, ..toss }.into());
+    }
+    Ok(tosses)
+}
+
+pub(super) const MOMENTUM: Check = Check {
+    id: "invariant-momentum",
+    claim: "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
+            bound, relative to |S|.",
+    basis: Basis::Invariant,
+    ceiling: ceiling::ATTITUDE,
+    measure: random(|landed| drifted(landed, drift::momentum)),
+    ..COS_TILT
+};
+
+pub(super) const ENERGY: Check = Check {
+    id: "invariant-energy",
+    claim: "(b) The kinetic energy differs at landing from its value at launch by at most the bound, relative to that \
+            value.",
+    measure: random(|landed| drifted(landed, drift::energy)),
+    ..MOMENTUM
+};
+
+pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
+    id: "invariant-normal-momentum-body",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
+            at landing, differs from its value at launch by at most the bound, relative to |S|.",
+    measure: random(|landed| drifted(landed, drift::normal_momentum_body)),
+    ..MOMENTUM
+};
+
+pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
+    id: "invariant-normal-momentum-transport",
+    claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
+            attitude at landing, differs from its value at launch by at most the bound, relative to |S|.",
+    measure: random(|landed| drifted(landed, drift::normal_momentum)),
+    ..MOMENTUM
+};
+
+pub(super) const MOMENTUM_VECTOR: Check = Check {
+    id: "invariant-momentum-vector",
+    claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
+            differs from its value at launch by at most the bound, relative to |S|.",
+    measure: random(|landed| drifted(landed, drift::momentum_vector)),
+    ..MOMENTUM
+};
+
+pub(super) const PROJECTION: Check = Check {
+    id: "invariant-projection",
+    claim: "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
+            each to within the bound.",
+    ceiling: ceiling::COS_TILT,
+    measure: random(|Landed { landing, .. }| {
+        let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
+        Some((norm - 1.0).abs().max((landing.cos_tilt - landing.state.attitude.cos_tilt()).abs()))
+    }),
+    ..MOMENTUM
+};
+
+/// The drift of a coin between launch and landing.
+fn drifted(landed: &Landed<'_>, drift: fn(&Toss, &State) -> f64) -> Option<f64> {
+    landed.toss.coin().map(|_| drift(landed.toss, &landed.landing.state))
+}
+
+pub(super) const BODIES_WITHIN_ESTIMATE: Check = Check {
+    id: "bodies-within-estimate",
+    claim: "On bodies of seven families, next to the separatrix and the middle axis too, with phases of 1 to 30 rad, the \
+            errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest \
+            error divided by that; it fails above the bound, or at 1 without one. Where a solver states no estimate, it \
+            decides nothing and is not judged.",
+    ceiling: 1.0,
+    measure: Measure::Landings {
+        of: |context| context.bodies.get(context),
+        deviation: part_of_estimate,
+        allowed: Allowed::UpTo(1.0),
+    },
+    ..COS_TILT
+};
+
+/// The larger one of the errors of cos θ and of the attitude, divided by what the estimate allows.
+pub(super) fn part_of_estimate(Landed { exact, landing, .. }: &Landed<'_>) -> Option<f64> {
+    let allowed = landing.error?.max(COS_TILT_ERROR);
+    let attitude = exact.attitude_error(&landing.state.attitude);
+    Some((exact.cos_tilt_error(landing.cos_tilt) / allowed).max(attitude / (10.0 * allowed)))
+}
+
+pub(super) const BODIES_STATED: Check = Check {
+    id: "bodies-stated",
+    claim: "A solver that lands a body states an estimate of its error. Measured: the share of tosses without one, \
+            which no other check judges; of the families of `bodies-within-estimate`.",
+    ceiling: 0.5,
+    measure: Measure::Own(stated),
+    ..COS_TILT
+};
+
+fn stated(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let survey = context.bodies.get(context)?;
+    let row = |(subject, landings): (&Subject, &Landings)| {
+        let silent: Vec<Deviation> = landings
+            .iter()
+            .map(|landing| Ok(f64::from(landing.as_ref().is_ok_and(|one| one.error.is_none()))))
+            .collect();
+        let worst = |index: usize, failure| Worst::by(&survey.tosses[index], subject, failure);
+        let found = Measurement::count(&subject.name, &silent, worst).without_claim();
+        Measurement { measured: found.measured / found.cases as f64, ..found }
+    };
+    let solve = context.subjects.iter().zip(&survey.landings).filter(|(_, landings)| !landings.is_empty());
+    Ok(solve.map(row).collect())
+}
+
+pub(super) const BODIES_ATTITUDE: Check = Check {
+    id: "bodies-attitude",
+    claim: "On bodies of five families, away from the separatrix and the middle axis, with phases of 1 to 30 rad, the \
+            attitude at landing differs from the 256-bit reference by at most the bound.",
+    ceiling: ceiling::ATTITUDE,
+    unit: "rad",
+    measure: Measure::Landings {
+        of: |context| context.bodies.get(context),
+        deviation: |landed| {
+            let is_steady = !["near the middle axis", "near the separatrix"].contains(&landed.family);
+            is_steady.then(|| landed.exact.attitude_error(&landed.landing.state.attitude))
+        },
+        // What the estimate allows each of them is judged by the check above.
+        allowed: Allowed::NotJudged,
+    },
+    ..COS_TILT
+};
+
+pub(super) const BODIES_CONSERVED: Check = Check {
+    id: "bodies-conserved",
+    claim: "The angular momentum S of any body, its length and the kinetic energy differ at landing from their values at \
+            launch by at most the bound, relative to those of a body that turns as fast about its largest axis.",
+    basis: Basis::Invariant,
+    ceiling: ceiling::ATTITUDE,
+    measure: Measure::Landings {
+        of: |context| context.bodies.get(context),
+        deviation: |landed| Some(drift::of_body(landed.toss, &landed.landing.state).into_iter().fold(0.0, f64::max)),
+        allowed: Allowed::NotJudged,
+    },
+    ..COS_TILT
+};

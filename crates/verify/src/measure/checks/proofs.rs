@@ -1,0 +1,190 @@
+//! The checks of what is proven by integration, by the 256-bit reference: the bounds of cos θ and of the attitude, which no
+//! error may exceed, and the outcomes. The tosses include those where rounding is hardest: the corners of the model, units
+//! that have to be rounded, tosses that land within a few ulp of a change of the outcome, and bodies with I1 ≠ I2 in families
+//! each of which is hard for a method of its own. Next to a turn about the middle axis some flights have no bound; they are
+//! no cases.
+
+use dynamics::Toss;
+use dynamics::phase::RoughPhases;
+use rayon::prelude::*;
+use toss::{CoinToss, ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
+
+use super::exact::at_an_edge;
+use crate::measure::check::{Check, EXACT, Fold, Measure, Set, by_exact_motion, shares};
+use crate::measure::context::Context;
+use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::reference::Reference;
+use crate::measure::replay::Replay;
+use crate::measure::subject::taylor;
+use crate::measure::tosses::{FAMILIES, FLOWN, Family, adversarial, corners, few_turns, launches, random, tries};
+
+pub(super) const BOUNDS: Check = Check {
+    id: "integrated-bounds",
+    claim: "No error of cos θ or of the attitude exceeds the bound that its integration proves for it, at any tolerance. \
+            Measured: the largest error divided by its bound; it fails above 1.",
+    ceiling: 1.0,
+    measure: Measure::Both(&[Measure::Tosses(bounds, Fold::Largest), Measure::Own(bounds_of_bodies)]),
+    ..Check::OF_LIBRARY
+};
+
+pub(super) const OUTCOMES: Check = Check {
+    id: "integrated-outcomes",
+    claim: "Outcomes proven by integration are those of the 256-bit reference, also within 3 ulp of the speed at which \
+            the outcome changes; those of bodies with I1 ≠ I2 may be undecided there. Measured: the number of tosses that \
+            differ, those of coins also by being undecided; one is enough to fail.",
+    ceiling: 0.0,
+    unit: "tosses",
+    measure: Measure::Tosses(outcomes, Fold::Count),
+    ..BOUNDS
+};
+
+pub(super) const TIGHTNESS: Check = Check {
+    id: "integrated-tightness",
+    claim: "The bound that an integration at the default tolerance proves for the attitude is not far above its error. \
+            Measured: the median of the bound divided by the error.",
+    ceiling: 300.0,
+    measure: Measure::Tosses(
+        || {
+            let ratio = |toss: &Toss, reference: &Reference| {
+                let found = usual()?.enclose(toss)?;
+                Ok(found.attitude_error_bound() / distance(&found, reference))
+            };
+            [("phases to 1e2", 1e2, 10), ("phases to 1e3", 1e3, 10), ("phases to 1e5", 1e5, 100)]
+                .map(|(name, phase, part)| {
+                    Set::of_tries(
+                        name,
+                        move |tries| random(tries / part, phase, 36),
+                        move |toss, reference| ratio(&(*toss).into(), reference),
+                    )
+                })
+                .into()
+        },
+        Fold::Median,
+    ),
+    ..BOUNDS
+};
+
+/// The longest phase (rad) of launches at the corners: a flight of 1e4 rad takes some thousand steps.
+const LONGEST: f64 = 1e4;
+
+/// The solver that proves, at its default tolerance.
+fn usual() -> Result<QuaternionSolver, SolveError> {
+    taylor(Stepping::DEFAULT_TOLERANCE)
+}
+
+/// Refuses flights of more than the phase 1e5 rad, which would take minutes and are in none of the sets.
+fn require_short(toss: &CoinToss) -> Result<(), SolveError> {
+    let phase = RoughPhases::new(toss).largest()?;
+    let error =
+        || SolveError::failed(QuaternionSolver::NAME, std::io::Error::other("flights above 1e5 rad are not flown"));
+    (phase <= 1e5).then_some(()).ok_or_else(error)
+}
+
+/// The sets of coins, each with the tolerance of its flights.
+fn bounds() -> Vec<Set> {
+    fn set(name: &str, tolerance: f64, tosses: fn(u64) -> anyhow::Result<Vec<CoinToss>>) -> Set {
+        let share = move |toss: &CoinToss, reference: &Reference| {
+            require_short(toss)?;
+            Ok(share(&taylor(tolerance)?.enclose(&(*toss).into())?, reference))
+        };
+        Set::of_tries(name, tosses, share)
+            .quickly(move |toss| quick_share(&taylor(tolerance).ok()?.enclose(toss).ok()?, toss))
+    }
+    fn is_short(toss: &CoinToss) -> bool {
+        RoughPhases::new(toss).largest().is_ok_and(|phase| phase <= LONGEST)
+    }
+    vec![
+        set("phases to 1e2", Stepping::DEFAULT_TOLERANCE, |tries| random(tries, 1e2, 31)),
+        set("phases to 1e2, tolerance 1e-4", 1e-4, |tries| random(tries, 1e2, 32)),
+        set("phases to 1e2, finest tolerance", f64::EPSILON, |tries| random(tries, 1e2, 33)),
+        set("phases to 6e4", 1e-12, |tries| random(tries / 100, 6e4, 34)),
+        set("corners", Stepping::DEFAULT_TOLERANCE, |_| Ok(corners()?.into_iter().filter(is_short).collect())),
+        set("adversarial", f64::EPSILON, |tries| adversarial(tries / 4, few_turns)),
+    ]
+}
+
+/// The larger one of the errors of cos θ and of the attitude, divided by their bounds.
+fn share(found: &IntegratedCertificate, reference: &Reference) -> f64 {
+    let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
+    of_cos_tilt.max(distance(found, reference) / found.attitude_error_bound())
+}
+
+/// The same by the exact motion, if it can judge the flight.
+fn quick_share(found: &IntegratedCertificate, toss: &Toss) -> Option<f64> {
+    let exact = ExactSolver.land(toss).ok()?;
+    let distance = 0.5 * found.landing().state.attitude.angle_to(&exact.state.attitude);
+    let errors = [(found.cos_tilt() - exact.cos_tilt).abs(), distance];
+    by_exact_motion(errors, [found.error_bound(), found.attitude_error_bound()])
+}
+
+/// The distance of the quaternions, which is half the angle between the attitudes, or less.
+fn distance(found: &IntegratedCertificate, reference: &Reference) -> f64 {
+    0.5 * reference.attitude_error(&found.landing().state.attitude)
+}
+
+/// The tolerances of the flights of bodies, one after the other.
+const TOLERANCES: [f64; 4] = [Stepping::DEFAULT_TOLERANCE, 1e-4, 1e-7, f64::EPSILON];
+
+fn bounds_of_bodies(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let solvers: Vec<QuaternionSolver> = TOLERANCES.into_iter().map(taylor).collect::<Result<_, SolveError>>()?;
+    Ok(FAMILIES.iter().map(|family| bounds_of_family(family, &solvers, tries(context.effort) / 20)).collect())
+}
+
+/// The largest error of cos θ or of the attitude in a family, divided by its bound, by solvers in turn.
+fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) -> Measurement {
+    let tosses: Vec<Toss> = launches(family, number, FLOWN).collect();
+    let fly = |(index, toss): (usize, &Toss)| {
+        let found = solvers[index % solvers.len()].enclose(toss).ok()?;
+        (found.error_bound() < 2.0).then_some((index, *toss, found))
+    };
+    let bounded: Vec<(usize, Toss, IntegratedCertificate)> = tosses.par_iter().enumerate().filter_map(fly).collect();
+    let quick = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| quick_share(found, toss);
+    let thorough = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| {
+        Ok(Reference::of(toss).map_or(0.0, |reference| share(found, &reference)))
+    };
+    let remark = format!("of {} tosses {} have a bound", tosses.len(), bounded.len());
+    let worst = |at: usize, failure| {
+        let (index, toss, _) = &bounded[at];
+        let remark = format!("{remark}; tolerance {:e}", TOLERANCES[index % TOLERANCES.len()]);
+        // The text of a toss has no tolerance, so that the whole check repeats it.
+        Worst { replay: Replay::Check(BOUNDS.id.to_owned()), ..Worst::of_library(toss, failure).remarking(&remark) }
+    };
+    Measurement::without_estimate(&format!("bodies: {}", family.name), &shares(&bounded, quick, thorough), worst)
+}
+
+fn outcomes() -> Vec<Set> {
+    fn of_coin_by(toss: &CoinToss, right: Outcome) -> Deviation {
+        require_short(toss)?;
+        Ok(f64::from(usual()?.certify(&(*toss).into())?.outcome() != right))
+    }
+    // Next to an edge a body may be undecided.
+    fn of_body_by(toss: &Toss, right: Outcome) -> Deviation {
+        let found = usual()?.certify(toss).map_or(Outcome::Undecided, |found| found.outcome());
+        Ok(f64::from(found != Outcome::Undecided && found != right))
+    }
+    let coins = |name, tosses: fn(u64) -> anyhow::Result<Vec<CoinToss>>| {
+        Set::of_tries(name, tosses, move |toss, reference| of_coin_by(toss, reference.outcome()))
+            .quickly(move |toss| of_coin_by(&toss.coin()?, clear_outcome(toss)?).ok())
+    };
+    let coins = [
+        coins("random", |tries| random(tries, 1e2, 35)),
+        coins("adversarial", |tries| adversarial(tries / 4, few_turns)),
+    ];
+    let of_family = |family: &'static Family| {
+        let tosses = move |context: &Context| {
+            let tosses = launches(family, tries(context.effort) / 20, FLOWN);
+            Ok(tosses.flat_map(|toss| [Some(toss), at_an_edge(&toss)]).flatten().collect())
+        };
+        Set::new(format!("bodies: {}", family.name), tosses, move |toss, reference| {
+            of_body_by(toss, reference.outcome())
+        })
+        .quickly(move |toss| of_body_by(toss, clear_outcome(toss)?).ok())
+    };
+    coins.into_iter().chain(FAMILIES.iter().map(of_family)).collect()
+}
+
+/// The outcome by the exact motion, where cos θ is far from 0.
+fn clear_outcome(toss: &Toss) -> Option<Outcome> {
+    let tilt = ExactSolver.tilt(toss).ok().filter(|tilt| tilt.cos_tilt.abs() > 1e3 * EXACT)?;
+    Some(Outcome::of(tilt.cos_tilt, 0.0))
+}

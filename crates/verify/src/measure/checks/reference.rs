@@ -1,0 +1,276 @@
+//! The checks of numbers from outside the workspace, so that an error which all our code shares shows: landings in
+//! `data/motion.toml`, the test problem DETEST B5, published motions of bodies, the coins of the catalogue, and the paper's
+//! two tosses, of which the cheated one must land heads and the one of its Fig. 3 tails.
+//!
+//! "Heads with certainty" has two meanings, and both are checked. With the paper's moments the cone angle ψ between
+//! normal and angular momentum is 48.5°, and the cheated toss shows heads up to its first flip at 1.3073 s, longer than
+//! any flight at the paper's speeds of 3 to 5 m/s. As a disc the coin has ψ = 15.8°, below 45°, and shows heads
+//! forever.
+
+use dynamics::catalogue::{CATALOGUE, CatalogueEntry};
+use dynamics::integrate::{OdeSystem, integrate};
+use dynamics::time_of_flight::DEFAULT_GRAVITY;
+use nalgebra::SVector;
+use rayon::prelude::*;
+use toss::{Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solver, Stepping, TimeOfFlight, Toss};
+
+use crate::measure::check::{Basis, Check, Measure, ceiling};
+use crate::measure::context::Context;
+use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::reference::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
+use crate::measure::run::Allowance;
+use crate::measure::subject::Subject;
+
+pub(super) const COS_TILT: Check = Check {
+    id: "reference-cos-tilt",
+    claim: "On every reference flight, cos θ at landing differs from the reference number by at most the bound.",
+    ceiling: ceiling::COS_TILT,
+    measure: Measure::Own(cos_tilt),
+    ..Check::OF_SOLVERS
+};
+
+pub(super) const ATTITUDE: Check = Check {
+    id: "reference-attitude",
+    claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
+            bound.",
+    ceiling: ceiling::ATTITUDE,
+    unit: "rad",
+    measure: Measure::Own(attitude),
+    ..Check::OF_SOLVERS
+};
+
+fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
+        Ok((solver.tilt(&flight.toss)?.cos_tilt - flight.cos_tilt).abs())
+    };
+    Ok(over_flights(context, error, |allowance| allowance.cos_tilt))
+}
+
+fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
+        Ok(solver.land(&flight.toss)?.state.attitude.angle_to(&flight.attitude))
+    };
+    Ok(over_flights(context, error, |allowance| allowance.attitude))
+}
+
+/// The largest deviation of each subject over the reference flights.
+fn over_flights(
+    context: &Context,
+    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError>,
+    allowed: fn(&Allowance) -> f64,
+) -> Vec<Measurement> {
+    let flights = &context.data.flights;
+    let measure = |subject: &Subject| {
+        let deviations: Vec<Deviation> =
+            flights.iter().map(|flight| deviation(subject.solver.as_ref(), flight)).collect();
+        let allowed = |index: usize| Ok(Allowance::of(subject, &flights[index].toss)?.as_ref().map(allowed));
+        Measurement::largest(subject, &deviations, |index| flights[index].toss, allowed)
+    };
+    context.subjects.iter().map(measure).collect()
+}
+
+pub(super) const DETEST: Check = Check {
+    id: "detest-b5",
+    claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
+            the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the bound.",
+    ceiling: 1e-6,
+    measure: Measure::Own(detest),
+    ..Check::OF_LIBRARY
+};
+
+struct AsymmetricBody;
+
+impl OdeSystem<3> for AsymmetricBody {
+    fn derivative(&self, y: &SVector<f64, 3>) -> SVector<f64, 3> {
+        SVector::from([y[1] * y[2], -y[0] * y[2], -0.51 * y[0] * y[1]])
+    }
+}
+
+fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let (time, exact) = context.data.detest_b5;
+    let steppings = [
+        Stepping::adaptive(Scheme::DOP853, 1e-12)?,
+        Stepping::adaptive(Scheme::DOPRI5, 1e-12)?,
+        Stepping::fixed(Scheme::RK4, 1e-3)?,
+    ];
+    let measure = |stepping: &Stepping| {
+        let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, stepping)?;
+        let error = (end - SVector::from(exact)).amax();
+        let input = format!("y(0) = (0, 1, 1), t = {time}, {:?}", stepping.control());
+        Ok(Measurement::figure(DETEST.id, stepping.scheme().name(), error, 1, input))
+    };
+    steppings.iter().map(measure).collect()
+}
+
+pub(super) const MOMENTS: Check = Check {
+    id: "catalogue-moments",
+    claim: "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness \
+            by at most the bound, relative to their size; each coin of one list is in the other.",
+    basis: Basis::PublishedFigure,
+    ceiling: 1e-14,
+    measure: Measure::Own(moments),
+    ..Check::OF_LIBRARY
+};
+
+fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let unknown = context.coins.iter().filter(|coin| CATALOGUE.iter().all(|entry| entry.name != coin.name));
+    let unknown = unknown.map(|coin| (f64::INFINITY, coin.name.as_str()));
+    let known = CATALOGUE.iter().map(|entry| (deviation_of_moments(context, entry), entry.name));
+    let (largest, name) = known.chain(unknown).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, "none"));
+    Ok(vec![Measurement::figure(MOMENTS.id, "catalogue", largest, CATALOGUE.len() as u64, name.to_owned())])
+}
+
+/// The larger of the relative deviations of I1 and I3; infinite for a coin without reference, or without moments.
+fn deviation_of_moments(context: &Context, entry: &CatalogueEntry) -> f64 {
+    let reference = context.coins.iter().find(|coin| coin.name == entry.name);
+    let (Some(reference), Ok(coin)) = (reference, entry.coin()) else { return f64::INFINITY };
+    let relative = |(found, expected): (f64, f64)| (found / expected - 1.0).abs();
+    [coin.i1(), coin.i3()].into_iter().zip(reference.moments).map(relative).fold(0.0, f64::max)
+}
+
+pub(super) const PUBLISHED: Check = Check {
+    id: "bodies-published",
+    claim: "Published motions of bodies that are no coins, of up to 100 s: the attitudes of seven flights that were \
+            computed in 128 bits, two of them next to the separatrix and one on it, and the rates of NASA's check case \
+            2, a tumbling brick. Measured: the largest error (rad; of rates, relative to the largest).",
+    basis: Basis::PublishedFigure,
+    ceiling: ceiling::ATTITUDE,
+    unit: "rad",
+    measure: Measure::Own(|context| {
+        let refuses = |subject: &Subject, body: &ReferenceBody| {
+            matches!(subject.solver.tilt(&body.toss), Err(SolveError::NotSymmetric { .. }))
+        };
+        let solves = |subject: &&Subject| !context.data.bodies.iter().any(|body| refuses(subject, body));
+        Ok(context.subjects.iter().filter(solves).map(|subject| published(context, subject)).collect())
+    }),
+    ..Check::OF_SOLVERS
+};
+
+/// The largest error of `subject` on the published motions, with the largest ratio to what its estimate allows.
+fn published(context: &Context, subject: &Subject) -> Measurement {
+    let bodies = &context.data.bodies;
+    let landings: Vec<_> = bodies.par_iter().map(|body| subject.solver.land(&body.toss)).collect();
+    let error = |(body, landing): (&ReferenceBody, &Result<Landing, SolveError>)| {
+        landing.as_ref().map(|landing| body.error(&landing.state)).map_err(Clone::clone)
+    };
+    let errors: Vec<Deviation> = bodies.iter().zip(&landings).map(error).collect();
+    // The published digits are fifteen.
+    let allowed = |index: usize| {
+        let estimate = landings[index].as_ref().ok().and_then(|landing: &Landing| landing.error);
+        Ok(Some(estimate.map_or(f64::INFINITY, |estimate| 10.0 * estimate.max(1e-15))))
+    };
+    Measurement::largest(subject, &errors, |index| bodies[index].toss, allowed)
+}
+
+pub(super) const CHEATED_IN_FLIGHT: Check = Check {
+    id: "cheated-heads-in-flight",
+    claim: "(d) The cheated toss, ω = (1, 1, 2.5) rad/s, lands heads at every speed from 3 to 5 m/s. Measured: the \
+            number of launches that do not; one is enough to fail.",
+    basis: Basis::PublishedFigure,
+    unit: "launches",
+    measure: Measure::Own(|context| at_every_speed(context, [1.0, 1.0, 2.5], Outcome::Heads)),
+    ..Check::OF_SOLVERS
+};
+
+pub(super) const TAILS_IN_FLIGHT: Check = Check {
+    id: "tails-in-flight",
+    claim: "The toss of Fig. 3, ω = (2, 2, 0.5) rad/s, lands tails at every speed from 3 to 5 m/s. Measured: the \
+            number of launches that do not; one is enough to fail.",
+    basis: Basis::PublishedFigure,
+    unit: "launches",
+    measure: Measure::Own(|context| at_every_speed(context, [2.0, 2.0, 0.5], Outcome::Tails)),
+    ..Check::OF_SOLVERS
+};
+
+pub(super) const CHEATED_FOREVER: Check = Check {
+    id: "cheated-heads-forever",
+    claim: "(d) The cheated toss of a disc lands heads after any time of flight: up to 10 000 s by closed forms, up \
+            to 30 s by integrators. Measured: the number of launches that do not; one is enough to fail.",
+    unit: "launches",
+    measure: Measure::Own(forever),
+    ..Check::OF_SOLVERS
+};
+
+pub(super) const FIRST_FLIP: Check = Check {
+    id: "first-flip",
+    claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
+            the largest distance from the reference time; it fails above the bound.",
+    ceiling: ceiling::ATTITUDE,
+    unit: "s",
+    measure: Measure::Own(first_flip),
+    ..Check::OF_SOLVERS
+};
+
+fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyhow::Result<Vec<Measurement>> {
+    let speeds = (0..=200).map(|step| 3.0 + 0.01 * f64::from(step));
+    let flights = speeds.map(|speed| TimeOfFlight::Ballistic { speed, gravity: DEFAULT_GRAVITY });
+    let tosses = thrown(Coin::PAPER, rate, flights)?;
+    Ok(context.subjects.iter().map(|subject| misses(subject, &tosses, expected)).collect())
+}
+
+fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |subject: &Subject| {
+        let (count, last): (u32, f64) = if subject.stepping.is_none() { (100_000, 10_000.0) } else { (60, 30.0) };
+        let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
+        Ok(misses(subject, &thrown(Coin::DISC, [1.0, 1.0, 2.5], times)?, Outcome::Heads))
+    };
+    context.subjects.iter().map(measure).collect()
+}
+
+fn thrown(coin: Coin, rate: [f64; 3], flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Toss>> {
+    flights.map(|flight| Ok(Toss::new(coin, Launch::new(rate, flight)?))).collect()
+}
+
+/// The number of `tosses` that do not land as `expected`. Against a bound an undecided outcome counts; against the
+/// solver's own claim only a wrong one does, because an error estimate may leave an outcome undecided.
+fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement {
+    let tilts: Vec<_> = tosses.par_iter().map(|toss| subject.solver.tilt(toss)).collect();
+    let count = |is: &dyn Fn(Outcome) -> bool| {
+        let found: Vec<Deviation> =
+            tilts.iter().map(|tilt| tilt.clone().map(|tilt| f64::from(is(tilt.outcome())))).collect();
+        Measurement::count(&subject.name, &found, |index, failure| Worst::by(&tosses[index], subject, failure))
+    };
+    let wrong = count(&|outcome| ![expected, Outcome::Undecided].contains(&outcome));
+    let is_claimed = tosses.iter().zip(&tilts).all(|(toss, tilt)| match tilt {
+        Ok(tilt) => Allowance::new(subject, toss, tilt.error).is_some(),
+        Err(_) => true,
+    });
+    Measurement { claim: wrong.claiming(is_claimed.then_some(0.0)).claim, ..count(&|outcome| outcome != expected) }
+}
+
+fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let flips = &context.data.first_flips;
+    let tosses: Vec<Toss> = flips.iter().map(|flip| flight(flip, flip.time)).collect::<anyhow::Result<_>>()?;
+    let measure = |subject: &Subject| {
+        let off = |flip: &FirstFlip| Ok(flip_time(subject.solver.as_ref(), flip)?.map(|time| (time - flip.time).abs()));
+        let off: Vec<Deviation> = flips.iter().map(off).collect::<anyhow::Result<_>>()?;
+        Ok(Measurement::largest(subject, &off, |index| tosses[index], |index| flip_allowance(subject, &tosses[index])))
+    };
+    context.subjects.iter().map(measure).collect()
+}
+
+/// The error (s) that the solver's estimate allows for a flip at the landing of `toss`: the allowed error of cos θ
+/// divided by its rate of change, doubled because that rate is not constant, plus the rounding of the time.
+fn flip_allowance(subject: &Subject, toss: &Toss) -> Result<Option<f64>, SolveError> {
+    let rate = Sensitivity::new(toss)?.cos_tilt[3].abs();
+    let rounding = 4.0 * f64::EPSILON * toss.launch.flight_time();
+    Ok(Allowance::of(subject, toss)?.map(|allowance| 2.0 * allowance.cos_tilt / rate + rounding))
+}
+
+fn flight(flip: &FirstFlip, time: f64) -> anyhow::Result<Toss> {
+    Ok(Toss::new(flip.coin, Launch::new(flip.rate, TimeOfFlight::Given(time))?))
+}
+
+/// The time (s) of the sign change of cos θ between launch and 1.5 times the expected time, by bisection.
+fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64, SolveError>> {
+    let (mut heads, mut tails) = (0.0, 1.5 * flip.time);
+    for _ in 0..60 {
+        let middle = 0.5 * (heads + tails);
+        match solver.tilt(&flight(flip, middle)?).map(|tilt| tilt.cos_tilt) {
+            Ok(cos_tilt) if cos_tilt > 0.0 => heads = middle,
+            Ok(_) => tails = middle,
+            Err(error) => return Ok(Err(error)),
+        }
+    }
+    Ok(Ok(0.5 * (heads + tails)))
+}

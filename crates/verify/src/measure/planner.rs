@@ -1,0 +1,415 @@
+//! A trial of the planner on random scenes: questions about tosses as hands and machines make them, and about spaces of such
+//! tosses. It shows whether the planned answers are accurate enough, and whether their errors were expected.
+//!
+//! A scene is a question (outcome, cos θ, attitude, trace or probability) with an accuracy; a model is a way to answer
+//! it. Errors are against the 256-bit reference or, of a probability, against another method. Each scene follows from a seed
+//! and an index alone, so a failing one can be made again.
+
+use std::f64::consts::PI;
+
+use anyhow::{bail, ensure};
+use dynamics::coin::NO_COIN;
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+use rayon::prelude::*;
+use sampling::{Coordinate, Estimate, Plan, Rest, Sampler, Scrambled, Space};
+use serde::Serialize;
+use toss::catalogue::CATALOGUE;
+use toss::{
+    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Model, Outcome, Registry, Scene, TimeOfFlight,
+    TracePoint, Vector3, Want, level_speeds_of_heads,
+};
+
+use crate::measure::case;
+use crate::measure::effort::Effort;
+use crate::measure::reference::Reference;
+use crate::measure::tosses::{decades, stream};
+
+/// Seed of the scenes.
+const SEED: u64 = 12;
+
+/// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
+pub const ROUNDING: f64 = 0.5 * f64::EPSILON;
+
+/// The result of one scene.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// The scene's kind.
+    pub kind: &'static str,
+    /// The accuracy that was asked for.
+    pub accuracy: f64,
+    /// The model that was chosen; `None` if the planner refused the scene because no setting is accurate enough, or the
+    /// integrator does not solve its toss.
+    pub model: Option<&'static Model>,
+    /// The error of its answer.
+    pub error: f64,
+    /// The largest error of that model on the scene's family: its toss and, if the error there is far below the
+    /// expected one, some similar tosses. The error on a single toss may be small by luck.
+    pub error_of_family: f64,
+    /// The error that the plan expected.
+    pub expected: f64,
+    /// The scene in words, its toss as text.
+    pub input: String,
+}
+
+/// All scenes of a run.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The results of the scenes.
+    pub outcomes: Vec<Solved>,
+}
+
+impl Trial {
+    /// Solves a number of scenes that depends on `effort`.
+    ///
+    /// # Errors
+    /// If a scene cannot be solved, except because its accuracy is out of reach or the integrator does not solve its toss.
+    pub fn new(effort: Effort) -> anyhow::Result<Self> {
+        let (tosses, spaces) = match effort {
+            Effort::Quick => (1000, 6),
+            Effort::Standard => (10_000, 24),
+            Effort::Deep => (10_000, 100),
+        };
+        let tosses = (0..tosses).into_par_iter().map(|index| solve(&toss_scene(SEED, index)?));
+        let mut outcomes: Vec<Solved> = tosses.collect::<anyhow::Result<_>>()?;
+        for index in 0..spaces {
+            outcomes.push(solve_space(index)?);
+        }
+        Ok(Self { outcomes })
+    }
+}
+
+impl Solved {
+    /// The error divided by the accuracy that was asked for.
+    pub fn error_by_accuracy(&self) -> f64 {
+        self.error / self.accuracy
+    }
+
+    /// The largest error on the scene's family divided by the expected one, which counts as at least [`ROUNDING`]; 0 if
+    /// there is no error.
+    pub fn error_by_expected(&self) -> f64 {
+        if self.error_of_family == 0.0 { 0.0 } else { self.error_of_family / self.expected.max(ROUNDING) }
+    }
+
+    /// Whether the expected error is at most 30 times `error`, which counts as at least [`ROUNDING`].
+    fn is_within_30(&self, error: f64) -> bool {
+        self.expected <= 30.0 * error.max(ROUNDING)
+    }
+}
+
+/// Solves the scene as planned.
+fn solve(scene: &TossScene) -> anyhow::Result<Solved> {
+    let mut outcome = Solved {
+        kind: scene.kind,
+        accuracy: scene.scene.accuracy,
+        model: None,
+        error: 0.0,
+        error_of_family: 0.0,
+        expected: 0.0,
+        input: input(&scene.scene, &case::text(&scene.toss.into())),
+    };
+    let choice = match scene.scene.plan() {
+        Ok(decision) => decision.choice,
+        Err(Error::Input(InputError::OutOfRange { field: "accuracy", .. }) | Error::Solve(_)) => return Ok(outcome),
+        Err(error) => return Err(error.into()),
+    };
+    let solution = scene.scene.solve()?;
+    ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
+    outcome.model = Some(choice.model);
+    outcome.expected = choice.expected_error;
+    outcome.error = Truth::new(&scene.toss).error(&scene.scene, &solution.answer)?;
+    outcome.error_of_family = outcome.error;
+    if !outcome.is_within_30(outcome.error) {
+        outcome.error_of_family = outcome.error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0));
+    }
+    Ok(outcome)
+}
+
+/// The scene in words; `of` names its toss or space.
+fn input(scene: &Scene, of: &str) -> String {
+    let wanted = scene.want.kind().name();
+    let by = scene.by.as_ref().map(|by| format!(" by {}", by.solver)).unwrap_or_default();
+    format!("{of} # {wanted} to {:e}{by}", scene.accuracy)
+}
+
+/// Samples a space as planned.
+fn solve_space(index: u64) -> anyhow::Result<Solved> {
+    const POINTS: u64 = 1 << 20;
+    let space = space(SEED, index)?;
+    let scene = Scene::new(Want::Probability(space), accuracy_of_a_probability(SEED, index));
+    let planned = scene.plan()?.choice;
+    let Answer::Probability(estimate) = planned.run(&scene)? else { bail!("a probability was planned") };
+    let error = (estimate.probability - true_probability(&space, POINTS)?).abs();
+    Ok(Solved {
+        kind: "probability",
+        accuracy: scene.accuracy,
+        model: Some(planned.model),
+        error,
+        error_of_family: error,
+        expected: planned.expected_error,
+        input: input(&scene, &format!("space {index} of seed {SEED}")),
+    })
+}
+
+/// The largest error of a choice on tosses that are similar to the scene's; `None` if it fails on one.
+fn largest_of_neighbours(choice: &Choice, scene: &TossScene) -> anyhow::Result<Option<f64>> {
+    const NEIGHBOURS: u64 = 8;
+    let mut largest = 0.0_f64;
+    for index in 0..NEIGHBOURS {
+        let toss = neighbour(&scene.toss, SEED, index)?;
+        let near = Scene { want: scene.scene.want.of(toss), ..scene.scene.clone() };
+        let Ok(answer) = choice.run(&near) else { return Ok(None) };
+        largest = largest.max(Truth::new(&toss).error(&near, &answer)?);
+    }
+    Ok(Some(largest))
+}
+
+/// Accuracy of the planner's choices.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlannerSummary {
+    /// One line per kind of scene, and one for all.
+    pub lines: Vec<Line>,
+}
+
+/// Accuracy over the scenes of one kind.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Line {
+    /// The kind, or `all`.
+    pub kind: String,
+    /// Number of scenes.
+    pub scenes: usize,
+    /// Number of scenes that were refused because no setting is accurate enough.
+    pub refused: usize,
+    /// Largest error divided by the accuracy that was asked for.
+    pub largest_error_by_accuracy: f64,
+    /// Largest error divided by the expected one.
+    pub largest_error_by_expected: f64,
+}
+
+impl Trial {
+    /// The kinds of scenes, in the order in which they first appear.
+    pub fn kinds(&self) -> Vec<&'static str> {
+        let mut kinds: Vec<&str> = Vec::new();
+        for outcome in &self.outcomes {
+            if !kinds.contains(&outcome.kind) {
+                kinds.push(outcome.kind);
+            }
+        }
+        kinds
+    }
+
+    /// One line per kind of scene, and one for all.
+    pub fn summary(&self) -> PlannerSummary {
+        let of = |kind: &str| self.line(kind, |outcome| outcome.kind == kind);
+        PlannerSummary { lines: self.kinds().into_iter().map(of).chain([self.line("all", |_| true)]).collect() }
+    }
+
+    fn line(&self, kind: &str, belongs: impl Fn(&Solved) -> bool) -> Line {
+        let outcomes: Vec<&Solved> = self.outcomes.iter().filter(|outcome| belongs(outcome)).collect();
+        let largest = |of: fn(&Solved) -> f64| outcomes.iter().map(|outcome| of(outcome)).fold(0.0, f64::max);
+        Line {
+            kind: kind.to_owned(),
+            scenes: outcomes.len(),
+            refused: outcomes.iter().filter(|outcome| outcome.model.is_none()).count(),
+            largest_error_by_accuracy: largest(Solved::error_by_accuracy),
+            largest_error_by_expected: largest(Solved::error_by_expected),
+        }
+    }
+}
+
+/// A scene about a toss.
+#[derive(Debug, Clone)]
+pub struct TossScene {
+    /// Its kind: what is wanted, or `integrator` if the scene asks for one.
+    pub kind: &'static str,
+    /// The scene.
+    pub scene: Scene,
+    /// Its toss.
+    pub toss: CoinToss,
+}
+
+/// A random toss. The coin is from the catalogue or any other; the rates are up to 60 rad/s or, in a third of the
+/// tosses, up to a limit between 0.1 and 1000 rad/s, some without spin and some with little wobble. Half of the
+/// launches start horizontal. One in six lands at another height, one in six has a given time of flight.
+fn random_toss(rng: &mut ChaCha8Rng) -> Result<CoinToss, InputError> {
+    let coin = match rng.random_range(0..3) {
+        0 => CATALOGUE[rng.random_range(0..CATALOGUE.len())].coin()?,
+        1 => Coin::from_moments(1.0, rng.random_range(1.9..2.0))?,
+        _ => Coin::from_moments(1.0, rng.random_range(0.0..2.0))?,
+    };
+    let largest = if rng.random_range(0..3) == 0 { decades(rng, -1.0, 3.0) } else { 60.0 };
+    let any = Vector3::from_fn(|_, _| rng.random_range(-largest..largest));
+    let rate = match rng.random_range(0..6) {
+        0 => Vector3::new(any.x, any.y, 0.0),
+        1 => Vector3::new(0.1 * any.x, 0.1 * any.y, any.z),
+        _ => any,
+    };
+    let tilt = if rng.random() { 0.0 } else { rng.random_range(0.0..PI) };
+    let (speed, gravity) = (rng.random_range(1.0..6.0), 9.81);
+    let time = match rng.random_range(0..6) {
+        0 => TimeOfFlight::thrown(speed, gravity, Some(rng.random_range(-0.9..1.5) * speed * speed / (2.0 * gravity))),
+        1 => TimeOfFlight::Given(decades(rng, -2.0, 1.0)),
+        _ => TimeOfFlight::thrown(speed, gravity, None),
+    };
+    Ok(CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(tilt)? })
+}
+
+/// A toss that differs from `toss` by up to 1 % in each rate and in time. Its errors are of the same size on average,
+/// but not the same.
+fn neighbour(toss: &CoinToss, seed: u64, index: u64) -> Result<CoinToss, InputError> {
+    let mut rng = stream(seed, index);
+    let launch = toss.launch;
+    let rate = launch.rate().map(|part| part * rng.random_range(0.99..1.01));
+    let time = TimeOfFlight::Given(launch.flight_time() * rng.random_range(0.99..1.01));
+    Ok(CoinToss { launch: Launch::new(rate, time)?.with_attitude(launch.attitude()), ..*toss })
+}
+
+/// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
+/// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
+/// 1e-2 to 1e-11.
+///
+/// # Errors
+/// Never: every scene is valid.
+pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+    let mut rng = stream(seed, index);
+    let toss = random_toss(&mut rng)?;
+    let kinds =
+        ["outcome", "outcome", "outcome", "tilt", "tilt", "tilt", "attitude", "attitude", "trace", "integrator"];
+    let kind = kinds[rng.random_range(0..kinds.len())];
+    let wanted = if kind == "integrator" { kinds[rng.random_range(0..9)] } else { kind };
+    let want = match wanted {
+        "outcome" => Want::Outcome(toss.into()),
+        "tilt" => Want::Tilt(toss.into()),
+        "attitude" => Want::Attitude(toss.into()),
+        _ => Want::Trace { toss: toss.into(), points: rng.random_range(2..8) },
+    };
+    let scene = if kind == "integrator" {
+        let entries: Vec<_> = Registry::standard().entries().iter().filter(|entry| entry.integrates()).collect();
+        let scheme = [None, Some("dop853"), Some("dopri5")][rng.random_range(0..3)];
+        let solver = entries[rng.random_range(0..entries.len())].name();
+        Scene::new(want, decades(&mut rng, -11.0, -2.0)).by(solver, scheme)
+    } else {
+        Scene::new(want, decades(&mut rng, -14.7, -2.0))
+    };
+    Ok(TossScene { kind, scene, toss })
+}
+
+/// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
+/// of five have a range of speeds.
+///
+/// # Errors
+/// Never: every space is valid.
+pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
+    let mut rng = stream(seed, index);
+    let mut range = |free: f64, from: f64, to: f64, width: f64| {
+        let lo = rng.random_range(from..to);
+        if rng.random_range(0.0..1.0) < free {
+            format!("{lo}:{}", lo + rng.random_range(0.1..1.0) * width)
+        } else {
+            lo.to_string()
+        }
+    };
+    let texts = [
+        (Coordinate::RateX, range(0.6, 0.0, 40.0, 30.0)),
+        (Coordinate::RateY, range(0.3, 0.0, 40.0, 30.0)),
+        (Coordinate::RateZ, range(0.3, 0.0, 40.0, 30.0)),
+        (Coordinate::Speed, range(0.8, 2.0, 4.0, 3.0)),
+        (Coordinate::Tilt, range(0.2, 0.0, 0.5, 1.0)),
+    ];
+    let texts = texts.each_ref().map(|(of, text)| (*of, text.as_str()));
+    let coin = if index.is_multiple_of(2) { Coin::PAPER } else { Coin::from_moments(1.0, 1.95)? };
+    Space::parse(coin, &texts)
+}
+
+/// The accuracy that scene number `index` asks of a probability, from 1e-1 to 1e-3.
+pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
+    decades(&mut stream(seed, index), -3.0, -1.0)
+}
+
+/// The exact answer to every scene about one toss.
+pub struct Truth {
+    landing: Reference,
+    toss: CoinToss,
+}
+
+impl Truth {
+    /// Solves `toss` with the 256-bit reference.
+    pub fn new(toss: &CoinToss) -> Self {
+        Self { landing: Reference::new(toss), toss: *toss }
+    }
+
+    /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
+    /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
+    /// most twice the scene's accuracy.
+    ///
+    /// # Errors
+    /// Never: the times of a trace are valid.
+    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, InputError> {
+        let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
+        Ok(match answer {
+            Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
+                wrong(self.landing.cos_tilt_error(0.0) > 2.0 * scene.accuracy)
+            }
+            Answer::Outcome(verdict) => wrong(verdict.outcome() != self.landing.outcome()),
+            Answer::Tilt(cos_tilt) => self.landing.cos_tilt_error(*cos_tilt),
+            Answer::Attitude(state) => self.landing.attitude_error(&state.attitude),
+            Answer::Enclosed(found) => {
+                let of_attitude = self.landing.attitude_error(&found.landing().state.attitude);
+                of_attitude.max(self.landing.cos_tilt_error(found.cos_tilt()))
+            }
+            Answer::Trace(points) => self.trace_error(points)?,
+            Answer::Probability(_) => f64::INFINITY,
+        })
+    }
+
+    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, InputError> {
+        let mut largest = 0.0_f64;
+        let launch = self.toss.launch;
+        for point in points {
+            // The last point is the landing, whose time is not rounded to f64.
+            let error = if point.time == launch.flight_time() {
+                self.landing.attitude_error(&point.attitude)
+            } else {
+                let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
+                Reference::new(&CoinToss { launch: until, ..self.toss }).attitude_error(&point.attitude)
+            };
+            largest = largest.max(error);
+        }
+        Ok(largest)
+    }
+}
+
+/// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the
+/// intervals of speeds that land heads if only the speed is free, otherwise by `points` launches with another seed,
+/// many more than the models use.
+///
+/// # Errors
+/// Never for such a [`space`].
+pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
+    const OTHER_SEED: u64 = 987_654_321;
+    let free: Vec<Coordinate> = space.free().collect();
+    let scrambled = Scrambled::new(points, OTHER_SEED);
+    let is_of_coins = space.coin().is_some();
+    if free == [Coordinate::Speed] && is_of_coins {
+        return share_by_intervals(space);
+    }
+    let plan = if free.contains(&Coordinate::Speed) && is_of_coins {
+        Plan::ExactSpeed(Rest::Sobol(scrambled))
+    } else {
+        Plan::Sobol(scrambled)
+    };
+    let Estimate { probability, .. } = Sampler::exact().estimate(space, plan)?;
+    Ok(probability)
+}
+
+fn share_by_intervals(space: &Space) -> Result<f64, Error> {
+    let value = |of| space.axis(of).bounds()[0];
+    let [slowest, fastest] = space.axis(Coordinate::Speed).bounds();
+    let rate = Vector3::new(value(Coordinate::RateX), value(Coordinate::RateY), value(Coordinate::RateZ));
+    let time = TimeOfFlight::thrown(fastest, value(Coordinate::Gravity), None);
+    let coin = space.coin().ok_or(NO_COIN)?;
+    let toss = CoinToss { coin, launch: Launch::new(rate, time)?.with_tilt(value(Coordinate::Tilt))? };
+    let intervals = level_speeds_of_heads(&toss, slowest)?;
+    let length: f64 = intervals.into_iter().flatten().map(|[slow, fast]| fast - slow).sum();
+    Ok(length / (fastest - slowest))
+}
