@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use toss::{
-    ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping,
-    TimeOfFlight, Toss,
+    ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight,
+    Toss,
 };
 use verify::Effort;
 use verify::host::Host;
