@@ -1,14 +1,13 @@
 //! The contest flies all contestants from the same launches, beside solvers of this workspace: the random launches of
 //! the verification suite, its atlas of hazards, and coins that are far slower and far faster than any hand throws.
 
-use std::time::Instant;
-
 use serde::{Deserialize, Serialize};
 use toss::{
     CoinToss, ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping,
     TimeOfFlight, Toss,
 };
 use verify::Effort;
+use verify::clock;
 use verify::host::Host;
 use verify::measure::any_case::AnyCase;
 use verify::measure::atlas::Atlas;
@@ -263,14 +262,12 @@ fn setting(stepping: Option<Stepping>) -> String {
 fn nanoseconds(solver: &dyn Solver, cases: &[Case]) -> f64 {
     let tosses: Vec<Toss> = cases.iter().map(|case| case.toss.into()).collect();
     let pass = || {
-        let began = Instant::now();
         for toss in &tosses {
             // Failed flights take time, too.
             let _ = std::hint::black_box(solver.land(std::hint::black_box(toss)));
         }
-        began.elapsed().as_nanos() as f64
     };
-    (0..TIMES).map(|_| pass()).fold(f64::INFINITY, f64::min) / cases.len().max(1) as f64
+    clock::nanoseconds(clock::times(pass, |runs, _| runs < TIMES)[0]) / cases.len().max(1) as f64
 }
 
 #[cfg(test)]

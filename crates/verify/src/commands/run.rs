@@ -1,5 +1,5 @@
-//! The command `run` runs the checks of a suite, writes their reports, and compares the result with the baseline. It
-//! shows what the library does; it measures and judges nothing itself.
+//! Runs the checks of a suite, writes their reports, and compares the result with the baseline; or lists the checks, or
+//! solves one toss again. It shows what the library does; it measures and judges nothing itself.
 
 use std::path::Path;
 
@@ -7,17 +7,26 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::program::Foreign;
-use crate::render::{Report, github, junit, left_out, moves, table};
+use crate::measure::any_case::AnyCase;
+use crate::measure::atlas;
+use crate::measure::atlas::conditioning::Conditioning;
+use crate::measure::checks::of_toss;
+use crate::render::{Report, github, junit, text, words};
 use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
-use crate::{Check, Effort, files};
+use crate::{CHECKS, Check, Effort, files};
 
-/// Run the checks; write report.html, report.json, junit.xml and charts
+/// Run the checks: one line a check, and in full what fails
+///
+/// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
+///
+/// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
+/// within bounds; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct Run {
-    /// Fewer cases: within a minute on two cores
+    /// Take fewer cases: within a minute on two cores, once built
     #[arg(long, conflicts_with = "deep")]
     quick: bool,
-    /// Ten times as many cases
+    /// Take ten times as many cases
     #[arg(long)]
     deep: bool,
     /// Run this check alone
@@ -37,6 +46,21 @@ pub(super) struct Run {
     time_factor: Option<f64>,
     #[command(flatten)]
     foreign: Foreign,
+    #[command(flatten)]
+    instead: Instead,
+}
+
+/// What is done instead of running the checks.
+#[derive(Debug, Args)]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor"])]
+struct Instead {
+    /// List the checks and what they claim
+    #[arg(long, conflicts_with = "command")]
+    list: bool,
+    /// Solve one toss, given as the hex floats of a worst input, by every solver, scheme and formulation; for the solvers
+    /// of this workspace, take every measure of proofs, batches and margins on it, too
+    #[arg(long, value_name = "INPUT", value_parser = input)]
+    replay: Option<Box<AnyCase>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -46,6 +70,11 @@ enum Format {
     Junit,
     /// The text, then annotations; the summary is appended to the file that $GITHUB_STEP_SUMMARY names
     Github,
+}
+
+/// Reads a toss from a line of hex floats.
+fn input(line: &str) -> Result<Box<AnyCase>, String> {
+    AnyCase::from_hex(line).map(Box::new).map_err(|error| format!("{error:#}"))
 }
 
 fn known_check(id: &str) -> Result<&'static Check, String> {
@@ -63,13 +92,21 @@ const SUMMARY: &str = "GITHUB_STEP_SUMMARY";
 impl Run {
     /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
     pub(super) fn run(&self, suite: Suite, out: &Path) -> anyhow::Result<u8> {
-        let suite = self.asked_for(self.foreign.in_place_of(suite, out)?);
-        let verified = measure(&suite)?;
+        if self.instead.list {
+            return list();
+        }
+        let suite = self.foreign.in_place_of(suite, out)?;
+        if let Some(case) = &self.instead.replay {
+            return replay(&suite, case, self.foreign.is_given());
+        }
+        let suite = self.asked_for(suite);
+        let mut verified = measure(&suite)?;
+        // The reports know the baseline that the run has written, and are written even if it could not be.
+        let is_accepted = self.bless && verified.verdict() != Verdict::Fail;
+        let accepted = if is_accepted { suite.accept(&mut verified) } else { Ok(()) };
         verified.write(out)?;
         self.print(&verified, out)?;
-        if self.bless && verified.verdict() != Verdict::Fail {
-            suite.accept(&verified)?;
-        }
+        accepted?;
         Ok(verified.exit_code())
     }
 
@@ -107,13 +144,37 @@ impl Run {
     }
 
     fn text(&self, verified: &Verified, report: &Report<'_>, out: &Path) -> String {
-        let moved = moves::text(report.moves, report.rows);
+        let moved = words::moves(report.moves, report.rows);
         let compared = report.baseline.words(report.moves);
-        let (table, verdict) = (table::text(report, self.verbose), table::verdict(report.rows));
-        let left_out = left_out::text(report.left_out);
+        let (table, verdict) = (text::report(report, self.verbose), text::passing(report.rows));
+        let left_out = words::left_out(report.left_out);
         let written = written(verified, out);
         format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
     }
+}
+
+/// Prints the id, the evidence, what is judged and the claim of every check, one line each.
+fn list() -> anyhow::Result<u8> {
+    let line =
+        |check: &Check| format!("{:<36} [{}; {}] {}\n", check.id, check.basis.name(), check.judges.name(), check.claim);
+    files::print(&CHECKS.iter().map(line).collect::<String>())?;
+    Ok(0)
+}
+
+/// Solves one toss with every solver, scheme and formulation and prints their answers side by side. Below come the
+/// deviations that the checks of the library measure on that toss: proofs, batches at every SIMD level, margins. They say
+/// nothing about a foreign program.
+fn replay(suite: &Suite, case: &AnyCase, is_foreign: bool) -> anyhow::Result<u8> {
+    let answers = atlas::replay(suite.registry().entries(), case)?;
+    let solvers = text::runs(&answers, Conditioning::of_any(case)?);
+    // The checks of the library measure coins.
+    let measured = match case {
+        AnyCase::Coin(case) if !is_foreign => of_toss::replay(case),
+        _ => Vec::new(),
+    };
+    let of_library = text::of_library(measured.iter().map(|(one, deviation)| (one.check, one.part, deviation)));
+    files::print(&format!("{solvers}{of_library}"))?;
+    Ok(0)
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.
@@ -127,7 +188,7 @@ fn measure(suite: &Suite) -> anyhow::Result<Verified> {
             progress.inc(1);
             progress.set_message(check.id);
         }
-        Progress::Ended(rows, timing) => progress.suspend(|| files::say(&table::ended(rows, timing))),
+        Progress::Ended(rows, timing) => progress.suspend(|| files::say(&text::ended(rows, timing))),
     })?;
     progress.finish_and_clear();
     Ok(verified)

@@ -5,8 +5,8 @@
 
 use std::fmt::Write;
 
-use super::words::{Block, comparison, margin, worst_first};
-use super::{Report, moves};
+use super::words::{Block, comparison, reserve, verdict, worst_first};
+use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::{Direction, Move};
 
@@ -24,12 +24,12 @@ pub fn annotations(report: &Report<'_>) -> String {
     let errors = failing.iter().map(|row| {
         let replay = row.replay.as_ref().map_or_else(String::new, |replay| format!("\nRepeat with: {replay}"));
         let why = row.failure.as_ref().map_or_else(String::new, |why| format!("\n{why}"));
-        let text = format!("{}: {} ({}){why}{replay}", row.status.name(), comparison(row), margin(row));
+        let text = format!("{}: {} ({}){why}{replay}", verdict(row), comparison(row), reserve(row));
         (format!("{} / {}", row.check, row.subject), text)
     });
     let warnings = worse(report).into_iter().map(|moved| {
-        let replay = moves::replay(moved, report.rows);
-        let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", moves::change(moved));
+        let replay = words::replay(moved, report.rows);
+        let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", words::change(moved));
         (format!("{} / {}", moved.check, moved.subject), text)
     });
     listed("error", errors.collect()) + &listed("warning", warnings.collect())
@@ -76,15 +76,15 @@ pub fn summary(report: &Report<'_>) -> String {
         blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes()).collect();
     out += &in_full("Fails", bad.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
     let moved =
-        |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), moves::change(moved));
-    let moved = |found: &&Move| (moved(found), moves::replay(found, report.rows));
+        |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), words::change(moved));
+    let moved = |found: &&Move| (moved(found), words::replay(found, report.rows));
     out += &in_full("Worse than the baseline", worse(report).iter().map(moved));
     out += "\n<details><summary>All checks, the worst first</summary>\n\n";
-    out += "| | check | rows | worst row | measured and bound | |\n|---|---|---|---|---|---|\n";
+    out += "| | check | rows | worst row | measured and limit | |\n|---|---|---|---|---|---|\n";
     for block in &blocks {
         let (worst, sign) = (block.worst(), if block.failing() == 0 { "✅" } else { "❌" });
         let (check, subject, rows) = (cell(&worst.check), cell(&worst.subject), block.rows.len());
-        let _ = writeln!(out, "| {sign} | {check} | {rows} | {subject} | {} | {} |", comparison(worst), margin(worst));
+        let _ = writeln!(out, "| {sign} | {check} | {rows} | {subject} | {} | {} |", comparison(worst), reserve(worst));
     }
     out + "\n</details>\n"
 }
@@ -92,7 +92,7 @@ pub fn summary(report: &Report<'_>) -> String {
 fn failed(row: &Row) -> String {
     let why = row.failure.as_ref().map_or_else(String::new, |why| format!(". {}", cell(why)));
     let name = format!("**{} / {}**", cell(&row.check), cell(&row.subject));
-    format!("{name}: {}, {} ({}){why}", row.status.name(), comparison(row), margin(row))
+    format!("{name}: {}, {} ({}){why}", verdict(row), comparison(row), reserve(row))
 }
 
 /// A heading, and each item with its command; empty without items.

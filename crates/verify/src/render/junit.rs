@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
-use super::words::{Block, comparison, margin};
-use super::{Report, moves};
+use super::words::{Block, comparison, reserve, verdict};
+use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::{Direction, Move};
 
@@ -42,14 +42,14 @@ fn test_case(row: &Row) -> TestCase {
     let status = if row.status.passes() {
         TestCaseStatus::success()
     } else {
-        let message = format!("{}: {} ({})", row.status.name(), comparison(row), margin(row));
+        let message = format!("{}: {} ({})", verdict(row), comparison(row), reserve(row));
         let detail = [&row.failure, &row.worst_input, &row.replay];
         failure(message, &detail.into_iter().flatten().map(String::as_str).collect::<Vec<_>>())
     };
     let mut case = TestCase::new(row.subject.as_str(), status);
     case.set_classname(row.check.as_str());
     let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));
-    let numbers = [("measured", shown(row.measured)), ("bound", shown(row.bound)), ("unit", Some(row.unit.clone()))];
+    let numbers = [("measured", shown(row.measured)), ("limit", shown(row.limit)), ("unit", Some(row.unit.clone()))];
     let judges = ("judges", row.judges.map(|judges| judges.name().to_owned()));
     case.add_properties(
         numbers.into_iter().chain([judges]).filter_map(|(name, value)| Some(Property::new(name, value?))),
@@ -59,10 +59,10 @@ fn test_case(row: &Row) -> TestCase {
 
 /// The failing case for a row that became worse.
 fn worse_case(moved: &Move, rows: &[Row]) -> TestCase {
-    let replay = moves::replay(moved, rows);
+    let replay = words::replay(moved, rows);
     let mut case = TestCase::new(
         format!("{}: {}", moved.subject, moved.what),
-        failure(format!("worse than the baseline: {}", moves::change(moved)), &[&replay]),
+        failure(format!("worse than the baseline: {}", words::change(moved)), &[&replay]),
     );
     case.set_classname(format!("{WORSE}.{}", moved.check));
     let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));
