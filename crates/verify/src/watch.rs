@@ -76,7 +76,7 @@ pub fn run(
         let timing = clock.timing();
         match result {
             Some(Ok(Ok(measured))) => end(check, timing, End::Measured(measured))?,
-            Some(Ok(Err(error))) => end(check, timing, End::Failed(format!("could not measure: {error:#}")))?,
+            Some(Ok(Err(error))) => end(check, timing, End::Failed(format!("could not measure: {error}")))?,
             Some(Err(panic)) => end(check, timing, End::Failed(format!("panicked: {}", words(&*panic))))?,
             None => {
                 let left = checks.len() - index - 1;

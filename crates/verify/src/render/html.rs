@@ -175,12 +175,13 @@ fn reached(report: &Report<'_>) -> Markup {
             td { (error) } td.wide { (calls) } td { (time) } td.wide { (fewer) } td { (less) }
         } }
     };
+    let enough = html! { span.whole { "to " (format!("{ENOUGH:e}")) " rad" } };
     html! {
         section {
             h2 { "What each solver reaches, at which cost" }
             table.numbers {
-                tr { th rowspan="2" { "solver" } th colspan="3" { "the smallest error" } th colspan="2" { "within " (format!("{ENOUGH:e}")) " rad" } }
-                tr { th { "error" } th.wide { "calls" } th { "time" } th.wide { "calls" } th { "time" } }
+                tr { th { "solver" } th { "smallest error" } th.wide { "calls" } th { "time" }
+                     th.wide { "calls " (enough) } th { "time " (enough) } }
                 @for one in &all { (line(one)) }
             }
             p.faint { "The largest error of the attitude over the " (launches) " launches of the problem " (problem) ", calls of the \
