@@ -9,7 +9,7 @@ use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseS
 use super::words::{Block, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
-use crate::judge::baseline::{Direction, Move};
+use crate::judge::baseline::Move;
 
 /// Name of the suite of what became worse.
 const WORSE: &str = "worse than the baseline";
@@ -29,7 +29,7 @@ pub fn xml(report: &Report<'_>) -> anyhow::Result<String> {
         suite.add_test_cases(block.rows.iter().map(|row| test_case(row)));
         junit.add_test_suite(suite);
     }
-    let worse: Vec<&Move> = report.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect();
+    let worse = report.worse();
     if !worse.is_empty() {
         let mut suite = TestSuite::new(WORSE);
         suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, report.rows)));
