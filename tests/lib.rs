@@ -133,12 +133,7 @@ pub fn rates() -> impl Strategy<Value = f64> {
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The Rust of the guide runs.
+/// The Rust of the page for authors of solvers compiles.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/guide/your-own.md")]
-pub struct Guide;
-
-/// The Rust of the page for authors of integrators compiles.
-#[cfg(doctest)]
-#[doc = include_str!("../docs/your-integrator.md")]
-pub struct YourIntegrator;
+#[doc = include_str!("../docs/your-solver.md")]
+pub struct YourSolver;

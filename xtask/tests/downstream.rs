@@ -1,4 +1,6 @@
-//! Uses `toss` as other people do: from a crate outside this workspace, which has a path dependency and nothing else of it.
+//! Uses `toss` and `verify` as other people do: from crates outside this workspace, which have path dependencies and nothing
+//! else of it.
+//!
 //! The Rust of README.md and of the front page of `toss` has to compile and run there, too, with the dependency that
 //! README.md shows.
 
@@ -115,6 +117,47 @@ fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_work
     assert!(run.status.success(), "{stdout}{stderr}");
     // What the README says that its program prints.
     assert_eq!(stdout, "heads: 0.66566129, integrated 0.66566129\n");
+}
+
+/// The crate of docs/your-solver.md, with the sources of this workspace in place of their address. Its profiles are those of
+/// the workspace, so that what the workspace has built is not built again.
+fn write_crate_of_the_page() -> PathBuf {
+    let page = read("docs/your-solver.md");
+    let block = |kind: &str| {
+        let block = page.split(&format!("```{kind}\n")).nth(1).and_then(|rest| rest.split("```").next());
+        block.unwrap_or_else(|| panic!("no block {kind}")).to_owned()
+    };
+    let folder = root().join("target/your-solver");
+    std::fs::create_dir_all(folder.join("src")).expect("a folder");
+    let mut manifest = block("toml Cargo.toml");
+    for name in ["toss", "verify"] {
+        let path = root().join("crates").join(name);
+        let line = format!("{name} = {{ git = \"https://github.com/YOU/unfair-toss\" }}");
+        assert!(manifest.contains(&line), "{manifest}");
+        manifest = manifest.replace(&line, &format!("{name} = {{ path = {:?} }}", path.display().to_string()));
+    }
+    let workspace = read("Cargo.toml");
+    let profiles = &workspace[workspace.find("[profile.dev]").expect("profiles")..];
+    let profiles: Vec<&str> = profiles.split_inclusive("\n\n").filter(|part| !part.contains("criterion]")).collect();
+    manifest += &format!("\n[workspace]\n\n{}", profiles.concat());
+    std::fs::write(folder.join("Cargo.toml"), manifest).expect("written");
+    std::fs::write(folder.join("src/main.rs"), block("rust,no_run src/main.rs")).expect("written");
+    std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("copied");
+    folder
+}
+
+#[test]
+fn the_crate_of_the_page_for_solvers_is_built_outside_the_workspace_and_passes_a_check() {
+    let folder = write_crate_of_the_page();
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let target = test.ancestors().nth(3).expect("the folder of builds");
+    let profile: &[&str] = if cfg!(debug_assertions) { &[] } else { &["--release"] };
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["run", "--offline", "--quiet"]).args(profile).arg("--target-dir").arg(target);
+    let run = cargo.args(["--", "--quick", "--only", "random-attitude"]).current_dir(&folder).output();
+    let run = run.expect("cargo starts");
+    let (stdout, stderr) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+    assert!(run.status.success() && stdout.contains("All 1 rows pass: two-turns."), "{stdout}{stderr}");
 }
 
 #[test]

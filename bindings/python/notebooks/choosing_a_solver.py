@@ -146,4 +146,4 @@ for accuracy in (1e-3, 1e-6, 1e-9):
 
 # %% [markdown]
 # To put an integrator under the whole suite, some sixty checks, make it a program that reads launches and writes attitudes
-# (`docs/your-integrator.md`): `cargo xtask verify --command "python3 crates/contestants/python/dop853.py"` judges SciPy's.
+# (`docs/your-solver.md`): `cargo xtask verify --command "python3 crates/contestants/python/dop853.py"` judges SciPy's.

@@ -19,7 +19,7 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("README.md", "sh", 1, "", "it would install the program"),
     ("README.md", "rust", 1, "xtask/tests/downstream.rs", "runs it in a crate outside the workspace"),
     ("README.md", "python", 1, "bindings/python/tests/test_package.py", "runs it"),
-    ("docs/ci.md", "sh", 1, "", "a baseline begins with a whole run; suite.rs of verify reads proposed bounds"),
+    ("docs/ci.md", "sh", 1, "crates/verify/tests/pages.rs", "runs them in their order"),
     ("docs/ci.md", "yaml", 1, "crates/verify/tests/reports.rs", "runs the options of the workflow"),
     ("docs/ci.md", "yaml", 1, "", "it needs GitLab; its options are among those of the workflow"),
     ("docs/more-machines.md", "python", 1, "bindings/python/tests/test_more_machines.py", "runs it, with less to do"),
@@ -30,13 +30,12 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("docs/guide/machines.md", "sh", 1, "crates/cli/tests/documents.rs", "the parts and their sum, below"),
     ("docs/guide/python.md", "python", 4, "bindings/python/tests/test_package.py", "runs them"),
     ("docs/guide/python.md", "sh", 1, ".ci/python", "builds and installs the package"),
-    ("docs/guide/your-own.md", "rust", 1, "tests/lib.rs", "compiles and runs it"),
-    ("docs/your-integrator.md", "text", 1, "crates/verify/tests/process.rs", "compares the columns"),
-    ("docs/your-integrator.md", "python", 1, "crates/verify/tests/programs/mod.rs", "its users judge the program"),
-    ("docs/your-integrator.md", "rust", 1, "tests/lib.rs", "compiles it"),
-    ("docs/your-integrator.md", "rust,ignore", 1, "", "it needs the crate ivp; crates/contestants has it in full"),
-    ("docs/your-solver.md", "toml", 1, "", "its address is the reader's own"),
-    ("docs/your-solver.md", "rust", 2, "crates/verify/tests/suite.rs", "compares them with the example, and runs that"),
+    ("docs/your-solver.md", "text", 1, "crates/verify/tests/process.rs", "compares the columns"),
+    ("docs/your-solver.md", "sh program", 1, "crates/verify/tests/pages.rs", "runs it with the program of the page"),
+    ("docs/your-solver.md", "text program", 1, "crates/verify/tests/pages.rs", "compares the report"),
+    ("docs/your-solver.md", "rust", 1, "tests/lib.rs", "compiles it"),
+    ("docs/your-solver.md", "sh crate", 1, "crates/verify/tests/pages.rs", "runs it with the crate of the page"),
+    ("docs/your-solver.md", "text crate", 1, "crates/verify/tests/pages.rs", "compares the report"),
 ];
 
 /// A fenced block: what stands behind its opening fence, and its lines.
@@ -99,7 +98,9 @@ fn run_console_blocks(path: &str) -> usize {
     let mut run = 0;
     for block in blocks(&read(path)) {
         if let Some(name) = shown_file(&block) {
-            fs::write(folder.path().join(name), &block.lines).expect("the folder is writable");
+            let file = folder.path().join(name);
+            fs::create_dir_all(file.parent().expect("a folder")).expect("the folder is writable");
+            fs::write(file, &block.lines).expect("the folder is writable");
         }
         if block.kind != "console" {
             continue;

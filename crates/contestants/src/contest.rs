@@ -1,14 +1,13 @@
 //! The contest flies all contestants from the same launches, beside solvers of this workspace: the random launches of
 //! the verification suite, its atlas of hazards, and coins that are far slower and far faster than any hand throws.
 
-use std::time::Instant;
-
 use serde::{Deserialize, Serialize};
 use toss::{
     ExactSolver, InputError, Launch, QuaternionSolver, Scheme, Settings, Solver, SolverEntry, Stepping, TimeOfFlight,
     Toss,
 };
 use verify::Effort;
+use verify::clock;
 use verify::host::Host;
 use verify::measure::atlas::Atlas;
 use verify::measure::atlas::hazards::HAZARDS;
@@ -259,14 +258,12 @@ fn setting(stepping: Option<Stepping>) -> String {
 /// The shortest time per launch (ns) of some passes over `tosses`.
 fn nanoseconds(solver: &dyn Solver, tosses: &[Toss]) -> f64 {
     let pass = || {
-        let began = Instant::now();
         for toss in tosses {
             // Failed flights take time, too.
             let _ = std::hint::black_box(solver.land(std::hint::black_box(toss)));
         }
-        began.elapsed().as_nanos() as f64
     };
-    (0..TIMES).map(|_| pass()).fold(f64::INFINITY, f64::min) / tosses.len().max(1) as f64
+    clock::nanoseconds(clock::times(pass, |runs, _| runs < TIMES)[0]) / tosses.len().max(1) as f64
 }
 
 #[cfg(test)]

@@ -1,8 +1,4 @@
-//! How do you put a solver of your own under the checks of this workspace? Write it as a `Solver`, and give its registry
-//! to `verify::main`. The program then has all options of `cargo xtask verify`: `cargo run --release -- --quick`.
-//!
-//! The solver here is the free motion as two turns, one after the other: about the angular momentum, whose direction is
-//! fixed, and about the coin's normal.
+//! A solver of coins: two turns, one after the other, about the angular momentum and about the normal.
 
 use std::process::ExitCode;
 
@@ -15,6 +11,7 @@ impl Solver for TwoTurns {
     fn name(&self) -> &str {
         "two-turns"
     }
+
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let toss = toss.of_coin(self.name(), "its turns are those of I1 = I2")?;
         let (rate, time, k) = (toss.launch.rate(), toss.launch.flight_time(), toss.coin.inertia_ratio());
@@ -30,7 +27,6 @@ impl Solver for TwoTurns {
     }
 }
 
-/// The solver as the entry of a registry.
 pub(crate) fn entry() -> SolverEntry {
     SolverEntry::new("two-turns", "two turns in f64", |_| Box::new(TwoTurns))
 }

@@ -19,6 +19,7 @@
 //! solver of its own by `verify::main(Suite::new(registry))`.
 
 pub mod bench;
+pub mod clock;
 mod commands;
 mod data;
 mod error;

@@ -1,4 +1,4 @@
-//! Runs checks one after the other on a thread of their own and watches them, so that a check that panics or never ends
+//! Runs checks one after the other on a thread of their own and watches them, so that a check that panics, cannot measure or never ends
 //! becomes a failing row instead of the end of the report.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -52,7 +52,7 @@ type Sent = std::thread::Result<anyhow::Result<Vec<Measurement>>>;
 /// A check that is hopeless is left behind: its thread goes on until the program ends, and no check comes after it.
 ///
 /// # Errors
-/// If a check can't measure, or as `start` and `end`.
+/// If no thread can be started, or as `end`.
 pub fn run(
     checks: &[&'static Check],
     context: &Arc<Context>,
@@ -75,7 +75,8 @@ pub fn run(
         };
         let timing = clock.timing();
         match result {
-            Some(Ok(measured)) => end(check, timing, End::Measured(measured?))?,
+            Some(Ok(Ok(measured))) => end(check, timing, End::Measured(measured))?,
+            Some(Ok(Err(error))) => end(check, timing, End::Failed(format!("could not measure: {error}")))?,
             Some(Err(panic)) => end(check, timing, End::Failed(format!("panicked: {}", words(&*panic))))?,
             None => {
                 let left = checks.len() - index - 1;

@@ -78,14 +78,14 @@ fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fai
 }
 
 #[test]
-fn every_case_of_a_junit_has_what_was_measured_its_bound_and_unit() {
+fn every_case_of_a_junit_has_what_was_measured_its_limit_and_unit() {
     let ran = Ran::new("junit", None, Path::new(""));
     let junit = ran.stdout();
     assert_eq!(junit.trim_end(), ran.file("junit.xml").trim_end());
     assert!(!junit.contains("Some("), "{junit}");
     let cases = junit.matches("<testcase ").count();
     assert_eq!(cases, subjects());
-    for property in ["measured", "bound", "unit", "judges"] {
+    for property in ["measured", "limit", "unit", "judges"] {
         assert_eq!(junit.matches(&format!("<property name=\"{property}\"")).count(), cases, "{property}");
     }
     assert!(junit.lines().nth(2).is_some_and(|suite| suite.contains("time=\"")), "{junit}");
@@ -136,7 +136,7 @@ fn the_metrics_are_in_the_formats_of_bencher_and_of_github_action_benchmark() {
     let entry = entry.expect("the row");
     assert_eq!((entry["value"].as_f64(), entry["unit"].as_str()), (Some(error), Some("1")));
     assert!(
-        entry["extra"].as_str().unwrap().contains("margin") && list.as_array().unwrap().len() == subjects(),
+        entry["extra"].as_str().unwrap().contains("reserve") && list.as_array().unwrap().len() == subjects(),
         "{list}"
     );
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 use toss::{Coin, ExactSolver, Landing, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
+use verify::host::Host;
 use verify::judge::baseline::Baseline;
 use verify::judge::bounds::Bounds;
 use verify::judge::time::Timing;
@@ -169,9 +170,10 @@ fn report() -> Value {
     rows.push(timing(Some(51.0)).row().expect("a slow check"));
     let before = "check,subject,error,calls\nreference-cos-tilt,exact,0,\ngone,all,1.5,7\n";
     let moves = Baseline::parse(before).expect("a baseline").moves(&Baseline::of(&rows, None), true);
-    let compared = Compared { file: "quick.csv".to_owned(), found: true };
+    let compared = Compared { file: "quick.csv".to_owned(), found: true, written: false };
+    let host = Host::here();
     let (timings, left_out) = ([timing(Some(51.0)), timing(None)], [LeftOut::about_the_library(&CHECKS[0])]);
-    let report = Report::new(Effort::Quick, &rows, &timings, compared, &moves, &left_out, context.records());
+    let report = Report::new(&host, Effort::Quick, &rows, &timings, compared, &moves, &left_out, context.records());
     serde_json::from_str(&report.json().expect("JSON")).expect("JSON")
 }
 

@@ -1,4 +1,4 @@
-//! DOP853 of SciPy, as a program in Python; see `python/dop853.py`. It integrates in SI units, as it would be used.
+//! DOP853 of SciPy, as a program in Python; see `python/dop853.py`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -22,7 +22,7 @@ pub fn entry(folder: &Path) -> Result<SolverEntry, String> {
 pub fn named(command: &str) -> SolverEntry {
     // A long flight to a small tolerance takes a minute.
     let limits = Limits { answer: Duration::from_secs(30), total: Duration::from_secs(3600), ..Limits::default() };
-    let summary = "DOP853 of SciPy 1.17 in Python, in SI units";
+    let summary = "DOP853 of SciPy 1.17 in Python";
     Program::new(command).with_summary(summary).with_limits(limits).entry("scipy").with_color([140, 86, 75])
 }
 

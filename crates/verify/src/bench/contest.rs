@@ -1,9 +1,10 @@
 //! A contest times contestants: ways to solve many tosses. They are timed in turn, many times over, so that a change of
 //! the machine's speed does not favour one of them.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::reference::Reference;
+use crate::clock;
 
 /// A way to solve tosses, to be timed.
 pub(super) struct Contest<'a> {
@@ -49,12 +50,7 @@ impl Contest<'_> {
     /// The shortest time of a toss (ns) over the runs that fit into a short time.
     fn nanoseconds(&mut self) -> f64 {
         const BUDGET: Duration = Duration::from_micros(500);
-        let (start, mut shortest) = (Instant::now(), Duration::MAX);
-        while shortest == Duration::MAX || start.elapsed() < BUDGET {
-            let begin = Instant::now();
-            (self.run)();
-            shortest = shortest.min(begin.elapsed());
-        }
-        shortest.as_secs_f64() * 1e9 / self.tosses as f64
+        let times = clock::times(&mut self.run, |_, spent| spent < BUDGET);
+        clock::nanoseconds(times[0]) / self.tosses as f64
     }
 }

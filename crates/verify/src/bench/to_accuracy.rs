@@ -7,7 +7,6 @@
 //! dimensions that are heads or tails on either side of a surface. That of exact-speed is fitted.
 
 use std::fmt;
-use std::time::Instant;
 
 use anyhow::Context;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -15,6 +14,7 @@ use sampling::{Estimate, Plan, Rest, Sampler, Scrambled, Space, named_space};
 use toss::Error;
 use toss::planner::Nanoseconds;
 
+use crate::clock;
 use crate::host::Host;
 use crate::slope::slope;
 use crate::spaces::box_of_launches;
@@ -105,18 +105,10 @@ impl ToAccuracy {
 /// An estimate and its time (ns).
 fn timed(pool: &ThreadPool, space: &Space, plan: Plan) -> Result<(Estimate, f64), Error> {
     const RUNS: usize = 3;
-    let mut shortest = f64::INFINITY;
-    let mut run = || {
-        let begin = Instant::now();
-        let found = pool.install(|| Sampler::exact().estimate(space, plan))?;
-        shortest = shortest.min(begin.elapsed().as_secs_f64() * 1e9);
-        Ok::<Estimate, Error>(found)
-    };
-    for _ in 1..RUNS {
-        run()?;
-    }
-    let found = run()?;
-    Ok((found, shortest))
+    let mut found = None;
+    let mut run = || found = Some(pool.install(|| Sampler::exact().estimate(space, plan)));
+    let times = clock::times(&mut run, |runs, _| runs < RUNS);
+    Ok((found.expect("it was run")?, clock::nanoseconds(times[0])))
 }
 
 impl Method {

@@ -1,21 +1,24 @@
 //! The command `bench` measures what a toss costs, in time or in instructions. Times are only printed; instructions are
-//! compared with a baseline, because they are the same in every run.
+//! compared with a baseline, because they are the same in every run. The command `work` is what valgrind runs to count
+//! them.
 
 use clap::Args;
 
 use crate::bench::Table;
-use crate::bench::instructions::Instructions;
+use crate::bench::instructions::{Instructions, work};
 use crate::bench::to_accuracy::ToAccuracy;
 use crate::files;
 use crate::suite::Suite;
 
-/// Measure what a toss costs, in ns and beside a reference in C
+/// Print what a toss costs, in ns and relative to a reference in C
+///
+/// Exit code 3 if a kernel takes more instructions than the baseline allows.
 #[derive(Debug, Args)]
 pub(super) struct Bench {
     /// Count instructions by valgrind instead, and compare them with the baseline
     #[arg(long)]
     instructions: bool,
-    /// Take smaller counts of instructions over into the baseline
+    /// Take fewer instructions into the baseline
     #[arg(long, requires = "instructions")]
     bless: bool,
     /// Print instead how long each method takes to this accuracy of P(heads), such as 1e-6
@@ -42,5 +45,23 @@ impl Bench {
             found.bless(&baseline, &path)?;
         }
         Ok(if is_worse { 3 } else { 0 })
+    }
+}
+
+/// Do one work of `bench --instructions` a number of times
+#[derive(Debug, Args)]
+#[command(hide = true)]
+pub(super) struct Work {
+    /// The name of the work, such as count/avx2
+    name: String,
+    /// How many times
+    #[arg(long, default_value_t = 1)]
+    times: u32,
+}
+
+impl Work {
+    pub(super) fn run(&self) -> anyhow::Result<u8> {
+        work(&self.name, self.times)?;
+        Ok(0)
     }
 }

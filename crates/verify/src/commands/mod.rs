@@ -1,19 +1,14 @@
-//! The command line of a suite: each command is a file of this folder. Without a command the checks are run, which is
-//! what `cargo xtask verify` starts.
+//! The command line of a suite. Without a command the checks are run, which is what `cargo xtask verify` starts.
 
 mod bench;
-mod figure;
-mod history;
-mod list;
+mod figures;
 mod program;
-mod replay;
 mod run;
-mod work;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::files;
 use crate::suite::Suite;
@@ -24,9 +19,8 @@ const BAD_USAGE: u8 = 2;
 /// Exit code of a command that could not run.
 const COULD_NOT_RUN: u8 = 4;
 
-/// Verifies solvers of tossed coins.
 #[derive(Debug, Parser)]
-#[command(args_conflicts_with_subcommands = true)]
+#[command(about = "Run the checks: one line a check, and in full what fails", args_conflicts_with_subcommands = true)]
 struct Program {
     #[command(subcommand)]
     command: Option<Command>,
@@ -50,28 +44,22 @@ struct Folders {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
-    /// List the checks
-    List,
-    Replay(Box<replay::Replay>),
     Bench(bench::Bench),
-    Work(work::Work),
+    Work(bench::Work),
     /// Draw the accuracy of the committed records over time
     History,
-    Figure(figure::Figure),
+    Figure(figures::Figure),
 }
 
 /// Runs the program of `suite` with the arguments of the process, as `cargo xtask verify` does for the suite of this
-/// workspace.
-///
-/// Without a command it runs the checks, with `--quick`, `--deep`, `--only ID`, `--bless`, `--format` and `--verbose`.
-/// Commands are `list` (the checks), `replay INPUT` (one toss by every solver, scheme and formulation), `history`,
-/// `figure` and `bench`.
+/// workspace: `--help` lists them.
 ///
 /// Exit codes: 0, all checks pass; 1, a check fails; 2, bad usage; 3, accuracy or work is worse than the baseline,
 /// though within its bounds; 4, the command could not run.
 #[must_use]
 pub fn main(suite: Suite) -> ExitCode {
-    let ended = match Program::try_parse() {
+    let arguments = Program::command().bin_name(suite.commands().program()).try_get_matches();
+    let ended = match arguments.and_then(|arguments| Program::from_arg_matches(&arguments)) {
         Ok(program) => program.run(suite),
         Err(asked) if !asked.use_stderr() => files::printed(whole_file::unless_closed(asked.print())).map(|()| 0),
         // Without a standard error there is nobody to say it to.
@@ -99,11 +87,9 @@ impl Program {
         };
         match self.command.unwrap_or(Command::Run(self.run)) {
             Command::Run(command) => command.run(suite, &out),
-            Command::List => list::list(),
-            Command::Replay(command) => command.run(suite, &out),
             Command::Bench(command) => command.run(&suite),
             Command::Work(command) => command.run(),
-            Command::History => history::history(&suite, &out),
+            Command::History => figures::history(&suite, &out),
             Command::Figure(command) => command.run(&suite),
         }
     }

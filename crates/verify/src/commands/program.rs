@@ -16,7 +16,7 @@ const NAME: &str = "command";
 /// A program, its claim and its limits.
 #[derive(Debug, Args)]
 pub(super) struct Foreign {
-    /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-integrator.md
+    /// Judge the program that the shell starts by this line, instead of solvers in Rust; see docs/your-solver.md
     #[arg(long, value_name = "LINE")]
     command: Option<String>,
     /// Judge the program by this error of cos θ at any tolerance, instead of by the tolerance
@@ -35,6 +35,11 @@ pub(super) struct Foreign {
 }
 
 impl Foreign {
+    /// Whether a program takes the place of the suite's solvers.
+    pub(super) fn is_given(&self) -> bool {
+        self.command.is_some()
+    }
+
     /// The suite of the program, or `suite` without one. Its baseline and records are in a folder below `out`, unless
     /// `suite` has another one than the standard suite.
     ///

@@ -1,23 +1,33 @@
-//! The command `run` runs the checks of a suite, writes their reports, and compares the result with the baseline. It
-//! shows what the library does; it measures and judges nothing itself.
+//! Runs the checks of a suite, writes their reports, and compares the result with the baseline; or lists the checks, or
+//! solves one toss again. It shows what the library does; it measures and judges nothing itself.
 
 use std::path::Path;
 
+use anyhow::Context as _;
 use clap::{Args, ValueEnum};
+use dynamics::Toss;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::program::Foreign;
-use crate::render::{Report, github, junit, left_out, moves, table};
+use crate::measure::atlas;
+use crate::measure::atlas::conditioning::Conditioning;
+use crate::measure::case;
+use crate::render::{Report, github, junit, text, words};
 use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
-use crate::{Check, Effort, files};
+use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
-/// Run the checks; write report.html, report.json, junit.xml and charts
+/// Run the checks: one line a check, and in full what fails
+///
+/// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
+///
+/// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
+/// within bounds; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct Run {
-    /// Fewer cases: within a minute on two cores
+    /// Take fewer cases: within a minute on two cores, once built
     #[arg(long, conflicts_with = "deep")]
     quick: bool,
-    /// Ten times as many cases
+    /// Take ten times as many cases
     #[arg(long)]
     deep: bool,
     /// Run this check alone
@@ -35,8 +45,30 @@ pub(super) struct Run {
     /// Multiply the time limit of every check, for a slow machine or a slow solver
     #[arg(long, value_name = "FACTOR", value_parser = time_factor)]
     time_factor: Option<f64>,
+    /// With --replay: print what this row, given as CHECK / SUBJECT, measures on the toss, and the verdict
+    #[arg(long, value_name = "ROW", requires = "replay", value_parser = row)]
+    row: Option<RowName>,
     #[command(flatten)]
     foreign: Foreign,
+    #[command(flatten)]
+    instead: Instead,
+}
+
+/// The name of a row: its check and its subject.
+#[derive(Debug, Clone)]
+struct RowName(&'static Check, String);
+
+/// What is done instead of running the checks.
+#[derive(Debug, Args)]
+#[group(multiple = false, conflicts_with_all = ["quick", "deep", "only", "bless", "format", "verbose", "time_factor"])]
+struct Instead {
+    /// List the checks and what they claim
+    #[arg(long, conflicts_with = "command")]
+    list: bool,
+    /// Solve one toss, given as the text of a worst input, by every solver, scheme and formulation; for the solvers of this
+    /// workspace, take every measure of proofs, batches and margins on it, too
+    #[arg(long, value_name = "INPUT", value_parser = input)]
+    replay: Option<Box<Toss>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -46,6 +78,16 @@ enum Format {
     Junit,
     /// The text, then annotations; the summary is appended to the file that $GITHUB_STEP_SUMMARY names
     Github,
+}
+
+/// Reads a toss from its text.
+fn input(text: &str) -> Result<Box<Toss>, String> {
+    case::read(text).map(Box::new).map_err(|error| format!("{error:#}"))
+}
+
+fn row(text: &str) -> Result<RowName, String> {
+    let (check, subject) = text.split_once(" / ").ok_or("a row is CHECK / SUBJECT")?;
+    Ok(RowName(known_check(check)?, subject.to_owned()))
 }
 
 fn known_check(id: &str) -> Result<&'static Check, String> {
@@ -63,13 +105,25 @@ const SUMMARY: &str = "GITHUB_STEP_SUMMARY";
 impl Run {
     /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
     pub(super) fn run(&self, suite: Suite, out: &Path) -> anyhow::Result<u8> {
-        let suite = self.asked_for(self.foreign.in_place_of(suite, out)?);
-        let verified = measure(&suite)?;
+        if self.instead.list {
+            return list();
+        }
+        let suite = self.foreign.in_place_of(suite, out)?;
+        if let Some(toss) = &self.instead.replay {
+            let text = match &self.row {
+                Some(row) => as_row(&suite, toss, row)?,
+                None => by_all(&suite, toss, self.foreign.is_given())?,
+            };
+            return files::print(&text).map(|()| 0).map_err(Into::into);
+        }
+        let suite = self.asked_for(suite);
+        let mut verified = measure(&suite)?;
+        // The reports know the baseline that the run has written, and are written even if it could not be.
+        let is_accepted = self.bless && verified.verdict() != Verdict::Fail;
+        let accepted = if is_accepted { suite.accept(&mut verified) } else { Ok(()) };
         verified.write(out)?;
         self.print(&verified, out)?;
-        if self.bless && verified.verdict() != Verdict::Fail {
-            suite.accept(&verified)?;
-        }
+        accepted?;
         Ok(verified.exit_code())
     }
 
@@ -107,13 +161,49 @@ impl Run {
     }
 
     fn text(&self, verified: &Verified, report: &Report<'_>, out: &Path) -> String {
-        let moved = moves::text(report.moves, report.rows);
+        let moved = words::moves(report.moves, report.rows);
         let compared = report.baseline.words(report.moves);
-        let (table, verdict) = (table::text(report, self.verbose), table::verdict(report.rows));
-        let left_out = left_out::text(report.left_out);
+        let (table, verdict) = (text::report(report, self.verbose), text::passing(report.rows));
+        let left_out = words::left_out(report.left_out);
         let written = written(verified, out);
         format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
     }
+}
+
+/// Prints the id, the evidence, what is judged and the claim of every check, one line each.
+fn list() -> anyhow::Result<u8> {
+    let line =
+        |check: &Check| format!("{:<36} [{}; {}] {}\n", check.id, check.basis.name(), check.judges.name(), check.claim);
+    files::print(&CHECKS.iter().map(line).collect::<String>())?;
+    Ok(0)
+}
+
+/// What a row measures on one toss, what is allowed, and the verdict.
+fn as_row(suite: &Suite, toss: &Toss, RowName(check, subject): &RowName) -> anyhow::Result<String> {
+    let context = Context::new(suite.registry().entries(), Effort::Quick)?;
+    let measured = check.again(&context, toss, &|name| name == subject)?;
+    let judged = judge(check, measured, &suite.all_bounds()?);
+    let id = check.id;
+    let of_many = || format!("'{id} / {subject}' measures no deviation of one such toss: --only {id} repeats it");
+    Ok(text::of_row(judged.first().with_context(of_many)?))
+}
+
+/// The answers of every solver, scheme and formulation for one toss, side by side. Below come the deviations that the checks
+/// of the library measure on that toss, a quantity of several sets once: proofs, batches at every SIMD level, margins. They
+/// say nothing about a foreign program.
+fn by_all(suite: &Suite, toss: &Toss, is_foreign: bool) -> anyhow::Result<String> {
+    let context = Context::new(suite.registry().entries(), Effort::Quick)?;
+    let runs = atlas::replay(&context.registry, toss)?;
+    let mut table = text::runs(&runs, Conditioning::new(toss)?);
+    for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
+        let mut last = None;
+        for found in check.again(&context, toss, &|_| true)? {
+            if last.replace(found.measured) != Some(found.measured) {
+                table += &text::of_library(check, &found);
+            }
+        }
+    }
+    Ok(table)
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.
@@ -127,7 +217,7 @@ fn measure(suite: &Suite) -> anyhow::Result<Verified> {
             progress.inc(1);
             progress.set_message(check.id);
         }
-        Progress::Ended(rows, timing) => progress.suspend(|| files::say(&table::ended(rows, timing))),
+        Progress::Ended(rows, timing) => progress.suspend(|| files::say(&text::ended(rows, timing))),
     })?;
     progress.finish_and_clear();
     Ok(verified)

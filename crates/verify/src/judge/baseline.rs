@@ -99,13 +99,16 @@ pub struct Move {
 }
 
 impl Baseline {
-    /// The baseline that a run would give: the measured value of each passing row and, for each problem of the sweep,
+    /// The baseline that a run would give: the largest deviation of each passing row and, for each problem of the sweep,
     /// the geometric mean of the errors and the sum of the calls.
+    ///
+    /// The largest deviation does not depend on what judges the row. What was judged may be another one: of a row without
+    /// a bound it is the deviation that is largest beside the solver's claim, and the first bound would change it.
     pub fn of(rows: &[Row], sweep: Option<&Sweep>) -> Self {
         let passing = rows.iter().filter(|row| row.status.passes());
         let mut entries: BTreeMap<Key, Entry> = passing
             .filter_map(|row| {
-                Some(((row.check.clone(), row.subject.clone()), Entry { error: row.measured?, calls: None }))
+                Some(((row.check.clone(), row.subject.clone()), Entry { error: row.largest?, calls: None }))
             })
             .collect();
         if let Some(sweep) = sweep {

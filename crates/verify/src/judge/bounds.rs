@@ -26,7 +26,7 @@ struct CheckBounds {
 
 /// The largest bound that a table may give under the check called `check`; infinite for a check that is not in
 /// [`CHECKS`], whose rows its own ceiling still limits.
-pub(super) fn ceiling(check: &str) -> f64 {
+pub(crate) fn ceiling(check: &str) -> f64 {
     CHECKS.iter().find(|known| known.id == check).map_or(f64::INFINITY, |known| known.ceiling)
 }
 

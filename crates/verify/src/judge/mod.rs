@@ -37,14 +37,14 @@ pub(crate) mod tests {
             subject: subject.to_owned(),
             unit: "rad".to_owned(),
             measured: Some(measured),
-            bound: Some(bound),
-            margin: Some(bound / measured).filter(|margin| margin.is_finite() && *margin > 0.0),
+            limit: Some(bound),
+            reserve: Some(bound / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
             status: if measured <= bound { Status::Pass } else { Status::Fail },
             cases: 7,
             worst_input: Some("i1=0x1.0p+0".to_owned()),
             failure: None,
             replay: Some(format!("fly 'i1=0x1.0p+0' by {subject}")),
-            largest: None,
+            largest: Some(measured),
         }
     }
 }

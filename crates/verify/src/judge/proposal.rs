@@ -87,7 +87,7 @@ mod tests {
         let rows = judge(&CHECK, measured(), &Bounds::parse(&proposed).unwrap());
         let statuses: Vec<Status> = rows.iter().map(|row| row.status).collect();
         assert_eq!(statuses, [Status::Pass, Status::Pass, Status::FailByClaim], "{proposed}");
-        assert_eq!(rows[0].bound, Some(3e-9));
+        assert_eq!(rows[0].limit, Some(3e-9));
         assert_eq!(text(&rows[..2], "a test"), None, "rows with bounds need no proposal");
     }
 }

@@ -44,21 +44,6 @@ impl Status {
     pub fn passes(self) -> bool {
         matches!(self, Self::Pass | Self::PassLoose | Self::PassByClaim | Self::NotJudged)
     }
-
-    /// Its name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::PassLoose => "pass, loose bound",
-            Self::PassByClaim => "pass, by its own claim",
-            Self::NotJudged => "not judged: no bound",
-            Self::Fail => "FAIL",
-            Self::FailByClaim => "FAIL, above its own claim",
-            Self::NoClaim => "FAIL, no usable claim",
-            Self::NoBound => "FAIL, no bound",
-            Self::NotMeasured => "FAIL, not measured",
-        }
-    }
 }
 
 /// A judged measurement, with everything that a report shows of it.
@@ -74,14 +59,14 @@ pub struct Row {
     pub judges: Option<Judges>,
     /// The subject that was measured.
     pub subject: String,
-    /// Unit of `measured` and `bound`.
+    /// Unit of `measured` and `limit`.
     pub unit: String,
     /// The deviation that was judged; `None` if the subject failed.
     pub measured: Option<f64>,
     /// The deviation that is allowed, by the bound or by the solver's claim.
-    pub bound: Option<f64>,
-    /// `bound / measured`; `None` where either is missing or zero.
-    pub margin: Option<f64>,
+    pub limit: Option<f64>,
+    /// `limit / measured`; `None` where either is missing or zero.
+    pub reserve: Option<f64>,
     /// The verdict.
     pub status: Status,
     /// Number of cases that were tried.
@@ -126,7 +111,7 @@ impl Row {
     /// What was measured, divided by the bound: above 1 for what is over its bound, 0 if nothing deviates or nothing is
     /// judged, infinite if the subject failed or if nothing at all is allowed.
     pub fn part(&self) -> f64 {
-        match (self.measured, self.bound) {
+        match (self.measured, self.limit) {
             (Some(0.0), Some(_)) => 0.0,
             (Some(measured), Some(bound)) => measured / bound,
             _ if self.status.passes() => 0.0,
@@ -190,8 +175,8 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         judges: Some(judges.unwrap_or(check.judges)),
         unit: check.unit.to_owned(),
         measured: measured.is_finite().then_some(measured),
-        bound: allowed,
-        margin: allowed.map(|allowed| allowed / measured).filter(|margin| margin.is_finite() && *margin > 0.0),
+        limit: allowed,
+        reserve: allowed.map(|allowed| allowed / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
         status,
         cases,
         worst_input: worst.as_ref().map(|worst| worst.input.clone()),
@@ -240,8 +225,8 @@ pub fn unused_bounds(rows: &[Row], bounds: &Bounds, measures: impl Fn(&str, &str
             subject: subject.to_owned(),
             unit: String::new(),
             measured: None,
-            bound: bounds.get(check, subject),
-            margin: None,
+            limit: bounds.get(check, subject),
+            reserve: None,
             status: Status::NotMeasured,
             cases: 0,
             worst_input: None,

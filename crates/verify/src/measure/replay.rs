@@ -13,7 +13,7 @@ use super::subject::Subject;
 pub enum Replay {
     /// One toss by one solver.
     Toss {
-        /// The toss as [text](case::text), which the command `replay` of a suite takes.
+        /// The toss as [text](case::text), which the option `--replay` of a suite takes.
         input: String,
         /// The command of `unfair-toss` with the solver and its settings, if it is a solver of this workspace.
         command: Option<String>,
@@ -68,29 +68,32 @@ impl Commands {
         Self::Program(of(&path))
     }
 
+    /// How the program of the suite is started: everything before its arguments.
+    pub fn program(&self) -> &str {
+        match self {
+            Self::Workspace => "cargo xtask verify",
+            Self::Program(program) => program,
+            Self::With(commands, _) => commands.program(),
+        }
+    }
+
     /// The command that does `replay`.
     pub fn line(&self, replay: &Replay) -> String {
         match (self, replay) {
-            (Self::With(commands, options), _) => commands.line(replay) + options,
             (Self::Workspace, Replay::Toss { command: Some(command), .. }) => command.clone(),
-            (Self::Workspace, Replay::Toss { input, row, .. }) => {
-                format!("cargo xtask verify --replay \"{input}\"{}", option(row))
-            }
-            (Self::Workspace, Replay::Check(check)) => format!("cargo xtask verify --only {check}"),
-            (Self::Program(program), Replay::Toss { input, row, .. }) => {
-                format!("{program} replay \"{input}\"{}", option(row))
-            }
-            (Self::Program(program), Replay::Check(check)) => format!("{program} --only {check}"),
+            (_, Replay::Toss { input, row, .. }) => self.with(&format!("--replay \"{input}\"{}", option(row))),
+            (_, Replay::Check(check)) => self.with(&format!("--only {check}")),
         }
     }
 
     /// The command that runs the checks and accepts what is better or new.
     pub fn bless(&self) -> String {
-        match self {
-            Self::Workspace => "cargo xtask verify --bless".to_owned(),
-            Self::With(commands, options) => commands.bless() + options,
-            Self::Program(program) => format!("{program} --bless"),
-        }
+        self.with("--bless")
+    }
+
+    fn with(&self, arguments: &str) -> String {
+        let options = if let Self::With(_, options) = self { options } else { "" };
+        format!("{} {arguments}{options}", self.program())
     }
 }
 
@@ -132,8 +135,8 @@ mod tests {
         let (replay, input) = (Replay::toss(&toss, &Subject::exact()), case::text(&toss));
         assert!(Commands::Workspace.line(&replay).starts_with("cargo run -q --release --bin unfair-toss -- toss "));
         let elsewhere = Commands::Program("checks".to_owned());
-        assert_eq!(elsewhere.line(&replay), format!("checks replay \"{input}\""));
-        let of_row = format!("checks replay \"{input}\" --row \"c / s\"");
+        assert_eq!(elsewhere.line(&replay), format!("checks --replay \"{input}\""));
+        let of_row = format!("checks --replay \"{input}\" --row \"c / s\"");
         assert_eq!(elsewhere.line(&replay.in_row("c / s".to_owned())), of_row);
         assert_eq!(elsewhere.line(&Replay::Check("c".to_owned())), "checks --only c");
         let foreign = Replay::Toss { input: input.clone(), command: None, row: None };

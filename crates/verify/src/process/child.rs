@@ -84,18 +84,13 @@ impl Process {
         Ok(process)
     }
 
-    /// The answer to the question that `ask` makes of its number. The first answer may take as long as `start`.
-    pub(super) fn ask(
-        &mut self,
-        ask: impl FnOnce(u64) -> String,
-        start: Duration,
-        limits: &Limits,
-    ) -> Result<Answer, Fault> {
+    /// The answer to `question`, to which this process gives a number. The first answer may take as long as `start`.
+    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Answer, Fault> {
         if let Ok(line) = self.lines.try_recv() {
             return Err(Fault::Unasked(beginning(&line)));
         }
         self.asked += 1;
-        self.write(&ask(self.asked))?;
+        self.write(&format!("{},{question}", self.asked))?;
         let limit = if self.asked == 1 { start } else { limits.answer };
         let line = self.line(limit, limits.memory)?;
         protocol::answer(&line, self.asked).map_err(|why| Fault::Nonsense { line: beginning(&line), why })

@@ -2,7 +2,7 @@
 //! to its standard output. Integrators in Python, C++, Julia or MATLAB so come under the same checks as those in Rust.
 //!
 //! `protocol` has the lines that are exchanged, `child` one running process with its limits of time and memory, `pool`
-//! the processes of one program and when it is given up. `docs/your-integrator.md` is the page for its author.
+//! the processes of one program and when it is given up. `docs/your-solver.md` is the page for its author.
 
 mod child;
 mod pool;
@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use dynamics::body_rate::rate_by_momentum;
 use dynamics::error::{Reason, require};
-use dynamics::{Fault, Flight, ForeignError, RoughPhases};
+use dynamics::{Fault, Flight, ForeignError};
 use toss::{
     Attitude, CoinToss, InputError, Landing, Scheme, SolveError, Solver, SolverEntry, State, StepControl, Stepping,
     Toss, Work,
@@ -108,15 +108,15 @@ struct ByProgram {
 
 impl ByProgram {
     fn ask(&self, toss: &CoinToss) -> Result<Landed, SolveError> {
-        RoughPhases::new(toss).largest()?;
+        let flight = Flight::new(toss)?;
         let tolerance = match (self.claim, self.stepping.control()) {
             (Some(claim), _) => claim,
-            (None, StepControl::Tolerance(tolerance)) => Flight::new(toss)?.tightened(tolerance),
+            (None, StepControl::Tolerance(tolerance)) => flight.tightened(tolerance),
             (None, StepControl::Step(_)) => {
                 return Err(SolveError::NotOffered { scheme: self.stepping.scheme().name() });
             }
         };
-        match self.pool.ask(toss, tolerance) {
+        match self.pool.ask(&protocol::question(toss, &flight, tolerance)) {
             Ok(Answer::Landing(landing)) => Ok(landing),
             Ok(Answer::Failed(words)) => Err(self.failed(words)),
             Err(fault) => Err(self.failed(fault)),

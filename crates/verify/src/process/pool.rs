@@ -2,13 +2,12 @@
 //! of the suite has thousands of launches, and has to end although each of them could cost a time-out.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
-
-use toss::CoinToss;
+use std::time::Duration;
 
 use super::Limits;
 use super::child::{Fault, Process};
-use super::protocol::{Answer, question};
+use super::protocol::Answer;
+use crate::clock;
 
 /// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
 const LOSSES: u32 = 6;
@@ -39,11 +38,11 @@ impl Pool {
         Self { command: command.to_owned(), limits, state: Mutex::default() }
     }
 
-    /// What the program answers where `toss` lands by steps of this `tolerance`.
+    /// What the program answers to a question.
     ///
     /// # Errors
     /// What the program did instead, in words; at once if it was given up.
-    pub(super) fn ask(&self, toss: &CoinToss, tolerance: f64) -> Result<Answer, String> {
+    pub(super) fn ask(&self, question: &str) -> Result<Answer, String> {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
@@ -55,12 +54,12 @@ impl Pool {
         // which it hangs.
         let longest = LOSSES * self.limits.answer;
         let start = start.map_or(longest, |took| longest.min(self.limits.answer + 3 * took));
-        let began = Instant::now();
-        let asked = idle.map_or_else(|| Process::start(&self.command), Ok).and_then(|mut process| {
-            let answer = process.ask(|id| question(id, toss, tolerance), start, &self.limits)?;
+        let (asked, took): (Result<_, Fault>, _) = clock::timed(|| {
+            let mut process = idle.map_or_else(|| Process::start(&self.command), Ok)?;
+            let answer = process.ask(question, start, &self.limits)?;
             Ok((process, answer))
         });
-        let (took, mut state) = (began.elapsed(), self.state());
+        let mut state = self.state();
         match asked {
             Ok((process, answer)) => state.take(process, answer, took, &self.limits),
             Err(fault) => Err(state.note(&fault, took, &self.limits)),

@@ -4,11 +4,17 @@
 //! An answer repeats the number of its question. Without it, one line too many on standard output would shift all
 //! answers that follow, and an answer to another launch would be taken for a wrong one.
 
+use dynamics::Flight;
 use toss::CoinToss;
 
 /// The names of the columns of a question, which are the first line that a program reads: the number of the question;
-/// the moments of inertia (kg m²); the body rate (BF, rad/s); the unit quaternion of the attitude at launch (from BF to
-/// LF); the time of flight (s); the tolerance.
+/// the moments of inertia; the body rate (BF); the unit quaternion of the attitude at launch (from BF to LF); the time of
+/// flight; the tolerance.
+///
+/// The units of mass and time depend on the toss: I1 is 1, and the largest component of the body rate is between 1 and
+/// 2. The landing does not depend on them, but the steps of a program do. In SI units a coin that turns by 1e-228 rad/s
+/// for 1e228 s has rates far below any absolute tolerance, and an ordinary integrator returns them wrong without an
+/// error.
 pub const HEADER: &str = "id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance";
 
 /// What a program answered.
@@ -30,13 +36,12 @@ pub(super) struct Landed {
     pub(super) calls: u64,
 }
 
-/// The question number `id`: where `toss` lands, by steps of this `tolerance`.
-pub(super) fn question(id: u64, toss: &CoinToss, tolerance: f64) -> String {
-    let rate = toss.launch.rate();
+/// A question without its number: where `toss`, whose dimensionless form is `flight`, lands by steps of this `tolerance`.
+pub(super) fn question(toss: &CoinToss, flight: &Flight, tolerance: f64) -> String {
     let [w, x, y, z] = toss.launch.attitude().components();
-    let (i1, i3, time) = (toss.coin.i1(), toss.coin.i3(), toss.launch.flight_time());
-    let numbers = [i1, i3, rate.x, rate.y, rate.z, w, x, y, z, time, tolerance];
-    numbers.iter().fold(id.to_string(), |line, number| format!("{line},{number:?}"))
+    let (rate, time) = (flight.rate, flight.span());
+    let numbers = [1.0, toss.coin.inertia_ratio(), rate.x, rate.y, rate.z, w, x, y, z, time, tolerance];
+    numbers.map(|number| format!("{number:?}")).join(",")
 }
 
 /// The answer in `line` to the question number `id`.
@@ -84,12 +89,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_question_has_the_columns_of_the_header_with_every_bit() {
-        let launch = Launch::new(Vector3::new(0.1, -2e-300, 3.0), TimeOfFlight::Given(1.0 / 3.0)).unwrap();
-        let toss = CoinToss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
-        let line = question(17, &toss, 1e-9);
-        assert_eq!(line, "17,5e-7,2.5e-7,0.1,-2e-300,3.0,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9");
-        assert_eq!(line.split(',').count(), HEADER.split(',').count());
+    fn a_question_has_the_columns_of_the_header_with_every_bit_of_the_scaled_toss() {
+        for [size, unit] in [[1.0, 1.0], [2f64.powi(-757), 2f64.powi(757)]] {
+            let rate = Vector3::new(0.1, -2e-30, 1.5) * size;
+            let launch = Launch::new(rate, TimeOfFlight::Given(unit / 3.0)).unwrap();
+            let toss = CoinToss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
+            let line = question(&toss, &Flight::new(&toss).unwrap(), 1e-9);
+            assert_eq!(line, "1.0,0.5,0.1,-2e-30,1.5,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9");
+            assert_eq!(line.split(',').count() + 1, HEADER.split(',').count());
+        }
     }
 
     #[test]

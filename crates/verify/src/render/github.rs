@@ -5,10 +5,11 @@
 
 use std::fmt::Write;
 
-use super::words::{Block, comparison, margin, worst_first};
-use super::{Report, moves};
+use super::report::{Cost, ENOUGH, Reached};
+use super::words::{Block, Family, comparison, reserve, verdict};
+use super::{Report, words};
 use crate::judge::Row;
-use crate::judge::baseline::{Direction, Move};
+use crate::judge::baseline::Move;
 
 /// GitHub shows so many annotations of a kind for each step and drops the rest, so the last one says how many are left.
 const SHOWN: usize = 10;
@@ -19,17 +20,16 @@ const IN_FULL: usize = 100;
 /// One `::error` for each failing row and one `::warning` for each that became worse, the worst first, each with the
 /// command that repeats it.
 pub fn annotations(report: &Report<'_>) -> String {
-    let mut failing: Vec<&Row> = report.rows.iter().filter(|row| !row.status.passes()).collect();
-    failing.sort_by(|a, b| worst_first(a, b));
+    let failing = report.failing();
     let errors = failing.iter().map(|row| {
         let replay = row.replay.as_ref().map_or_else(String::new, |replay| format!("\nRepeat with: {replay}"));
         let why = row.failure.as_ref().map_or_else(String::new, |why| format!("\n{why}"));
-        let text = format!("{}: {} ({}){why}{replay}", row.status.name(), comparison(row), margin(row));
+        let text = format!("{}: {} ({}){why}{replay}", verdict(row), comparison(row), reserve(row));
         (format!("{} / {}", row.check, row.subject), text)
     });
-    let warnings = worse(report).into_iter().map(|moved| {
-        let replay = moves::replay(moved, report.rows);
-        let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", moves::change(moved));
+    let warnings = report.worse().into_iter().map(|moved| {
+        let replay = words::replay(moved, report.rows);
+        let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", words::change(moved));
         (format!("{} / {}", moved.check, moved.subject), text)
     });
     listed("error", errors.collect()) + &listed("warning", warnings.collect())
@@ -59,40 +59,69 @@ fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// The summary: the verdict, the pattern, one line a check, what fails and what became worse with the commands that
-/// repeat it.
+/// The summary: the verdict, the pattern, what fails and what became worse with the commands that repeat it, what each
+/// solver reaches at which cost, one line a family, and folded one line a check.
 pub fn summary(report: &Report<'_>) -> String {
-    let failing = report.rows.iter().filter(|row| !row.status.passes()).count();
-    let verdict = match (report.passed, worse(report).is_empty()) {
+    let failing = report.failing();
+    let verdict = match (report.passed, report.worse().is_empty()) {
         (true, true) => "✅ PASS",
         (true, false) => "⚠️ WORSE than the baseline",
         (false, _) => "❌ FAIL",
     };
-    let mut out = format!("## {verdict}: {} of {} rows pass\n\n", report.rows.len() - failing, report.rows.len());
+    let mut out = format!("## {verdict}: {} of {} rows pass\n\n", report.rows.len() - failing.len(), report.rows.len());
     let _ = writeln!(out, "{}\n", cell(&report.pattern));
-    let _ = writeln!(out, "{}\n", report.baseline.words(report.moves));
+    let facts: Vec<String> =
+        report.facts().into_iter().map(|(name, value)| format!("{name} {}", cell(&value))).collect();
+    let _ = writeln!(out, "{}. {}\n", facts.join(" · "), report.baseline.words(report.moves));
     let blocks = Block::all(report.rows);
-    let bad: Vec<&Row> =
-        blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes()).collect();
-    out += &in_full("Fails", bad.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
+    out += &in_full("Fails", failing.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
     let moved =
-        |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), moves::change(moved));
-    let moved = |found: &&Move| (moved(found), moves::replay(found, report.rows));
-    out += &in_full("Worse than the baseline", worse(report).iter().map(moved));
+        |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), words::change(moved));
+    let moved = |found: &&Move| (moved(found), words::replay(found, report.rows));
+    out += &in_full("Worse than the baseline", report.worse().iter().map(moved));
+    out += &reached(report);
+    out += &families(report);
     out += "\n<details><summary>All checks, the worst first</summary>\n\n";
-    out += "| | check | rows | worst row | measured and bound | |\n|---|---|---|---|---|---|\n";
+    out += "| | check | rows | worst row | measured and limit | |\n|---|---|---|---|---|---|\n";
     for block in &blocks {
         let (worst, sign) = (block.worst(), if block.failing() == 0 { "✅" } else { "❌" });
         let (check, subject, rows) = (cell(&worst.check), cell(&worst.subject), block.rows.len());
-        let _ = writeln!(out, "| {sign} | {check} | {rows} | {subject} | {} | {} |", comparison(worst), margin(worst));
+        let _ = writeln!(out, "| {sign} | {check} | {rows} | {subject} | {} | {} |", comparison(worst), reserve(worst));
     }
     out + "\n</details>\n"
+}
+
+/// What each solver reaches, and at which cost; empty if that was not measured.
+fn reached(report: &Report<'_>) -> String {
+    let (all, Some((problem, launches))) = (report.reached(), report.ordinary()) else { return String::new() };
+    let mut out = format!(
+        "### What each solver reaches\n\n| solver | smallest error | calls | time | calls to {ENOUGH:e} rad | time |\n\
+         |---|---|---|---|---|---|\n"
+    );
+    for Reached { subject, finest, enough } in all {
+        let [error, calls, time] = finest.words();
+        let [_, fewer, less] = enough.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
+        let _ = writeln!(out, "| {} | {error} | {calls} | {time} | {fewer} | {less} |", cell(&subject));
+    }
+    let _ = writeln!(out, "\nThe attitude, per launch, over the {launches} launches of the problem {problem}.\n");
+    out
+}
+
+/// One line a family.
+fn families(report: &Report<'_>) -> String {
+    let mut out = "### Families of checks\n\n| | family | rows | worst row | |\n|---|---|---|---|---|\n".to_owned();
+    for family in Family::all(report.rows) {
+        let (worst, sign) = (family.worst(), if family.failing() == 0 { "✅" } else { "❌" });
+        let row = format!("{} / {}", cell(&worst.check), cell(&worst.subject));
+        let _ = writeln!(out, "| {sign} | {} | {} | {row} | {} |", family.name, family.rows(), reserve(worst));
+    }
+    out
 }
 
 fn failed(row: &Row) -> String {
     let why = row.failure.as_ref().map_or_else(String::new, |why| format!(". {}", cell(why)));
     let name = format!("**{} / {}**", cell(&row.check), cell(&row.subject));
-    format!("{name}: {}, {} ({}){why}", row.status.name(), comparison(row), margin(row))
+    format!("{name}: {}, {} ({}){why}", verdict(row), comparison(row), reserve(row))
 }
 
 /// A heading, and each item with its command; empty without items.
@@ -112,10 +141,6 @@ fn in_full(heading: &str, items: impl ExactSizeIterator<Item = (String, String)>
         let _ = writeln!(out, "- and {} more", number - IN_FULL);
     }
     out + "\n"
-}
-
-fn worse<'a>(report: &Report<'a>) -> Vec<&'a Move> {
-    report.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect()
 }
 
 /// Text without the characters that would end a cell of a table or begin markup.

@@ -1,26 +1,69 @@
-//! Renders the report as one HTML file that needs no network: the verdict, the checks, the tables and the charts. Each
-//! chapter says what to see in it.
-
-mod chapters;
+//! Renders the report as one HTML file that needs no network. It opens with the answer: the verdict, what each solver
+//! reaches at which cost, how solvers answer where methods fail, and one line for each family of checks. Everything else
+//! is folded below.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::moves::replay;
-use super::words::{Block, margin, measured, number, relation};
+use super::words::{Block, Family, comparison, left_out, number, replay, reserve, verdict};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
+use crate::measure::atlas::Atlas;
+use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::planner::Line;
+use crate::measure::run::Answer;
 use crate::measure::tables::Probability;
-use crate::render::charts::Chart;
-use crate::render::{Report, left_out};
-use chapters::sections;
+use crate::render::Report;
+use crate::render::charts::{Chart, OVERVIEW};
+use crate::render::report::{Cost, ENOUGH, Reached};
 
 const STYLE: &str = include_str!("report.css");
 
+/// So many failing rows are open to see; the rest is folded.
+const OPEN: usize = 5;
+
+/// Id, title and caption of every chapter of charts; the files of its charts begin with the id.
+const CHAPTERS: [(&str, &str, &str); 5] = [
+    (
+        "fig4",
+        "The paper's Fig. 4",
+        "Probability against the number of launches: a grid (A), in the order of its axes, and \
+      random launches (B). B converges like one over the root of n; A drifts until its last axis is complete. Both end at the \
+      paper's 66 %. The space is reconstructed, since the paper names none.",
+    ),
+    (
+        "work-precision",
+        "Speed against accuracy",
+        "Each point is a run at one tolerance or step: the further right, the more \
+      accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
+      calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
+      and work. The exact motion calls nothing and is accurate to the last bit.",
+    ),
+    (
+        "order",
+        "Order of convergence",
+        "With fixed steps the error falls like a power of the step. The fitted power stands \
+      beside that of the theory. For DOP853 only one halving of the step lies between steps that are too large for the power law \
+      and errors that are rounding alone.",
+    ),
+    (
+        "atlas",
+        "Where methods fail",
+        "The worst answer of every solver, scheme and formulation near each hazard. The raw \
+      forms are the paper's equations as printed: they report success and are wrong. No default is wrong without an error. Below \
+      stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
+      an error below it cannot be told from an error of the launch.",
+    ),
+    (
+        "long-flights",
+        "Long flights",
+        "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
+      in proportion to the time. The conserved quantities drift by some parts in 10⁸ at most.",
+    ),
+];
+
 /// Renders `report` with its `charts`.
 pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
-    let sections = sections(charts);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -31,58 +74,64 @@ pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                h1 { "unfair-toss: verification" }
-                (verdict(report))
-                nav {
-                    a href="#checks" { "Checks" }
-                    @if report.records.probabilities.is_some() { a href="#probabilities" { "Probabilities" } }
-                    @if report.records.planner.is_some() { a href="#planner" { "The planner" } }
-                    @for section in &sections { a href={ "#" (section.id) } { (section.title) } }
-                }
-                (failures(report.rows))
+                (answer(report))
+                (failures(&report.failing()))
                 (moves(report))
-                (checks(report))
+                div.answers {
+                    (reached(report))
+                    (overview(charts))
+                }
+                @if let Some(atlas) = report.records.atlas { (matrix(atlas)) }
+                (families(report))
+                h2 { "Everything in full" }
+                @for family in Family::all(report.rows) { (in_full(&family, report)) }
+                @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
                 @if let Some(lines) = report.records.probabilities { (probabilities(lines)) }
                 @if let Some(summary) = &report.records.planner { (planner(&summary.lines)) }
-                @for section in &sections { (section.markup()) }
+                (not_measured(report))
             }
         }
     };
     page.into_string()
 }
 
-fn verdict(report: &Report<'_>) -> Markup {
-    let passing = report.rows.iter().filter(|row| row.status.passes()).count();
-    let worse = report.moves.iter().any(|moved| moved.direction == Direction::Worse);
+/// The verdict, and when, where and of what it was found.
+fn answer(report: &Report<'_>) -> Markup {
+    let (word, class) = match (report.passed, report.worse().is_empty()) {
+        (true, true) => ("PASS", "pass"),
+        (true, false) => ("WORSE", "fail"),
+        (false, _) => ("FAIL", "fail"),
+    };
     html! {
-        p class={ "verdict " (if report.passed { "pass" } else { "fail" }) } {
-            b { (if report.passed { "PASS" } else { "FAIL" }) }
-            ": " (passing) " of " (report.rows.len()) " rows are within their bounds"
+        h1 { "unfair-toss: verification" }
+        p class={ "verdict " (class) } { b { (word) } " " span { (report.sentence()) } }
+        @if !report.passed { p { (report.pattern) } }
+        dl.facts {
+            @for (name, value) in report.facts() { div { dt { (name) } dd { (value) } } }
+            div { dt { "baseline" } dd { (report.baseline.words(report.moves)) } }
         }
-        p { (report.pattern) }
-        p {
-            "A tossed coin is a rigid body in free flight. Each row below is a claim about one of its solvers, or about the \
-             library beside them, measured in this run against the exact motion in 256 bits, a conserved quantity or a \
-             published figure, with the bound that it may not exceed. Effort: " (report.effort.name()) ". "
-            span class=[worse.then_some("fail")] { (report.baseline.words(report.moves)) }
-        }
-        @for line in left_out::text(report.left_out).lines() { p.faint { (line) } }
     }
 }
 
-fn failures(rows: &[Row]) -> Markup {
-    let blocks = Block::all(rows);
-    let failing: Vec<&Row> =
-        blocks.iter().flat_map(|block| block.rows.iter().copied()).filter(|row| !row.status.passes()).collect();
+/// What fails, by how much, and the command that repeats it.
+fn failures(failing: &[&Row]) -> Markup {
+    let (shown, folded) = failing.split_at(failing.len().min(OPEN));
     html! {
-        @if !failing.is_empty() {
+        @if !shown.is_empty() {
             h2 class="fail" { "What fails" }
-            @for row in failing {
-                p { b { (row.check) " / " (row.subject) } ": " (row.status.name()) ", " (margin(row)) ". "
-                    @if let Some(failure) = &row.failure { (failure) ". " }
-                    @if let Some(replay) = &row.replay { "Repeat with " code { (replay) } } }
+            @for row in shown { (failure(row)) }
+            @if !folded.is_empty() {
+                details { summary { (folded.len()) " more" } @for row in folded { (failure(row)) } }
             }
         }
+    }
+}
+
+fn failure(row: &Row) -> Markup {
+    html! {
+        p { b { (row.check) " / " (row.subject) } ": " (verdict(row)) ", " (comparison(row)) " (" (reserve(row)) "). "
+            @if let Some(failure) = &row.failure { (failure) ". " }
+            @if let Some(replay) = &row.replay { "Repeat with " code { (replay) } } }
     }
 }
 
@@ -92,11 +141,13 @@ fn moves(report: &Report<'_>) -> Markup {
     shown.sort_by_key(|moved| moved.direction != Direction::Worse);
     html! {
         @if !shown.is_empty() {
-            h2 { "What moved against the baseline" }
-            div.wide { table {
-                tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } th { "" } }
-                @for moved in shown { (line_of_move(moved, report.rows)) }
-            } }
+            details open[shown[0].direction == Direction::Worse] {
+                summary { b { "What moved against the baseline" } span.faint { (shown.len()) " rows" } }
+                table {
+                    tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } }
+                    @for moved in shown { (line_of_move(moved, report.rows)) }
+                }
+            }
         }
     }
 }
@@ -108,18 +159,120 @@ fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
             td { (moved.check) } td { (moved.subject) }
             td class=(if worse { "fail" } else { "pass" }) { (if worse { "worse" } else { "better" }) " " (moved.what) }
             td { (number(moved.before)) } td { (number(moved.now)) }
-            td.long.faint { @if worse { "repeat with " code { (replay(moved, rows)) } } }
+        }
+        @if worse { tr.more { td colspan="5" { "repeat with " code { (replay(moved, rows)) } } } }
+    }
+}
+
+/// What each solver reaches, and at which cost.
+fn reached(report: &Report<'_>) -> Markup {
+    let (Some((problem, launches)), all) = (report.ordinary(), report.reached()) else { return html! {} };
+    let cells = |cost: Option<Cost>| cost.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
+    let line = |Reached { subject, finest, enough }: &Reached| {
+        let ([error, calls, time], [_, fewer, less]) = (cells(Some(*finest)), cells(*enough));
+        html! { tr {
+            th scope="row" { (subject) }
+            td { (error) } td.wide { (calls) } td { (time) } td.wide { (fewer) } td { (less) }
+        } }
+    };
+    let enough = html! { span.whole { "to " (format!("{ENOUGH:e}")) " rad" } };
+    html! {
+        section {
+            h2 { "What each solver reaches, at which cost" }
+            table.numbers {
+                tr { th { "solver" } th { "smallest error" } th.wide { "calls" } th { "time" }
+                     th.wide { "calls " (enough) } th { "time " (enough) } }
+                @for one in &all { (line(one)) }
+            }
+            p.faint { "The largest error of the attitude over the " (launches) " launches of the problem " (problem) ", calls of the \
+                       right-hand side and time per launch on this machine: of the most accurate run, and of the cheapest run \
+                       within " (format!("{ENOUGH:e}")) " rad, among the tolerances and steps that were flown." }
         }
     }
 }
 
-fn checks(report: &Report<'_>) -> Markup {
+/// The chart of all solvers with the front.
+fn overview(charts: &[Chart]) -> Markup {
     html! {
-        h2 id="checks" { "Checks" }
-        p.faint { "The worst first: what fails, then what comes closest to its bound. Open a check for its rows. A margin says how many \
-                   times the bound is above what was measured. A solver without a bound is judged by the error that it claims." }
-        @for block in Block::all(report.rows) {
-            (check(&block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
+        @for chart in charts.iter().filter(|chart| chart.file == OVERVIEW) {
+            section {
+                h2 { "Work against error" }
+                figure {
+                    (PreEscaped(&chart.svg))
+                    figcaption { "The same problem, by time: the further right, the more accurate; the lower, the cheaper. Grey: the \
+                                  front, which no integrator beats." }
+                }
+            }
+        }
+    }
+}
+
+/// How solvers answer near the places where methods fail.
+fn matrix(atlas: &Atlas) -> Markup {
+    let cell = |subject: &str, hazard: &str| {
+        let (class, sign, word) = match atlas.worst(hazard, subject) {
+            Some(Answer::Right) => ("right", "✓", "right"),
+            Some(Answer::TypedError) => ("error", "!", "error"),
+            Some(Answer::Unclaimed) => ("unclaimed", "?", "no claim"),
+            Some(Answer::SilentlyWrong) => ("wrong", "✗", "WRONG"),
+            None => ("", "–", "–"),
+        };
+        html! { td class=(class) title=(format!("{subject}, {hazard}: {word}")) { span.sign { (sign) } span.word { (word) } } }
+    };
+    html! {
+        h2 { "Where methods fail" }
+        table.atlas {
+            tr { th { "" } @for hazard in HAZARDS { th title=(hazard.name) { (hazard.id) } } }
+            @for subject in atlas.subjects() {
+                tr { th scope="row" { (subject) } @for hazard in HAZARDS { (cell(subject, hazard.id)) } }
+            }
+        }
+        p.faint {
+            "The worst answer over all distances from each hazard: right ✓, an error that says why !, an answer without a usable \
+             claim ?, wrong without an error ✗. "
+            @for hazard in HAZARDS { b { (hazard.id) } " " (hazard.name) ". " }
+        }
+    }
+}
+
+/// One line for each family.
+fn families(report: &Report<'_>) -> Markup {
+    html! {
+        h2 id="checks" { "Families of checks" }
+        table.families {
+            tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
+            @for family in Family::all(report.rows) {
+                @let worst = family.worst();
+                tr {
+                    th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing())) (family.name) } }
+                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows()) @if family.failing() > 0 { " fail" } }
+                    td { (reserve(worst).trim_start_matches("reserve ")) }
+                    td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
+                }
+            }
+        }
+        p.faint { "The worst first. The reserve is the limit divided by what was measured; below 1 a row fails. A solver without a limit \
+                   is judged by the error that it claims." }
+    }
+}
+
+fn mark(failing: usize) -> Markup {
+    html! { @if failing == 0 { span.pass { "✓ " } } @else { span.fail { "✗ " } } }
+}
+
+fn anchor(family: &str) -> String {
+    family.replace(' ', "-")
+}
+
+/// A family with all its checks and their rows.
+fn in_full(family: &Family<'_>, report: &Report<'_>) -> Markup {
+    html! {
+        details id=(anchor(family.name)) open[family.failing() > 0] {
+            summary { b { (mark(family.failing())) (family.name) }
+                      span.faint { (family.blocks.len()) " checks, " (family.rows()) " rows" } }
+            @for block in &family.blocks {
+                (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
+            }
         }
     }
 }
@@ -127,22 +280,21 @@ fn checks(report: &Report<'_>) -> Markup {
 fn check(block: &Block<'_>, timing: Option<&Timing>) -> Markup {
     let (worst, all) = (block.worst(), block.failing() == 0);
     html! {
-        details open[!all] {
+        details.check open[!all] {
             summary {
-                b class=(if all { "pass" } else { "fail" }) { (if all { "✓ " } else { "✗ " }) (worst.check) }
+                b { (mark(block.failing())) (worst.check) }
                 " " (worst.claim) " "
                 span.faint {
-                    (block.rows.len() - block.failing()) " of " (block.rows.len())
-                    @if worst.part() > 0.0 { ", " (worst.subject) ": " (margin(worst)) }
-                    @if let Some(basis) = worst.basis { ", " (basis.name()) }
+                    (block.rows.len() - block.failing()) " of " (block.rows.len()) " pass"
+                    @if worst.part() > 0.0 { ", " (worst.subject) ": " (reserve(worst)) }
+                    @if let Some(basis) = worst.basis { ", by " (basis.name()) }
                     @if let Some(timing) = timing { ", " (format!("{:.1} s", timing.t_wall_s)) }
                 }
             }
-            div.wide { table {
-                tr { th { "subject" } th { "measured" } th { "" } th { "bound" } th { "unit" } th { "" } th { "cases" } th { "" }
-                     th { "judges the" } th { "worst input" } }
+            table {
+                tr { th { "subject" } th { "measured and limit" } th { "reserve" } th.wide { "cases" } th { "verdict" } }
                 @for row in &block.rows { (line(row)) }
-            } }
+            }
         }
     }
 }
@@ -155,48 +307,82 @@ fn line(row: &Row) -> Markup {
     };
     html! {
         tr {
-            td { (row.subject) } td { (measured(row)) } td { (relation(row)) } td { (number(row.bound)) }
-            td { @if row.unit != "1" { (row.unit) } }
-            td { (margin(row)) }
-            td { (row.cases) }
-            td class=(class) { (row.status.name()) }
-            td.faint { @if let Some(judges) = row.judges { (judges.name()) } }
-            td.long.faint { @if let Some(input) = &row.worst_input { code { (input) } } }
+            th scope="row" { (row.subject) } td { (comparison(row)) }
+            td { (reserve(row).trim_start_matches("reserve ")) }
+            td.wide { (row.cases) }
+            td class=(class) { (verdict(row)) }
+        }
+        @if let Some(input) = &row.worst_input { tr.more { td colspan="5" { "worst input " code { (input) } } } }
+    }
+}
+
+/// A chapter of charts, folded; nothing if it has none.
+fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
+    let charts: Vec<&Chart> =
+        charts.iter().filter(|chart| chart.file.starts_with(id) && chart.file != OVERVIEW).collect();
+    html! {
+        @if !charts.is_empty() {
+            details id=(id) {
+                summary { b { (title) } span.faint { (charts.len()) @if charts.len() == 1 { " chart" } @else { " charts" } } }
+                p.faint { (caption) }
+                @for chart in &charts {
+                    figure {
+                        a href=(chart.file) title="the chart by itself" { (PreEscaped(&chart.svg)) }
+                        @if let Some(caption) = &chart.caption { figcaption { (caption) } }
+                    }
+                }
+            }
         }
     }
 }
 
 fn probabilities(lines: &[Probability]) -> Markup {
     html! {
-        h2 id="probabilities" { "Probabilities" }
-        p.faint { "P(heads) of the named spaces by every way of sampling: the space of the paper's 66 % (reconstructed), its cheated toss and \
-                   its toss that lands tails. A grid is no sample, so it has no interval." }
-        div.wide { table {
-            tr { th { "space" } th { "method" } th { "launches" } th { "P(heads)" } th { "95 % interval" } th { "" } }
-            @for line in lines {
-                tr {
-                    td { (line.space) } td { (line.method) } td { (line.points) } td { (format!("{:.6}", line.probability)) }
-                    td { @if let Some([lo, hi]) = line.interval { (format!("{lo:.6} to {hi:.6}")) } }
-                    td.long.faint { (line.interval_kind) }
+        details id="probabilities" {
+            summary { b { "Probabilities" } span.faint { (lines.len()) " estimates" } }
+            p.faint { "P(heads) of the named spaces by every way of sampling: the space of the paper's 66 % (reconstructed), its cheated \
+                       toss and its toss that lands tails. A grid is no sample, so it has no interval." }
+            table {
+                tr { th { "space" } th { "method" } th.wide { "launches" } th { "P(heads)" } th { "95 % interval" } }
+                @for line in lines {
+                    tr {
+                        td { (line.space) } td { (line.method) } td.wide { (line.points) } td { (format!("{:.6}", line.probability)) }
+                        td { @if let Some([lo, hi]) = line.interval { (format!("{lo:.6} to {hi:.6}")) }
+                             " " span.faint { (line.interval_kind) } }
+                    }
                 }
             }
-        } }
+        }
     }
 }
 
 fn planner(lines: &[Line]) -> Markup {
     html! {
-        h2 id="planner" { "The planner" }
-        p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy asked for and \
-                   by the error expected." }
-        div.wide { table {
-            tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } }
-            @for line in lines {
-                tr {
-                    td { (line.kind) } td { (line.scenes) } td { (line.refused) }
-                    td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
+        details id="planner" {
+            summary { b { "The planner" } span.faint { (lines.len()) " kinds of scenes" } }
+            p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy \
+                       asked for and by the error expected." }
+            table {
+                tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } }
+                @for line in lines {
+                    tr {
+                        td { (line.kind) } td { (line.scenes) } td { (line.refused) }
+                        td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
+                    }
                 }
             }
-        } }
+        }
+    }
+}
+
+/// The checks that gave no row. A run that passes should say what it does not speak of.
+fn not_measured(report: &Report<'_>) -> Markup {
+    html! {
+        @if !report.left_out.is_empty() {
+            details id="left-out" {
+                summary { b { "What was left out" } span.faint { (report.left_out.len()) " checks" } }
+                @for line in left_out(report.left_out).lines() { p.faint { (line) } }
+            }
+        }
     }
 }

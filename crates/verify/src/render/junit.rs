@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
-use super::words::{Block, comparison, margin};
-use super::{Report, moves};
+use super::words::{Block, comparison, reserve, verdict};
+use super::{Report, words};
 use crate::judge::Row;
-use crate::judge::baseline::{Direction, Move};
+use crate::judge::baseline::Move;
 
 /// Name of the suite of what became worse.
 const WORSE: &str = "worse than the baseline";
@@ -29,7 +29,7 @@ pub fn xml(report: &Report<'_>) -> anyhow::Result<String> {
         suite.add_test_cases(block.rows.iter().map(|row| test_case(row)));
         junit.add_test_suite(suite);
     }
-    let worse: Vec<&Move> = report.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect();
+    let worse = report.worse();
     if !worse.is_empty() {
         let mut suite = TestSuite::new(WORSE);
         suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, report.rows)));
@@ -42,14 +42,14 @@ fn test_case(row: &Row) -> TestCase {
     let status = if row.status.passes() {
         TestCaseStatus::success()
     } else {
-        let message = format!("{}: {} ({})", row.status.name(), comparison(row), margin(row));
+        let message = format!("{}: {} ({})", verdict(row), comparison(row), reserve(row));
         let detail = [&row.failure, &row.worst_input, &row.replay];
         failure(message, &detail.into_iter().flatten().map(String::as_str).collect::<Vec<_>>())
     };
     let mut case = TestCase::new(row.subject.as_str(), status);
     case.set_classname(row.check.as_str());
     let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));
-    let numbers = [("measured", shown(row.measured)), ("bound", shown(row.bound)), ("unit", Some(row.unit.clone()))];
+    let numbers = [("measured", shown(row.measured)), ("limit", shown(row.limit)), ("unit", Some(row.unit.clone()))];
     let judges = ("judges", row.judges.map(|judges| judges.name().to_owned()));
     case.add_properties(
         numbers.into_iter().chain([judges]).filter_map(|(name, value)| Some(Property::new(name, value?))),
@@ -59,10 +59,10 @@ fn test_case(row: &Row) -> TestCase {
 
 /// The failing case for a row that became worse.
 fn worse_case(moved: &Move, rows: &[Row]) -> TestCase {
-    let replay = moves::replay(moved, rows);
+    let replay = words::replay(moved, rows);
     let mut case = TestCase::new(
         format!("{}: {}", moved.subject, moved.what),
-        failure(format!("worse than the baseline: {}", moves::change(moved)), &[&replay]),
+        failure(format!("worse than the baseline: {}", words::change(moved)), &[&replay]),
     );
     case.set_classname(format!("{WORSE}.{}", moved.check));
     let shown = |value: Option<f64>| value.map(|value| format!("{value:?}"));

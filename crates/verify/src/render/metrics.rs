@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::Report;
-use super::words::{comparison, margin};
+use super::words::{comparison, reserve};
 use crate::judge::baseline::Entry;
 
 /// Errors and calls by check and subject, in Bencher's metric format:
@@ -40,7 +40,7 @@ pub fn smaller_is_better(report: &Report<'_>) -> anyhow::Result<String> {
     for (check, subject, Entry { error, calls }) in report.metrics() {
         let row = report.rows.iter().find(|row| row.check == check && row.subject == subject);
         let extra = row.map_or_else(String::new, |row| {
-            format!("{} ({})\n{}", comparison(row), margin(row), row.replay.as_deref().unwrap_or_default())
+            format!("{} ({})\n{}", comparison(row), reserve(row), row.replay.as_deref().unwrap_or_default())
         });
         let name = format!("{check} / {subject}");
         // The error of a problem of speed and accuracy is an angle.

@@ -3,17 +3,13 @@
 
 pub mod charts;
 pub mod github;
-pub mod history;
 pub mod html;
 pub mod junit;
-pub mod left_out;
 pub mod metrics;
-pub mod moves;
 pub mod pattern;
 pub mod report;
-pub mod runs;
-pub mod table;
-mod words;
+pub mod text;
+pub(crate) mod words;
 
 pub use report::Report;
 

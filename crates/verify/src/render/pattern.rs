@@ -3,32 +3,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::words::family;
 use crate::judge::Row;
 use crate::judge::baseline::{Direction, Move};
 use crate::measure::check::Judges;
 
 /// How many names a list shows before it counts the rest.
 const LISTED: usize = 6;
-
-/// What the rows about the library belong to, by the beginning of their check's id.
-const FAMILIES: [(&str, &str); 16] = [
-    ("batch-", "batches"),
-    ("certified-", "proofs"),
-    ("clopper-pearson-", "sampling"),
-    ("detest-", "Runge-Kutta schemes"),
-    ("exact-speed-", "sampling"),
-    ("fig4-", "sampling"),
-    ("interval-", "sampling"),
-    ("isotropic-", "published figures"),
-    ("last-bit-", "last bits of the exact motion"),
-    ("long-flight-", "limit of long flights"),
-    ("plan-", "planner"),
-    ("probability-figures", "published figures"),
-    ("probability-", "sampling"),
-    ("enclosure", "sampling"),
-    ("sampling-", "sampling"),
-    ("sensitivity", "derivatives"),
-];
 
 /// The paragraph on `rows`: which fail, which pass, and what that points to.
 pub fn of_rows(rows: &[Row]) -> String {
@@ -37,7 +18,8 @@ pub fn of_rows(rows: &[Row]) -> String {
     let found = Found::new(&items);
     let passing = found.passing();
     if failing == 0 {
-        return format!("All {} rows pass: {passing}.", rows.len());
+        let whole = found.whole();
+        return format!("All {} rows pass{}{whole}.", rows.len(), if whole.is_empty() { "" } else { ": " });
     }
     let mut text = format!("Fails: {}.", found.bad());
     if !passing.is_empty() {
@@ -102,8 +84,7 @@ impl<'a> Item<'a> {
 
     /// The part of the library that the row judges; the check itself if it belongs to none of the known ones.
     fn family(&self) -> &'a str {
-        let found = FAMILIES.iter().find(|(start, _)| self.check.starts_with(start));
-        found.map_or(self.check, |(_, family)| family)
+        family(self.check)
     }
 }
 
@@ -153,6 +134,15 @@ impl<'a> Found<'a> {
         let mut names: Vec<&str> = clean(&self.solvers, Item::solver).into_iter().collect();
         names.extend(clean(&self.library, Item::family));
         names.join(", ")
+    }
+
+    /// What was judged, in few words.
+    fn whole(&self) -> String {
+        let solvers = self.names(|_| true);
+        let parts = grouped(&self.library, |item| item.family()).len();
+        let parts =
+            (parts > 0).then(|| format!("{parts} {} of the library", if parts == 1 { "part" } else { "parts" }));
+        [(!solvers.is_empty()).then(|| list(&solvers)), parts].into_iter().flatten().collect::<Vec<_>>().join(" and ")
     }
 
     fn bad_items(&self) -> Vec<&'a Item<'a>> {

@@ -1,17 +1,22 @@
-//! The report of a run. It holds all that the renderings show.
+//! The report of a run. It holds all that the renderings show, and answers first: in one sentence, and by what each
+//! solver reaches at which cost.
 
 use serde::Serialize;
+use toss::planner::Nanoseconds;
 
 use super::pattern;
+use super::words::{comparison, reserve, worst_first};
+use crate::host::Host;
 use crate::judge::LeftOut;
 use crate::judge::Row;
 use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
 use crate::measure::context::Records;
 use crate::measure::effort::Effort;
+use crate::measure::work_precision::Sample;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 5;
+const SCHEMA: u32 = 6;
 
 /// Everything that a run found.
 #[derive(Debug, Serialize)]
@@ -20,6 +25,10 @@ pub struct Report<'a> {
     pub schema: u32,
     /// Whether every row passes.
     pub passed: bool,
+    /// Version of the suite.
+    pub version: &'static str,
+    /// The day, the commit and the machine.
+    pub host: &'a Host,
     /// The effort of the run: how many cases were tried.
     pub effort: Effort,
     /// What the failing rows have in common, what passes, and what became worse, in words.
@@ -43,26 +52,68 @@ pub struct Report<'a> {
 pub struct Compared {
     /// Its file.
     pub file: String,
-    /// Whether there is one. Without it nothing is compared, so that nothing can be worse.
+    /// Whether there was one. Without it nothing is compared, so that nothing can be worse.
     pub found: bool,
+    /// Whether the run wrote it.
+    pub written: bool,
 }
 
 impl Compared {
-    /// How many rows `moves` shows to have become worse, better, new or gone.
+    /// How many rows `moves` shows to have become worse, better, new or gone, and what was done about them.
     pub fn words(&self, moves: &[Move]) -> String {
-        if !self.found {
-            return format!("There is no baseline yet at {}, so nothing was compared; --bless begins one.", self.file);
-        }
+        let Self { file, found, written } = self;
         let count = |direction| moves.iter().filter(|moved| moved.direction == direction).count();
         let [worse, better, new, gone] =
             [Direction::Worse, Direction::Better, Direction::New, Direction::Gone].map(count);
-        format!("Compared with the baseline {}: {worse} worse, {better} better, {new} new, {gone} gone.", self.file)
+        match (found, written) {
+            (false, false) => {
+                format!("There is no baseline yet at {file}, so nothing was compared; --bless begins one.")
+            }
+            (false, true) => format!("This run began the baseline {file}."),
+            (true, false) => {
+                format!("Compared with the baseline {file}: {worse} worse, {better} better, {new} new, {gone} gone.")
+            }
+            (true, true) => format!(
+                "Compared with the baseline {file}, and written into it: {better} better and {new} new were taken over, \
+                 {gone} gone were dropped, {worse} worse were not taken."
+            ),
+        }
     }
 }
 
+/// What one solver reaches on a problem, and at which cost, per launch.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reached {
+    /// The solver with its scheme.
+    pub(super) subject: String,
+    /// Its run with the smallest error.
+    pub(super) finest: Cost,
+    /// Its cheapest run within [`ENOUGH`]; `None` if there is none.
+    pub(super) enough: Option<Cost>,
+}
+
+/// The error and the cost of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cost {
+    /// The largest error of the attitude over the launches (rad).
+    pub(super) error: f64,
+    /// Calls of the right-hand side; 0 for a closed form.
+    pub(super) calls: f64,
+    /// Time (µs).
+    pub(super) microseconds: f64,
+}
+
+/// An error of the attitude (rad) that is enough for most purposes.
+pub(super) const ENOUGH: f64 = 1e-9;
+
+/// The problem of which a report says what each solver reaches, if it was flown: launches like those of a hand.
+const ORDINARY: &str = "ensemble";
+
 impl<'a> Report<'a> {
     /// The report of `rows`, whose checks took the times of `checks`.
+    #[expect(clippy::too_many_arguments, reason = "a report is made in one place")]
     pub fn new(
+        host: &'a Host,
         effort: Effort,
         rows: &'a [Row],
         checks: &'a [Timing],
@@ -73,7 +124,21 @@ impl<'a> Report<'a> {
     ) -> Self {
         let pattern = [pattern::of_rows(rows), pattern::of_moves(moves, rows)].join(" ").trim_end().to_owned();
         let passed = rows.iter().all(|row| row.status.passes());
-        Self { schema: SCHEMA, passed, effort, pattern, rows, checks, baseline, moves, left_out, records }
+        let version = env!("CARGO_PKG_VERSION");
+        Self {
+            schema: SCHEMA,
+            passed,
+            version,
+            host,
+            effort,
+            pattern,
+            rows,
+            checks,
+            baseline,
+            moves,
+            left_out,
+            records,
+        }
     }
 
     /// The report as JSON.
@@ -84,10 +149,93 @@ impl<'a> Report<'a> {
         Ok(serde_json::to_string_pretty(self)?)
     }
 
-    /// What each row measured, and the error and the calls of each problem of speed and accuracy, by check and subject.
+    /// The largest deviation of each row, and the error and the calls of each problem of speed and accuracy, by check and subject.
     pub(super) fn metrics(&self) -> impl Iterator<Item = (String, String, Entry)> {
         let of_row =
-            |row: &Row| Some((row.check.clone(), row.subject.clone(), Entry { error: row.measured?, calls: None }));
+            |row: &Row| Some((row.check.clone(), row.subject.clone(), Entry { error: row.largest?, calls: None }));
         self.rows.iter().filter_map(of_row).chain(Baseline::of(&[], self.records.sweep).into_entries())
+    }
+
+    /// The verdict in one sentence: how many rows pass, or which of them fails by most.
+    pub(super) fn sentence(&self) -> String {
+        let failing = self.failing();
+        let all = self.rows.len();
+        let Some(worst) = failing.first() else {
+            return match self.worse().len() {
+                0 => self.pattern.clone(),
+                worse => format!("All {all} rows are within their limits, but {worse} became worse than the baseline."),
+            };
+        };
+        let number = failing.len();
+        let by = match worst.measured {
+            Some(_) => format!("{} ({})", comparison(worst), reserve(worst)),
+            None => worst.failure.clone().unwrap_or_else(|| reserve(worst)),
+        };
+        let (are, it_is) = if number == 1 { ("fails", "it is") } else { ("fail", "the worst is") };
+        format!("{number} of {all} rows {are}: {it_is} {} under {}, {by}.", worst.subject, worst.check)
+    }
+
+    /// The rows that fail, the worst first.
+    pub(super) fn failing(&self) -> Vec<&'a Row> {
+        let mut failing: Vec<&Row> = self.rows.iter().filter(|row| !row.status.passes()).collect();
+        failing.sort_by(|a, b| worst_first(a, b));
+        failing
+    }
+
+    /// What became worse than the baseline.
+    pub(super) fn worse(&self) -> Vec<&'a Move> {
+        self.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect()
+    }
+
+    /// When, where, of what and how long, as names and values.
+    pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
+        let Host { date, commit, rustc, target, cpu, cores, .. } = self.host;
+        let changed = if commit.ends_with('+') { " with changes" } else { "" };
+        let seconds: f64 = self.checks.iter().map(|timing| timing.t_wall_s).sum();
+        let rustc = rustc.split(" (").next().unwrap_or(rustc);
+        vec![
+            ("date", date.clone()),
+            ("commit", commit.trim_end_matches('+').chars().take(12).collect::<String>() + changed),
+            ("version", self.version.to_owned()),
+            ("machine", format!("{cpu}, {cores} cores, {target}, {rustc}")),
+            ("effort", self.effort.name().to_owned()),
+            ("time", format!("{seconds:.0} s for {} checks", self.checks.len())),
+        ]
+    }
+
+    /// The problem, with its number of launches, of which [`reached`](Self::reached) speaks.
+    pub(super) fn ordinary(&self) -> Option<(&'a str, usize)> {
+        let problems = &self.records.sweep?.problems;
+        let found = problems.iter().find(|(name, ..)| name == ORDINARY).or(problems.first())?;
+        Some((&found.0, found.2))
+    }
+
+    /// What each solver reaches at which cost, the most accurate first.
+    pub(super) fn reached(&self) -> Vec<Reached> {
+        let (Some(sweep), Some((problem, launches))) = (self.records.sweep, self.ordinary()) else { return Vec::new() };
+        let launches = launches.max(1) as f64;
+        let reached = |subject: String| {
+            let cost = |sample: &Sample| {
+                let microseconds = sample.t_min_ns as f64 * 1e-3 / launches;
+                Some(Cost { error: sample.err_attitude_rad?, calls: sample.n_rhs as f64 / launches, microseconds })
+            };
+            let runs: Vec<Cost> = sweep.series(problem, &subject).filter_map(cost).collect();
+            let finest = *runs.iter().min_by(|a, b| a.error.total_cmp(&b.error))?;
+            let within = runs.iter().filter(|run| run.error <= ENOUGH);
+            let enough = within.min_by(|a, b| a.microseconds.total_cmp(&b.microseconds)).copied();
+            Some(Reached { subject, finest, enough })
+        };
+        let mut all: Vec<Reached> = sweep.subjects().into_iter().filter_map(reached).collect();
+        all.sort_by(|a, b| a.finest.error.total_cmp(&b.finest.error));
+        all
+    }
+}
+
+impl Cost {
+    /// Error, calls and time in few characters.
+    pub(super) fn words(self) -> [String; 3] {
+        let calls = if self.calls > 0.0 { format!("{:.0}", self.calls) } else { "–".to_owned() };
+        let time = Nanoseconds(1e3 * self.microseconds).to_string();
+        [format!("{:.1e} rad", self.error), calls, time]
     }
 }

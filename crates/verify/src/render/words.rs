@@ -1,8 +1,14 @@
-//! Puts the numbers of a row into words, so that every rendering says the same about it.
+//! Puts rows into words and into order, so that every rendering says the same about them: the numbers of a row, the rows
+//! of a check, the checks of a family, what moved against the baseline, and the checks that gave no row.
+//!
+//! The *reserve* of a row is its limit divided by what was measured.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
-use crate::judge::{Row, Status};
+use crate::judge::baseline::{Direction, Move};
+use crate::judge::bounds::ceiling;
+use crate::judge::{LeftOut, Row, Status};
 
 /// A number in few characters: whole numbers as they are, others with two digits.
 pub(super) fn number(value: Option<f64>) -> String {
@@ -18,7 +24,7 @@ pub(super) fn number(value: Option<f64>) -> String {
 /// What was measured and what is allowed, as in `5.6e-9 > 1.0e-11 rad`.
 pub(super) fn comparison(row: &Row) -> String {
     let unit = if row.unit == "1" { "" } else { row.unit.as_str() };
-    format!("{} {} {} {unit}", measured(row), relation(row), number(row.bound)).trim_end().to_owned()
+    format!("{} {} {} {unit}", measured(row), relation(row), number(row.limit)).trim_end().to_owned()
 }
 
 /// What was measured, or that the subject failed.
@@ -26,22 +32,22 @@ pub(super) fn measured(row: &Row) -> String {
     if row.failure.is_some() && row.measured.is_none() { "failed".to_owned() } else { number(row.measured) }
 }
 
-/// `≤` for what is within its bound, `>` for what is above it.
+/// `≤` for what is within its limit, `>` for what is above it.
 pub(super) fn relation(row: &Row) -> &'static str {
     if row.part() <= 1.0 { "≤" } else { ">" }
 }
 
-/// How far the row is from its bound: `margin 2.3×`, `830 times over`; `–` where nothing deviates or nothing is
+/// How far the row is from its limit: `reserve 2.3×`, `830 times over`; `–` where nothing deviates or nothing is
 /// allowed.
-pub(super) fn margin(row: &Row) -> String {
+pub(super) fn reserve(row: &Row) -> String {
     match row.part() {
         _ if row.status == Status::NotMeasured => "not measured".to_owned(),
         0.0 => "–".to_owned(),
-        part if part <= 1.0 => format!("margin {:.1}×", 1.0 / part),
+        part if part <= 1.0 => format!("reserve {:.1}×", 1.0 / part),
         part if part.is_finite() => over(part),
         _ if row.measured.is_none() => "no number".to_owned(),
-        _ if row.bound.is_none() => "no bound".to_owned(),
-        _ => "over a bound of 0".to_owned(),
+        _ if row.limit.is_none() => "no limit".to_owned(),
+        _ => "over a limit of 0".to_owned(),
     }
 }
 
@@ -53,6 +59,26 @@ fn over(part: f64) -> String {
         part if part >= 10.0 => format!("{part:.0} times over"),
         part if part >= 1.05 => format!("{part:.1} times over"),
         _ => "just over".to_owned(),
+    }
+}
+
+/// The verdict on a row. A row without a limit of its own is judged by the solver's claim, but never allowed more than the
+/// ceiling of its check; where that decides, or a solver gave no answer, nothing is said of a claim.
+pub(super) fn verdict(row: &Row) -> &'static str {
+    let by_ceiling = row.limit == Some(ceiling(&row.check));
+    match row.status {
+        Status::Pass => "pass",
+        Status::PassLoose => "pass, loose limit",
+        Status::PassByClaim if by_ceiling => "pass, within the limit of the check",
+        Status::PassByClaim => "pass, by its own claim",
+        Status::NotJudged => "not judged: no limit",
+        Status::Fail => "FAIL",
+        Status::FailByClaim if row.measured.is_none() => "FAIL, no answer",
+        Status::FailByClaim if by_ceiling => "FAIL, above the limit of the check",
+        Status::FailByClaim => "FAIL, above its own claim",
+        Status::NoClaim => "FAIL, claims no error",
+        Status::NoBound => "FAIL, no limit",
+        Status::NotMeasured => "FAIL, not measured",
     }
 }
 
@@ -84,7 +110,7 @@ impl<'a> Block<'a> {
         blocks
     }
 
-    /// The row that is the furthest above its bound, or else the closest to it.
+    /// The row that is the furthest above its limit, or else the closest to it.
     pub(super) fn worst(&self) -> &'a Row {
         self.rows[0]
     }
@@ -95,25 +121,186 @@ impl<'a> Block<'a> {
     }
 }
 
+/// The families of checks, by the beginning of a check's id: what the rows of the library are part of, and what those of
+/// solvers are measured on. The first that fits counts.
+const FAMILIES: [(&str, &str); 40] = [
+    ("adversarial-", "launches chosen to break solvers"),
+    ("hostile-", "launches chosen to break solvers"),
+    ("atlas-", "places where methods fail"),
+    ("vertical-frame-", "places where methods fail"),
+    ("work-by-tilt", "places where methods fail"),
+    ("work-through-", "places where methods fail"),
+    ("batch-", "batches"),
+    ("counts-one-by-one", "batches"),
+    ("bodies-", "bodies"),
+    ("rigid-", "bodies"),
+    ("certified-", "proofs"),
+    ("integrated-", "proofs"),
+    ("claims-", "random launches"),
+    ("cross-method-", "random launches"),
+    ("random-", "random launches"),
+    ("reference-", "reference motions"),
+    ("clopper-pearson-", "sampling"),
+    ("enclosure", "sampling"),
+    ("exact-speed-", "sampling"),
+    ("fig4-", "sampling"),
+    ("grid-", "sampling"),
+    ("interval-", "sampling"),
+    ("sampling-", "sampling"),
+    ("convergence-order", "order and tolerance"),
+    ("tolerance-", "order and tolerance"),
+    ("detest-", "Runge-Kutta schemes"),
+    ("invariant-", "conserved quantities"),
+    ("catalogue-", "published figures"),
+    ("cheated-", "published figures"),
+    ("first-flip", "published figures"),
+    ("isotropic-", "published figures"),
+    ("probability-", "published figures"),
+    ("tails-in-flight", "published figures"),
+    ("cos-tilt-terms", "last bits of the exact motion"),
+    ("last-bit-", "last bits of the exact motion"),
+    ("mean-cos-tilt-", "last bits of the exact motion"),
+    ("long-flight-", "long flights"),
+    ("plan-", "planner"),
+    ("sensitivity", "derivatives and margins"),
+    ("work-precision", "speed against accuracy"),
+];
+
+/// The family of `check`; the check itself if it belongs to none of the known ones.
+pub(super) fn family(check: &str) -> &str {
+    let found = FAMILIES.iter().find(|(start, _)| check.starts_with(start));
+    found.map_or(check, |(_, family)| family)
+}
+
+/// The checks of one family, the worst first.
+pub(super) struct Family<'a> {
+    pub(super) name: &'a str,
+    /// The checks; there is at least one.
+    pub(super) blocks: Vec<Block<'a>>,
+}
+
+impl<'a> Family<'a> {
+    /// The families of `rows`, the worst first.
+    pub(super) fn all(rows: &'a [Row]) -> Vec<Self> {
+        let mut families: Vec<Self> = Vec::new();
+        // Blocks come the worst first, so that families and the checks in them do, too.
+        for block in Block::all(rows) {
+            let name = family(&block.worst().check);
+            match families.iter_mut().find(|family| family.name == name) {
+                Some(family) => family.blocks.push(block),
+                None => families.push(Self { name, blocks: vec![block] }),
+            }
+        }
+        families
+    }
+
+    /// The row that is the furthest above its limit, or else the closest to it.
+    pub(super) fn worst(&self) -> &'a Row {
+        self.blocks[0].worst()
+    }
+
+    /// The number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.blocks.iter().map(|block| block.rows.len()).sum()
+    }
+
+    /// The number of rows that fail.
+    pub(super) fn failing(&self) -> usize {
+        self.blocks.iter().map(Block::failing).sum()
+    }
+}
+
+/// One line per entry that moved, the worse ones first and with the command that repeats their row; empty if nothing did.
+pub(crate) fn moves(all: &[Move], rows: &[Row]) -> String {
+    let mut out = String::new();
+    for (direction, heading) in [
+        (Direction::Worse, "WORSE than the baseline"),
+        (Direction::Better, "better than the baseline; --bless takes it over"),
+        (Direction::New, "not in the baseline; --bless takes it over"),
+        (Direction::Gone, "in the baseline, but not measured; --bless drops it"),
+    ] {
+        let moved: Vec<&Move> = all.iter().filter(|moved| moved.direction == direction).collect();
+        if moved.is_empty() {
+            continue;
+        }
+        out += &format!("\n{heading}: {}\n", moved.len());
+        // What is new comes by the hundred, when a baseline is begun.
+        let shown = if direction == Direction::New { 10 } else { moved.len() };
+        for moved in moved.iter().take(shown) {
+            out += &line_of_move(moved);
+            out += &repeat(moved, rows);
+        }
+        if moved.len() > shown {
+            out += &format!("  and {} more\n", moved.len() - shown);
+        }
+    }
+    out
+}
+
+/// How to repeat a row that became worse.
+fn repeat(moved: &Move, rows: &[Row]) -> String {
+    if moved.direction != Direction::Worse {
+        return String::new();
+    }
+    format!("    repeat with: {}\n", replay(moved, rows))
+}
+
+/// The command that repeats what moved: its row's, or else that of the whole check.
+pub(super) fn replay(moved: &Move, rows: &[Row]) -> String {
+    let of_row = rows.iter().find(|row| moved.is_of(row)).and_then(|row| row.replay.clone());
+    let check = moved.check.split('/').next().unwrap_or(&moved.check);
+    let of_check = || rows.iter().find(|row| row.check == check).and_then(|row| row.replay.clone());
+    of_row.or_else(of_check).unwrap_or_else(|| format!("cargo xtask verify --only {check}"))
+}
+
+/// What changed and by how much, as in `error 1.500e-12 → 2.903e-12, 1.935 times`.
+pub(super) fn change(moved: &Move) -> String {
+    let number = |value: Option<f64>| match value {
+        Some(value) if value == 0.0 || value.abs() >= 1e4 => format!("{value:.0}"),
+        Some(value) => format!("{value:.3e}"),
+        None => "-".to_owned(),
+    };
+    let ratio = moved.before.zip(moved.now).filter(|(before, _)| *before > 0.0);
+    let ratio = ratio.map_or_else(String::new, |(before, now)| match now / before {
+        ratio if ratio >= 1e3 => format!(", {ratio:.1e} times"),
+        ratio => format!(", {ratio:.3} times"),
+    });
+    format!("{} {} → {}{ratio}", moved.what, number(moved.before), number(moved.now))
+}
+
+fn line_of_move(moved: &Move) -> String {
+    format!("  {} / {}: {}\n", moved.check, moved.subject, change(moved))
+}
+
+/// One line for each reason; empty if no check was left out.
+pub(crate) fn left_out(checks: &[LeftOut]) -> String {
+    let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for LeftOut { check, why } in checks {
+        by_reason.entry(why).or_default().push(check);
+    }
+    let line = |(why, checks): (&str, Vec<&str>)| format!("left out, {why}: {}\n", checks.join(", "));
+    by_reason.into_iter().map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::render::tests::row;
 
     #[test]
-    fn what_is_above_its_bound_is_said_to_be_over_and_never_to_have_a_margin() {
-        for (measured, bound, comparison_, margin_) in [
-            (4.3e-12, 1e-11, "4.3e-12 ≤ 1.0e-11 rad", "margin 2.3×"),
+    fn what_is_above_its_limit_is_said_to_be_over_and_never_to_have_a_reserve() {
+        for (measured, limit, comparison_, reserve_) in [
+            (4.3e-12, 1e-11, "4.3e-12 ≤ 1.0e-11 rad", "reserve 2.3×"),
             (8.3e-9, 1e-11, "8.3e-9 > 1.0e-11 rad", "830 times over"),
             (1.3e-11, 1e-11, "1.3e-11 > 1.0e-11 rad", "1.3 times over"),
             (1.0001, 1.0, "1.0 > 1 rad", "just over"),
-            (0.14, 42.5, "0.14 ≤ 42.5 rad", "margin 303.6×"),
+            (0.14, 42.5, "0.14 ≤ 42.5 rad", "reserve 303.6×"),
             (2.0, 1e-16, "2 > 1.0e-16 rad", "2.0e16 times over"),
-            (3.0, 0.0, "3 > 0 rad", "over a bound of 0"),
+            (3.0, 0.0, "3 > 0 rad", "over a limit of 0"),
             (0.0, 0.0, "0 ≤ 0 rad", "–"),
         ] {
-            let row = row("check", "gamma/rk4", measured, bound);
-            assert_eq!((comparison(&row).as_str(), margin(&row).as_str()), (comparison_, margin_));
+            let row = row("check", "gamma/rk4", measured, limit);
+            assert_eq!((comparison(&row).as_str(), reserve(&row).as_str()), (comparison_, reserve_));
         }
     }
 
@@ -132,5 +319,13 @@ mod tests {
         assert_eq!(order, ["over nothing", "over", "near", "far", "nothing"]);
         assert_eq!(blocks[1].worst().subject, "b");
         assert_eq!(blocks[1].failing(), 1);
+    }
+
+    #[test]
+    fn every_family_is_that_of_a_check() {
+        for (start, family) in FAMILIES {
+            let known = crate::CHECKS.iter().any(|check| check.id.starts_with(start));
+            assert!(known, "no check begins with {start}, of {family}");
+        }
     }
 }

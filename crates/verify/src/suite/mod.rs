@@ -24,7 +24,6 @@ use anyhow::{Context as _, ensure};
 use toss::Registry;
 
 use crate::files;
-use crate::host::Host;
 use crate::judge::baseline::{self, Baseline};
 use crate::judge::bounds::Bounds;
 use crate::judge::time::Timing;
@@ -213,23 +212,24 @@ impl Suite {
     }
 
     /// Takes what is better or new than the baseline into it, and after a run of standard effort writes a dated record.
-    /// What is worse is not taken.
+    /// What is worse is not taken. The report of the run says so from then on.
     ///
     /// # Errors
     /// If a file can't be written, a row fails, or only one check was run.
-    pub fn accept(&self, verified: &Verified) -> Result<(), Error> {
+    pub fn accept(&self, verified: &mut Verified) -> Result<(), Error> {
         Ok(self.accepted(verified)?)
     }
 
-    fn accepted(&self, verified: &Verified) -> anyhow::Result<()> {
+    fn accepted(&self, verified: &mut Verified) -> anyhow::Result<()> {
         ensure!(self.only.is_none(), "a run of one check is not accepted into the baseline");
         ensure!(verified.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
         let path = self.baseline_path();
         let accepted = Baseline::read(&path)?.unwrap_or_default();
         files::write(&path, &accepted.ratcheted(verified.found()).csv()?)?;
+        verified.note_that_the_baseline_was_written();
         let sweep = verified.context().records().sweep;
         if let Some(sweep) = sweep.filter(|_| self.effort == Effort::Standard) {
-            record::write(&self.folder.join("record"), &Host::here(), verified.found(), sweep)?;
+            record::write(&self.folder.join("record"), verified.host(), verified.found(), sweep)?;
         }
         Ok(())
     }

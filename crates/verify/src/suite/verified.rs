@@ -34,6 +34,7 @@ pub enum Verdict {
 /// The result of a run.
 pub struct Verified {
     registry: Registry,
+    host: Host,
     effort: Effort,
     rows: Vec<Row>,
     moves: Vec<Move>,
@@ -56,8 +57,9 @@ impl Verified {
         let (registry, effort, path) = (suite.registry.clone(), suite.effort, suite.baseline_path());
         let (baseline, found) = (Baseline::read(&path)?, Baseline::of(&rows, context.records().sweep));
         let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
-        let compared = Compared { file: path.display().to_string(), found: baseline.is_some() };
-        Ok(Self { registry, effort, rows, moves, left_out, timings, compared, found, context })
+        let compared = Compared { file: path.display().to_string(), found: baseline.is_some(), written: false };
+        let host = Host::here();
+        Ok(Self { registry, host, effort, rows, moves, left_out, timings, compared, found, context })
     }
 
     /// The judged rows.
@@ -98,7 +100,7 @@ impl Verified {
     /// Bounds for the rows that pass without one, as the text of a `bounds.toml`: twice what was measured, rounded up to
     /// one digit. `None` if every row that passes has a bound.
     pub fn proposed_bounds(&self) -> Option<String> {
-        proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), Host::here().date))
+        proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
     }
 
     /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed bounds into
@@ -112,7 +114,7 @@ impl Verified {
 
     fn written(&self, folder: &Path) -> anyhow::Result<()> {
         let report = self.report();
-        let charts = charts::charts(&report.records, self.registry.entries())?;
+        let charts = charts::charts(&report, self.registry.entries())?;
         for (file, text) in [
             ("report.json", report.json()?),
             ("junit.xml", junit::xml(&report)?),
@@ -135,6 +137,7 @@ impl Verified {
     /// Everything that the reports show.
     pub fn report(&self) -> Report<'_> {
         Report::new(
+            &self.host,
             self.effort,
             &self.rows,
             &self.timings,
@@ -143,6 +146,15 @@ impl Verified {
             &self.left_out,
             self.context.records(),
         )
+    }
+
+    /// The machine, the commit and the day of the run.
+    pub(crate) fn host(&self) -> &Host {
+        &self.host
+    }
+
+    pub(super) fn note_that_the_baseline_was_written(&mut self) {
+        self.compared.written = true;
     }
 
     /// What the baseline would be after this run.

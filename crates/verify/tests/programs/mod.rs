@@ -11,8 +11,8 @@ pub(crate) fn answering(body: &str) -> String {
 
 /// The program in Python that the page for authors shows, as a file.
 pub(crate) fn example(folder: &Path) -> String {
-    let page = include_str!("../../../../docs/your-integrator.md");
-    let script = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a program");
+    let page = include_str!("../../../../docs/your-solver.md");
+    let script = page.split("```python mine.py\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a program");
     let file = folder.join("mine.py");
     std::fs::write(&file, script).expect("a file");
     format!("python3 '{}'", file.display())

@@ -25,6 +25,16 @@ pub enum Expectation {
 }
 
 impl Expectation {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::TypedError => "typed error",
+            Self::SilentlyWrong => "silently wrong",
+            Self::RightOrTypedError => "right or typed error",
+        }
+    }
+
     /// Whether `answer` is as expected.
     pub fn allows(self, answer: Answer) -> bool {
         match self {

@@ -70,7 +70,8 @@ fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             is_unclaimed |= found == Some(Answer::Unclaimed);
             if !found.zip(expected).is_some_and(|(found, expected)| expected.allows(found)) {
                 let found = found.map_or("nothing", Answer::name);
-                unexpected.push(format!("{}: {found}, where {expected:?} is expected", hazard.id));
+                let expected = expected.map_or("nothing", Expectation::name);
+                unexpected.push(format!("{}: {found}, where {expected} is expected", hazard.id));
             }
         }
         let cases = HAZARDS.iter().map(|hazard| hazard.distances.len() as u64).sum();

@@ -7,7 +7,7 @@
 pub mod problems;
 pub mod proofs;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use toss::{Error, Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping, Toss};
 
+use crate::clock;
 use crate::measure::effort::Effort;
 use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Allowance, Answer, Run};
@@ -241,18 +242,10 @@ fn times(jobs: &[Job], problems: &[Problem], effort: Effort) -> Vec<(usize, (u64
 /// shortest and the median time (ns) and the number of runs.
 fn repeat(work: impl Fn(), budget: Duration) -> (u64, u64, u32) {
     const LONG: Duration = Duration::from_millis(300);
-    let mut times: Vec<u64> = Vec::new();
-    let start = Instant::now();
-    let goes_on = |runs: usize, spent: Duration| match runs {
-        0 => true,
+    let times = clock::times(work, |runs, spent| match runs {
         1..3 => spent < LONG,
         _ => runs < 25 && spent < budget,
-    };
-    while goes_on(times.len(), start.elapsed()) {
-        let begin = Instant::now();
-        work();
-        times.push(u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX));
-    }
-    times.sort_unstable();
-    (times[0], times[times.len() / 2], u32::try_from(times.len()).unwrap_or(u32::MAX))
+    });
+    let nanoseconds = |time: Duration| u64::try_from(time.as_nanos()).unwrap_or(u64::MAX);
+    (nanoseconds(times[0]), nanoseconds(times[times.len() / 2]), u32::try_from(times.len()).unwrap_or(u32::MAX))
 }

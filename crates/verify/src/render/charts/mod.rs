@@ -1,13 +1,9 @@
 //! Draws the records of a run as charts in SVG, for the report and for `docs/figures`.
 
-mod atlas_lines;
-mod atlas_matrix;
-mod history;
-mod long_flights;
-mod order;
+mod atlas;
+mod errors;
 mod palette;
-mod proofs;
-mod work_precision;
+mod work;
 
 use chart::{ChartError, Drawn, Panel, Series};
 use sampling::RunningStep;
@@ -15,10 +11,10 @@ use toss::SolverEntry;
 
 use crate::judge::record::Record;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::context::Records;
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::proofs::Proof;
-use atlas_matrix::Cell;
+use crate::render::Report;
+use atlas::Cell;
 use palette::Palette;
 
 /// A chart and the name of its file.
@@ -32,13 +28,16 @@ pub struct Chart {
     pub caption: Option<String>,
 }
 
+/// The file of the chart with which a report opens.
+pub(super) const OVERVIEW: &str = "work-precision.svg";
+
 /// Draws the errors of committed records over time, as SVG. There is at least one record. Solvers have the colours of
 /// `registry`.
 ///
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
 pub fn history(records: &[Record], registry: &[SolverEntry]) -> Result<String, ChartError> {
-    history::history(records, &Palette::new(registry))
+    errors::history(records, &Palette::new(registry))
 }
 
 /// Draws what the contestants called `names` are known to do where methods fail, as SVG. A contestant that `expected` does
@@ -48,7 +47,7 @@ pub fn history(records: &[Record], registry: &[SolverEntry]) -> Result<String, C
 /// [`ChartError`] if it can't be drawn.
 pub fn known_failures(names: &[String], expected: &Expected) -> Result<String, ChartError> {
     let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| expected.knows(name)).collect();
-    atlas_matrix::matrix(&names, |subject, hazard| expected.get(subject, hazard).map(Cell::from))
+    atlas::matrix(&names, |subject, hazard| expected.get(subject, hazard).map(Cell::from))
 }
 
 /// Draws speed against accuracy on the problem `problem` of the record of the day `date`, as SVG. Solvers have the colours
@@ -60,7 +59,7 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     let launches = sweep.problems.iter().find(|(name, ..)| name == problem).map(|(.., launches)| *launches);
     let launches = launches.ok_or_else(|| ChartError(format!("no problem '{problem}' in the record of {date}")))?;
     let title = format!("{problem}, record of {date}");
-    work_precision::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
+    work::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
 }
 
 /// Draws work against the errors of Taylor series and against the bounds that they prove, as SVG: a panel for each problem,
@@ -69,38 +68,40 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
 pub fn proven(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
-    proofs::proofs(panels)
+    work::proofs(panels)
 }
 
-/// Draws the charts of all records that the run has. Solvers have the colours of `registry`.
+/// Draws the charts of all records that the `report` has. Solvers have the colours of `registry`.
 ///
 /// # Errors
 /// [`ChartError`] if one can't be drawn.
-pub fn charts(records: &Records<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart>, ChartError> {
+pub fn charts(report: &Report<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart>, ChartError> {
+    let records = &report.records;
     let palette = Palette::new(registry);
     let mut charts = Vec::new();
-    if let Some(atlas) = records.atlas {
-        let worst = |subject: &str, hazard: &str| atlas.worst(hazard, subject).map(Cell::Answer);
-        charts.push(chart("atlas-matrix.svg", atlas_matrix::matrix(&atlas.subjects(), worst)?));
-        charts.push(chart("atlas-error.svg", atlas_lines::errors(atlas, &palette)?));
-        charts.push(chart("atlas-work.svg", atlas_lines::work(atlas, &palette)?));
+    if let Some(all) = records.atlas {
+        let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Cell::Answer);
+        charts.push(chart("atlas-matrix.svg", atlas::matrix(&all.subjects(), worst)?));
+        charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
+        charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
     }
     if let Some(flights) = records.long_flights {
-        charts.push(chart("long-flights.svg", long_flights::long_flights(flights, &palette)?));
+        charts.push(chart("long-flights.svg", errors::long_flights(flights, &palette)?));
     }
     if let Some(steps) = records.fig4 {
         let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
         charts.push(chart("fig4.svg", chart::running(&columns)?));
     }
     if let Some(all) = records.convergence.filter(|all| !all.is_empty()) {
-        charts.push(chart("order.svg", order::order(all, &palette)?));
+        charts.push(chart("order.svg", errors::order(all, &palette)?));
     }
-    if let Some(sweep) = records.sweep {
-        charts.push(chart("work-precision-all.svg", work_precision::all_problems(sweep, &palette)?));
+    if let (Some(sweep), Some(problem)) = (records.sweep, report.ordinary()) {
+        charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
+        charts.push(chart("work-precision-all.svg", work::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {
             charts.push(Chart {
                 file: format!("work-precision-{problem}.svg"),
-                svg: work_precision::work_precision(sweep, (problem, *launches), problem, &palette)?,
+                svg: work::work_precision(sweep, (problem, *launches), problem, &palette)?,
                 caption: Some(format!("{problem}: {stresses}")),
             });
         }

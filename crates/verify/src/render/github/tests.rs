@@ -1,6 +1,7 @@
 //! What GitHub would read.
 
 use super::*;
+use crate::host::Host;
 use crate::judge::baseline::Baseline;
 use crate::judge::time::Timing;
 use crate::measure::context::Records;
@@ -10,8 +11,9 @@ use crate::render::tests::row;
 
 fn with_report<T>(rows: &[Row], moves: &[Move], of: impl Fn(&Report<'_>) -> T) -> T {
     let checks = [Timing { check: "random-attitude".to_owned(), t_wall_s: 1.0, t_processor_s: None, limit_s: 50.0 }];
-    let baseline = Compared { file: "baseline/x86_64/quick.csv".to_owned(), found: true };
-    of(&Report::new(Effort::Quick, rows, &checks, baseline, moves, &[], Records::default()))
+    let baseline = Compared { file: "baseline/x86_64/quick.csv".to_owned(), found: true, written: false };
+    let host = Host::here();
+    of(&Report::new(&host, Effort::Quick, rows, &checks, baseline, moves, &[], Records::default()))
 }
 
 #[test]

@@ -1,10 +1,16 @@
 //! Draws work against the error that it buys: one chart of all problems on a common scale, which shows at a glance who needs
-//! least, and one for each problem, with calls of the right-hand side on the left and time on the right.
+//! least, and one for each problem, with calls of the right-hand side on the left and time on the right. A chart of Taylor
+//! series has the bounds that they prove beside their errors: a grey line joins the two of each tolerance, and its length is
+//! what the proof costs in digits.
 
-use chart::{Axis, ChartError, Drawn, EndLabel, Marker, Panel, Series, centred, end_labels, log_log, svg};
-use plotters::prelude::*;
+use chart::{
+    Axis, BLUE, ChartError, Drawn, EndLabel, LINE_WIDTH, Marker, Panel, Series, VERMILION, centred, end_labels,
+    log_log, svg,
+};
+use plotters::style::RGBColor;
 
 use super::palette::Palette;
+use crate::measure::work_precision::proofs::Proof;
 use crate::measure::work_precision::{Sample, Sweep};
 
 const SIZE: (u32, u32) = (1800, 1000);
@@ -76,6 +82,14 @@ pub(super) fn work_precision(
         drawing.panel(&left, CALLS)?;
         drawing.panel(&right, TIME)
     })
+}
+
+/// Size of the chart of one problem alone, by time.
+const OVERVIEW_SIZE: (u32, u32) = (1000, 820);
+
+/// The chart of `problem`, of so many launches, by time alone, as SVG: who needs least, at a glance.
+pub(super) fn overview(sweep: &Sweep, problem: (&str, usize), palette: &Palette<'_>) -> Result<String, ChartError> {
+    svg(OVERVIEW_SIZE, |root| Drawing::new(sweep, problem, palette).panel(root, TIME))
 }
 
 fn title(head: &Panel<'_>, words: &str) -> Drawn {
@@ -162,6 +176,44 @@ impl<'a> Drawing<'a> {
         let failures = Vec::new();
         Series { label, colour: FRONT, width: 16, dashed: false, marker: Marker::None, points, failures }
     }
+}
+
+const PROOFS_SIZE: (u32, u32) = (1800, 900);
+
+/// Room for the labels beside the lines (pixels).
+const PROOFS_RIGHT: u32 = 230;
+
+/// Between error and bound.
+const GAP: RGBColor = RGBColor(205, 205, 205);
+
+/// The chart as SVG: a panel for each problem, with its title.
+pub(super) fn proofs(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
+    let columns = panels.len().max(1);
+    svg(PROOFS_SIZE, |root| {
+        let areas = root.split_evenly((1, columns));
+        areas.iter().zip(panels).try_for_each(|(area, (title, proofs))| panel_of_proofs(area, title, proofs))
+    })
+}
+
+fn panel_of_proofs(panel: &Panel<'_>, title: &str, proofs: &[Proof]) -> Drawn {
+    let (least, most) = proofs
+        .iter()
+        .fold((f64::INFINITY, 0.0_f64), |(least, most), proof| (least.min(proof.calls), most.max(proof.calls)));
+    let x = Axis::logarithmic("attitude's error and bound [rad]", 10.0..1e-17);
+    let y = Axis::logarithmic("calls of the right-hand side per launch", 0.8 * least..1.25 * most);
+    let line = |label: &str, colour, (width, marker), points| {
+        let (label, failures) = (label.to_owned(), Vec::new());
+        Series { label, colour, width, dashed: false, marker, points, failures }
+    };
+    let gap =
+        |proof: &Proof| line("", GAP, (2, Marker::None), vec![(proof.bound, proof.calls), (proof.error, proof.calls)]);
+    let of = |value: fn(&Proof) -> f64| proofs.iter().map(|proof| (value(proof), proof.calls)).collect::<Vec<_>>();
+    let mut lines: Vec<Series> = proofs.iter().map(gap).collect();
+    lines.push(line("proven bound", VERMILION, (LINE_WIDTH, Marker::Disc), of(|proof| proof.bound)));
+    lines.push(line("error", BLUE, (LINE_WIDTH, Marker::Square), of(|proof| proof.error)));
+    let mut labels = log_log(panel, title, (&x, &y), &lines, PROOFS_RIGHT)?;
+    labels.retain(|label| !label.text.is_empty());
+    end_labels(panel, i32::try_from(panel.dim_in_pixel().0 - PROOFS_RIGHT).unwrap_or(0) + 16, labels)
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! The command `figure` draws figures that repeat exactly: from what is committed, or of flights whose errors and calls are
-//! the same in every run.
+//! The commands that draw. `figure` draws figures that repeat exactly: from what is committed, or of flights whose errors
+//! and calls are the same in every run. `history` draws the accuracy of the committed records over time, which shows slow
+//! changes that no single comparison with the baseline does.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
 
 use crate::files;
@@ -12,7 +13,7 @@ use crate::measure::atlas;
 use crate::measure::atlas::expected::Expected;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, proofs};
-use crate::render::charts;
+use crate::render::{charts, text};
 use crate::suite::Suite;
 
 /// Draw a figure that repeats exactly
@@ -78,4 +79,14 @@ fn proven_error() -> anyhow::Result<String> {
     };
     let panels: Vec<_> = PROVEN.into_iter().map(panel).collect::<anyhow::Result<_>>()?;
     Ok(charts::proven(&panels)?)
+}
+
+/// Prints and draws the accuracy of the committed records.
+pub(super) fn history(suite: &Suite, out: &Path) -> anyhow::Result<u8> {
+    let records = record::read(&suite.data().join("record"))?;
+    ensure!(!records.is_empty(), "there are no records yet; `{}` writes one", suite.commands().bless());
+    let path = out.join("history.svg");
+    files::write(&path, &charts::history(&records, suite.registry().entries())?)?;
+    files::print(&format!("{}\nchart: {}\n", text::history(&records), path.display()))?;
+    Ok(0)
 }
