@@ -122,7 +122,7 @@ fn class_of_input(error: &InputError) -> (&'static str, Details) {
         InputError::Missing { expected, .. } => ("MissingError", Some((*expected).to_owned())),
         InputError::OutsideModel { .. } => ("OutsideModelError", None),
         InputError::NoBody { limit, .. } => ("NoBodyError", Some(format!("at most {limit}"))),
-        InputError::NoEffect { others, .. } => ("MalformedError", Some(format!("a setting of {others}"))),
+        InputError::NoEffect { .. } => ("MalformedError", Some("None, or another solver".to_owned())),
         InputError::UnknownName { known, .. } => ("UnknownNameError", Some(known.clone())),
         _ => ("InputError", None),
     };

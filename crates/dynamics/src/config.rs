@@ -132,7 +132,8 @@ impl SolverConfig {
         has_effect: impl Fn(&SolverEntry) -> bool,
     ) -> InputError {
         let others = one_of(entries.iter().filter(|entry| has_effect(entry)).map(SolverEntry::name));
-        InputError::NoEffect { field, value, solver: self.name.clone(), others }
+        let with = format!("solver '{}'; it is for {others}", self.name);
+        InputError::NoEffect { field, value, with }
     }
 }
 

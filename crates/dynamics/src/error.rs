@@ -90,16 +90,14 @@ pub enum InputError {
         known: String,
     },
     /// A setting that would have no effect with the solver.
-    #[error("{field} = '{value}' has no effect with solver '{solver}'; it is for {others}")]
+    #[error("{field} = '{value}' has no effect with {with}")]
     NoEffect {
         /// The setting.
         field: &'static str,
         /// What was given.
         value: String,
-        /// The solver.
-        solver: String,
-        /// The solvers with which it has an effect.
-        others: String,
+        /// The solver, and those with which it has an effect.
+        with: String,
     },
 }
 

@@ -114,7 +114,7 @@ impl Run {
                 Some(row) => as_row(&suite, toss, row)?,
                 None => by_all(&suite, toss, self.foreign.is_given())?,
             };
-            return files::print(&text).map(|()| 0).map_err(Into::into);
+            return files::print(&text).map(|()| 0);
         }
         let suite = self.asked_for(suite);
         let mut verified = measure(&suite)?;
