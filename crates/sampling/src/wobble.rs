@@ -64,12 +64,17 @@ impl Wobble {
     /// Pearson's interval; several people have Student's, with the people as the sample.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if there are no people; [`InputError::OutsideModel`] if even the upper end of the interval
+    /// [`InputError::OutOfRange`] if there are no people; [`InputError::Malformed`] if they tossed more than 2^64 coins;
+    /// [`InputError::OutsideModel`] if even the upper end of the interval
     /// is below ½, which no wobble explains.
     #[expect(clippy::cast_precision_loss, reason = "nobody tosses 2^53 coins")]
     pub fn of(people: &[SameSide]) -> Result<Self, InputError> {
-        let sum = |part: fn(SameSide) -> u64| people.iter().map(|person| part(*person)).sum::<u64>();
-        let counts = SameSide::new(sum(SameSide::same), sum(SameSide::tosses))?;
+        let sum = |field, part: fn(SameSide) -> u64| {
+            let sum = people.iter().try_fold(0_u64, |sum, person| sum.checked_add(part(*person)));
+            let value = "2^64 or more".to_owned();
+            sum.ok_or(InputError::Malformed { field, value, expected: "fewer for all people together" })
+        };
+        let counts = SameSide::new(sum("same", SameSide::same)?, sum("tosses", SameSide::tosses)?)?;
         let share = counts.same as f64 / counts.tosses as f64;
         // The share is a ratio of two sums over people, which to first order is the mean of one number for each person.
         let weight = people.len() as f64 / counts.tosses as f64;
@@ -125,6 +130,8 @@ mod tests {
         assert_eq!(SameSide::new(0, 0).unwrap_err().field(), "tosses");
         assert_eq!(SameSide::new(2, 1).unwrap_err().field(), "same");
         assert_eq!(Wobble::of(&[]).unwrap_err().field(), "tosses");
+        let many = SameSide::new(u64::MAX, u64::MAX).unwrap();
+        assert_eq!(Wobble::of(&[many, many]).unwrap_err().field(), "same");
         let few = Wobble::of(&[SameSide::new(10, 100).unwrap()]).unwrap_err();
         assert!(matches!(few, InputError::OutsideModel { field: "same", .. }), "{few}");
     }

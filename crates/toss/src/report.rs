@@ -63,7 +63,7 @@ pub struct Landing {
     pub remark: String,
     /// `None` for a body with I1 ≠ I2, unless it was asked for.
     pub margin: Option<Margin>,
-    /// Of a body with I1 ≠ I2, unless it leaves the range of f64.
+    /// Of a body with I1 ≠ I2, unless it leaves the range of f64; see [`Landing::with_sensitivity`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<Slopes>,
     /// The quaternion (w, x, y, z) from the body to the laboratory.
@@ -192,6 +192,15 @@ impl Landing {
         Ok(self)
     }
 
+    /// The same with the derivatives of cos θ of a body with I1 ≠ I2. A program without this call does not contain their code.
+    ///
+    /// # Errors
+    /// As for [`Sensitivity::new`].
+    pub fn with_sensitivity(self, toss: &Toss) -> Result<Self, SolveError> {
+        let is_coin = toss.body.coin().is_some();
+        Ok(if is_coin { self } else { Self { sensitivity: Slopes::new(toss)?, ..self } })
+    }
+
     fn of(
         toss: &Toss,
         landed: &Landed,
@@ -213,7 +222,7 @@ impl Landing {
             unit_error: None,
             remark: String::new(),
             margin: (is_coin || with_margin).then(|| Margin::new(toss)).transpose()?,
-            sensitivity: if is_coin { None } else { Slopes::new(toss)? },
+            sensitivity: None,
             attitude: landed.state.attitude.components().map(without_sign_of_zero),
             rate: landed.state.rate.into(),
             norm_error: landed.norm_error,

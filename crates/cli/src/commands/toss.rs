@@ -26,10 +26,10 @@ impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let (toss, landing) = if self.prove {
             let (toss, solver) = (self.flight.toss.toss()?, self.flight.solver.prover(registry)?);
-            (toss, Landing::integrated(&toss, &solver)?)
+            (toss, Landing::integrated(&toss, &solver)?.with_sensitivity(&toss)?)
         } else {
             let (toss, backend) = self.flight.parts(registry)?;
-            (toss, Landing::new(&toss, &backend, self.margin)?)
+            (toss, Landing::new(&toss, &backend, self.margin)?.with_sensitivity(&toss)?)
         };
         let landing = landing.rounded(&toss, &self.flight.toss.rounding()?)?;
         Ok(self.format.print(input, &landing, || text(&landing, &toss.body)))
