@@ -43,6 +43,7 @@ pub(super) fn reserve(row: &Row) -> String {
     match row.part() {
         _ if row.status == Status::NotMeasured => "not measured".to_owned(),
         0.0 => "–".to_owned(),
+        part if part < 1e-4 => format!("reserve {:.1e}×", 1.0 / part),
         part if part <= 1.0 => format!("reserve {:.1}×", 1.0 / part),
         part if part.is_finite() => over(part),
         _ if row.measured.is_none() => "no number".to_owned(),
