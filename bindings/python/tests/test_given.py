@@ -105,6 +105,7 @@ CALLS = {
     "inverse": (ut.inverse, {"probability": 0.8, "body": "paper"}),
     "solve": (ut.solve, {"toss": TOSS, "solver": "euler", "t_eval": [0.0, 0.1], "scheme": "dopri5", "rtol": 1e-6}),
     "solve in a formulation": (ut.solve, {"toss": TOSS, "solver": "euler", "formulation": "momentum"}),
+    "solve in SciPy's words": (ut.solve, {"toss": TOSS, "method": "DOP853", "atol": 1e-6, "dense_output": True}),
     "solve by steps": (ut.solve, {"toss": TOSS, "solver": "euler", "scheme": "rk4", "step": 0.1}),
     "plan": (ut.plan, {"want": "trace", "of": TOSS, "accuracy": 1e-6, "points": 5, "solver": "euler", "scheme": "dop853"}),
     "tally": (ut.tally, {"space": SPACE, "plan": PLAN, "range": (0, 10), "threads": 1, "progress": print_nothing}),
@@ -156,7 +157,7 @@ def test_a_hostile_value_is_refused_by_the_name_of_its_argument(name, argument, 
     assert refused >= (10 if argument in ("progress", "executor") else 20)
 
 
-TEXTS = {"want", "solver", "scheme", "formulation", "name", "body", "text", "folder"}
+TEXTS = {"want", "solver", "method", "scheme", "formulation", "name", "body", "text", "folder"}
 NO_NUMBERS = [
     "True", "numpy True", "b'x'", "1+2j", "masked", "datetime64", "timedelta64", "timedelta", "dict", "set", "truth values",
     "texts", "True in a list", "a text in a list", "masked in a list", "a span in a list", "a masked array", "objects",
@@ -164,7 +165,7 @@ NO_NUMBERS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS], ids=lambda value: value)
+@pytest.mark.parametrize(("name", "argument"), [pair for pair in PAIRS if pair[1] not in TEXTS | {"dense_output"}], ids=lambda value: value)
 def test_what_would_change_its_meaning_is_no_number(name, argument):
     call, right = CALLS[name]
     for words in NO_NUMBERS:
@@ -180,7 +181,7 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Counts", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "Solution", "Trace", "Work"}
+    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "Solution", "Trace", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
     without_arguments = {"bodies", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._native import Solver, Toss
+from ._native import Solver, Toss, numbers
 from .errors import InputError, MalformedError, OutOfRangeError
 from .given import an, wrong
 from .launches import column
@@ -79,6 +79,8 @@ def solve(
         raise MalformedError(f"{given[0]} is given with a Solver, which has settings", field=given[0], valid="None")
     times = _times(toss, t_eval)
     y, work, estimate = _native.solve(toss, times, solver)
+    if not isinstance(dense_output, bool):
+        raise wrong("dense_output", dense_output, "True or False")
     sol = DenseOutput(toss, solver) if dense_output else None
     return Solution(times, y, work[0], Work(*work), estimate, sol=sol)
 
@@ -110,10 +112,11 @@ def _tolerance(rtol: float | None, atol: float | None) -> float | None:
     """The one tolerance of a scheme."""
     if atol is None:
         return rtol
-    if not isinstance(atol, (int, float)) or (rtol is not None and atol != rtol):
+    given = numbers("atol", atol)
+    if given.size != 1 or (rtol is not None and atol != rtol):
         valid = "one number, equal to rtol: one tolerance controls both errors of all components"
         raise MalformedError(f"atol can't be used: expected {valid}", field="atol", valid=valid)
-    return atol
+    return float(given[0])
 
 
 def _times(toss: Toss, t_eval: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
