@@ -41,42 +41,50 @@ def _short(value: object) -> str:
     return str(value)
 
 
-def _frame(t: npt.NDArray[np.float64], parts: dict[str, npt.NDArray[np.float64]]) -> pd.DataFrame:
-    """A table with a column for each component, such as ``rate_x``, over the times."""
-    import pandas as pd
+class _Flight:
+    """What a flight over the times ``t`` becomes with pandas, xarray and matplotlib."""
 
-    columns = {}
-    for name, values in parts.items():
-        letters = {1: "", 3: "xyz", 4: "wxyz"}[1 if values.ndim == 1 else values.shape[1]]
-        if not letters:
-            columns[name] = values
-        for index, letter in enumerate(letters):
-            columns[f"{name}_{letter}"] = values[:, index]
-    return pd.DataFrame(columns, index=pd.Index(t, name="t"))
+    t: npt.NDArray[np.float64]
 
+    def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
+        """``cos_tilt`` and other numbers of shape (n,), vectors (n, 3) and quaternions (n, 4), by their names."""
+        raise NotImplementedError
 
-def _dataset(t: npt.NDArray[np.float64], parts: dict[str, npt.NDArray[np.float64]]) -> xr.Dataset:
-    """The same with a dimension for the components of each vector."""
-    import xarray as xr
+    def to_pandas(self) -> pd.DataFrame:
+        """A ``pandas.DataFrame`` over the times ``t``, with a column for each component, such as ``rate_x``."""
+        import pandas as pd
 
-    dimensions = {3: ("t", "axis"), 4: ("t", "component")}
-    values = {
-        name: (("t",) if part.ndim == 1 else dimensions[part.shape[1]], part) for name, part in parts.items()
-    }
-    coordinates = {"t": ("t", t, {"units": "s"}), "axis": list("xyz"), "component": list("wxyz")}
-    return xr.Dataset(values, coordinates)
+        columns = {}
+        for name, values in self._parts().items():
+            letters = "" if values.ndim == 1 else {3: "xyz", 4: "wxyz"}[values.shape[1]]
+            if not letters:
+                columns[name] = values
+            for index, letter in enumerate(letters):
+                columns[f"{name}_{letter}"] = values[:, index]
+        return pd.DataFrame(columns, index=pd.Index(self.t, name="t"))
 
+    def to_xarray(self) -> xr.Dataset:
+        """An ``xarray.Dataset`` with the dimensions ``t``, ``axis`` (x, y, z) and ``component`` (w, x, y, z)."""
+        import xarray as xr
 
-def _plot(t: npt.NDArray[np.float64], cos_tilt: npt.NDArray[np.float64], ax: Axes | None) -> Axes:
-    """cos θ over time, on axes of matplotlib."""
-    if ax is None:
-        import matplotlib.pyplot as plt
+        dimensions = {3: ("t", "axis"), 4: ("t", "component")}
+        values = {
+            name: (("t",) if part.ndim == 1 else dimensions[part.shape[1]], part)
+            for name, part in self._parts().items()
+        }
+        coordinates = {"t": ("t", self.t, {"units": "s"}), "axis": list("xyz"), "component": list("wxyz")}
+        return xr.Dataset(values, coordinates)
 
-        ax = plt.gca()
-    ax.plot(t, cos_tilt)
-    ax.axhline(0.0, color="0.6", linewidth=0.8)
-    ax.set(xlabel="time after launch (s)", ylabel="cos θ (heads above 0)", ylim=(-1.05, 1.05))
-    return ax
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.gca()
+        ax.plot(self.t, self._parts()["cos_tilt"])
+        ax.axhline(0.0, color="0.6", linewidth=0.8)
+        ax.set(xlabel="time after launch (s)", ylabel="cos θ (heads above 0)", ylim=(-1.05, 1.05))
+        return ax
 
 
 class _HoldsArrays:
@@ -200,7 +208,7 @@ class Intervals(ShownAsTable, _HoldsArrays):
 
 
 @dataclass(frozen=True, eq=False)
-class Trace(ShownAsTable, _HoldsArrays):
+class Trace(ShownAsTable, _Flight, _HoldsArrays):
     """A flight at n times.
 
     Attributes
@@ -230,18 +238,6 @@ class Trace(ShownAsTable, _HoldsArrays):
         names = ("cos_tilt", "attitude", "normal", "face")
         angles = zip(("alpha", "beta", "gamma"), self.angles.T, strict=True)
         return {name: getattr(self, name) for name in names} | {name: angle for name, angle in angles}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A ``pandas.DataFrame`` over the times ``t``, with a column for each component."""
-        return _frame(self.t, self._parts())
-
-    def to_xarray(self) -> xr.Dataset:
-        """An ``xarray.Dataset`` with the dimensions ``t``, ``axis`` (x, y, z) and ``component`` (w, x, y, z)."""
-        return _dataset(self.t, self._parts())
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
-        return _plot(self.t, self.cos_tilt, ax)
 
 
 @dataclass(frozen=True)
@@ -298,7 +294,7 @@ class DenseOutput:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution(ShownAsTable, _HoldsArrays):
+class Solution(ShownAsTable, _Flight, _HoldsArrays):
     """A flight as a solver found it.
 
     Attributes
@@ -360,15 +356,3 @@ class Solution(ShownAsTable, _HoldsArrays):
 
     def _parts(self) -> dict[str, npt.NDArray[np.float64]]:
         return {"cos_tilt": self.cos_tilt, "attitude": self.attitude, "rate": self.rate}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A ``pandas.DataFrame`` over the times ``t``, with a column for each component."""
-        return _frame(self.t, self._parts())
-
-    def to_xarray(self) -> xr.Dataset:
-        """An ``xarray.Dataset`` with the dimensions ``t``, ``axis`` (x, y, z) and ``component`` (w, x, y, z)."""
-        return _dataset(self.t, self._parts())
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
-        return _plot(self.t, self.cos_tilt, ax)
