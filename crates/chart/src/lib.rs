@@ -10,7 +10,7 @@ mod ticks;
 pub use frame::{Axis, Frame, centred, frame, pixel};
 pub use labels::{EndLabel, end_labels};
 pub use log_log::{LINE_WIDTH, Marker, Series, legend, log_log};
-pub use running::{running, running_of};
+pub use running::running;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

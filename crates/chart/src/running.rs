@@ -8,20 +8,13 @@ use crate::{Axis, BLUE, ChartError, EndLabel, SIZE, VERMILION, end_labels, frame
 const GRID: RGBColor = VERMILION;
 const RANDOM: RGBColor = BLUE;
 
-/// The chart as SVG, with the usual title. There is at least one step. Each is a number of launches, the share of heads among so many launches of
-/// the grid (A), the share among so many random launches (B), and the ends of B's interval.
+/// The chart as SVG, whose title ends with what the launches are `of`. There is at least one step. Each is a number of launches,
+/// the share of heads among so many launches of the grid (A), the share among so many random launches (B), and the ends of B's
+/// interval.
 ///
 /// # Errors
 /// [`ChartError`] if it can't be drawn.
-pub fn running(steps: &[[f64; 5]]) -> Result<String, ChartError> {
-    running_of("", steps)
-}
-
-/// As [`running()`], with what the launches are `of` in its title.
-///
-/// # Errors
-/// [`ChartError`] if it can't be drawn.
-pub fn running_of(of: &str, steps: &[[f64; 5]]) -> Result<String, ChartError> {
+pub fn running(of: &str, steps: &[[f64; 5]]) -> Result<String, ChartError> {
     let &[launches, last_grid, last_random, ..] = steps.last().ok_or(ChartError("no steps".to_owned()))?;
     let values = || steps.iter().flat_map(|step| [step[1], step[2]]);
     let (lowest, highest) = values().fold((1.0_f64, 0.0_f64), |(lo, hi), p| (lo.min(p), hi.max(p)));

@@ -43,7 +43,7 @@ impl Args {
         let ask = |sampler: &Sampler<'_>| sampler.running_shares(&space, steps, self.seed);
         let steps = self.threads.ask(backend.sampler(), (points.saturating_mul(2), "launches"), ask)?;
         let columns = || steps.iter().map(RunningStep::columns).collect::<Vec<_>>();
-        let draw = || Ok(chart::running_of(&format!(", {}", self.space.words(&space)), &columns())?);
+        let draw = || Ok(chart::running(&format!(", {}", self.space.words(&space)), &columns())?);
         self.series.answer_lines(input, &steps, draw)
     }
 }

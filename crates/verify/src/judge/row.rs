@@ -71,7 +71,7 @@ pub struct Row {
     pub status: Status,
     /// Number of cases that were tried.
     pub cases: u64,
-    /// The input of the worst case, as hex floats or in words.
+    /// The input of the worst case, as the text of a toss or in words.
     pub worst_input: Option<String>,
     /// Why the subject failed on the worst case, if it did.
     pub failure: Option<String>,

@@ -90,7 +90,7 @@ pub fn charts(report: &Report<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart
     }
     if let Some(steps) = records.fig4 {
         let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
-        charts.push(chart("fig4.svg", chart::running(&columns)?));
+        charts.push(chart("fig4.svg", chart::running("", &columns)?));
     }
     if let Some(all) = records.convergence.filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", errors::order(all, &palette)?));
