@@ -5,7 +5,7 @@
 //! The code blocks of that file list the explained mutants as cargo-mutants names them, but without line and column, so
 //! that the list stays valid when lines move. `.cargo/mutants.toml` says which crates are changed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::process::{Command, ExitCode, ExitStatus};
 
 use clap::Args;
@@ -39,40 +39,32 @@ pub(crate) struct Mutants {
 
 impl Mutants {
     pub(crate) fn run(&self) -> Result<ExitCode, String> {
-        let mut command = self.command();
-        command.args(["--output", FOLDER]);
+        let mut own = vec!["--output".to_owned(), FOLDER.to_owned()];
+        let mut extent = if self.arguments.is_empty() { Extent::All } else { Extent::Some };
         if let (Some(number), Some(seed)) = (self.sample, self.seed) {
             let all = self.list()?;
             let drawn = drawn(&all, usize::try_from(number).unwrap_or(usize::MAX), seed);
             output::say(format_args!("{} of {} mutants drawn with the seed {seed}", drawn.len(), all.len()));
-            for mutant in drawn {
-                command.args(["--re", &format!("^{}$", escaped(mutant))]);
-            }
+            own.extend(drawn.iter().flat_map(|mutant| ["--re".to_owned(), format!("^{}$", escaped(mutant))]));
+            extent = Extent::Sample(drawn.into_iter().cloned().collect());
         }
         // 2: some survived; 3: some ran out of time, which is how a loop without an end is caught.
-        match command.status().as_ref().map(ExitStatus::code) {
-            Ok(Some(0 | 2 | 3)) => compare(self.extent()),
+        match self.command(&own).status().as_ref().map(ExitStatus::code) {
+            Ok(Some(0 | 2 | 3)) => compare(&extent),
             _ => Err(NOT_RUN.to_owned()),
         }
     }
 
-    fn extent(&self) -> Extent {
-        match self.sample {
-            Some(_) => Extent::Sample,
-            None if self.arguments.is_empty() => Extent::All,
-            None => Extent::Some,
-        }
-    }
-
-    fn command(&self) -> Command {
+    /// The command's own arguments come first: those after a `--` are for the tests.
+    fn command(&self, own: &[String]) -> Command {
         let mut command = Command::new("cargo");
-        command.arg("mutants").args(&self.arguments).current_dir(root());
+        command.arg("mutants").args(own).args(&self.arguments).current_dir(root());
         command
     }
 
     /// The names of the mutants to draw from, with line and column.
     fn list(&self) -> Result<Vec<String>, String> {
-        let listed = self.command().arg("--list").output().map_err(|error| error.to_string())?;
+        let listed = self.command(&["--list".to_owned()]).output().map_err(|error| error.to_string())?;
         if !listed.status.success() {
             return Err(format!("{NOT_RUN}: {}", String::from_utf8_lossy(&listed.stderr).trim()));
         }
@@ -132,20 +124,31 @@ fn limit(survived: usize, tried: usize) -> f64 {
 }
 
 /// Which of the mutants were run.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(PartialEq)]
 enum Extent {
     All,
     Some,
-    Sample,
+    /// Those of these names. cargo-mutants runs every deletion of a field beside them, whatever names it is given (its
+    /// issue 632).
+    Sample(HashSet<String>),
 }
 
-fn compare(extent: Extent) -> Result<ExitCode, String> {
-    let outcome = |of: &str| read(&format!("{FOLDER}/mutants.out/{of}.txt"));
-    let number = |of: &str| outcome(of).map(|names| names.lines().count());
-    let survived = count(outcome("missed")?.lines().map(without_position));
+impl Extent {
+    fn has(&self, mutant: &str) -> bool {
+        !matches!(self, Self::Sample(names) if !names.contains(mutant))
+    }
+}
+
+fn compare(extent: &Extent) -> Result<ExitCode, String> {
+    let outcome = |of: &str| -> Result<Vec<String>, String> {
+        let names = read(&format!("{FOLDER}/mutants.out/{of}.txt"))?;
+        Ok(names.lines().filter(|name| extent.has(name)).map(without_position).collect())
+    };
+    let number = |of: &str| outcome(of).map(|names| names.len());
+    let survived = count(outcome("missed")?.into_iter());
     let explained = count(explained(&read(EXPLANATIONS)?).map(str::to_owned));
     let unexplained = beyond(&survived, &explained);
-    let caught = if extent == Extent::All { beyond(&explained, &survived) } else { Vec::new() };
+    let caught = if *extent == Extent::All { beyond(&explained, &survived) } else { Vec::new() };
     let lines = unexplained.iter().map(|mutant| format!("survived, not explained: {mutant}\n"));
     let lines = lines.chain(caught.iter().map(|mutant| format!("explained, but caught:   {mutant}\n")));
     let all: usize = survived.values().sum();
@@ -155,7 +158,7 @@ fn compare(extent: Extent) -> Result<ExitCode, String> {
          not explained in {EXPLANATIONS}\n",
         unexplained.len(),
     );
-    if extent == Extent::Sample {
+    if matches!(extent, Extent::Sample(_)) {
         let (survived, tried) = (unexplained.len(), failed + endless + unexplained.len());
         sum += &format!(
             "of those drawn {survived} of {tried} survive unexplained, of all at most {:.1} % (95 %, Clopper-Pearson)\n",
