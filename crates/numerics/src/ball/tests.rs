@@ -170,6 +170,7 @@ fn of_a_midpoint_with_a_part_that_is_not_finite_nothing_is_known() {
     for midpoint in [torn, torn.times_power_of_two(-30), -torn, f64::NAN.into(), f64::INFINITY.into()] {
         let ball = Ball::new(midpoint, 0.0);
         let one = ball.like(1.0);
+        assert!(one.is_in_range() && !ball.is_in_range());
         let [sin, cos] = ball.sine_and_cosine();
         let results = [
             ball,
@@ -294,6 +295,47 @@ fn the_radius_is_the_one_of_the_table() {
             check_radii(&Ball::new(DoubleDouble::exactly(x), 0.0), &Ball::new(DoubleDouble::exactly(y), s));
             check_radii(&Ball::new(DoubleDouble::exactly(x), r), &Ball::new(DoubleDouble::exactly(y), s));
             check_radii(&Ball::new(big(x), r), &Ball::new(big(y), s));
+        }
+    }
+}
+
+/// The radii of two sums, of three products and of one: each product has the radius of the table, and the roundings of
+/// n products and n - 1 sums are those of 2n operations on the sum of the sizes.
+fn check_radii_of_sums<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) {
+    let pairs = [[0, 1], [1, 0], [1, 1], [0, 0]];
+    let digits = |value: f64| exactly(value).with_precision(DIGITS + 40).value();
+    let found = Ball::sums_of_products(one, other, &pairs, &[3, 4]);
+    for (ball, pairs) in found.iter().zip([&pairs[..3], &pairs[3..]]) {
+        let (mut middle, mut error, mut size) = (digits(0.0), digits(0.0), digits(0.0));
+        for [i, j] in pairs {
+            let [a, b] = [&one[usize::from(*i)], &other[usize::from(*j)]];
+            let [x, y] = [a, b].map(|ball| digits(0.0).like_big(&ball.midpoint.to_big()));
+            let [r, s] = [a.radius, b.radius].map(digits);
+            error = error + x.magnitude() * &s + y.magnitude() * &r + &r * &s;
+            size = size + (&x * &y).magnitude();
+            middle = middle + x * y;
+        }
+        let rounding = digits(ball.midpoint.rounding() * 2.0 * pairs.len() as f64);
+        let (radius, found) = (error + &rounding * &size, digits(ball.radius));
+        assert!(found >= radius, "{} < {}", ball.radius, radius.to_f64().value());
+        assert!(found <= radius * digits(1.0 + 1e-14) + digits(2.0 * TINY), "{}", ball.radius);
+        let off = digits(0.0).like_big(&ball.midpoint.to_big()) - middle;
+        assert!(off.magnitude() <= rounding * size, "{}", ball.to_f64());
+    }
+}
+
+#[test]
+fn the_radius_of_a_sum_of_products_is_that_of_its_parts() {
+    for index in 1..40 {
+        let [x, y, z, w] = [2.0, 3.0, 5.0, 7.0]
+            .map(|root: f64| 5.0 * (2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0));
+        for share in [0.0, 1e-60, 1e-31, 1e-16, 1e-6, 0.3, 4.0] {
+            let [p, q, r, s] = [x, 0.6 * y, 0.0, 2.0 * w].map(|value: f64| share * value.abs());
+            let of = |value: f64, radius| Ball::new(value, radius);
+            check_radii_of_sums(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
+            let of = |value: f64, radius| Ball::new(DoubleDouble::exactly(value), radius);
+            check_radii_of_sums(&[of(x, p), of(y, q)], &[of(z, r), of(w, s)]);
+            check_radii_of_sums(&[of(z, r), of(w, s)], &[of(x, p), of(y, q)]);
         }
     }
 }
