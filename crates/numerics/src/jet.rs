@@ -451,4 +451,35 @@ mod tests {
         assert_eq!(*jet.with_constant(1.0).value(), 1.0);
         assert_eq!(jet.reciprocal().slopes(), [-0.125]);
     }
+
+    #[test]
+    fn what_is_exactly_0_stays_so_whatever_it_is_multiplied_with() {
+        let [two, one] = [2.0, 1.0].map(|value| Ball::new(value, 0.0));
+        let variable = Jet::<_, 6>::variable(two, one, 1);
+        let [unknown, zero] = [f64::INFINITY, 0.0].map(|radius| Ball::new(0.0, radius));
+        for found in [variable.scaled(&unknown), variable * Jet::constant(unknown), Jet::constant(unknown) * variable] {
+            let radii: Vec<_> =
+                found.terms().map(|(_, term)| Some(term.radius()).filter(|radius| radius.is_finite())).collect();
+            assert_eq!(radii, [None, Some(0.0), None, Some(0.0), Some(0.0), Some(0.0)]);
+        }
+        // A number that is 0 within its error is none that is 0.
+        let near = Jet::<_, 3>::variable(one, Ball::new(0.0, 0.5), 0);
+        assert!(near.scaled(&two).slopes()[0].radius() >= 1.0 && (near * near).slopes()[0].radius() >= 1.0);
+        assert_eq!(Jet::<_, 3>::variable(one, zero, 0).sqrt().slopes(), [zero]);
+    }
+
+    #[test]
+    fn decisions_are_those_of_the_constant_term_and_the_range_is_that_of_all_terms() {
+        let [value, slope] = [(-3.0, 0.5), (7.0, 20.0)].map(|(value, radius)| Ball::new(value, radius));
+        let jet = Jet::<_, 5>::variable(value, slope, 0);
+        assert_eq!((jet.to_f64(), jet.to_double_double().hi(), jet.sign(), jet.error()), (-3.0, -3.0, -1.0, 0.5));
+        assert_eq!((jet.to_big(), jet.digits()), (value.to_big(), value.digits()));
+        assert!(jet.has_known_sign() && !jet.widened(4.0).has_known_sign() && jet.is_in_range());
+        assert!((jet.pi().value().midpoint() - std::f64::consts::PI).abs() < 1e-15 && jet.pi().is_constant());
+        let wide = jet.widened(4.0);
+        assert!(wide.error() >= 4.5 && wide.slopes() == jet.slopes());
+        let torn = Jet::<_, 5>::variable(value, Ball::new(f64::NAN, 0.0), 0);
+        assert!(!torn.is_in_range());
+        assert_eq!(jet.with_value(&Big::ONE).slopes(), jet.slopes());
+    }
 }

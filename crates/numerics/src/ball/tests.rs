@@ -327,8 +327,8 @@ fn check_radii_of_sums<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) 
 #[test]
 fn the_radius_of_a_sum_of_products_is_that_of_its_parts() {
     for index in 1..40 {
-        let [x, y, z, w] = [2.0, 3.0, 5.0, 7.0]
-            .map(|root: f64| 5.0 * (2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0));
+        let [x, y, z, w] =
+            [2.0, 3.0, 5.0, 7.0].map(|root: f64| 5.0 * (2.0 * (f64::from(index) * root.sqrt()).fract() - 1.0));
         for share in [0.0, 1e-60, 1e-31, 1e-16, 1e-6, 0.3, 4.0] {
             let [p, q, r, s] = [x, 0.6 * y, 0.0, 2.0 * w].map(|value: f64| share * value.abs());
             let of = |value: f64, radius| Ball::new(value, radius);
