@@ -75,11 +75,11 @@ impl WideBall {
         Self { midpoint: self.midpoint.like(0.0), radius: None }
     }
 
-    /// Smallest and largest absolute value.
+    /// Smallest and largest absolute value. The smallest is not positive if the ball may contain 0.
     fn sizes(&self) -> Option<[Big; 2]> {
         let (radius, middle) = (self.radius.as_ref()?, size(&self.midpoint));
         let least = &middle * part(1.0 - 8.0 * f64::EPSILON) - radius;
-        Some([if least < Big::ZERO { part(0.0) } else { least }, middle + radius])
+        Some([least, middle + radius])
     }
 
     /// Whether the midpoint is exact.
@@ -359,6 +359,22 @@ mod tests {
             tiny(2001).is_right_to(0.6) && !tiny(2001).is_right_to(0.4) && !tiny(2001).widened(f64::NAN).has_sign()
         );
         assert_eq!(exact.clone() / exact, exact_less(MANY));
+        assert_eq!(tiny(2001).to_big(), *tiny(2001).midpoint());
+    }
+
+    /// The size of the divisor is rounded to 64 digits, and a difference magnifies that.
+    #[test]
+    fn a_quotient_by_a_ball_that_nearly_holds_0_allows_for_the_rounding_of_its_size() {
+        let mut known = 0;
+        for (power, last) in (20..64).flat_map(|power| [-1.0, 1.0].map(|last| (power, last))) {
+            let divisor = big(1.3, MANY) + (big(0.49 * last, MANY) >> 63);
+            let radius = size(&divisor) * (part(1.0) - (part(1.0) >> power));
+            let found = WideBall::new(big(1.0, MANY), &part(0.0)) / WideBall::new(divisor.clone(), &radius);
+            let nearest = big(1.0, 900) / (big(0.0, 900) + divisor - radius);
+            assert!(contains(&found, &nearest), "{power}: {found:?}");
+            known += usize::from(found.radius.is_some());
+        }
+        assert!(known >= 50, "{known}");
     }
 
     fn exact_less(digits: usize) -> WideBall {
