@@ -173,7 +173,7 @@ pub fn cos_tilt_in_double_double(toss: &CoinToss) -> Option<Ball<DoubleDouble>> 
     let (time, vertical) = in_double_double(&toss.launch)?;
     // The ratio to 25 u² of itself, as the time; its last digits may be below the range of f64.
     let k = toss.coin.exact_inertia_ratio();
-    let k = Ball::new(k, 2f64.powi(-97) * k.hi() + f64::MIN_POSITIVE);
+    let k = Ball::new(k, (2f64.powi(-97) * k.hi()).max(f64::MIN_POSITIVE));
     Some(cos_tilt_in(toss, &time, vertical, k))
 }
 
