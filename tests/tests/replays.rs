@@ -3,7 +3,7 @@
 
 use toss::Registry;
 use verify::judge::Judge;
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::measure::case;
 use verify::measure::replay::Commands;
 use verify::{CHECKS, Context, Effort, Measure, Row};
@@ -34,8 +34,8 @@ enum Replays {
 }
 
 fn rows(context: &Context) -> Vec<Row> {
-    let bounds = Bounds::of_this_workspace().expect("the data inside the crate");
-    let judge = Judge { bounds: &bounds, commands: &Commands::Workspace, effort: Effort::Quick };
+    let limits = Limits::of_this_workspace().expect("the data inside the crate");
+    let judge = Judge { limits: &limits, commands: &Commands::Workspace, effort: Effort::Quick };
     let short = CHECKS.iter().filter(|check| !LONG.contains(&check.id));
     short.flat_map(|check| judge.rows(check, check.measure(context).expect("a measurement"))).collect()
 }

@@ -1,5 +1,5 @@
 //! The data that the suite judges with, inside the crate, so that the suite works wherever it is built: the numbers from
-//! outside, the problems, the bounds of this workspace's own solvers, and what these solvers are known to do where
+//! outside, the problems, the limits of this workspace's own solvers, and what these solvers are known to do where
 //! methods fail.
 
 /// Motions that were computed outside this workspace.
@@ -18,4 +18,4 @@ pub(crate) const PROBLEMS: &str = include_str!("../data/problems.toml");
 pub(crate) const ATLAS: &str = include_str!("../data/atlas.toml");
 
 /// The allowed deviations of the solvers of this workspace and of its libraries.
-pub(crate) const BOUNDS: &str = include_str!("../data/bounds.toml");
+pub(crate) const LIMITS: &str = include_str!("../data/limits.toml");

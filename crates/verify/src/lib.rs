@@ -1,5 +1,5 @@
 //! The verification suite measures every solver of a tossed coin against independent references, compares the errors
-//! with bounds, and reports the result. It is a crate of its own, so no solver can use the code that judges it.
+//! with limits, and reports the result. It is a crate of its own, so no solver can use the code that judges it.
 //!
 //! A check is a claim and how it is measured; a subject is a solver with its settings; a row is one subject under one
 //! check, with its verdict.
@@ -8,11 +8,11 @@
 //! measure                                            judge                   render
 //! subject (solver × scheme) ──┐
 //! survey (random launches) ───┼→ check → measurement ─┬→ row, status ─┬→ text, HTML, JSON, JUnit, charts
-//! reference (256 bits, files)─┘       bound or claim ─┘      baseline ┘
+//! reference (256 bits, files)─┘       limit or claim ─┘      baseline ┘
 //! ```
 //!
-//! Data flows in one direction. [`measure`] compares the answers of solvers with references and contains no bounds.
-//! [`mod@judge`] compares measurements with bounds or, for a solver without bounds, with its own error estimate, and
+//! Data flows in one direction. [`measure`] compares the answers of solvers with references and contains no limits.
+//! [`mod@judge`] compares measurements with limits or, for a solver without limits, with its own error estimate, and
 //! with the regression baseline. [`render`] shows rows. [`mod@bench`] measures what a toss costs.
 //!
 //! A [`Suite`] does all of this for the solvers of a registry, and [`main()`] is its program: a crate elsewhere judges a

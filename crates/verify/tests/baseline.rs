@@ -1,5 +1,5 @@
 //! These tests compare solvers that are slightly worse than the library's with the library's baseline. The baseline
-//! must catch each loss of accuracy or work, also where it stays within the bounds.
+//! must catch each loss of accuracy or work, also where it stays within the limits.
 
 use dynamics::Flight;
 use dynamics::integrate::OdeSystem;
@@ -10,7 +10,7 @@ use toss::{
     StepControl, Stepping, TimeOfFlight, Toss,
 };
 use verify::judge::baseline::{Baseline, Direction, Move};
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::{CHECKS, Context, Effort, judge};
 
 /// The checks that these tests run.
@@ -20,7 +20,7 @@ const CHECKED: [&str; 5] =
 /// Runs the checks on the exact motion and on a quaternion solver that `build` makes. Returns the baseline of that run
 /// and the rows that fail.
 fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
-    let bounds = Bounds::of_this_workspace().expect("the bounds");
+    let limits = Limits::of_this_workspace().expect("the limits");
     let quaternion = QuaternionSolver::entry();
     let copy = SolverEntry::new(QuaternionSolver::NAME, "", build)
         .with_schemes(quaternion.schemes())
@@ -29,7 +29,7 @@ fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let mut rows = Vec::new();
     for check in CHECKS.iter().filter(|check| CHECKED.contains(&check.id)) {
-        rows.extend(judge(check, check.measure(&context).expect("a measurement"), &bounds));
+        rows.extend(judge(check, check.measure(&context).expect("a measurement"), &limits));
     }
     let failing = rows.iter().filter(|row| !row.status.passes()).map(|row| format!("{} / {}", row.check, row.subject));
     (Baseline::of(&rows, context.records().sweep), failing.collect())
@@ -73,7 +73,7 @@ fn a_tolerance_ten_times_too_loose_or_too_tight_is_detected() {
     assert!(failing.contains(&"random-attitude / quaternion/dop853".to_owned()), "{failing:?}");
     let (tight, failing) = slips(|settings| with_tolerance_times(0.1, settings));
     assert_worse(&tight, "work-precision/ensemble", "calls");
-    assert_eq!(failing, [""; 0], "more calls alone exceed no bound");
+    assert_eq!(failing, [""; 0], "more calls alone exceed no limit");
 }
 
 /// The quaternion's equations, changed so that the state grows by a part in 1e12 in each radian, which is about one

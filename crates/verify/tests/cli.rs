@@ -21,7 +21,7 @@ fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
         .expect("the program starts")
 }
 
-/// A folder without bounds, baseline or records, so that a test can add its own.
+/// A folder without limits, baseline or records, so that a test can add its own.
 fn empty_validation() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder")
 }
@@ -67,10 +67,10 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
 }
 
 #[test]
-fn a_row_above_its_bound_ends_the_run_with_1_and_is_printed_with_a_command_that_repeats_it() {
+fn a_row_above_its_limit_ends_the_run_with_1_and_is_printed_with_a_command_that_repeats_it() {
     let (folder, out) = (empty_validation(), tempfile::tempdir().unwrap());
     let tightened = format!("[{CHECK}]\nreason = 'a test'\nallowed = {{ exact = 1e-20 }}");
-    std::fs::write(folder.path().join("bounds.toml"), tightened).unwrap();
+    std::fs::write(folder.path().join("limits.toml"), tightened).unwrap();
     let output = run(&["run", "--only", CHECK], folder.path(), out.path());
     assert_eq!(output.status.code(), Some(1));
     let table = String::from_utf8(output.stdout).unwrap();
@@ -143,7 +143,7 @@ fn figures_are_drawn_from_committed_data() {
 }
 
 #[test]
-fn bad_usage_ends_with_2_and_unreadable_bounds_end_with_4() {
+fn bad_usage_ends_with_2_and_unreadable_limits_end_with_4() {
     let (folder, out) = (empty_validation(), tempfile::tempdir().unwrap());
     for arguments in [
         ["run", "--only", "nonsense"],
@@ -166,11 +166,11 @@ fn bad_usage_ends_with_2_and_unreadable_bounds_end_with_4() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(output.stdout.is_empty(), "{arguments:?}");
     }
-    std::fs::write(folder.path().join("bounds.toml"), "[c]\nreason = 'r'\nallowed = { s = -1.0 }").unwrap();
+    std::fs::write(folder.path().join("limits.toml"), "[c]\nreason = 'r'\nallowed = { s = -1.0 }").unwrap();
     let output = run(&["run", "--only", CHECK], folder.path(), out.path());
     assert_eq!(output.status.code(), Some(4));
     let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("bounds.toml") && message.contains("[c] s = -1"), "{message}");
+    assert!(message.contains("limits.toml") && message.contains("[c] s = -1"), "{message}");
     assert!(!out.path().join("report.json").exists());
 }
 

@@ -11,7 +11,7 @@ use toss::{
     Attitude, Coin, CoinToss, EulerAngles, ExactSolver, Formulation, Landing, QuaternionSolver, Scheme, Settings,
     SolveError, Solver, SolverEntry, State, Stepping, Toss, Vector3, Work,
 };
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::{CHECKS, Context, Effort, Judges, Row, judge};
 
 /// A solver of the γ-ODE, equations (10) and (11) of the paper, with the frame's z axis along the angular momentum S.
@@ -182,13 +182,13 @@ fn entry(name: &'static str, integrates: bool, build: fn(&Settings) -> Box<dyn S
 fn failing_rows(solver: SolverEntry) -> Vec<Row> {
     const LEFT_OUT: [&str; 4] =
         ["vertical-frame-to-first-return", "convergence-order", "adversarial-silence", "adversarial-refusals"];
-    let bounds = Bounds::of_this_workspace().expect("the bounds");
+    let limits = Limits::of_this_workspace().expect("the limits");
     let registry = if solver.integrates() { vec![ExactSolver::entry(), solver] } else { vec![solver] };
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     CHECKS
         .iter()
         .filter(|check| check.judges == Judges::Solver && !LEFT_OUT.contains(&check.id))
-        .flat_map(|check| judge(check, check.measure(&context).expect("a measurement"), &bounds))
+        .flat_map(|check| judge(check, check.measure(&context).expect("a measurement"), &limits))
         .filter(|row| !row.status.passes())
         .collect()
 }

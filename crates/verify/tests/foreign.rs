@@ -1,4 +1,4 @@
-//! These tests give the suite solvers that are not in its tables of bounds. Each must be judged by its own error
+//! These tests give the suite solvers that are not in its tables of limits. Each must be judged by its own error
 //! estimate (its claim), and none, however broken, may end the run.
 
 use std::sync::LazyLock;
@@ -7,7 +7,7 @@ use toss::{
     Attitude, ExactSolver, Formulation, Landing, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry,
     State, StepControl, Stepping, Toss,
 };
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::{CHECKS, Context, Effort, Judges, Row, Status, judge};
 
 /// The exact motion under another name, with a claim of its own and an answer that is altered by `change`.
@@ -88,13 +88,13 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
             loud(info);
         }
     }));
-    let bounds = Bounds::of_this_workspace().expect("the bounds");
+    let limits = Limits::of_this_workspace().expect("the limits");
     let mut registry = Registry::standard().entries().to_vec();
     registry.retain(|entry| OURS.contains(&entry.name()));
     registry.extend(foreigners());
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     let checks = CHECKS.iter().filter(|check| check.judges == Judges::Solver);
-    checks.flat_map(|check| judge(check, check.measure(&context).expect("rows, whatever happens"), &bounds)).collect()
+    checks.flat_map(|check| judge(check, check.measure(&context).expect("rows, whatever happens"), &limits)).collect()
 });
 
 /// The rows of the solver called `name`. A comparison of two solvers, `a ~ b`, counts as a row of b alone.
@@ -121,7 +121,7 @@ fn a_registry_with_two_solvers_of_one_name_is_refused() {
 }
 
 #[test]
-fn the_librarys_solvers_pass_by_their_bounds_beside_foreign_ones() {
+fn the_librarys_solvers_pass_by_their_limits_beside_foreign_ones() {
     for ours in OURS {
         assert_eq!(failing(ours), [""; 0], "{ours}");
         assert_eq!(checks_with(ours, &[Status::PassByClaim, Status::NotJudged]), [""; 0], "{ours}");
@@ -129,7 +129,7 @@ fn the_librarys_solvers_pass_by_their_bounds_beside_foreign_ones() {
 }
 
 #[test]
-fn a_solver_within_its_claim_passes_without_a_bound_as_passing_by_claim() {
+fn a_solver_within_its_claim_passes_without_a_limit_as_passing_by_claim() {
     for name in ["good", "stepper", "rough"] {
         let rows = rows_of(name);
         assert!(rows.len() > 18, "{name}: {} rows", rows.len());

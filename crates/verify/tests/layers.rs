@@ -22,7 +22,7 @@ fn no_module_uses_the_modules_that_come_after_it() {
         let sources = sources(&root.join(folder));
         assert!(sources.len() > 3, "{folder}");
         for path in sources {
-            // Bounds have ceilings, which the list of the checks gives; nobody but it may be used of them.
+            // Limits have ceilings, which the list of the checks gives; nobody but it may be used of them.
             let text = std::fs::read_to_string(&path).expect("text").replace("measure::checks::CHECKS", "");
             for module in forbidden {
                 assert!(!text.contains(module), "{} uses {module}", path.display());

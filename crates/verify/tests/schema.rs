@@ -11,9 +11,9 @@ use serde_json::{Map, Value, json};
 use toss::{Coin, ExactSolver, Landing, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
 use verify::host::Host;
 use verify::judge::baseline::Baseline;
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::judge::time::Timing;
-use verify::judge::unused_bounds;
+use verify::judge::unused_limits;
 use verify::render::Report;
 use verify::render::report::Compared;
 use verify::{CHECKS, Check, Context, Effort, LeftOut, Row, judge};
@@ -159,13 +159,13 @@ fn report() -> Value {
     assert!(context.convergence.get(&context).is_ok() && context.trial.get(&context).is_ok());
     assert!(context.sweep.get(&context).is_ok() && context.probabilities.get(&context).is_ok());
     assert!(context.fig4.get(&context).is_ok());
-    let bounds = Bounds::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("bounds");
+    let limits = Limits::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("limits");
     let of = |id: &str| -> Vec<Row> {
         let check: &Check = CHECKS.iter().find(|check| check.id == id).expect("a check");
-        judge(check, check.measure(&context).expect("measurements"), &bounds)
+        judge(check, check.measure(&context).expect("measurements"), &limits)
     };
     let mut rows = [of("reference-cos-tilt"), of("convergence-order"), of("certified-outcomes")].concat();
-    rows.extend(unused_bounds(&rows, &bounds, |_, _| true));
+    rows.extend(unused_limits(&rows, &limits, |_, _| true));
     let timing = |t_processor_s| Timing { check: "slow".to_owned(), t_wall_s: 1.5, t_processor_s, limit_s: 50.0 };
     rows.push(timing(Some(51.0)).row().expect("a slow check"));
     let before = "check,subject,error,calls\nreference-cos-tilt,exact,0,\ngone,all,1.5,7\n";

@@ -1,12 +1,12 @@
 //! These tests use the suite as a crate elsewhere does, for the solver of the example `own_solver` and for parts of our
-//! registry: what it judges, what it leaves out, the bounds that it proposes, and the program that it gives.
+//! registry: what it judges, what it leaves out, the limits that it proposes, and the program that it gives.
 
 use std::path::Path;
 use std::process::{Command, Output};
 
 use toss::Registry;
 use verify::judge::baseline;
-use verify::judge::bounds::Bounds;
+use verify::judge::limits::Limits;
 use verify::{CHECKS, Effort, Judges, Row, Status, Suite, Verdict, Verified};
 
 #[path = "../examples/own_solver.rs"]
@@ -23,7 +23,7 @@ fn failing(verified: &Verified) -> Vec<&Row> {
 }
 
 #[test]
-fn a_solver_from_elsewhere_is_judged_alone_and_gets_bounds_that_it_then_passes() {
+fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes() {
     let folder = tempfile::tempdir().unwrap();
     let suite = of_one_solver().folder(folder.path());
     let mut verified = suite.run().unwrap();
@@ -42,11 +42,11 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_bounds_that_it_then_passes()
     assert!(left_out("batch-cos-tilt") && left_out("cross-method-attitude"), "{:?}", verified.left_out());
     assert!(CHECKS.iter().all(|check| run.contains(&check.id) || left_out(check.id)));
 
-    let proposed = verified.proposed_bounds().expect("no row has a bound");
-    let judged = of_one_solver().bounds(Bounds::parse(&proposed).unwrap()).run().unwrap();
-    let by_bounds = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose);
-    assert!(judged.rows().iter().all(by_bounds), "{:#?}", judged.rows());
-    assert_eq!(judged.proposed_bounds(), None);
+    let proposed = verified.proposed_limits().expect("no row has a limit");
+    let judged = of_one_solver().limits(Limits::parse(&proposed).unwrap()).run().unwrap();
+    let by_limits = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose);
+    assert!(judged.rows().iter().all(by_limits), "{:#?}", judged.rows());
+    assert_eq!(judged.proposed_limits(), None);
 
     suite.accept(&mut verified).unwrap();
     assert!(baseline::file(&folder.path().join("baseline"), Effort::Quick).exists());
@@ -54,18 +54,18 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_bounds_that_it_then_passes()
 }
 
 #[test]
-fn a_part_of_our_registry_is_judged_by_our_bounds_and_needs_no_rows_of_the_others() {
+fn a_part_of_our_registry_is_judged_by_our_limits_and_needs_no_rows_of_the_others() {
     let registry = Registry::standard().only(&["gamma"]).unwrap();
     let verified = Suite::new(registry).effort(Effort::Quick).folder("no/such/folder").run().unwrap();
     assert_eq!(failing(&verified), Vec::<&Row>::new());
     assert!(verified.rows().iter().all(|row| row.subject.starts_with("gamma") && row.limit.is_some()));
-    assert_eq!(verified.proposed_bounds(), None);
+    assert_eq!(verified.proposed_limits(), None);
 }
 
 #[test]
-fn a_misspelt_bound_and_an_unknown_check_are_found() {
+fn a_misspelt_limit_and_an_unknown_check_are_found() {
     let misspelt = "[random-cos-tilt]\nreason = 'r'\nallowed = { two-turn = 1e-9 }";
-    let verified = of_one_solver().bounds(Bounds::parse(misspelt).unwrap()).run().unwrap();
+    let verified = of_one_solver().limits(Limits::parse(misspelt).unwrap()).run().unwrap();
     let failing = failing(&verified);
     assert_eq!(failing.len(), 1, "{failing:?}");
     assert_eq!((failing[0].subject.as_str(), failing[0].status), ("two-turn", Status::NotMeasured));
@@ -91,13 +91,13 @@ fn the_program_of_another_crate_keeps_its_files_in_its_own_folder_and_knows_its_
     let output = program(&["--only", "random-attitude"], folder.path());
     let table = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{table}");
-    assert!(table.contains("proposed bounds: target/verify/bounds.proposed.toml"), "{table}");
-    let proposed = std::fs::read_to_string(folder.path().join("target/verify/bounds.proposed.toml")).unwrap();
+    assert!(table.contains("proposed limits: target/verify/limits.proposed.toml"), "{table}");
+    let proposed = std::fs::read_to_string(folder.path().join("target/verify/limits.proposed.toml")).unwrap();
     assert!(proposed.contains("[random-attitude.allowed]\n\"two-turns\" = "), "{proposed}");
 
     std::fs::create_dir(folder.path().join("validation")).unwrap();
     let tight = "[random-attitude]\nreason = 'a test'\nallowed = { two-turns = 1e-18 }";
-    std::fs::write(folder.path().join("validation/bounds.toml"), tight).unwrap();
+    std::fs::write(folder.path().join("validation/limits.toml"), tight).unwrap();
     let output = program(&["--only", "random-attitude"], folder.path());
     let table = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1), "{table}");

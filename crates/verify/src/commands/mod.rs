@@ -33,7 +33,7 @@ struct Program {
 /// The folders of the suite.
 #[derive(Debug, Args)]
 struct Folders {
-    /// Read bounds, baseline and records from this folder, and write the latter two there [default: validation]
+    /// Read limits, baseline and records from this folder, and write the latter two there [default: validation]
     #[arg(long, global = true, value_name = "FOLDER")]
     validation: Option<PathBuf>,
     /// Write reports and charts into this folder
@@ -55,7 +55,7 @@ enum Command {
 /// workspace: `--help` lists them.
 ///
 /// Exit codes: 0, all checks pass; 1, a check fails; 2, bad usage; 3, accuracy or work is worse than the baseline,
-/// though within its bounds; 4, the command could not run.
+/// though within its limits; 4, the command could not run.
 #[must_use]
 pub fn main(suite: Suite) -> ExitCode {
     let arguments = Program::command().bin_name(suite.commands().program()).try_get_matches();

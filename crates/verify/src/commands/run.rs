@@ -21,7 +21,7 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 /// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
 ///
 /// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
-/// within bounds; 4 could not run.
+/// within limits; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct Run {
     /// Take fewer cases: within a minute on two cores, once built
@@ -182,7 +182,7 @@ fn list() -> anyhow::Result<u8> {
 fn as_row(suite: &Suite, toss: &Toss, RowName(check, subject): &RowName) -> anyhow::Result<String> {
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
     let measured = check.again(&context, toss, &|name| name == subject)?;
-    let judged = judge(check, measured, &suite.all_bounds()?);
+    let judged = judge(check, measured, &suite.all_limits()?);
     let id = check.id;
     let of_many = || format!("'{id} / {subject}' measures no deviation of one such toss: --only {id} repeats it");
     Ok(text::of_row(judged.first().with_context(of_many)?))
@@ -227,8 +227,8 @@ fn measure(suite: &Suite) -> anyhow::Result<Verified> {
 fn written(verified: &Verified, out: &Path) -> String {
     let line = |what: &str, file: &str| format!("{what}: {}\n", out.join(file).display());
     let report = line("report", "report.html");
-    match verified.proposed_bounds() {
-        Some(_) => report + &line("proposed bounds", PROPOSAL),
+    match verified.proposed_limits() {
+        Some(_) => report + &line("proposed limits", PROPOSAL),
         None => report,
     }
 }

@@ -1,6 +1,6 @@
 //! The regression baseline holds the last accepted error and number of calls for each pair of check and subject, and
-//! says what has changed since. Bounds say what is allowed; the baseline says what was reached, so that accuracy cannot
-//! become worse unnoticed within its bounds.
+//! says what has changed since. Limits say what is allowed; the baseline says what was reached, so that accuracy cannot
+//! become worse unnoticed within its limits.
 //!
 //! There is one baseline for each effort, because the largest error depends on how many cases are tried, and for each
 //! architecture, because sine and cosine round differently there. A call is an evaluation of the right-hand side by an
@@ -103,7 +103,7 @@ impl Baseline {
     /// the geometric mean of the errors and the sum of the calls.
     ///
     /// The largest deviation does not depend on what judges the row. What was judged may be another one: of a row without
-    /// a bound it is the deviation that is largest beside the solver's claim, and the first bound would change it.
+    /// a limit it is the deviation that is largest beside the solver's claim, and the first limit would change it.
     pub fn of(rows: &[Row], sweep: Option<&Sweep>) -> Self {
         let passing = rows.iter().filter(|row| row.status.passes());
         let mut entries: BTreeMap<Key, Entry> = passing

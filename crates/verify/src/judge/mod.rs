@@ -1,34 +1,34 @@
 //! This module decides what passes: it compares what was measured with what is allowed, and with what was accepted
-//! before. It is the only place with bounds, and it measures nothing itself, so that limits cannot be adjusted where a
+//! before. It is the only place with limits, and it measures nothing itself, so that limits cannot be adjusted where a
 //! check is written.
 //!
 //! | what | where |
 //! |---|---|
-//! | compares a measurement with its bound, or with the solver's own error estimate | [`row`] |
-//! | reads tables of bounds | [`bounds`] |
+//! | compares a measurement with its limit, or with the solver's own error estimate | [`row`] |
+//! | reads tables of limits | [`limits`] |
 //! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
 //! | compares the time of each check with its limit | [`time`] |
-//! | proposes bounds for rows that have none | [`proposal`] |
+//! | proposes limits for rows that have none | [`proposal`] |
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
-pub mod bounds;
 mod left_out;
+pub mod limits;
 pub mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;
 
 pub use left_out::LeftOut;
-pub use row::{Judge, Row, Status, judge, require_distinct, unused_bounds};
+pub use row::{Judge, Row, Status, judge, require_distinct, unused_limits};
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::{Row, Status};
     use crate::measure::check::{Basis, Judges};
 
-    /// A row about a solver in rad, which passes if `measured` is at most `bound`.
-    pub(crate) fn row(check: &str, subject: &str, measured: f64, bound: f64) -> Row {
+    /// A row about a solver in rad, which passes if `measured` is at most `limit`.
+    pub(crate) fn row(check: &str, subject: &str, measured: f64, limit: f64) -> Row {
         Row {
             check: check.to_owned(),
             claim: "It is small.".to_owned(),
@@ -37,9 +37,9 @@ pub(crate) mod tests {
             subject: subject.to_owned(),
             unit: "rad".to_owned(),
             measured: Some(measured),
-            limit: Some(bound),
-            reserve: Some(bound / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
-            status: if measured <= bound { Status::Pass } else { Status::Fail },
+            limit: Some(limit),
+            reserve: Some(limit / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
+            status: if measured <= limit { Status::Pass } else { Status::Fail },
             cases: 7,
             worst_input: Some("i1=0x1.0p+0".to_owned()),
             failure: None,

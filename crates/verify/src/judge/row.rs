@@ -1,41 +1,41 @@
 //! This file turns measurements into rows, each with a verdict: it is the only place that decides whether something
-//! passes. A measurement is compared with its bound or, if it has none, with what the solver's own error estimate
+//! passes. A measurement is compared with its limit or, if it has none, with what the solver's own error estimate
 //! allows (its claim), so solvers from outside can be judged too.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::bounds::Bounds;
+use super::limits::Limits;
 use crate::measure::check::{Basis, Check, Judges};
 use crate::measure::effort::Effort;
 use crate::measure::measurement::{Claim, Measurement, Worst};
 use crate::measure::replay::{Commands, Replay};
 
-/// A bound that is this many times above what was measured or more is reported as loose, because it would hide bugs.
+/// A limit that is this many times above what was measured or more is reported as loose, because it would hide bugs.
 const LOOSE: f64 = 10.0;
 
 /// The verdict on a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// Within its bound.
+    /// Within its limit.
     Pass,
-    /// Within its bound, but the bound is ten times what was measured or more.
+    /// Within its limit, but the limit is ten times what was measured or more.
     PassLoose,
-    /// It has no bound, and is within the error that the solver claims.
+    /// It has no limit, and is within the error that the solver claims.
     PassByClaim,
-    /// It has no bound, and it is not an error, so no error estimate applies.
+    /// It has no limit, and it is not an error, so no error estimate applies.
     NotJudged,
-    /// Above its bound.
+    /// Above its limit.
     Fail,
-    /// It has no bound, and is above the error that the solver claims.
+    /// It has no limit, and is above the error that the solver claims.
     FailByClaim,
-    /// It has no bound, and the solver claims no error, or one so large that it says nothing.
+    /// It has no limit, and the solver claims no error, or one so large that it says nothing.
     NoClaim,
-    /// It has no bound, and does not belong to a solver.
-    NoBound,
-    /// There is a bound for it, but it was not measured.
+    /// It has no limit, and does not belong to a solver.
+    NoLimit,
+    /// There is a limit for it, but it was not measured.
     NotMeasured,
 }
 
@@ -63,7 +63,7 @@ pub struct Row {
     pub unit: String,
     /// The deviation that was judged; `None` if the subject failed.
     pub measured: Option<f64>,
-    /// The deviation that is allowed, by the bound or by the solver's claim.
+    /// The deviation that is allowed, by the limit or by the solver's claim.
     pub limit: Option<f64>,
     /// `limit / measured`; `None` where either is missing or zero.
     pub reserve: Option<f64>,
@@ -86,8 +86,8 @@ pub struct Row {
 /// What rows are judged by, and how their cases are repeated.
 #[derive(Debug, Clone, Copy)]
 pub struct Judge<'a> {
-    /// The bounds.
-    pub bounds: &'a Bounds,
+    /// The limits.
+    pub limits: &'a Limits,
     /// How the program of the suite is started.
     pub commands: &'a Commands,
     /// With how many cases the checks were run, which a command that repeats a whole check says too.
@@ -108,21 +108,21 @@ impl Judge<'_> {
 }
 
 impl Row {
-    /// What was measured, divided by the bound: above 1 for what is over its bound, 0 if nothing deviates or nothing is
+    /// What was measured, divided by the limit: above 1 for what is over its limit, 0 if nothing deviates or nothing is
     /// judged, infinite if the subject failed or if nothing at all is allowed.
     pub fn part(&self) -> f64 {
         match (self.measured, self.limit) {
             (Some(0.0), Some(_)) => 0.0,
-            (Some(measured), Some(bound)) => measured / bound,
+            (Some(measured), Some(limit)) => measured / limit,
             _ if self.status.passes() => 0.0,
             _ => f64::INFINITY,
         }
     }
 }
 
-/// Judges the measurements of `check` by `bounds`, with the commands of this workspace for a run of standard effort.
-pub fn judge(check: &Check, measurements: Vec<Measurement>, bounds: &Bounds) -> Vec<Row> {
-    Judge { bounds, commands: &Commands::Workspace, effort: Effort::Standard }.rows(check, measurements)
+/// Judges the measurements of `check` by `limits`, with the commands of this workspace for a run of standard effort.
+pub fn judge(check: &Check, measurements: Vec<Measurement>, limits: &Limits) -> Vec<Row> {
+    Judge { limits, commands: &Commands::Workspace, effort: Effort::Standard }.rows(check, measurements)
 }
 
 /// The value that was judged, what it was compared with, and the result.
@@ -134,12 +134,12 @@ struct Verdict {
 }
 
 impl Verdict {
-    /// Neither a bound nor a claim can allow more than `ceiling`. Where the ceiling is 0, a claim counts what is wrong,
+    /// Neither a limit nor a claim can allow more than `ceiling`. Where the ceiling is 0, a claim counts what is wrong,
     /// but `measured` also what is undecided.
-    fn new(measured: f64, worst: Option<Worst>, claim: Claim, bound: Option<f64>, ceiling: f64) -> Self {
+    fn new(measured: f64, worst: Option<Worst>, claim: Claim, limit: Option<f64>, ceiling: f64) -> Self {
         let without_limit = |status| Self { measured, allowed: None, worst: worst.clone(), status };
-        match (bound.map(|bound| bound.min(ceiling)), claim) {
-            (Some(bound), _) => Self { measured, allowed: Some(bound), worst, status: by_bound(measured, bound) },
+        match (limit.map(|limit| limit.min(ceiling)), claim) {
+            (Some(limit), _) => Self { measured, allowed: Some(limit), worst, status: by_limit(measured, limit) },
             (None, Claim::Allows { .. }) if measured > ceiling && ceiling > 0.0 => {
                 Self { measured, allowed: Some(ceiling), worst, status: Status::FailByClaim }
             }
@@ -150,14 +150,14 @@ impl Verdict {
             }
             (None, Claim::Silent) => without_limit(Status::NotJudged),
             (None, Claim::NoEstimate) => without_limit(Status::NoClaim),
-            (None, Claim::NoSolver) => without_limit(Status::NoBound),
+            (None, Claim::NoSolver) => without_limit(Status::NoLimit),
         }
     }
 }
 
-fn by_bound(measured: f64, bound: f64) -> Status {
-    match measured <= bound {
-        true if bound >= LOOSE * measured && bound > 0.0 => Status::PassLoose,
+fn by_limit(measured: f64, limit: f64) -> Status {
+    match measured <= limit {
+        true if limit >= LOOSE * measured && limit > 0.0 => Status::PassLoose,
         true => Status::Pass,
         false => Status::Fail,
     }
@@ -167,7 +167,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
     let Measurement { subject, measured, cases, worst, claim, judges } = measurement;
     let largest = Some(measured).filter(|largest| largest.is_finite());
     let Verdict { measured, allowed, worst, status } =
-        Verdict::new(measured, worst, claim, judge.bounds.get(check.id, &subject), check.ceiling);
+        Verdict::new(measured, worst, claim, judge.limits.get(check.id, &subject), check.ceiling);
     Row {
         check: check.id.to_owned(),
         claim: check.claim.to_owned(),
@@ -187,8 +187,8 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
     }
 }
 
-/// Checks that every row has a name of its own, because bounds, baselines and reports know it by its check and subject
-/// alone: of two rows of one name, one would be judged by the other's bound and lost in the baseline.
+/// Checks that every row has a name of its own, because limits, baselines and reports know it by its check and subject
+/// alone: of two rows of one name, one would be judged by the other's limit and lost in the baseline.
 ///
 /// # Errors
 /// If two rows have the same name; the error says where both come from.
@@ -210,22 +210,22 @@ pub fn require_distinct(rows: &[Row]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A failing row for every bound that no row of a complete run used, because its check or its subject no longer exists.
+/// A failing row for every limit that no row of a complete run used, because its check or its subject no longer exists.
 /// `measures` says whether the run measures a subject under a check if both exist.
-pub fn unused_bounds(rows: &[Row], bounds: &Bounds, measures: impl Fn(&str, &str) -> bool) -> Vec<Row> {
-    bounds
+pub fn unused_limits(rows: &[Row], limits: &Limits, measures: impl Fn(&str, &str) -> bool) -> Vec<Row> {
+    limits
         .pairs()
         .filter(|(check, subject)| measures(check, subject))
         .filter(|(check, subject)| !rows.iter().any(|row| row.check == *check && row.subject == *subject))
         .map(|(check, subject)| Row {
             check: check.to_owned(),
-            claim: "Every bound belongs to something that was measured; a bound for anything else fails.".to_owned(),
+            claim: "Every limit belongs to something that was measured; a limit for anything else fails.".to_owned(),
             basis: None,
             judges: None,
             subject: subject.to_owned(),
             unit: String::new(),
             measured: None,
-            limit: bounds.get(check, subject),
+            limit: limits.get(check, subject),
             reserve: None,
             status: Status::NotMeasured,
             cases: 0,

@@ -58,7 +58,7 @@ pub mod ceiling {
 /// A claim and how it is measured.
 #[derive(Debug)]
 pub struct Check {
-    /// Unique short name; the key of its bounds.
+    /// Unique short name; the key of its limits.
     pub id: &'static str,
     /// What is measured, against what, and when it fails, in plain sentences for the report.
     pub claim: &'static str,
@@ -66,7 +66,7 @@ pub struct Check {
     pub basis: Basis,
     /// What its rows judge. A [`Measurement`] may say otherwise for its own row.
     pub judges: Judges,
-    /// The largest bound that a table of bounds may give, in the check's unit. It follows from what the check means,
+    /// The largest limit that a table of limits may give, in the check's unit. It follows from what the check means,
     /// not from what was measured: what deviates more is no solver, or a proof that proves nothing.
     pub ceiling: f64,
     /// Unit of the measured value; "1" for a pure number.
@@ -86,7 +86,7 @@ pub enum Measure {
         of: fn(&Context) -> anyhow::Result<&Survey>,
         /// The deviation.
         deviation: OfLanding,
-        /// What is allowed without a bound.
+        /// What is allowed without a limit.
         allowed: Allowed,
     },
     /// Both of these, one after the other.
@@ -244,14 +244,14 @@ pub struct Landed<'a> {
 /// A deviation of a landing; `None` if it is not judged.
 pub type OfLanding = fn(&Landed<'_>) -> Option<f64>;
 
-/// What is allowed a solver that has no bound.
+/// What is allowed a solver that has no limit.
 #[derive(Debug, Clone, Copy)]
 pub enum Allowed {
     /// A part of what its estimate allows.
     By(fn(&Allowance) -> f64),
     /// This.
     UpTo(f64),
-    /// Nothing is judged without a bound.
+    /// Nothing is judged without a limit.
     NotJudged,
 }
 

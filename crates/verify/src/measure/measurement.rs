@@ -1,6 +1,6 @@
 //! A measurement is the largest deviation of one subject under one check, with the case that shows it and the deviation
 //! that the subject's own error estimate allows. Every check returns its results in this form, so that one judge can
-//! compare all of them with their bounds.
+//! compare all of them with their limits.
 //!
 //! A subject is a solver with its settings, or a named set of cases of the exact motion.
 

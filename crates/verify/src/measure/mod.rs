@@ -1,5 +1,5 @@
 //! This module compares what solvers answer with references and measures how large the deviations are. It contains no
-//! bounds: the module `judge` decides what is allowed, so that no check can pass by a limit of its own.
+//! limits: the module `judge` decides what is allowed, so that no check can pass by a limit of its own.
 //!
 //! | what | where |
 //! |---|---|

@@ -1,5 +1,5 @@
 //! A subject is what the suite verifies: a solver of the registry with one of its schemes, its tolerance or step, and a
-//! formulation. Its name is the key of its bounds and of its baseline, so every combination is judged on its own.
+//! formulation. Its name is the key of its limits and of its baseline, so every combination is judged on its own.
 
 use dynamics::phase::RoughPhases;
 use dynamics::{RigidPhase, Toss};
@@ -17,7 +17,7 @@ const TIGHT_STEP: f64 = 1e-4;
 /// A solver with its settings.
 pub struct Subject {
     /// `solver`, `solver/scheme` or, in a formulation that is not the default, `solver/scheme/formulation`; the key of
-    /// its bounds.
+    /// its limits.
     pub name: String,
     /// Its entry in the registry.
     pub entry: SolverEntry,

@@ -20,7 +20,7 @@ mod tests {
     use crate::measure::check::Judges;
 
     /// The same about the library.
-    pub(super) fn library(check: &str, subject: &str, measured: f64, bound: f64) -> Row {
-        Row { judges: Some(Judges::Library), ..row(check, subject, measured, bound) }
+    pub(super) fn library(check: &str, subject: &str, measured: f64, limit: f64) -> Row {
+        Row { judges: Some(Judges::Library), ..row(check, subject, measured, limit) }
     }
 }

@@ -96,7 +96,7 @@ struct Found<'a> {
     comparisons: Vec<&'a Item<'a>>,
     /// Rows about the library.
     library: Vec<&'a Item<'a>>,
-    /// Rows about the suite: a bound without a measurement, a check that took too long.
+    /// Rows about the suite: a limit without a measurement, a check that took too long.
     suite: Vec<&'a Item<'a>>,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Found<'a> {
         Self { solvers, comparisons, library: by(Some(Judges::Library)).collect(), suite: by(None).collect() }
     }
 
-    /// What is bad: solvers, parts of the library, bounds without a row.
+    /// What is bad: solvers, parts of the library, limits without a row.
     fn bad(&self) -> String {
         let mut parts = Vec::new();
         if self.solvers.iter().any(|item| item.bad) {

@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::judge::baseline::{Direction, Move};
-use crate::judge::bounds::ceiling;
+use crate::judge::limits::ceiling;
 use crate::judge::{LeftOut, Row, Status};
 
 /// A number in few characters: whole numbers as they are, others with two digits.
@@ -78,12 +78,12 @@ pub(super) fn verdict(row: &Row) -> &'static str {
         Status::FailByClaim if by_ceiling => "FAIL, above the limit of the check",
         Status::FailByClaim => "FAIL, above its own claim",
         Status::NoClaim => "FAIL, claims no error",
-        Status::NoBound => "FAIL, no limit",
+        Status::NoLimit => "FAIL, no limit",
         Status::NotMeasured => "FAIL, not measured",
     }
 }
 
-/// The order of rows in reports: what fails first, then by measured over bound, the largest first.
+/// The order of rows in reports: what fails first, then by measured over limit, the largest first.
 pub(super) fn worst_first(a: &Row, b: &Row) -> Ordering {
     a.status.passes().cmp(&b.status.passes()).then(b.part().total_cmp(&a.part()))
 }
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_and_their_rows_are_sorted_by_measured_over_bound() {
+    fn blocks_and_their_rows_are_sorted_by_measured_over_limit() {
         let rows = [
             row("near", "a", 0.9, 1.0),
             row("far", "a", 0.1, 1.0),

@@ -1,5 +1,5 @@
 //! A suite puts the solvers of a registry under all checks. It is a value with a builder, so that a crate elsewhere can
-//! judge its own solver, with bounds, baseline and records in its own repository.
+//! judge its own solver, with limits, baseline and records in its own repository.
 //!
 //! ```no_run
 //! use toss::{ExactSolver, Registry, SolverEntry};
@@ -25,9 +25,9 @@ use toss::Registry;
 
 use crate::files;
 use crate::judge::baseline::{self, Baseline};
-use crate::judge::bounds::Bounds;
+use crate::judge::limits::Limits;
 use crate::judge::time::Timing;
-use crate::judge::{Judge, LeftOut, record, require_distinct, unused_bounds};
+use crate::judge::{Judge, LeftOut, record, require_distinct, unused_limits};
 use crate::measure::check::{Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
@@ -39,7 +39,7 @@ pub(crate) use selection::named as check_named;
 pub(crate) use verified::PROPOSAL;
 pub use verified::{Verdict, Verified};
 
-/// Where a suite reads its bounds and its baseline, unless it says otherwise.
+/// Where a suite reads its limits and its baseline, unless it says otherwise.
 const FOLDER: &str = "validation";
 
 /// The solvers of a registry, and how they are verified.
@@ -48,7 +48,7 @@ pub struct Suite {
     registry: Registry,
     effort: Effort,
     only: Option<String>,
-    bounds: Option<Bounds>,
+    limits: Option<Limits>,
     folder: PathBuf,
     commands: Commands,
     of_the_library: bool,
@@ -66,15 +66,15 @@ pub(crate) enum Progress<'a> {
 impl Suite {
     /// A suite for the solvers of `registry`, under the checks that judge solvers.
     ///
-    /// Solvers of this workspace that are among them are judged by the bounds of this workspace. Any other solver is
-    /// judged by the bounds in `validation/bounds.toml`, relative to the folder in which the program runs, and where
+    /// Solvers of this workspace that are among them are judged by the limits of this workspace. Any other solver is
+    /// judged by the limits in `validation/limits.toml`, relative to the folder in which the program runs, and where
     /// there are none by its own error estimate.
     pub fn new(registry: Registry) -> Self {
         Self {
             registry,
             effort: Effort::Standard,
             only: None,
-            bounds: None,
+            limits: None,
             folder: FOLDER.into(),
             commands: Commands::of_this_program(),
             of_the_library: false,
@@ -87,10 +87,10 @@ impl Suite {
         Self { commands: Commands::Workspace, ..Self::new(Registry::standard().clone()) }.with_library_checks()
     }
 
-    /// The same suite with `bounds` in place of those in its folder.
+    /// The same suite with `limits` in place of those in its folder.
     #[must_use]
-    pub fn bounds(self, bounds: Bounds) -> Self {
-        Self { bounds: Some(bounds), ..self }
+    pub fn limits(self, limits: Limits) -> Self {
+        Self { limits: Some(limits), ..self }
     }
 
     /// The same suite with this number of cases.
@@ -105,7 +105,7 @@ impl Suite {
         Self { only: Some(id.to_owned()), ..self }
     }
 
-    /// The same suite with its bounds, baseline and records in this folder.
+    /// The same suite with its limits, baseline and records in this folder.
     #[must_use]
     pub fn folder(self, folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into(), ..self }
@@ -137,7 +137,7 @@ impl Suite {
         &self.registry
     }
 
-    /// The folder with bounds, baseline and records.
+    /// The folder with limits, baseline and records.
     pub fn data(&self) -> &Path {
         &self.folder
     }
@@ -155,7 +155,7 @@ impl Suite {
     /// Runs the checks, judges every row, and compares them with the baseline.
     ///
     /// # Errors
-    /// If a check of [`only`](Self::only) is unknown, the bounds or the baseline can't be read, or no check measures
+    /// If a check of [`only`](Self::only) is unknown, the limits or the baseline can't be read, or no check measures
     /// anything. A solver that fails or panics, and a check that never ends, are no errors but rows that fail.
     pub fn run(&self) -> Result<Verified, Error> {
         Ok(self.run_showing(&|_| {})?)
@@ -168,13 +168,13 @@ impl Suite {
             "time_factor = {}: must be finite and above 0",
             self.time_factor
         );
-        let bounds = self.all_bounds()?;
+        let limits = self.all_limits()?;
         let context = Arc::new(Context::new(self.registry.entries(), self.effort)?);
         let (checks, mut left_out) = self.checks()?;
-        let (mut rows, timings) = self.measure(&checks, &context, &bounds, show)?;
+        let (mut rows, timings) = self.measure(&checks, &context, &limits, show)?;
         let is_complete = self.only.is_none() && timings.len() == checks.len();
         let unused = match is_complete {
-            true => unused_bounds(&rows, &bounds, |check, subject| self.measures(&checks, check, subject)),
+            true => unused_limits(&rows, &limits, |check, subject| self.measures(&checks, check, subject)),
             false => Vec::new(),
         };
         if !self.of_the_library && self.only.is_none() {
@@ -194,10 +194,10 @@ impl Suite {
         &self,
         checks: &[&'static Check],
         context: &Arc<Context>,
-        bounds: &Bounds,
+        limits: &Limits,
         show: &dyn Fn(Progress<'_>),
     ) -> anyhow::Result<(Vec<Row>, Vec<Timing>)> {
-        let judge = Judge { bounds, commands: &self.commands, effort: context.effort };
+        let judge = Judge { limits, commands: &self.commands, effort: context.effort };
         let (mut rows, mut timings) = (Vec::new(), Vec::new());
         let start = |check: &Check| show(Progress::Begins(check, checks.len()));
         let end = |check: &Check, timing: Timing, end: End| {
@@ -238,12 +238,12 @@ impl Suite {
         baseline::file(&self.folder.join("baseline"), self.effort)
     }
 
-    /// Its own bounds and, for what these leave open, those of this workspace.
-    pub(crate) fn all_bounds(&self) -> anyhow::Result<Bounds> {
-        let own = match &self.bounds {
-            Some(bounds) => bounds.clone(),
-            None => Bounds::read_if_any(&self.folder.join("bounds.toml"))?,
+    /// Its own limits and, for what these leave open, those of this workspace.
+    pub(crate) fn all_limits(&self) -> anyhow::Result<Limits> {
+        let own = match &self.limits {
+            Some(limits) => limits.clone(),
+            None => Limits::read_if_any(&self.folder.join("limits.toml"))?,
         };
-        Ok(own.over(Bounds::of_this_workspace().context("in the bounds of this workspace")?))
+        Ok(own.over(Limits::of_this_workspace().context("in the limits of this workspace")?))
     }
 }

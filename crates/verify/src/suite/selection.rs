@@ -1,5 +1,5 @@
-//! Selects what a suite measures: its checks, and the bounds that must belong to a row. A registry may hold any solvers,
-//! so checks and bounds of others are left out, and the report says which.
+//! Selects what a suite measures: its checks, and the limits that must belong to a row. A registry may hold any solvers,
+//! so checks and limits of others are left out, and the report says which.
 
 use anyhow::Context as _;
 use toss::Registry;
@@ -22,7 +22,7 @@ impl Suite {
 
     /// Whether `subject` must have a row under `check`: not if the check was left out, nor if a solver of this workspace
     /// that takes part in the subject is not in the registry. A name that nobody knows must have one, so that a
-    /// misspelt bound is found.
+    /// misspelt limit is found.
     pub(super) fn measures(&self, run: &[&Check], check: &str, subject: &str) -> bool {
         let is_left_out = CHECKS.iter().any(|known| known.id == check) && !run.iter().any(|known| known.id == check);
         let is_absent = |one: &str| {
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounds_of_absent_solvers_and_of_checks_left_out_need_no_row_and_unknown_names_do() {
+    fn limits_of_absent_solvers_and_of_checks_left_out_need_no_row_and_unknown_names_do() {
         let suite = Suite::new(Registry::standard().only(&["gamma"]).unwrap());
         let (run, left_out) = suite.checks().unwrap();
         assert!(left_out.iter().any(|left| left.check == "batch-cos-tilt"));

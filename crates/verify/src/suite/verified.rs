@@ -17,8 +17,8 @@ use crate::render::report::Compared;
 use crate::render::{Report, github, html, junit, metrics};
 use crate::{Error, files};
 
-/// Name of the file with proposed bounds, beside the reports.
-pub(crate) const PROPOSAL: &str = "bounds.proposed.toml";
+/// Name of the file with proposed limits, beside the reports.
+pub(crate) const PROPOSAL: &str = "limits.proposed.toml";
 
 /// The verdict on a whole run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,13 +97,13 @@ impl Verified {
         }
     }
 
-    /// Bounds for the rows that pass without one, as the text of a `bounds.toml`: twice what was measured, rounded up to
-    /// one digit. `None` if every row that passes has a bound.
-    pub fn proposed_bounds(&self) -> Option<String> {
+    /// Limits for the rows that pass without one, as the text of a `limits.toml`: twice what was measured, rounded up to
+    /// one digit. `None` if every row that passes has a limit.
+    pub fn proposed_limits(&self) -> Option<String> {
         proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
     }
 
-    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed bounds into
+    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
     /// `folder`.
     ///
     /// # Errors
@@ -128,7 +128,7 @@ impl Verified {
         for Chart { file, svg, .. } in &charts {
             files::write(&folder.join(file), svg)?;
         }
-        if let Some(proposal) = self.proposed_bounds() {
+        if let Some(proposal) = self.proposed_limits() {
             files::write(&folder.join(PROPOSAL), &proposal)?;
         }
         Ok(())

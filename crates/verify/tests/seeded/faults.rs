@@ -160,7 +160,7 @@ pub(super) const FAULTS: &[Fault] = &[
 
 pub(super) const SILENCE: &str = "adversarial-silence";
 
-/// The checks that a solver with heads for tails cannot pass by any table of bounds.
+/// The checks that a solver with heads for tails cannot pass by any table of limits.
 pub(super) const FLIPPED: &[&str] = &[
     "reference-cos-tilt",
     "reference-attitude",

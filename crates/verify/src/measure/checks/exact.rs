@@ -29,7 +29,7 @@ use crate::measure::tosses::{FAMILIES, Family, LONG, adversarial, corners, few_t
 
 pub(super) const COS_TILT: Check = Check {
     id: "last-bit-cos-tilt",
-    claim: "cos θ at landing from the exact motion differs from the 256-bit reference by at most the bound, about an \
+    claim: "cos θ at landing from the exact motion differs from the 256-bit reference by at most the limit, about an \
             ulp of 1, for phases up to 1e9 rad and at the corners of the model.",
     ceiling: 1e-15,
     measure: Measure::Tosses(|| last_bits(cos_tilt_error), Fold::Largest),
@@ -38,7 +38,7 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "last-bit-attitude",
-    claim: "The attitude at landing from the exact motion differs from the 256-bit reference by at most the bound, a \
+    claim: "The attitude at landing from the exact motion differs from the 256-bit reference by at most the limit, a \
             few ulp, for phases up to 1e9 rad and at the corners of the model.",
     ceiling: 1e-14,
     unit: "rad",
@@ -49,7 +49,7 @@ pub(super) const ATTITUDE: Check = Check {
 pub(super) const EULER_ANGLES: Check = Check {
     id: "last-bit-euler-angles",
     claim: "The attitude that the exact motion's Euler angles at landing give differs from the 256-bit reference by \
-            at most the bound, in ulp of 1 plus the largest angle.",
+            at most the limit, in ulp of 1 plus the largest angle.",
     ceiling: 10.0,
     unit: "ulp",
     measure: Measure::Tosses(|| last_bits(euler_angles_error), Fold::Largest),
@@ -79,7 +79,7 @@ fn outcomes() -> Vec<Set> {
 pub(super) const BOUNDS: Check = Check {
     id: "certified-bounds",
     claim: "The error of cos θ in the proof stages f64 and double-double is within the error bound by which the stage \
-            proves an outcome. Measured: the largest error divided by that error bound; it fails above the bound of \
+            proves an outcome. Measured: the largest error divided by that error bound; it fails above the limit of \
             this check.",
     ceiling: 1.0,
     measure: Measure::Tosses(bounds, Fold::Largest),
@@ -150,7 +150,7 @@ fn part_of_double_double_bound(toss: &CoinToss, reference: &Reference) -> Deviat
 
 pub(super) const BATCH_COS_TILT: Check = Check {
     id: "batch-cos-tilt",
-    claim: "cos θ at landing from a batch differs from the 256-bit reference by at most the bound, for phases up to \
+    claim: "cos θ at landing from a batch differs from the 256-bit reference by at most the limit, for phases up to \
             1e9 rad, near changes of the outcome and at the corners of the model.",
     ceiling: 1e-14,
     measure: Measure::Tosses(
@@ -162,7 +162,7 @@ pub(super) const BATCH_COS_TILT: Check = Check {
 
 pub(super) const BATCH_ATTITUDE: Check = Check {
     id: "batch-attitude",
-    claim: "The attitude at landing from a batch differs from the 256-bit reference by at most the bound, for phases \
+    claim: "The attitude at landing from a batch differs from the 256-bit reference by at most the limit, for phases \
             up to 1e9 rad, near changes of the outcome and at the corners of the model.",
     ceiling: 1e-14,
     unit: "rad",
@@ -283,7 +283,7 @@ fn outcome(batch: &Batch<'_>) -> Result<Outcome, Error> {
 pub(super) const MEAN_COS_TILT: Check = Check {
     id: "mean-cos-tilt-error",
     claim: "The mean of |error| of cos θ at landing by the exact motion, by compensated phases and by a batch, against \
-            the 256-bit reference, is at most the bound, for phases up to 100 rad.",
+            the 256-bit reference, is at most the limit, for phases up to 100 rad.",
     ceiling: 1e-15,
     measure: Measure::Tosses(mean_errors, Fold::Mean),
     ..Check::OF_LIBRARY
@@ -292,7 +292,7 @@ pub(super) const MEAN_COS_TILT: Check = Check {
 pub(super) const TERMS: Check = Check {
     id: "cos-tilt-terms",
     claim: "The terms of cos θ of the exact motion have more digits than f64: at launch, where they add up to cos θ \
-            without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the bound.",
+            without a sine or cosine of f64, their sum differs from the 256-bit reference by at most the limit.",
     ceiling: 1e-18,
     measure: Measure::Tosses(terms, Fold::Largest),
     ..Check::OF_LIBRARY
@@ -339,7 +339,7 @@ fn mean_errors() -> Vec<Set> {
 
 pub(super) const RIGID_COS_TILT: Check = Check {
     id: "rigid-cos-tilt",
-    claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the bound, for phases \
+    claim: "cos θ at landing of any rigid body differs from the 256-bit reference by at most the limit, for phases \
             from 1 to 1e9 rad.",
     ceiling: 1e-15,
     measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::new), Fold::Largest),
@@ -349,7 +349,7 @@ pub(super) const RIGID_COS_TILT: Check = Check {
 pub(super) const RIGID_COMPENSATED_COS_TILT: Check = Check {
     id: "rigid-compensated-cos-tilt",
     claim: "cos θ at landing of any rigid body by the compensated motion, whose sums are in f64, differs from the \
-            256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
+            256-bit reference by at most the limit, for phases from 1 to 1e9 rad.",
     ceiling: 1e-14,
     measure: Measure::Tosses(|| rigid_cos_tilts(ExactMotion::compensated), Fold::Largest),
     ..Check::OF_LIBRARY
@@ -357,7 +357,7 @@ pub(super) const RIGID_COMPENSATED_COS_TILT: Check = Check {
 
 pub(super) const RIGID_ATTITUDE: Check = Check {
     id: "rigid-attitude",
-    claim: "The attitude at landing of any rigid body differs from the 256-bit reference by at most the bound, for \
+    claim: "The attitude at landing of any rigid body differs from the 256-bit reference by at most the limit, for \
             phases from 1 to 1e9 rad.",
     unit: "rad",
     ceiling: 1e-14,
@@ -368,7 +368,7 @@ pub(super) const RIGID_ATTITUDE: Check = Check {
 pub(super) const RIGID_COMPENSATED_ATTITUDE: Check = Check {
     id: "rigid-compensated-attitude",
     claim: "The attitude at landing of any rigid body by the compensated motion, whose sums are in f64, differs from \
-            the 256-bit reference by at most the bound, for phases from 1 to 1e9 rad.",
+            the 256-bit reference by at most the limit, for phases from 1 to 1e9 rad.",
     unit: "rad",
     ceiling: 1e-14,
     measure: Measure::Tosses(|| rigid_attitudes(ExactMotion::compensated), Fold::Largest),
@@ -454,7 +454,7 @@ pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
 pub(super) const DERIVATIVES: Check = Check {
     id: "sensitivity",
     claim: "The derivatives of attitude and cos θ at landing by relative changes of ω and of the time of flight \
-            differ from central differences in 256 bits by at most the bound, relative to the norm of the attitude's \
+            differ from central differences in 256 bits by at most the limit, relative to the norm of the attitude's \
             derivative.",
     ceiling: 1e-10,
     measure: Measure::Tosses(derivatives, Fold::Largest),

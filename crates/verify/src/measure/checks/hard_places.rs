@@ -42,7 +42,7 @@ pub(super) const ANSWERS: Check = Check {
 pub(super) const TILT_WORK: Check = Check {
     id: "work-by-tilt",
     claim: "The calls of the right-hand side do not depend on how near to the vertical the coin's normal starts, for \
-            tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the bound.",
+            tilts from 1 rad to 0. Measured: the most calls divided by the fewest, less 1; it fails above the limit.",
     basis: Basis::Invariant,
     ceiling: 1.0,
     measure: Measure::Own(tilt_work),
@@ -54,7 +54,7 @@ pub(super) const RETURN_WORK: Check = Check {
     claim: "A horizontal launch, on which the coin's normal returns to the vertical again and again, takes by default \
             no more calls of the right-hand side, unless it is short, than the same flight in the vertical formulation, \
             tilted so that the normal stays away from the vertical. Measured: the largest ratio of calls; it fails above \
-            the bound.",
+            the limit.",
     basis: Basis::CrossMethod,
     ceiling: 3.0,
     measure: Measure::Own(return_work),
@@ -163,7 +163,7 @@ pub(super) const SILENTLY_WRONG: Check = Check {
 pub(super) const REFUSED: Check = Check {
     id: "adversarial-refusals",
     claim: "Of the launches chosen to break solvers, the fraction that a solver refuses with an error is at most the \
-            bound, or a quarter without one.",
+            limit, or a quarter without one.",
     ceiling: 0.25,
     measure: Measure::Own(|context| {
         searched(context, |findings| {
@@ -175,7 +175,7 @@ pub(super) const REFUSED: Check = Check {
     ..Check::OF_SOLVERS
 };
 
-/// What was measured, its worst case, and what is allowed without a bound.
+/// What was measured, its worst case, and what is allowed without a limit.
 type Found = (f64, Option<Worst>, Option<f64>);
 
 fn searched(context: &Context, found: fn(&Findings) -> Found) -> anyhow::Result<Vec<Measurement>> {
@@ -191,7 +191,7 @@ pub(super) const LONG_ERROR: Check = Check {
     id: "long-flight-error",
     claim: "On flights of up to 10⁴ s the error of the attitude is within the solver's error estimate, or the solver \
             returns an error. Measured: the largest error divided by what the estimate allows; it fails above the \
-            bound.",
+            limit.",
     ceiling: 1.0,
     measure: Measure::Own(|context| {
         let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
@@ -203,7 +203,7 @@ pub(super) const LONG_ERROR: Check = Check {
 pub(super) const LONG_DRIFT: Check = Check {
     id: "long-flight-drift",
     claim: "On flights of up to 10⁴ s the angular momentum S in the transport frame differs at landing from its value \
-            at launch by at most the bound, relative to |S|.",
+            at launch by at most the limit, relative to |S|.",
     basis: Basis::Invariant,
     ceiling: ceiling::COS_TILT,
     measure: Measure::Own(|context| {
@@ -239,7 +239,7 @@ pub(super) const HOSTILE: Check = Check {
     id: "hostile-within-estimate",
     claim: "On flights of up to 1e6 rad at tolerances down to 2.3e-16, of coins and bodies whose rounding errors add up, the \
             errors of cos θ and of the attitude are at most what the solver's estimate allows, or the solver returns an \
-            error. Measured: the largest error divided by that; it fails above the bound, or at 1 without one. Where a \
+            error. Measured: the largest error divided by that; it fails above the limit, or at 1 without one. Where a \
             solver states no estimate, it decides nothing and is not judged.",
     ceiling: 1.0,
     measure: Measure::Own(|context| {

@@ -28,7 +28,7 @@ const fn random(deviation: fn(&Landed<'_>) -> Option<f64>) -> Measure {
 
 pub(super) const COS_TILT: Check = Check {
     id: "random-cos-tilt",
-    claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the bound.",
+    claim: "On random launches, cos θ at landing differs from the 256-bit reference by at most the limit.",
     ceiling: ceiling::COS_TILT,
     measure: Measure::Landings {
         of: |context| context.survey.get(context),
@@ -40,7 +40,7 @@ pub(super) const COS_TILT: Check = Check {
 
 pub(super) const ATTITUDE: Check = Check {
     id: "random-attitude",
-    claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the bound.",
+    claim: "On random launches, the attitude at landing differs from the 256-bit reference by at most the limit.",
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: random(attitude_error),
@@ -54,7 +54,7 @@ fn attitude_error(landed: &Landed<'_>) -> Option<f64> {
 pub(super) const CROSS_METHOD: Check = Check {
     id: "cross-method-attitude",
     claim: "On random launches, the attitudes at landing of any two solvers with the same scheme, or of a closed form \
-            and any other, differ by at most the bound.",
+            and any other, differ by at most the limit.",
     basis: Basis::CrossMethod,
     ceiling: 2.0 * ceiling::ATTITUDE,
     unit: "rad",
@@ -102,7 +102,7 @@ pub(super) const CLAIMS: Check = Check {
     claim: "A solver claims no errors that are far larger than its own. Measured: on random launches, the median of its \
             error estimates divided by its largest error of the attitude, which is never smaller than that of cos θ, \
             or by four roundings of the phase if they are larger; horizontal and tilted launches apart. It fails above \
-            the bound, or at a thousand without one.",
+            the limit, or at a thousand without one.",
     ceiling: LARGEST_RATIO,
     measure: Measure::Own(claims),
     ..Check::OF_SOLVERS
@@ -174,7 +174,7 @@ fn median(numbers: &mut [f64]) -> f64 {
 pub(super) const FIRST_RETURN: Check = Check {
     id: "vertical-frame-to-first-return",
     claim: "In the paper's vertical frame, from sin β = 0 at launch to 0.1 rad of phase before the first return \
-            there, the attitude differs from the 256-bit reference by at most the bound.",
+            there, the attitude differs from the 256-bit reference by at most the limit.",
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(first_return),
@@ -220,7 +220,7 @@ fn returning_flights(context: &Context) -> anyhow::Result<Vec<Toss>> {
 pub(super) const MOMENTUM: Check = Check {
     id: "invariant-momentum",
     claim: "(a) |S|, the length of the angular momentum, differs at landing from its value at launch by at most the \
-            bound, relative to |S|.",
+            limit, relative to |S|.",
     basis: Basis::Invariant,
     ceiling: ceiling::ATTITUDE,
     measure: random(|landed| drifted(landed, drift::momentum)),
@@ -229,7 +229,7 @@ pub(super) const MOMENTUM: Check = Check {
 
 pub(super) const ENERGY: Check = Check {
     id: "invariant-energy",
-    claim: "(b) The kinetic energy differs at landing from its value at launch by at most the bound, relative to that \
+    claim: "(b) The kinetic energy differs at landing from its value at launch by at most the limit, relative to that \
             value.",
     measure: random(|landed| drifted(landed, drift::energy)),
     ..MOMENTUM
@@ -238,7 +238,7 @@ pub(super) const ENERGY: Check = Check {
 pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
     id: "invariant-normal-momentum-body",
     claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the body frame from the attitude \
-            at landing, differs from its value at launch by at most the bound, relative to |S|.",
+            at landing, differs from its value at launch by at most the limit, relative to |S|.",
     measure: random(|landed| drifted(landed, drift::normal_momentum_body)),
     ..MOMENTUM
 };
@@ -246,7 +246,7 @@ pub(super) const NORMAL_MOMENTUM_BODY: Check = Check {
 pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
     id: "invariant-normal-momentum-transport",
     claim: "(c) n·S, the angular momentum S along the coin's normal n, computed in the transport frame from the \
-            attitude at landing, differs from its value at launch by at most the bound, relative to |S|.",
+            attitude at landing, differs from its value at launch by at most the limit, relative to |S|.",
     measure: random(|landed| drifted(landed, drift::normal_momentum)),
     ..MOMENTUM
 };
@@ -254,7 +254,7 @@ pub(super) const NORMAL_MOMENTUM_TRANSPORT: Check = Check {
 pub(super) const MOMENTUM_VECTOR: Check = Check {
     id: "invariant-momentum-vector",
     claim: "The angular momentum S as a vector in the transport frame, computed from rate and attitude at landing, \
-            differs from its value at launch by at most the bound, relative to |S|.",
+            differs from its value at launch by at most the limit, relative to |S|.",
     measure: random(|landed| drifted(landed, drift::momentum_vector)),
     ..MOMENTUM
 };
@@ -262,7 +262,7 @@ pub(super) const MOMENTUM_VECTOR: Check = Check {
 pub(super) const PROJECTION: Check = Check {
     id: "invariant-projection",
     claim: "The quaternion of the attitude at landing has norm 1, and cos θ at landing is the cos θ of that attitude, \
-            each to within the bound.",
+            each to within the limit.",
     ceiling: ceiling::COS_TILT,
     measure: random(|Landed { landing, .. }| {
         let norm = landing.state.attitude.components().iter().map(|part| part * part).sum::<f64>().sqrt();
@@ -280,7 +280,7 @@ pub(super) const BODIES_WITHIN_ESTIMATE: Check = Check {
     id: "bodies-within-estimate",
     claim: "On bodies of seven families, next to the separatrix and the middle axis too, with phases of 1 to 30 rad, the \
             errors of cos θ and of the attitude are at most what the solver's estimate allows. Measured: the largest \
-            error divided by that; it fails above the bound, or at 1 without one. Where a solver states no estimate, it \
+            error divided by that; it fails above the limit, or at 1 without one. Where a solver states no estimate, it \
             decides nothing and is not judged.",
     ceiling: 1.0,
     measure: Measure::Landings {
@@ -325,7 +325,7 @@ fn stated(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) const BODIES_ATTITUDE: Check = Check {
     id: "bodies-attitude",
     claim: "On bodies of five families, away from the separatrix and the middle axis, with phases of 1 to 30 rad, the \
-            attitude at landing differs from the 256-bit reference by at most the bound.",
+            attitude at landing differs from the 256-bit reference by at most the limit.",
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Landings {
@@ -343,7 +343,7 @@ pub(super) const BODIES_ATTITUDE: Check = Check {
 pub(super) const BODIES_CONSERVED: Check = Check {
     id: "bodies-conserved",
     claim: "The angular momentum S of any body, its length and the kinetic energy differ at landing from their values at \
-            launch by at most the bound, relative to those of a body that turns as fast about its largest axis.",
+            launch by at most the limit, relative to those of a body that turns as fast about its largest axis.",
     basis: Basis::Invariant,
     ceiling: ceiling::ATTITUDE,
     measure: Measure::Landings {

@@ -21,7 +21,7 @@ use crate::measure::reference::ExactLanding;
 pub(super) const DELIVERS: Check = Check {
     id: "plan-delivers",
     claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
-            largest error divided by that accuracy; it fails above the bound.",
+            largest error divided by that accuracy; it fails above the limit.",
     ceiling: 1.0,
     measure: Measure::Own(|context| largest(context, DELIVERS.id, Solved::error_by_accuracy)),
     ..Check::OF_LIBRARY
@@ -31,7 +31,7 @@ pub(super) const EXPECTS: Check = Check {
     id: "plan-expects",
     claim: "The error of every scene that is solved as planned is at most the error that the plan expects. Measured: \
             the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
-            the expected error; it fails above the bound.",
+            the expected error; it fails above the limit.",
     ceiling: 1.0,
     measure: Measure::Own(|context| largest(context, EXPECTS.id, Solved::error_by_expected)),
     ..Check::OF_LIBRARY
@@ -54,7 +54,7 @@ fn largest(context: &Context, check: &str, part: fn(&Solved) -> f64) -> anyhow::
 pub(super) const PLANS: Check = Check {
     id: "plan-hostile",
     claim: "A plan that asks for an integrator keeps its accuracy on rods, discs and nearly equal moments at any rates, \
-            and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the bound.",
+            and on bodies of any moments. Measured: the largest error divided by that accuracy; it fails above the limit.",
     ceiling: 1.0,
     measure: Measure::Own(|context| {
         let number: u64 = match context.effort {

@@ -28,7 +28,7 @@ use crate::measure::tables::Probability;
 pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
     claim: "The long-flight probability of heads p(ψ) = ½ + asin(cot²ψ)/π differs from the reference numbers by at \
-            most the bound, for cone angles ψ from 45° to 90°.",
+            most the limit, for cone angles ψ from 45° to 90°.",
     ceiling: 1e-12,
     measure: Measure::Own(long_flight),
     ..Check::OF_LIBRARY
@@ -37,7 +37,7 @@ pub(super) const LONG_FLIGHT: Check = Check {
 pub(super) const LONG_FLIGHT_SHARE: Check = Check {
     id: "long-flight-share",
     claim: "The fraction of heads over a million evenly spaced phases of one turn of the exact motion differs from \
-            the long-flight probability p(ψ) by at most the bound.",
+            the long-flight probability p(ψ) by at most the limit.",
     ceiling: 1e-4,
     measure: Measure::Own(long_flight_share),
     ..Check::OF_LIBRARY
@@ -45,7 +45,7 @@ pub(super) const LONG_FLIGHT_SHARE: Check = Check {
 
 pub(super) const TABLES: Check = Check {
     id: "probability-tables",
-    claim: "P(heads) by every sampling method differs from the paper's by at most the bound: 0.66 in Fig. 4, 1 for \
+    claim: "P(heads) by every sampling method differs from the paper's by at most the limit: 0.66 in Fig. 4, 1 for \
             the cheated toss, 0 for the tails toss.",
     basis: Basis::PublishedFigure,
     ceiling: 0.005,
@@ -161,7 +161,7 @@ fn worst_cone(
 pub(super) const SHARES: Check = Check {
     id: "exact-speed-share",
     claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
-            most the bound.",
+            most the limit.",
     ceiling: 1e-9,
     measure: Measure::Own(|context| worst_share(context, SHARES.id, |error, _| error)),
     ..Check::OF_LIBRARY
@@ -170,7 +170,7 @@ pub(super) const SHARES: Check = Check {
 pub(super) const SHARE_BOUNDS: Check = Check {
     id: "exact-speed-error-bound",
     claim: "With all inputs but the speed fixed, the error of P(heads) by exact-speed is within the error bound that \
-            the method states. Measured: the largest error divided by that error bound; it fails above the bound of \
+            the method states. Measured: the largest error divided by that error bound; it fails above the limit of \
             this check.",
     ceiling: 1.0,
     measure: Measure::Own(|context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound)),
@@ -180,7 +180,7 @@ pub(super) const SHARE_BOUNDS: Check = Check {
 pub(super) const ISOTROPIC: Check = Check {
     id: "isotropic-long-flights",
     claim: "The mean of the long-flight probability p(ψ) over all directions of the angular momentum differs from \
-            1/√2, and over all directions of the body rate from the reference number, by at most the bound.",
+            1/√2, and over all directions of the body rate from the reference number, by at most the limit.",
     ceiling: 1e-6,
     measure: Measure::Own(isotropic),
     ..Check::OF_LIBRARY
@@ -188,7 +188,7 @@ pub(super) const ISOTROPIC: Check = Check {
 
 pub(super) const FIGURES: Check = Check {
     id: "probability-figures",
-    claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the bound.",
+    claim: "P(heads) by exact-speed with Sobol points differs from the reference numbers by at most the limit.",
     ceiling: 1e-3,
     measure: Measure::Own(figures),
     ..Check::OF_LIBRARY
@@ -417,7 +417,7 @@ fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) const ERRORS: Check = Check {
     id: "sampling-errors",
     claim: "On a box of four coordinates the root mean square error of P(heads) by each sampling method, against the \
-            reference number, is at most the bound.",
+            reference number, is at most the limit.",
     ceiling: 0.02,
     measure: Measure::Own(errors),
     ..Check::OF_LIBRARY

@@ -23,7 +23,7 @@ use crate::measure::subject::Subject;
 
 pub(super) const COS_TILT: Check = Check {
     id: "reference-cos-tilt",
-    claim: "On every reference flight, cos θ at landing differs from the reference number by at most the bound.",
+    claim: "On every reference flight, cos θ at landing differs from the reference number by at most the limit.",
     ceiling: ceiling::COS_TILT,
     measure: Measure::Own(cos_tilt),
     ..Check::OF_SOLVERS
@@ -32,7 +32,7 @@ pub(super) const COS_TILT: Check = Check {
 pub(super) const ATTITUDE: Check = Check {
     id: "reference-attitude",
     claim: "On every reference flight, the attitude at landing differs from the reference attitude by at most the \
-            bound.",
+            limit.",
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(attitude),
@@ -72,7 +72,7 @@ fn over_flights(
 pub(super) const DETEST: Check = Check {
     id: "detest-b5",
     claim: "Each Runge-Kutta scheme solves DETEST B5, an asymmetric rigid body: at t = 20 no component differs from \
-            the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the bound.",
+            the reference, the Jacobi functions sn, cn and dn of (20 | 0.51), by more than the limit.",
     ceiling: 1e-6,
     measure: Measure::Own(detest),
     ..Check::OF_LIBRARY
@@ -105,7 +105,7 @@ fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) const MOMENTS: Check = Check {
     id: "catalogue-moments",
     claim: "I1 and I3 of every coin of the catalogue differ from those of its published mass, diameter and thickness \
-            by at most the bound, relative to their size; each coin of one list is in the other.",
+            by at most the limit, relative to their size; each coin of one list is in the other.",
     basis: Basis::PublishedFigure,
     ceiling: 1e-14,
     measure: Measure::Own(moments),
@@ -194,7 +194,7 @@ pub(super) const CHEATED_FOREVER: Check = Check {
 pub(super) const FIRST_FLIP: Check = Check {
     id: "first-flip",
     claim: "The outcome first changes at 1.3073 s for the cheated toss and at 0.5560 s for the tails toss. Measured: \
-            the largest distance from the reference time; it fails above the bound.",
+            the largest distance from the reference time; it fails above the limit.",
     ceiling: ceiling::ATTITUDE,
     unit: "s",
     measure: Measure::Own(first_flip),
@@ -221,7 +221,7 @@ fn thrown(coin: Coin, rate: [f64; 3], flights: impl Iterator<Item = TimeOfFlight
     flights.map(|flight| Ok(Toss::new(coin, Launch::new(rate, flight)?))).collect()
 }
 
-/// The number of `tosses` that do not land as `expected`. Against a bound an undecided outcome counts; against the
+/// The number of `tosses` that do not land as `expected`. Against a limit an undecided outcome counts; against the
 /// solver's own claim only a wrong one does, because an error estimate may leave an outcome undecided.
 fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement {
     let tilts: Vec<_> = tosses.par_iter().map(|toss| subject.solver.tilt(toss)).collect();

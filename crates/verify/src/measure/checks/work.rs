@@ -22,7 +22,7 @@ pub(super) const WITHIN_ESTIMATE: Check = Check {
     id: "work-precision",
     claim: "On every problem, at every tolerance from 1e-3 to 1e-14 or step from 1/|ω| down, the error of the \
             attitude is within the solver's error estimate. Measured: the largest error divided by what the estimate \
-            allows; it fails above the bound.",
+            allows; it fails above the limit.",
     ceiling: 1.0,
     measure: Measure::Own(within_estimate),
     ..Check::OF_SOLVERS
@@ -50,7 +50,7 @@ fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) const ORDER: Check = Check {
     id: "convergence-order",
     claim: "With a fixed step h the error falls as h to the power of the scheme's order by theory. Measured: the \
-            distance of the fitted power from that order; it fails above the bound.",
+            distance of the fitted power from that order; it fails above the limit.",
     ceiling: 0.5,
     measure: Measure::Own(order),
     ..Check::OF_SOLVERS
@@ -69,7 +69,7 @@ fn order(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 pub(super) const PROPORTION: Check = Check {
     id: "tolerance-proportion",
     claim: "The error is proportional to the tolerance from 1e-3 down to 1e-11, whatever the order of the scheme. \
-            Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the bound.",
+            Measured: the distance from 1 of the slope of log error by log tolerance; it fails above the limit.",
     ceiling: 0.5,
     measure: Measure::Own(proportion),
     ..Check::OF_SOLVERS

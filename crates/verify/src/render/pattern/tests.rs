@@ -67,7 +67,7 @@ fn an_impostor_called_exact_is_not_taken_for_the_library() {
 }
 
 #[test]
-fn says_which_formulation_fails_and_which_bounds_were_not_measured() {
+fn says_which_formulation_fails_and_which_limits_were_not_measured() {
     let mut found = rows(|_, _| false);
     found.push(row("atlas-answers", "gamma/dop853/vertical", 2.0, 1.0));
     assert!(of_rows(&found).contains("gamma, by dop853 alone, in the formulation vertical alone"), "{found:?}");
