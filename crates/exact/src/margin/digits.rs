@@ -36,7 +36,7 @@ fn decided(of_digits: impl Fn(usize) -> [Big; 2]) -> Height {
     loop {
         let [value, slope] = of_digits(digits);
         let bound = Big::ONE >> (digits - LOST_DIGITS).cast_signed();
-        let [size, threshold] = [if value < Big::ZERO { -value.clone() } else { value.clone() }, bound.clone() << 60];
+        let [size, threshold] = [value.magnitude(), bound.clone() << 60];
         if size > threshold || digits >= MOST_DIGITS {
             let sign = if size > threshold { Elementary::sign(&value) } else { 0.0 };
             let [value, slope, bound] = [value, slope, bound].map(|number| number.to_f64().value());
@@ -83,4 +83,35 @@ fn normalised((vertical, norm): ([Big; 3], Big), digits: usize) -> [Big; 3] {
     let round = |value: Big| value.with_precision(digits).value();
     let norm = round(norm);
     vertical.map(|part| round(part) / &norm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn height(value: f64, shift: isize) -> (Height, usize) {
+        let most = std::cell::Cell::new(0);
+        let found = decided(|digits| {
+            most.set(digits);
+            let big = |value: f64| exactly(value).with_precision(digits).value();
+            [big(value) >> shift, big(-3.0)]
+        });
+        (found, most.get())
+    }
+
+    #[test]
+    fn a_height_takes_the_digits_that_tell_it_from_0_and_keeps_its_sign() {
+        for sign in [1.0, -1.0] {
+            let (Height { value, slope, error, slope_error }, digits) = height(0.5 * sign, 0);
+            assert_eq!((value, slope, digits), (0.5 * sign, -3.0, DIGITS));
+            let bound = f64::exp2(80.0 - 192.0);
+            assert_eq!((error, slope_error), (UNIT_ROUNDOFF + bound, 6.0 * UNIT_ROUNDOFF + 2.0 * bound));
+            // 140 digits are lost or asked for beyond those of the value.
+            assert_eq!([51, 53, 240, 250, 1390].map(|shift| height(sign, shift).1), [192, 384, 384, 768, 1536]);
+            let (tiny, _) = height(sign, 1400);
+            assert_eq!(tiny.value, sign * f64::from_bits(1));
+            let (nothing, digits) = height(sign, 5000);
+            assert_eq!((nothing.value, digits), (0.0, MOST_DIGITS));
+        }
+    }
 }

@@ -139,8 +139,8 @@ impl<'a> Line<'a> {
         let sine = far / (across + far * far).sqrt();
         let inverse = 1.0 / (across + near * near).sqrt();
         let bound = sine * sine + inverse * (1.0 + 4.5 * sine + 10.0 * inverse);
-        // Not a number where all are 0.
-        if bound < 1.0 { bound } else { 1.0 }
+        // Not a number where all are 0, which leaves 1.
+        bound.min(1.0)
     }
 
     /// The bound by the sizes of mz, a and b, between two values of Φ·e. It is convex, so that an end has the most.
@@ -227,4 +227,157 @@ fn error(phase: f64) -> f64 {
 /// (200 + 5 φ) u².
 fn fine_error(phase: f64) -> f64 {
     (2000.0 + 100.0 * phase) * (UNIT_ROUNDOFF * UNIT_ROUNDOFF)
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// Tosses with parts of all signs, from horizontal, tilted and in any attitude.
+    fn tosses() -> Vec<CoinToss> {
+        let rates = [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2e3, 3e3, 5e2]];
+        let start = |rate: [f64; 3]| Launch::new(rate, TimeOfFlight::Given(0.7)).unwrap();
+        let turned = Attitude::from_components([0.5, 0.6, -0.3, 0.2]).unwrap();
+        let launches = rates.into_iter().flat_map(|rate| {
+            let start = start(rate);
+            [start, start.with_tilt(0.6).unwrap(), start.with_tilt(-2.0).unwrap(), start.with_attitude(turned)]
+        });
+        launches.map(|launch| CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }).collect()
+    }
+
+    fn lines(mut test: impl FnMut(&Line)) {
+        for toss in &tosses() {
+            let turn = turn(toss);
+            (0..3).for_each(|axis| test(&Line::of_rate(toss, axis, turn)));
+        }
+    }
+
+    fn are_close(one: f64, other: f64, part: f64) -> bool {
+        (one - other).abs() <= part * one.abs().max(other.abs())
+    }
+
+    /// The second bound of the module's table at one point of the line.
+    fn far_out(line: &Line, along: f64) -> f64 {
+        let phase = line.across().hypot(along);
+        let sine = along.abs() / phase;
+        (sine * sine + (1.0 + 4.5 * sine) / phase + 10.0 / (phase * phase)).min(1.0)
+    }
+
+    /// The third bound at one point. Both terms are polynomials of the distance, of which differences give the derivatives.
+    fn by_size(line: &Line, along: f64) -> f64 {
+        let Landing { vertical, turn, direction, .. } = line.landing(along);
+        let [m, turn, e] = [vertical, turn, direction].map(|vector| vector.map(f64::abs));
+        let part = |index: usize, further: f64| turn[index] + further * e[index];
+        let across = |further| m[0] * part(1, further) + m[1] * part(0, further);
+        let level = |further| (0..3).map(|index| m[index] * part(index, further)).sum::<f64>();
+        let tilted = |further| part(2, further) * level(further);
+        let slope = 0.5 * (tilted(1.0) - tilted(-1.0));
+        let curvature = tilted(1.0) - 2.0 * tilted(0.0) + tilted(-1.0);
+        m[2] + across(0.0) / 3.0 + (across(1.0) - across(0.0)) + tilted(0.0) / 12.0 + slope / 3.0 + curvature / 2.0
+    }
+
+    #[test]
+    fn bounds_of_the_curvature_are_those_of_the_table_at_the_worst_end() {
+        lines(|line| {
+            let at_launch = line.along().hi();
+            for (from, to) in [(0.3, 0.3), (-0.2, 0.9), (7.0, 2.0), (-40.0, -4e3), (0.0, 5.0), (-6.0, 1.0)] {
+                let [change, length] = [from - at_launch, f64::abs(to - from)];
+                let sense = if to < from { -1.0 } else { 1.0 };
+                // The sine is worst at the far end, the size at the near one, or between the ends where they have two signs.
+                let ends = [from, to];
+                let far = if from.abs() > to.abs() { from } else { to };
+                let near = if from * to > 0.0 { f64::min(from.abs(), to.abs()) } else { 0.0 };
+                let sine = far.abs() / line.across().hypot(far);
+                let size = line.across().hypot(near);
+                let expected = (sine * sine + (1.0 + 4.5 * sine) / size + 10.0 / (size * size)).min(1.0);
+                let found = line.curvature_far_out(ends);
+                assert!(are_close(found, if expected.is_nan() { 1.0 } else { expected }, 1e-9), "{found} {expected}");
+                let [found, expected] = [line.curvature_by_size(ends), by_size(line, far)];
+                assert!(are_close(found, expected, 1e-6), "{found} {expected}");
+                let both = line.curvature(change, sense, length);
+                let least = line.curvature_far_out(ends).min(line.curvature_by_size(ends));
+                assert!(
+                    both >= least.min(1.0) * (1.0 - 1e-9) && both <= (1.000_002 * least).min(1.0),
+                    "{both} {least}"
+                );
+                // Over a part of the line it is at least that at each of its points.
+                for step in 0..=20 {
+                    let along = from + (to - from) * f64::from(step) / 20.0;
+                    let here = far_out(line, along).min(by_size(line, along));
+                    assert!(both >= here.min(1.0) * (1.0 - 1e-9), "{from} {to} {along}: {both} {here}");
+                }
+            }
+        });
+    }
+
+    /// Where it ends, the cone just reaches the horizontal: (m·Φ)² + Φz² = |Φ|².
+    #[test]
+    fn the_cone_is_closed_as_far_as_its_length_and_no_further() {
+        let (mut ended, mut endless) = (0, 0);
+        lines(|line| {
+            for (change, sense) in [0.0, -3.0, 11.0].into_iter().flat_map(|change| [(change, 1.0), (change, -1.0)]) {
+                let closed = |length: f64| {
+                    let along = line.along().hi() + change + sense * length;
+                    let Landing { vertical: m, turn, .. } = line.landing(along);
+                    let level: f64 = (0..3).map(|index| m[index] * turn[index]).sum();
+                    let size: f64 = turn.iter().map(|part| part * part).sum();
+                    (level * level + turn[2] * turn[2] - size) / size
+                };
+                let length = line.closed_length(change, sense);
+                if length == 0.0 {
+                    assert!(closed(0.0) <= 1e-12, "{change} {sense}: {}", closed(0.0));
+                } else if length.is_finite() {
+                    ended += 1;
+                    let [before, at, beyond] = [0.5, 1.0 - 1e-7, 1.0 + 1e-7].map(|part| closed(part * length));
+                    assert!(
+                        before > 0.0 && at > 0.0 && beyond < 0.0,
+                        "{change} {sense} {length}: {before} {at} {beyond}"
+                    );
+                } else {
+                    endless += 1;
+                    assert!([0.0, 0.1, 1.0, 10.0, 1e3, 1e6].map(closed).iter().all(|closed| *closed > -1e-12));
+                }
+            }
+        });
+        assert!(ended > 30 && endless > 5, "{ended} {endless}");
+    }
+
+    /// Next to a flip, where nothing but the errors is left of the height, and far from it.
+    #[test]
+    fn heights_next_to_a_flip_are_right_to_their_errors_and_these_are_not_much_larger() {
+        let mut largest = [[0.0_f64; 2]; 2];
+        lines(|line| {
+            let mut change = 0.1;
+            for _ in 0..8 {
+                let exact = line.height(2, change);
+                for (stage, largest) in largest.iter_mut().enumerate() {
+                    let Height { value, slope, error, slope_error } = line.height(stage, change);
+                    let off =
+                        [(value - exact.value).abs() - exact.error, (slope - exact.slope).abs() - exact.slope_error];
+                    for ((off, error), largest) in off.into_iter().zip([error, slope_error]).zip(largest) {
+                        assert!(off <= error, "{stage} {change}: {off:e} > {error:e}");
+                        *largest = largest.max(off / error);
+                    }
+                }
+                // Newton's step towards the flip.
+                if exact.slope.abs() > 1e-3 {
+                    change -= exact.value / exact.slope;
+                }
+            }
+        });
+        // A slope in double-double ends as an f64, as the one in more digits does.
+        let [rough, [fine, _]] = largest;
+        assert!(rough.into_iter().chain([fine]).all(|part| part > 0.01), "{largest:?}");
+    }
+
+    #[test]
+    fn errors_grow_with_the_phase() {
+        for phase in [0.0, 1.0, 1e3, 1e15] {
+            let [f64_error, fine] = [error(phase), fine_error(phase)].map(|error| error / UNIT_ROUNDOFF);
+            assert!(are_close(f64_error, 64.0 + 80.0 * UNIT_ROUNDOFF * phase, 1e-12), "{phase}");
+            assert!(are_close(fine / UNIT_ROUNDOFF, 2000.0 + 100.0 * phase, 1e-12), "{phase}");
+        }
+    }
 }

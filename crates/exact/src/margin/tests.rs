@@ -162,6 +162,20 @@ fn a_flip_before_the_shortest_flight_is_none() {
     assert!((flight - 1.5).abs() < 1e-12, "{change}: {flight}");
 }
 
+/// Caught 1.5 m above, no flight at 6 m/s is shorter than 0.5 s, whatever gravity is: of the flips at 0.45 s and 1.35 s
+/// only the later one can be had.
+#[test]
+fn a_flip_before_the_shortest_flight_to_a_height_is_none() {
+    let toss = |gravity| {
+        let thrown = TimeOfFlight::BallisticTo { speed: 6.0, gravity, drop: -1.5 };
+        let rate = Vector3::new(std::f64::consts::FRAC_PI_2 / 0.45, 0.0, 0.0);
+        CoinToss { coin: Coin::DISC, launch: Launch::new(rate, thrown).unwrap() }
+    };
+    let change = margin_coin(&toss(9.81)).unwrap().gravity.unwrap();
+    let flight = toss(9.81 + change).launch.flight_time();
+    assert!((flight - 1.35).abs() < 1e-12, "{change}: {flight}");
+}
+
 /// On the edge by exact arithmetic: w = x.
 fn on_edge(rate: [f64; 3], time: f64) -> CoinToss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();

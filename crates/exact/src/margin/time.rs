@@ -121,3 +121,71 @@ fn in_digits(toss: &CoinToss) -> Option<[f64; 2]> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+    use crate::motion::CoinMotion;
+
+    /// A toss at a phase `from_flip` rad after a flip, with k ωz = (1 + `from_touch`) |(ωx, ωy)|: from horizontal its cone
+    /// touches the edge at 0. From another tilt it is far from a touch.
+    fn toss(tilt: f64, from_touch: f64, from_flip: f64) -> Option<(CoinToss, DoubleDouble)> {
+        let rate = [3.0, -4.0, 5.0 * (1.0 + from_touch) / 1.3];
+        let at = |time: f64| {
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(tilt).unwrap();
+            CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
+        };
+        let phase = |toss: &CoinToss| {
+            let [x, y, z] = super::super::line::turn(toss);
+            (x * x + y * y + z * z).sqrt()
+        };
+        let start = at(2.0);
+        let [_, earlier] =
+            in_digits(&start)?.map(|half| 2.0 * half).map(|change| if change > 0.0 { change - TAU } else { change });
+        let rate = CoinMotion::new(&start).phase(start.launch.time_of_flight()).unwrap() / 2.0;
+        let near = at(2.0 + (earlier + from_flip) / rate);
+        Some((near, phase(&near)))
+    }
+
+    #[test]
+    fn flips_in_double_double_are_those_of_more_digits_and_all_but_the_nearest_are_found_so() {
+        let (mut found, mut open) = (0, 0);
+        for (tilt, least) in [(0.0, 1e-13), (0.7, 1e-6), (-2.0, 1e-6)] {
+            for from_touch in [-0.5, -0.1, -1e-3, -1e-6, -1e-9, -1e-12, -1e-15, 1e-15, 1e-3, 0.5] {
+                for from_flip in [1.0, 0.1, -0.01, 1e-4, -1e-6, 1e-9, -1e-12, 1e-15] {
+                    let Some((toss, phase)) = toss(tilt, from_touch, from_flip) else { continue };
+                    let rough = in_double_double(&toss, phase);
+                    let is_far = f64::abs(from_flip) >= 10.0 * least && (f64::abs(from_touch) >= 1e-4 || tilt != 0.0);
+                    assert!(rough.is_some() || !is_far, "{tilt} {from_touch} {from_flip}");
+                    let Some(halves) = rough else {
+                        open += 1;
+                        continue;
+                    };
+                    found += 1;
+                    let exact = in_digits(&toss).expect("flips");
+                    for (half, exact) in halves.expect("flips").into_iter().zip(exact) {
+                        let off = (half - exact).abs() / exact.abs();
+                        assert!(off <= RESOLUTION, "{tilt} {from_touch} {from_flip}: {half:e} {exact:e}");
+                    }
+                }
+            }
+        }
+        assert!(found > 100 && open > 20, "{found} {open}");
+    }
+
+    #[test]
+    fn beyond_a_touch_there_is_no_flip_and_at_one_double_double_does_not_say() {
+        let toss = |from_touch: f64| {
+            let launch = Launch::new([3.0, -4.0, 2.5 * (1.0 + from_touch)], TimeOfFlight::Given(2.0)).unwrap();
+            CoinToss { coin: Coin::from_moments(1.0, 2.0).unwrap(), launch }
+        };
+        let phase = DoubleDouble::from(10.0);
+        for from_touch in [0.5, 1e-3, 1e-9, 1e-12, 1e-15] {
+            assert_eq!((in_double_double(&toss(from_touch), phase), in_digits(&toss(from_touch))), (Some(None), None));
+        }
+        assert_eq!((in_double_double(&toss(0.0), phase), in_digits(&toss(0.0))), (None, None));
+        assert!(in_digits(&toss(-1e-15)).is_some());
+    }
+}

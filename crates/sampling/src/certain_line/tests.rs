@@ -45,6 +45,13 @@ fn on_a_coarse_grid_the_line_is_straight_and_leaves_from_the_origin() {
 }
 
 #[test]
+fn away_from_the_origin_the_line_is_straight_and_with_the_other_spin_its_angle_is_135_degrees() {
+    let texts = [(RateX, "10:30:4"), (RateY, "0"), (RateZ, "-60:-1:5"), (Speed, "3:5")];
+    let CertainLine { pieces, angles } = drawn(Coin::PAPER, &texts, [RateX, RateZ]).unwrap();
+    assert_eq!((pieces, angles), (vec![vec![(10.0, -20.0), (30.0, -60.0)]], "ψ = 135°"));
+}
+
+#[test]
 fn both_lines_are_drawn_where_the_spin_has_both_senses() {
     let texts = [(RateX, "-30:30:4"), (RateY, "5"), (RateZ, "-60:60:4"), (Speed, "4")];
     let pieces = line(Coin::PAPER, &texts, [RateX, RateZ]).unwrap();
