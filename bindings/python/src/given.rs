@@ -13,6 +13,9 @@ use crate::errors::refused;
 /// What is said to be valid where a number is wanted.
 const A_NUMBER: &str = "a real number";
 
+/// The same of a count.
+const A_COUNT: &str = "a whole number from 0 to 2^64 - 1";
+
 /// The most characters of a value in a message.
 const SHOWN: usize = 40;
 
@@ -56,7 +59,15 @@ pub(crate) fn optional_number(field: &str, value: Option<&Bound<'_, PyAny>>) -> 
 
 /// The whole number, 0 or above, that an argument is.
 pub(crate) fn count(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
-    Place { field, index: None }.count(value, "a whole number from 0 to 2^64 - 1")
+    Place { field, index: None }.count(value, A_COUNT)
+}
+
+/// The whole numbers of a sequence, by position, or a single one.
+pub(crate) fn counts(field: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<u64>> {
+    let Some(elements) = elements(value) else { return Ok(vec![count(field, value)?]) };
+    let count =
+        |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.count(element, A_COUNT);
+    elements.iter().enumerate().map(count).collect()
 }
 
 /// The text that an argument is.

@@ -167,7 +167,7 @@ impl Given {
         // Each component of the rate has a field of its own.
         if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
             let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
-            return Err(Failure::from(fault).at(axis as u64).into());
+            return Err(Failure::from(fault).element(axis as u64).into());
         }
         let launch = Launch::new(rate, time_of_flight).map_err(Failure::from)?;
         Ok(match attitude_of(tilt, attitude)? {

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._native import Plan, Solver, Space, Tally, count
-from .columns import stages
 from .errors import MalformedError, PartError
 from .given import a_function, an, wrong
 from .results import ShownAsTable
@@ -66,8 +65,9 @@ class Estimate(ShownAsTable):
 def _estimate(values: _native._EstimateValues, plan: Plan) -> Estimate:
     probability, interval, kind, points, counts, proven = values
     heads, tails, undecided = counts or (None, None, None)
+    by_stage = None if proven is None else dict(proven)
     return Estimate(
-        probability, interval, kind, points, heads, tails, undecided, proven is not None, stages(proven), plan
+        probability, interval, kind, points, heads, tails, undecided, proven is not None, by_stage, plan
     )
 
 

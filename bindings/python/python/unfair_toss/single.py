@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
 from ._native import Body, Solver, Toss
-from .results import Intervals, Inverse, Landing, Margins, Trace, Work
+from .results import Intervals, Inverse, Landing, Margins, Trace, Wobble, Work
 
 
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
@@ -154,3 +155,41 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     """
     found = _native.inverse(probability, body)
     return Inverse(float(probability), *found)
+
+
+def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
+    """The wobble that explains how often coins landed on the side that had been up.
+
+    It assumes long flights from horizontal, all with the same angle ψ; 180° - ψ explains the counts as well. People
+    differ, so several of them have Student's interval with the people as its sample; one has Clopper and Pearson's.
+
+    Parameters
+    ----------
+    same_side : int or array_like of int, one per person
+        Numbers of tosses that landed on the side that had been up.
+    tosses : int or array_like of int, one per person
+        Numbers of all tosses, at least 1.
+    body : str or Body
+        A symmetric body, for the ratio of rates.
+
+    Returns
+    -------
+    Wobble
+        The same numbers as ``unfair-toss inverse --counts --format json``, to the bit.
+
+    Raises
+    ------
+    errors.InputError
+        For counts that cannot be, with the person's number as ``.index``; and if no wobble explains them, because even
+        the upper end of the interval is below ½.
+
+    Examples
+    --------
+    The flips of F. Bartoš et al., arXiv 2310.04153:
+
+    >>> round(np.degrees(ut.wobble(178078, 350757).cone_angle), 2)
+    81.16
+    """
+    (same, of), (share, interval, kind), (k, ratio), (angle, ends), people = _native.wobble(same_side, tosses, body)
+    each = np.array(people)
+    return Wobble(same, of, share, interval, kind, k, ratio, angle, ends, each[:, 0], each[:, 1:])
