@@ -67,8 +67,13 @@ impl Failure {
         kwargs.set_item("field", field)?;
         kwargs.set_item("index", self.launch())?;
         kwargs.set_item("valid", valid)?;
+        let mut message = self.message();
+        if let Error::Input(InputError::UnknownName { value, known, .. }) = &self.error {
+            let known: Vec<_> = known.split(", ").collect();
+            message += &py.import("unfair_toss.given")?.call_method1("close", (value, known))?.extract::<String>()?;
+        }
         let class = py.import("unfair_toss.errors")?.getattr(class)?;
-        Ok(PyErr::from_value(class.call((self.message(),), Some(&kwargs))?))
+        Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
     }
 }
 

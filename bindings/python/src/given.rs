@@ -4,9 +4,12 @@
 //! number or a span of time.
 
 use numpy::PyArray1;
+use pyo3::PyTypeInfo;
 use pyo3::prelude::*;
 use pyo3::pyclass::PyClass;
-use pyo3::types::{PyBool, PyByteArray, PyBytes, PyComplex, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
+use pyo3::types::{
+    PyBool, PyByteArray, PyBytes, PyComplex, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple,
+};
 
 use crate::errors::refused;
 
@@ -155,6 +158,13 @@ pub(crate) fn array_of_numbers<'py>(
 #[pyfunction(name = "count")]
 pub(crate) fn whole_number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     count(field, value)
+}
+
+/// Refuses keywords that the class does not have, with a similar one that it has.
+pub(crate) fn no_others<T: PyTypeInfo>(py: Python<'_>, others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some((name, _)) = others.and_then(|others| others.iter().next()) else { return Ok(()) };
+    let error = py.import("unfair_toss.given")?.call_method1("unexpected", (py.get_type::<T>(), name))?;
+    Err(PyErr::from_value(error))
 }
 
 /// Whether a value is one real number, so far as its type tells.

@@ -303,3 +303,28 @@ def test_a_rotation_is_an_attitude_without_reordering():
     assert (landing * turn.inv()).magnitude() < 1e-15
     with pytest.raises(errors.MalformedError, match="single rotation"):
         ut.Toss((1, 2, 3), time=0.0, attitude=Rotation.from_rotvec(np.zeros((2, 3))))
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "close"),
+    [
+        (lambda: ut.Toss((1, 1, 2.5), sped=3), TypeError, "speed"),
+        (lambda: ut.Solver("euler", schema="rk4"), TypeError, "scheme"),
+        (lambda: ut.Space(rate_x=1, rate_y=1, rate_z=1, speed=1, tild=1), TypeError, "tilt"),
+        (lambda: ut.cos_tilt(1, 1, 1, 3, gravty=9), TypeError, "gravity"),
+        (lambda: ut.solve(CHEATED, rtoll=1e-9), TypeError, "rtol"),
+        (lambda: ut.Toss((1, 1, 2.5), speed=3, body="US-Quater"), errors.UnknownNameError, "us-quarter"),
+        (lambda: ut.toss(CHEATED, "quaternions"), errors.UnknownNameError, "quaternion"),
+        (lambda: ut.solve(CHEATED, method="DOPP853"), errors.UnknownNameError, "dop853"),
+        (lambda: ut.Solver("euler", formulation="momentun"), errors.UnknownNameError, "momentum"),
+        (lambda: ut.Space.named("paper-fig-4"), errors.UnknownNameError, "paper-fig4"),
+        (lambda: ut.Body.named("zzz"), errors.UnknownNameError, None),
+        (lambda: ut.margins(CHEATED, zzz=1), TypeError, None),
+    ],
+)
+def test_an_unknown_name_is_answered_with_a_similar_one(call, kind, close):
+    with pytest.raises(kind) as caught:
+        call()
+    assert str(caught.value).endswith(f". Did you mean '{close}'?") if close else "Did you mean" not in str(caught.value)
+    if kind is TypeError:
+        assert "got an unexpected keyword argument" in str(caught.value)
