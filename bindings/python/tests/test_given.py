@@ -247,7 +247,6 @@ def test_a_frame_is_read_by_position():
     assert ut.Body.from_tensor(frame) == ut.Body.from_tensor(rows)
     with pytest.raises(errors.MalformedError):
         ut.Toss(frame, speed=3)
-    assert (ut.cos_tilt(frame, 1, 1, 3) == ut.cos_tilt(np.array(rows), 1, 1, 3)).all()
 
 
 COUNTS = [2, np.int8(2), np.uint64(2), np.array(2)]

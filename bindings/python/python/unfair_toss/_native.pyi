@@ -133,6 +133,7 @@ class Batch:
         tilt: float | None,
         attitude: _Quaternion | None,
         gravity: float,
+        varying: Sequence[bool],
         timed: bool,
         solver: str | Solver | None,
         threads: int | None,

@@ -66,8 +66,8 @@ def cos_tilt(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -85,9 +85,10 @@ def cos_tilt(
         Upward speed at launch in m/s. The body lands at the height of its launch.
     time : array_like, optional
         Time of flight in s, instead of a speed.
-    gravity : float, optional
-        In m/s²; 9.81 by default.
-    tilt : float, optional
+    gravity : array_like, optional
+        In m/s²; 9.81 by default. It and the tilt may be columns, too, which cost the least if equal values follow each
+        other.
+    tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
     attitude : sequence of 4 floats or scipy Rotation, optional
         Attitude at launch instead of a tilt, as the quaternion (w, x, y, z) from the body to the laboratory.
@@ -104,7 +105,9 @@ def cos_tilt(
     Returns
     -------
     ndarray of float64
-        cos θ in the broadcast shape, which is () if all columns are scalars.
+        cos θ in the broadcast shape, which is () if all columns are scalars. Columns of xarray are combined by their
+        labels, and give a ``DataArray``; those of pandas have to have equal labels, and give a ``Series`` or a
+        ``DataFrame``.
 
     Raises
     ------
@@ -132,8 +135,8 @@ def outcome(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -177,8 +180,8 @@ def attitude(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -220,8 +223,8 @@ def count(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,

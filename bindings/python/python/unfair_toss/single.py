@@ -8,6 +8,7 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .given import suggesting
+from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, Trace, Wobble, Work
 
 
@@ -197,6 +198,7 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     >>> round(np.degrees(ut.wobble(178078, 350757).cone_angle), 2)
     81.16
     """
-    (same, of), (share, interval, kind), (k, ratio), (angle, ends), people = _native.wobble(same_side, tosses, body)
+    counts, _ = combined({"same_side": same_side, "tosses": tosses})
+    (same, of), (share, interval, kind), (k, ratio), (angle, ends), people = _native.wobble(**counts, body=body)
     each = np.array(people)
     return Wobble(same, of, share, interval, kind, k, ratio, angle, ends, each[:, 0], each[:, 1:])
