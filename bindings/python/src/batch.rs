@@ -18,10 +18,13 @@ use crate::toss::{attitude_of, components_of};
 /// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
 const A_SLOW_CALL: usize = 1 << 6;
 
-/// What the launches of some columns have in common, and the threads that solve them.
+/// What the launches of some columns have in common, and the threads that solve them. The columns are the rates about x, y
+/// and z, the speeds, and gravity and the tilt where they vary.
 #[pyclass(frozen, module = "unfair_toss._native")]
 pub(crate) struct Batch {
     launches: Arc<Common>,
+    /// Whether gravity and the tilt vary.
+    varying: [bool; 2],
     pool: Option<Arc<rayon::ThreadPool>>,
 }
 
@@ -41,12 +44,14 @@ type Column<'py> = Bound<'py, PyArray1<f64>>;
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (body, *, tilt, attitude, gravity, timed, solver, threads))]
+    #[pyo3(signature = (body, *, tilt, attitude, gravity, varying, timed, solver, threads))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         body: &Bound<'_, PyAny>,
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
         gravity: &Bound<'_, PyAny>,
+        varying: [bool; 2],
         timed: bool,
         solver: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
@@ -60,7 +65,7 @@ impl Batch {
         // With a gravity of 2 m/s², a speed is the time of flight.
         let gravity = if timed { 2.0 } else { gravity };
         let launches = Common { body: body_of(body)?.get().body, attitude, gravity, timed, solver };
-        Ok(Self { launches: Arc::new(launches), pool })
+        Ok(Self { launches: Arc::new(launches), varying, pool })
     }
 
     /// Whether the launches are solved by the kernels.
@@ -70,7 +75,7 @@ impl Batch {
     }
 
     /// Writes cos θ at landing of the launches, whose first one has the index `first`.
-    fn cos_tilts(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
+    fn cos_tilts(&self, py: Python<'_>, columns: Vec<Column<'_>>, out: &Column<'_>, first: u64) -> PyResult<()> {
         let solve: Solve<f64> = |launches, range, out| launches.cos_tilts(range, out);
         self.write(py, &columns, out, first, &Asked { width: 1, a_call: A_CALL, solve })
     }
@@ -79,7 +84,7 @@ impl Batch {
     fn outcomes(
         &self,
         py: Python<'_>,
-        columns: [Column<'_>; 4],
+        columns: Vec<Column<'_>>,
         out: &Bound<'_, PyArray1<i8>>,
         first: u64,
     ) -> PyResult<()> {
@@ -88,27 +93,47 @@ impl Batch {
     }
 
     /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
-    fn attitudes(&self, py: Python<'_>, columns: [Column<'_>; 4], out: &Column<'_>, first: u64) -> PyResult<()> {
+    fn attitudes(&self, py: Python<'_>, columns: Vec<Column<'_>>, out: &Column<'_>, first: u64) -> PyResult<()> {
         let solve: Solve<f64> = |launches, range, out| launches.attitudes(range, out);
         self.write(py, &columns, out, first, &Asked { width: 4, a_call: A_CALL, solve })
     }
 
     /// Counts the outcomes.
-    fn count(&self, py: Python<'_>, columns: [Column<'_>; 4], first: u64) -> PyResult<Counts> {
+    fn count(&self, py: Python<'_>, columns: Vec<Column<'_>>, first: u64) -> PyResult<Counts> {
         let columns = borrowed(&columns)?;
         let launches = self.launches(&columns, first)?;
         let number = launches.speeds.len();
         let counts = if self.is_vectorised() {
-            threads::collect(py, self.pool.as_deref(), number, |range| launches.count(range))?
+            threads::collect(py, self.pool.as_deref(), number, |range| count_runs(&launches, range))?
         } else {
             let (own, pool) = (self.owned(&launches), self.pool.clone());
             threads::aside(py, move |stop| {
                 let launches = own.borrowed(stop);
-                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| launches.count(range))
+                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&launches, range))
             })?
         };
-        Ok(counts.into_iter().fold((0, 0, 0, Some([0; Stage::ALL.len()])), added))
+        Ok(counts.into_iter().fold(NOTHING, added))
     }
+}
+
+/// The counts of no launches.
+const NOTHING: Counts = (0, 0, 0, Some([0; Stage::ALL.len()]));
+
+fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
+    launches.runs(range).try_fold(NOTHING, |sum, run| Ok(added(sum, launches.count(run)?)))
+}
+
+/// Writes what is found of the launches in a range, of those with the same gravity and tilt at once.
+fn by_runs<T>(
+    launches: &Launches<'_>,
+    range: Range<usize>,
+    out: &mut [T],
+    width: usize,
+    solve: Solve<T>,
+) -> Result<(), Failure> {
+    let start = range.start;
+    let place = |index: usize| width * (index - start);
+    launches.runs(range).try_for_each(|run| solve(launches, run.clone(), &mut out[place(run.start)..place(run.end)]))
 }
 
 /// The sum of counts; it is proven if both are.
@@ -118,9 +143,8 @@ fn added(one: Counts, two: Counts) -> Counts {
 }
 
 /// The columns, for reading.
-fn borrowed<'py>(columns: &[Column<'py>; 4]) -> PyResult<[PyReadonlyArray1<'py, f64>; 4]> {
-    let [x, y, z, speeds] = columns.each_ref().map(|column| column.try_readonly().map_err(in_use));
-    Ok([x?, y?, z?, speeds?])
+fn borrowed<'py>(columns: &[Column<'py>]) -> PyResult<Vec<PyReadonlyArray1<'py, f64>>> {
+    columns.iter().map(|column| column.try_readonly().map_err(in_use)).collect()
 }
 
 fn in_use(error: impl ToString) -> PyErr {
@@ -137,7 +161,7 @@ impl Batch {
     fn write<T: Element + Default + Copy + Send + 'static>(
         &self,
         py: Python<'_>,
-        columns: &[Column<'_>; 4],
+        columns: &[Column<'_>],
         out: &Bound<'_, PyArray1<T>>,
         first: u64,
         &Asked { width, a_call, solve }: &Asked<T>,
@@ -147,13 +171,13 @@ impl Batch {
         let mut out = out.try_readwrite().map_err(in_use)?;
         let out = launches.fitting(out.as_slice_mut().map_err(no_column)?, width)?;
         if self.is_vectorised() {
-            let solve = |range: Range<usize>, out: &mut [T]| solve(&launches, range, out);
+            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
             return threads::fill(py, self.pool.as_deref(), a_call, out, width, solve);
         }
         let (own, pool, length) = (self.owned(&launches), self.pool.clone(), out.len());
         let found = threads::aside(py, move |stop| {
             let (launches, mut found) = (own.borrowed(stop), vec![T::default(); length]);
-            let solve = |range: Range<usize>, out: &mut [T]| solve(&launches, range, out);
+            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
             threads::filled(pool.as_deref(), stop, A_SLOW_CALL, &mut found, width, solve)?;
             Ok(found)
         })?;
@@ -163,31 +187,51 @@ impl Batch {
 
     /// A copy of launches.
     fn owned(&self, launches: &Launches<'_>) -> Owned {
-        let Launches { rates, speeds, first, .. } = launches;
-        Owned { of: self.launches.clone(), rates: rates.map(<[f64]>::to_vec), speeds: speeds.to_vec(), first: *first }
+        let Launches { rates: [x, y, z], speeds, gravities, tilts, first, .. } = *launches;
+        let columns = [Some(x), Some(y), Some(z), Some(speeds), gravities, tilts].into_iter().flatten();
+        Owned {
+            of: self.launches.clone(),
+            varying: self.varying,
+            columns: columns.map(<[f64]>::to_vec).collect(),
+            first,
+        }
     }
 
-    fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>; 4], first: u64) -> PyResult<Launches<'a>> {
-        let [x, y, z, speeds] = columns.each_ref().map(|column| column.as_slice().map_err(no_column));
-        let (rates, speeds) = ([x?, y?, z?], speeds?);
-        if rates.iter().any(|column| column.len() != speeds.len()) {
-            return Err(malformed("columns", "of different lengths", "as many rates of each kind as speeds"));
+    fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>], first: u64) -> PyResult<Launches<'a>> {
+        let columns: Vec<&[f64]> =
+            columns.iter().map(|column| column.as_slice().map_err(no_column)).collect::<PyResult<_>>()?;
+        let right = 4 + self.varying.iter().filter(|varies| **varies).count();
+        if columns.len() != right || columns.iter().any(|column| column.len() != columns[0].len()) {
+            return Err(malformed("columns", "of different lengths", "as many of each kind"));
         }
-        Ok(Launches { of: &self.launches, rates, speeds, first, stop: None })
+        Ok(launches(&self.launches, self.varying, &columns, first, None))
     }
+}
+
+/// The launches of so many columns as they are told by what varies.
+fn launches<'a>(
+    of: &'a Common,
+    varying: [bool; 2],
+    columns: &[&'a [f64]],
+    first: u64,
+    stop: Option<&'a Stop>,
+) -> Launches<'a> {
+    let mut others = columns[4..].iter().copied();
+    let [gravities, tilts] = varying.map(|varies| if varies { others.next() } else { None });
+    Launches { of, rates: [columns[0], columns[1], columns[2]], speeds: columns[3], gravities, tilts, first, stop }
 }
 
 /// Launches whose columns are copies.
 struct Owned {
     of: Arc<Common>,
-    rates: [Vec<f64>; 3],
-    speeds: Vec<f64>,
+    varying: [bool; 2],
+    columns: Vec<Vec<f64>>,
     first: u64,
 }
 
 impl Owned {
     fn borrowed<'a>(&'a self, stop: &'a Stop) -> Launches<'a> {
-        let rates = self.rates.each_ref().map(Vec::as_slice);
-        Launches { of: &self.of, rates, speeds: &self.speeds, first: self.first, stop: Some(stop) }
+        let columns: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
+        launches(&self.of, self.varying, &columns, self.first, Some(stop))
     }
 }

@@ -32,6 +32,11 @@ impl Failure {
         Self { index: Some(index), ..self }
     }
 
+    /// The same failure, of element `index` of the argument that is at fault.
+    pub(crate) fn element(self, index: u64) -> Self {
+        Self { index: Some(index), argument: self.argument.or(self.error.field().map(argument)), ..self }
+    }
+
     /// The same failure, of what the argument called `argument` gave.
     pub(crate) fn of(self, argument: &'static str) -> Self {
         Self { argument: Some(argument), ..self }
@@ -48,7 +53,10 @@ impl Failure {
     fn message(&self) -> String {
         match (self.index, &self.error) {
             (_, Error::Launch { .. } | Error::BadLaunch { .. }) | (None, _) => self.error.to_string(),
-            (Some(index), error) => format!("launch {index}: {error}"),
+            (Some(index), error) => match self.argument {
+                Some(argument) => format!("{argument}[{index}]: {error}"),
+                None => format!("launch {index}: {error}"),
+            },
         }
     }
 
@@ -59,8 +67,13 @@ impl Failure {
         kwargs.set_item("field", field)?;
         kwargs.set_item("index", self.launch())?;
         kwargs.set_item("valid", valid)?;
+        let mut message = self.message();
+        if let Error::Input(InputError::UnknownName { value, known, .. }) = &self.error {
+            let known: Vec<_> = known.split(", ").collect();
+            message += &py.import("unfair_toss.given")?.call_method1("close", (value, known))?.extract::<String>()?;
+        }
         let class = py.import("unfair_toss.errors")?.getattr(class)?;
-        Ok(PyErr::from_value(class.call((self.message(),), Some(&kwargs))?))
+        Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
     }
 }
 
@@ -91,6 +104,7 @@ fn argument(field: &'static str) -> &'static str {
         "rate y [rad/s]" => "rate_y [rad/s]",
         "rate z [rad/s]" => "rate_z [rad/s]",
         "coin" => "body",
+        "same" => "same_side",
         "tolerance" => "rtol",
         "scheme of this solver" => "scheme",
         field => field,

@@ -1,8 +1,9 @@
 //! Estimates of probabilities, as plain values.
 
 use ::toss::planner::How;
-use ::toss::sampling::{self, Counts, Estimate, Found, Space};
-use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Stage, Want};
+use ::toss::report::{Estimate, Outcomes};
+use ::toss::sampling::{self, Space};
+use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Want};
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
@@ -15,20 +16,13 @@ use crate::threads;
 /// Values of an estimate: the probability, its interval and what that means, the number of launches, the counts of heads,
 /// tails and undecided, where they were counted, and by stage of the proof, where they are proven.
 pub(crate) type Values =
-    (f64, Option<(f64, f64)>, String, u64, Option<(u64, u64, u64)>, Option<[u64; Stage::ALL.len()]>);
+    (f64, Option<(f64, f64)>, String, u64, Option<(u64, u64, u64)>, Option<Vec<(&'static str, u64)>>);
 
-/// The values of an estimate.
-pub(crate) fn values(found: &Estimate) -> Values {
-    let counts = if let Found::Counts(counts) = found.found { Some(counts) } else { None };
-    let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven());
-    (
-        found.probability,
-        found.interval.map(|interval| (interval.lo, interval.hi)),
-        found.interval_kind.to_string(),
-        found.points,
-        counts.map(|counts| (counts.heads(), counts.tails(), counts.undecided())),
-        proven.map(|proven| Stage::ALL.map(|stage| proven.by(stage))),
-    )
+/// The values of an estimate that `plan` has `found`.
+pub(crate) fn values(found: &sampling::Estimate, plan: sampling::Plan) -> Values {
+    let Estimate { probability, interval, interval_kind, points, counts, proven_by, .. } = Estimate::new(found, plan);
+    let counts = counts.map(|Outcomes { heads, tails, undecided }| (heads, tails, undecided));
+    (probability, interval.map(Into::into), interval_kind, points, counts, proven_by)
 }
 
 /// The estimate of a plan, with outcomes by a solver.
@@ -45,7 +39,7 @@ pub(crate) fn estimate_by_solver(
         let progress = |_| stop.here();
         Ok(pool.install(|| backend.sampler().on_progress(&progress).estimate(&space, plan))?)
     });
-    Ok(values(&found?))
+    Ok(values(&found?, plan))
 }
 
 /// The estimate by the plan that is cheapest for an error, and that plan.
@@ -62,7 +56,9 @@ pub(crate) fn estimate_by_accuracy(
         Ok(pool.install(|| scene.choose_and_run_reporting(Registry::standard(), &progress))?)
     });
     match found? {
-        (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => Ok((values(&found), plan.into())),
+        (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => {
+            Ok((values(&found, plan), plan.into()))
+        }
         _ => {
             let why = "the plan for this space is no sample";
             Err(Failure::from(InputError::OutsideModel { field: "accuracy", why }).into())

@@ -4,14 +4,20 @@
 //! number or a span of time.
 
 use numpy::PyArray1;
+use pyo3::PyTypeInfo;
 use pyo3::prelude::*;
 use pyo3::pyclass::PyClass;
-use pyo3::types::{PyBool, PyByteArray, PyBytes, PyComplex, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
+use pyo3::types::{
+    PyBool, PyByteArray, PyBytes, PyComplex, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple,
+};
 
 use crate::errors::refused;
 
 /// What is said to be valid where a number is wanted.
 const A_NUMBER: &str = "a real number";
+
+/// The same of a count.
+const A_COUNT: &str = "a whole number from 0 to 2^64 - 1";
 
 /// The most characters of a value in a message.
 const SHOWN: usize = 40;
@@ -56,7 +62,15 @@ pub(crate) fn optional_number(field: &str, value: Option<&Bound<'_, PyAny>>) -> 
 
 /// The whole number, 0 or above, that an argument is.
 pub(crate) fn count(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
-    Place { field, index: None }.count(value, "a whole number from 0 to 2^64 - 1")
+    Place { field, index: None }.count(value, A_COUNT)
+}
+
+/// The whole numbers of a sequence, by position, or a single one.
+pub(crate) fn counts(field: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<u64>> {
+    let Some(elements) = elements(value) else { return Ok(vec![count(field, value)?]) };
+    let count =
+        |(index, element): (usize, &Bound<'_, PyAny>)| Place { field, index: Some(index) }.count(element, A_COUNT);
+    elements.iter().enumerate().map(count).collect()
 }
 
 /// The text that an argument is.
@@ -144,6 +158,13 @@ pub(crate) fn array_of_numbers<'py>(
 #[pyfunction(name = "count")]
 pub(crate) fn whole_number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     count(field, value)
+}
+
+/// Refuses keywords that the class does not have, with a similar one that it has.
+pub(crate) fn no_others<T: PyTypeInfo>(py: Python<'_>, others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some((name, _)) = others.and_then(|others| others.iter().next()) else { return Ok(()) };
+    let error = py.import("unfair_toss.given")?.call_method1("unexpected", (py.get_type::<T>(), name))?;
+    Err(PyErr::from_value(error))
 }
 
 /// Whether a value is one real number, so far as its type tells.

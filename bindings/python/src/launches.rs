@@ -3,7 +3,10 @@
 
 use std::ops::Range;
 
-use ::toss::{Attitude, Backend, Body, Error, ExactSolver, Launch, Outcome, Solver, Stage, TimeOfFlight, Toss, Tosses};
+use ::toss::{
+    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, Solver, Stage, TimeOfFlight, Toss, Tosses,
+};
+use dynamics::error::require;
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -49,6 +52,9 @@ pub(crate) struct Launches<'a> {
     pub(crate) of: &'a Common,
     pub(crate) rates: [&'a [f64]; 3],
     pub(crate) speeds: &'a [f64],
+    /// Gravity (m/s²) and tilt (rad) of each launch, where they are not the same for all.
+    pub(crate) gravities: Option<&'a [f64]>,
+    pub(crate) tilts: Option<&'a [f64]>,
     /// The index of the first one.
     pub(crate) first: u64,
     /// What ends the work on them between two launches that are solved one by one.
@@ -64,10 +70,35 @@ impl Launches<'_> {
         Err(malformed("out", out.len(), "as many results as launches"))
     }
 
-    /// The launches in `range` as tosses of `body`.
+    /// The parts of `range` with the same gravity and tilt.
+    pub(crate) fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+        let varying = [self.gravities, self.tilts];
+        let differ = move |one: usize, two: usize| {
+            varying.iter().flatten().any(|column| column[one].to_bits() != column[two].to_bits())
+        };
+        let mut start = range.start;
+        std::iter::from_fn(move || {
+            let first = start;
+            let next = if varying == [None; 2] { None } else { (first..range.end).find(|index| differ(first, *index)) };
+            start = next.unwrap_or(range.end);
+            (first < start).then_some(first..start)
+        })
+    }
+
+    /// Gravity and the attitude of launch `index`.
+    fn conditions(&self, index: usize) -> Result<(f64, Attitude), InputError> {
+        let gravity = self.gravities.map_or(self.of.gravity, |column| column[index]);
+        let tilted = |column: &[f64]| Ok(Attitude::about_x(require("tilt [rad]", column[index], "finite", true)?));
+        Ok((gravity, self.tilts.map_or(Ok(self.of.attitude), tilted)?))
+    }
+
+    /// The launches in `range`, which is part of a run, as tosses of `body`.
     fn tosses<B: Copy + Into<Body>>(&self, body: B, range: Range<usize>) -> Result<Tosses<'_, B>, Failure> {
-        let rates = self.rates.map(|column| &column[range.clone()]);
-        Ok(Tosses::new(body, self.of.attitude, self.of.gravity, rates, &self.speeds[range])?)
+        let (start, rates) = (range.start, self.rates.map(|column| &column[range.clone()]));
+        let tosses = self
+            .conditions(start)
+            .and_then(|(gravity, attitude)| Tosses::new(body, attitude, gravity, rates, &self.speeds[range]));
+        tosses.map_err(|error| Failure::from(error).at(self.first + start as u64))
     }
 
     /// The launches in `range` for the kernels; `None` if they are solved one by one.
@@ -111,12 +142,11 @@ impl Launches<'_> {
     }
 
     fn toss(&self, index: usize) -> Result<Toss, Failure> {
-        let Common { body, attitude, gravity, timed, .. } = self.of;
+        let (gravity, attitude) = self.conditions(index)?;
         let speed = self.speeds[index];
-        let time =
-            if *timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::Ballistic { speed, gravity: *gravity } };
-        let launch = Launch::new(self.rates.map(|column| column[index]), time)?.with_attitude(*attitude);
-        Ok(Toss::new(*body, launch))
+        let time = if self.of.timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::Ballistic { speed, gravity } };
+        let launch = Launch::new(self.rates.map(|column| column[index]), time)?.with_attitude(attitude);
+        Ok(Toss::new(self.of.body, launch))
     }
 
     /// The result of `solve` for each launch in `range`, with its place.
@@ -168,13 +198,13 @@ impl Launches<'_> {
     /// Writes w, x, y, z of the attitude at landing of each launch, one after the other.
     pub(crate) fn attitudes(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
         let start = range.start;
-        let Some(_) = self.batch(0..0)? else {
+        if !self.of.is_vectorised() {
             return self.each(range, |place, solver, toss| {
                 let landing = solver.land(toss)?.state.attitude;
                 out[4 * place..4 * place + 4].copy_from_slice(&landing.components());
                 Ok(())
             });
-        };
+        }
         let mut block = [[0.0; BLOCK]; 4];
         for (number, out) in out.chunks_mut(4 * BLOCK).enumerate() {
             let (from, length) = (start + number * BLOCK, out.len() / 4);

@@ -46,6 +46,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(single::trace, module)?)?;
     module.add_function(wrap_pyfunction!(single::solve, module)?)?;
     module.add_function(wrap_pyfunction!(single::inverse, module)?)?;
+    module.add_function(wrap_pyfunction!(single::wobble, module)?)?;
     module.add_function(wrap_pyfunction!(planner::plan, module)?)?;
     module.add_function(wrap_pyfunction!(tally::tally, module)?)?;
     module.add_function(wrap_pyfunction!(estimate::estimate_by_solver, module)?)?;

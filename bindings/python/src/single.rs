@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ::toss::sampling::{long_flight_cone, rate_ratio};
+use ::toss::sampling::{SameSide, Wobble, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
 use ::toss::{
     Backend, ExactMotion, InputError, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR,
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
 use crate::errors::{Failure, malformed};
-use crate::given::{number, optional_number};
+use crate::given::{counts, number, optional_number};
 use crate::planner::points_of;
 use crate::solver::backend_of;
 use crate::threads::{self, Stop};
@@ -133,6 +133,44 @@ pub(crate) fn inverse(probability: &Bound<'_, PyAny>, body: &Bound<'_, PyAny>) -
     let (k, probability) = (coin.inertia_ratio(), number("probability", probability)?);
     let cone = long_flight_cone(probability).map_err(Failure::from)?;
     Ok((k, rate_ratio(probability, k).map_err(Failure::from)?, cone))
+}
+
+/// Values of a wobble: the counts of all people; the share with its interval and what that means; k and Ω/ωz; ψ with its
+/// interval; and these of each person alone, NaN where no wobble explains the counts.
+type Wobbled = ((u64, u64), (f64, (f64, f64), String), (f64, Option<f64>), (f64, (f64, f64)), Vec<[f64; 3]>);
+
+/// The ψ that explains how many of the tosses of each person landed on the side that had been up.
+#[pyfunction]
+pub(crate) fn wobble(
+    same_side: &Bound<'_, PyAny>,
+    tosses: &Bound<'_, PyAny>,
+    body: &Bound<'_, PyAny>,
+) -> PyResult<Wobbled> {
+    let coin = coin_of(&body_of(body)?.get().body, "the limit of long flights is that of bodies with I1 = I2")?;
+    let (is_one, same, of) = (same_side.len().is_err(), counts("same_side", same_side)?, counts("tosses", tosses)?);
+    if same.is_empty() {
+        return Err(malformed("same_side", "nobody's", "the count of at least 1 person"));
+    }
+    if same.len() != of.len() {
+        return Err(malformed("tosses", format!("{} for {} people", of.len(), same.len()), "as many as of same_side"));
+    }
+    let person = |(index, (same, tosses))| {
+        let failed = |error| if is_one { Failure::from(error) } else { Failure::from(error).element(index) };
+        SameSide::new(same, tosses).map_err(failed)
+    };
+    let people = (0..).zip(same.into_iter().zip(of)).map(person).collect::<Result<Vec<_>, _>>()?;
+    let Wobble { counts, share, interval, interval_kind, angle, angles } =
+        Wobble::of(&people).map_err(Failure::from)?;
+    let k = coin.inertia_ratio();
+    let ratio = (share > 0.5).then(|| rate_ratio(share, k)).transpose().map_err(Failure::from)?;
+    let alone = |person| Wobble::of(&[person]).map_or([f64::NAN; 3], |one| [one.angle, one.angles[0], one.angles[1]]);
+    Ok((
+        (counts.same(), counts.tosses()),
+        (share, (interval.lo, interval.hi), interval_kind),
+        (k, ratio),
+        (angle, angles.into()),
+        people.into_iter().map(alone).collect(),
+    ))
 }
 
 /// A row of numbers for each time.

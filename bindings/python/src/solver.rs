@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{Failure, malformed};
-use crate::given::{object, optional_number, text};
+use crate::given::{no_others, object, optional_number, text};
 
 /// A solver with its settings.
 ///
@@ -33,14 +33,16 @@ pub(crate) struct Solver {
 #[pymethods]
 impl Solver {
     #[new]
-    #[pyo3(signature = (name, *, scheme=None, rtol=None, step=None, formulation=None))]
+    #[pyo3(signature = (name, *, scheme=None, rtol=None, step=None, formulation=None, **others), text_signature = "(name, *, scheme=None, rtol=None, step=None, formulation=None)")]
     fn new(
         name: &Bound<'_, PyAny>,
         scheme: Option<&Bound<'_, PyAny>>,
         rtol: Option<&Bound<'_, PyAny>>,
         step: Option<&Bound<'_, PyAny>>,
         formulation: Option<&Bound<'_, PyAny>>,
+        others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
+        no_others::<Self>(name.py(), others)?;
         let mut config = SolverConfig::new(&text("name", name, "the name of a solver")?);
         if let Some(scheme) = scheme {
             config = config.with_scheme(&text("scheme", scheme, "the name of a scheme")?);

@@ -2,11 +2,11 @@
 
 use ::toss::sampling::{Coordinate, named_space, named_spaces};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
-use crate::given::{axis, object, optional_number, text};
+use crate::given::{axis, no_others, object, optional_number, text};
 
 /// A distribution of the launches of one coin: each coordinate is independent of the others, or tied to one.
 ///
@@ -37,7 +37,7 @@ pub(crate) struct Space {
 #[pymethods]
 impl Space {
     #[new]
-    #[pyo3(signature = (*, rate_x, rate_y, rate_z, speed, gravity=None, tilt=None, drop=None, body=None))]
+    #[pyo3(signature = (*, rate_x, rate_y, rate_z, speed, gravity=None, tilt=None, drop=None, body=None, **others), text_signature = "(*, rate_x, rate_y, rate_z, speed, gravity=None, tilt=None, drop=None, body=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         rate_x: &Bound<'_, PyAny>,
@@ -48,7 +48,9 @@ impl Space {
         tilt: Option<&Bound<'_, PyAny>>,
         drop: Option<&Bound<'_, PyAny>>,
         body: Option<&Bound<'_, PyAny>>,
+        others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
+        no_others::<Self>(speed.py(), others)?;
         let axes = [Some(rate_x), Some(rate_y), Some(rate_z), Some(speed), gravity, tilt];
         let given = Coordinate::ALL.into_iter().zip(axes).filter_map(|(of, given)| Some((of, given?)));
         let texts = given.map(|(of, given)| Ok((of, axis(of.name(), given)?))).collect::<PyResult<Vec<_>>>()?;

@@ -67,7 +67,7 @@ impl Tally {
 
     /// The values of the estimate from a tally of all launches.
     fn _estimate(&self) -> PyResult<Values> {
-        Ok(values(&self.tally.estimate().map_err(Failure::from)?))
+        Ok(values(&self.tally.estimate().map_err(Failure::from)?, self.tally.plan()))
     }
 
     fn __repr__(&self) -> PyResult<String> {

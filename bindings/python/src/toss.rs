@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 
 use crate::body::{Body, body_of};
 use crate::errors::{Failure, malformed};
-use crate::given::{object, optional_number, refused_value, vector};
+use crate::given::{no_others, object, optional_number, refused_value, vector};
 
 /// A body and its launch: all that a flight depends on.
 ///
@@ -57,7 +57,7 @@ impl PartialEq for Toss {
 #[pymethods]
 impl Toss {
     #[new]
-    #[pyo3(signature = (rate, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, body=None))]
+    #[pyo3(signature = (rate, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, body=None, **others), text_signature = "(rate, *, speed=None, time=None, gravity=None, drop=None, tilt=None, attitude=None, body=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         py: Python<'_>,
@@ -69,7 +69,9 @@ impl Toss {
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
         body: Option<&Bound<'_, PyAny>>,
+        others: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
+        no_others::<Self>(py, others)?;
         let given = Given {
             rate: vector("rate", rate, "a sequence of 3 real numbers")?,
             speed: optional_number("speed", speed)?,
@@ -167,7 +169,7 @@ impl Given {
         // Each component of the rate has a field of its own.
         if let Some(axis) = rate.iter().position(|rate| !rate.is_finite()) {
             let fault = InputError::OutOfRange { field: "rate", value: rate[axis], valid: "finite" };
-            return Err(Failure::from(fault).at(axis as u64).into());
+            return Err(Failure::from(fault).element(axis as u64).into());
         }
         let launch = Launch::new(rate, time_of_flight).map_err(Failure::from)?;
         Ok(match attitude_of(tilt, attitude)? {

@@ -4,7 +4,9 @@ import threading
 from fractions import Fraction
 
 import numpy as np
+import pandas
 import pytest
+import xarray
 from scipy.spatial.transform import Rotation
 
 import unfair_toss as ut
@@ -263,7 +265,7 @@ def test_a_billion_launches_that_are_all_the_same_need_no_memory():
 
 
 def test_the_lock_of_python_is_released(launches):
-    batch = Batch("paper", tilt=None, attitude=None, gravity=9.81, timed=False, solver="exact", threads=1)
+    batch = Batch("paper", tilt=None, attitude=None, gravity=9.81, varying=(False, False), timed=False, solver="exact", threads=1)
     out, done, turns, within = np.empty(1_000_000), threading.Event(), 0, []
 
     def compute():
@@ -302,3 +304,88 @@ def test_two_threads_may_read_the_same_columns_but_not_write_the_same_result(lau
     # Refused, or one after the other; never a crash.
     assert set(failures) <= {"out"}
     assert (out[:1000] == ut.cos_tilt(*(column[:1000] for column in launches))).all()
+
+
+GRAVITY = [9.81, 9.81, 1.62, 9.81, 3.7]
+TILT = [0.0, 0.5, 0.5, -1.0]
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("arguments", [{}, {"body": "racket"}, {"solver": "exact"}, {"solver": "quaternion"}], ids=str)
+def test_gravity_and_tilt_are_columns_with_the_bits_of_one_at_a_time(arguments, threads):
+    rate, arguments = np.linspace(3.0, 40.0, 70), arguments | {"threads": threads}
+    gravity, tilt = np.array(GRAVITY)[:, None, None], np.array(TILT)[:, None]
+    for function in (ut.cos_tilt, ut.outcome, ut.attitude):
+        one = lambda g, t: function(rate, 2.0, rate[::-1], 2.5, gravity=g, tilt=t, **arguments)
+        expected = np.array([[one(g, t) for t in TILT] for g in GRAVITY])
+        assert (function(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments) == expected).all()
+        assert (function(rate[:5], 2, rate[4::-1], 2.5, gravity=GRAVITY, **arguments)[2] == function(rate[2], 2, rate[2], 2.5, gravity=1.62, **arguments)).all()
+    found = ut.count(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments)
+    faces = ut.outcome(rate, 2.0, rate[::-1], 2.5, gravity=gravity, tilt=tilt, **arguments)
+    assert (found.heads, found.tails, found.points) == ((faces == 1).sum(), (faces == -1).sum(), faces.size)
+    assert found.certified == (arguments.get("solver") != "quaternion")
+    timed = ut.cos_tilt(rate, 1, 1, time=1.0, tilt=rate, **arguments)
+    assert timed[7] == ut.cos_tilt(rate[7], 1, 1, time=1.0, tilt=rate[7], **arguments)
+
+
+@pytest.mark.parametrize("solver", [None, "exact", "quaternion"])
+def test_a_wrong_gravity_or_tilt_is_named_by_its_launch(solver):
+    for name, value, field in [("gravity", 0.0, "gravity [m/s²]"), ("gravity", np.nan, "gravity [m/s²]"), ("tilt", np.inf, "tilt [rad]")]:
+        column = np.full(1000, 2.0)
+        column[700:] = value
+        for function in (ut.cos_tilt, ut.outcome, ut.attitude, ut.count):
+            with pytest.raises(errors.OutOfRangeError) as caught:
+                function(1.0, 2.0, 3.0, 1.0, solver=solver, **{name: column})
+            assert (caught.value.field, caught.value.index) == (field, 700)
+
+
+def test_columns_of_xarray_are_combined_by_their_labels():
+    x = xarray.DataArray([3.0, 2.0, 1.0], {"throw": ["a", "b", "c"]})
+    v = xarray.DataArray([2.0, 4.0], {"hand": [1, 2]}, name="speed", attrs={"units": "m/s"})
+    found = ut.cos_tilt(x, 1.0, x * v.T, v)
+    assert found.dims == ("throw", "hand") and found.sel(throw="b", hand=2) == ut.cos_tilt(2.0, 1.0, 8.0, 4.0)
+    assert found.identical(ut.cos_tilt(x, 1.0, (x * v).transpose("hand", "throw"), v))
+    turned = ut.attitude(x, 1.0, 1.0, v)
+    assert turned.dims == ("throw", "hand", "component") and turned.sel(component="w").shape == (3, 2)
+    assert ut.outcome(x, 1, 1, v, gravity=v).sel(hand=1, throw="a") == ut.outcome(3, 1, 1, 2, gravity=2)
+    assert ut.count(x, 1, 1, v) == ut.count(x.values[:, None], 1, 1, v.values)
+    assert (ut.cos_tilt(x, [1.0, 2.0, 3.0], 1, 2) == ut.cos_tilt(x.values, [1.0, 2.0, 3.0], 1, 2)).all()
+
+
+def test_columns_of_pandas_keep_their_labels():
+    frame = pandas.DataFrame({"x": [3.0, 2.0], "v": [2.0, 4.0]}, index=["b", "a"])
+    found = ut.cos_tilt(frame.x, 1.0, 1.0, frame.v)
+    assert isinstance(found, pandas.Series) and found["a"] == ut.cos_tilt(2.0, 1.0, 1.0, 4.0)
+    assert ut.attitude(frame.x, 1, 1, frame.v).loc["b"].tolist() == ut.attitude(3.0, 1, 1, 2.0).tolist()
+    assert ut.outcome(frame, frame, 1, 2).loc["a", "v"] == ut.outcome(4.0, 4.0, 1, 2)
+    assert ut.wobble(frame.x.astype(int), frame.v.astype(int) + 9) == ut.wobble([3, 2], [11, 13])
+    out = np.empty(2)
+    assert (ut.cos_tilt(frame.x, 1.0, 1.0, frame.v, out=out) == out).all()
+
+
+SERIES = pandas.Series([3.0, 2.0], index=["b", "a"])
+ARRAY = xarray.DataArray([3.0, 2.0], {"throw": ["b", "a"]})
+
+
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        (SERIES, SERIES.sort_index()),
+        (SERIES, SERIES[:1]),
+        (SERIES, SERIES.to_frame()),
+        (SERIES, ARRAY),
+        (SERIES, [[1.0, 2.0], [3.0, 4.0]]),
+        (SERIES, [1.0]),
+        (ARRAY, ARRAY[::-1]),
+        (ARRAY, ARRAY[:1]),
+        (ARRAY, xarray.DataArray([3.0, 2.0, 1.0], dims="throw")),
+        (ARRAY, np.ones((3, 2))),
+    ],
+)
+def test_columns_whose_labels_differ_are_refused(one, two):
+    for function in (ut.cos_tilt, ut.outcome, ut.attitude, ut.count):
+        with pytest.raises(errors.MalformedError) as caught:
+            function(one, 1.0, 1.0, two)
+        assert caught.value.field in ("rate_x", "speed") and caught.value.valid == "the labels of the other columns, or one number"
+    with pytest.raises(errors.MalformedError):
+        ut.wobble(one.astype(int), two if isinstance(two, list) else two.astype(int) + 5)

@@ -103,6 +103,8 @@ CALLS = {
     "trace": (ut.trace, {"toss": TOSS, "points": 5, "solver": "exact"}),
     "trace by steps": (ut.trace, {"toss": TOSS, "dt": 0.1}),
     "inverse": (ut.inverse, {"probability": 0.8, "body": "paper"}),
+    "wobble": (ut.wobble, {"same_side": 60, "tosses": 100, "body": "paper"}),
+    "wobble of people": (ut.wobble, {"same_side": [56, 61, 20], "tosses": np.array([100, 100, 100])}),
     "solve": (ut.solve, {"toss": TOSS, "solver": "euler", "t_eval": [0.0, 0.1], "scheme": "dopri5", "rtol": 1e-6}),
     "solve in a formulation": (ut.solve, {"toss": TOSS, "solver": "euler", "formulation": "momentum"}),
     "solve in SciPy's words": (ut.solve, {"toss": TOSS, "method": "DOP853", "atol": 1e-6, "dense_output": True}),
@@ -181,7 +183,7 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "Solution", "Trace", "Work"}
+    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "Solution", "Trace", "Wobble", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
     without_arguments = {"bodies", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}
@@ -245,7 +247,6 @@ def test_a_frame_is_read_by_position():
     assert ut.Body.from_tensor(frame) == ut.Body.from_tensor(rows)
     with pytest.raises(errors.MalformedError):
         ut.Toss(frame, speed=3)
-    assert (ut.cos_tilt(frame, 1, 1, 3) == ut.cos_tilt(np.array(rows), 1, 1, 3)).all()
 
 
 COUNTS = [2, np.int8(2), np.uint64(2), np.array(2)]

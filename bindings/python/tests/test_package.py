@@ -25,6 +25,13 @@ def test_the_lines_of_the_readme_run(page):
         exec(compile(block, page, "exec"), {})
 
 
+def test_the_guide_shows_the_table_of_a_notebook():
+    landing = ut.toss(ut.Toss((20.0, 0.0, 30.0), speed=2.4, body="us-quarter"))
+    page = (ROOT / "docs" / "guide" / "python.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^\| `(\w+)` \| (.*) \|$", page, re.MULTILINE)
+    assert shown == re.findall(r"<th>(\w+)</th><td>(.*?)</td>", landing._repr_html_())[:4]
+
+
 def test_everything_public_is_documented_with_units_and_errors():
     for name in ut.__all__:
         thing = getattr(ut, name)

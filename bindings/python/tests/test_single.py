@@ -80,6 +80,45 @@ def test_intervals_inverse_and_plan_have_the_bits_of_the_command_line(ask):
     assert (found.method, found.points) == (expected["method"], expected["points"])
 
 
+def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
+    one, people = ut.wobble(178078, 350757), tmp_path / "people.csv"
+    assert [round(float(np.degrees(angle)), 2) for angle in (one.cone_angle, *one.cone_angle_interval)] == [81.16, 80.27, 82.16]
+    same_side, tosses = np.array([56, 61, 20], dtype=np.uint16), [100, 100, 100]
+    people.write_text("same,tosses\n" + "".join(f"{same},100\n" for same in same_side))
+    several, half = ut.wobble(same_side, tosses, "us-quarter"), ut.wobble([45], (100,))
+    for found, coin, counts in [(one, "paper", "178078/350757"), (several, "us-quarter", people), (half, "paper", "45/100")]:
+        expected = ask("inverse", "--counts", str(counts), "--coin", coin)
+        assert (found.same_side, found.tosses) == (expected["same"], expected["tosses"])
+        for person, angle, ends in zip(expected["people"], found.each_cone_angle, found.each_cone_angle_interval):
+            expected_angles = (person["cone_angle"], person["cone_angle_interval"])
+            assert (angle, ends.tolist()) == expected_angles or (np.isnan([angle, *ends]).all() and expected_angles == (None, None))
+        for name in ("probability", "interval", "interval_kind", "inertia_ratio", "rate_ratio", "cone_angle", "cone_angle_interval"):
+            value = getattr(found, name)
+            assert (list(value) if isinstance(value, tuple) else value) == expected[name], name
+    assert several.interval_kind == "student 95 % of 3 people" and np.isnan(several.each_cone_angle).tolist() == [False, False, True]
+    assert one.each_cone_angle.tolist() == [one.cone_angle] and half.rate_ratio is None
+
+
+@pytest.mark.parametrize(
+    ("counts", "kind", "field", "index", "valid"),
+    [
+        ((3, 2), errors.OutOfRangeError, "same_side", None, "0 to the number of tosses"),
+        (([1, 3], [2, 2]), errors.OutOfRangeError, "same_side", 1, "0 to the number of tosses"),
+        (([1, 0], [2, 0]), errors.OutOfRangeError, "tosses", 1, "at least 1"),
+        (([], []), errors.MalformedError, "same_side", None, "the count of at least 1 person"),
+        (([1, -1], [2, 2]), errors.MalformedError, "same_side", 1, "a whole number from 0 to 2^64 - 1"),
+        ((1, [2.5]), errors.MalformedError, "tosses", 0, "a whole number from 0 to 2^64 - 1"),
+        (([1, 2], [2]), errors.MalformedError, "tosses", None, "as many as of same_side"),
+        ((10, 100), errors.OutsideModelError, "same_side", None, None),
+        (([2**63, 2**63], [2**63, 2**63]), errors.MalformedError, "same_side", None, "fewer for all people together"),
+    ],
+)
+def test_counts_that_cannot_be_are_refused(counts, kind, field, index, valid):
+    with pytest.raises(kind) as caught:
+        ut.wobble(*counts)
+    assert (caught.value.field, caught.value.index, caught.value.valid) == (field, index, valid)
+
+
 def test_a_speed_is_in_an_interval_of_heads_if_it_lands_heads():
     fast = ut.Toss((20, 5, 3), speed=9, drop=1.3)
     heads = ut.intervals(fast, 3).heads
@@ -187,6 +226,7 @@ def answers():
         ut.intervals(toss),
         ut.trace(toss, 5),
         ut.solve(toss),
+        ut.wobble([1, 60], [100, 100]),
         ut.margins(toss),
         ut.inverse(0.8),
         ut.plan("tilt", toss, 1e-6),
@@ -199,9 +239,9 @@ def answers():
 X = np.linspace(0.0, 50.0, 5)
 
 
-@pytest.mark.parametrize("number", range(10))
+@pytest.mark.parametrize("number", range(11))
 def test_answers_are_compared_whole_and_equal_ones_have_equal_hashes(number):
-    first, second, holds_arrays = answers()[number], answers()[number], number < 4
+    first, second, holds_arrays = answers()[number], answers()[number], number < 5
     assert first is not second and (first == second) is True and (first != second) is False
     assert (first == 1) is False and pickle.loads(pickle.dumps(first)) == first == copy.deepcopy(first)
     if holds_arrays:
@@ -263,3 +303,28 @@ def test_a_rotation_is_an_attitude_without_reordering():
     assert (landing * turn.inv()).magnitude() < 1e-15
     with pytest.raises(errors.MalformedError, match="single rotation"):
         ut.Toss((1, 2, 3), time=0.0, attitude=Rotation.from_rotvec(np.zeros((2, 3))))
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "close"),
+    [
+        (lambda: ut.Toss((1, 1, 2.5), sped=3), TypeError, "speed"),
+        (lambda: ut.Solver("euler", schema="rk4"), TypeError, "scheme"),
+        (lambda: ut.Space(rate_x=1, rate_y=1, rate_z=1, speed=1, tild=1), TypeError, "tilt"),
+        (lambda: ut.cos_tilt(1, 1, 1, 3, gravty=9), TypeError, "gravity"),
+        (lambda: ut.solve(CHEATED, rtoll=1e-9), TypeError, "rtol"),
+        (lambda: ut.Toss((1, 1, 2.5), speed=3, body="US-Quater"), errors.UnknownNameError, "us-quarter"),
+        (lambda: ut.toss(CHEATED, "quaternions"), errors.UnknownNameError, "quaternion"),
+        (lambda: ut.solve(CHEATED, method="DOPP853"), errors.UnknownNameError, "dop853"),
+        (lambda: ut.Solver("euler", formulation="momentun"), errors.UnknownNameError, "momentum"),
+        (lambda: ut.Space.named("paper-fig-4"), errors.UnknownNameError, "paper-fig4"),
+        (lambda: ut.Body.named("zzz"), errors.UnknownNameError, None),
+        (lambda: ut.margins(CHEATED, zzz=1), TypeError, None),
+    ],
+)
+def test_an_unknown_name_is_answered_with_a_similar_one(call, kind, close):
+    with pytest.raises(kind) as caught:
+        call()
+    assert str(caught.value).endswith(f". Did you mean '{close}'?") if close else "Did you mean" not in str(caught.value)
+    if kind is TypeError:
+        assert "got an unexpected keyword argument" in str(caught.value)

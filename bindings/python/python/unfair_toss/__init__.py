@@ -9,9 +9,9 @@ from . import errors
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
-from .results import DenseOutput, Intervals, Inverse, Landing, Margins, Solution, Trace, Work
+from .results import DenseOutput, Intervals, Inverse, Landing, Margins, Solution, Trace, Wobble, Work
 from .sampling import Estimate, estimate, merge, probability
-from .single import intervals, inverse, margins, toss, trace
+from .single import intervals, inverse, margins, toss, trace, wobble
 from .solving import solve
 from .tallies import tally
 
@@ -32,6 +32,7 @@ __all__ = [
     "Tally",
     "Toss",
     "Trace",
+    "Wobble",
     "Work",
     "__version__",
     "attitude",
@@ -53,4 +54,5 @@ __all__ = [
     "tally",
     "toss",
     "trace",
+    "wobble",
 ]

@@ -29,6 +29,7 @@ __all__ = [
     "spaces",
     "tally",
     "trace",
+    "wobble",
 ]
 
 __version__: str
@@ -40,7 +41,7 @@ _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
 _Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 _Counts: TypeAlias = tuple[int, int, int, list[int] | None]
 _EstimateValues: TypeAlias = tuple[
-    float, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[int] | None
+    float, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[tuple[str, int]] | None
 ]
 
 @final
@@ -132,6 +133,7 @@ class Batch:
         tilt: float | None,
         attitude: _Quaternion | None,
         gravity: float,
+        varying: Sequence[bool],
         timed: bool,
         solver: str | Solver | None,
         threads: int | None,
@@ -226,6 +228,15 @@ def land(
 def margins(toss: Toss) -> tuple[list[float | None], list[float | None], list[float], list[float]]: ...
 def intervals(toss: Toss, slowest: float) -> list[list[float]]: ...
 def inverse(probability: float, body: str | Body) -> tuple[float, float, float]: ...
+def wobble(
+    same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body
+) -> tuple[
+    tuple[int, int],
+    tuple[float, tuple[float, float], str],
+    tuple[float, float | None],
+    tuple[float, tuple[float, float]],
+    list[list[float]],
+]: ...
 def trace(
     toss: Toss, points: int | None, dt: float | None, solver: str | Solver
 ) -> npt.NDArray[np.float64]: ...

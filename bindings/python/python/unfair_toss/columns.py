@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import Body, Solver
+from .given import suggesting
 from .launches import Launches
 from .results import ShownAsTable
 
@@ -57,6 +58,7 @@ def stages(numbers: Sequence[int] | None) -> dict[str, int] | None:
     return None if numbers is None else dict(zip(STAGES, numbers, strict=True))
 
 
+@suggesting
 def cos_tilt(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -64,8 +66,8 @@ def cos_tilt(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -83,9 +85,10 @@ def cos_tilt(
         Upward speed at launch in m/s. The body lands at the height of its launch.
     time : array_like, optional
         Time of flight in s, instead of a speed.
-    gravity : float, optional
-        In m/s²; 9.81 by default.
-    tilt : float, optional
+    gravity : array_like, optional
+        In m/s²; 9.81 by default. It and the tilt may be columns, too, which cost the least if equal values follow each
+        other.
+    tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
     attitude : sequence of 4 floats or scipy Rotation, optional
         Attitude at launch instead of a tilt, as the quaternion (w, x, y, z) from the body to the laboratory.
@@ -102,7 +105,9 @@ def cos_tilt(
     Returns
     -------
     ndarray of float64
-        cos θ in the broadcast shape, which is () if all columns are scalars.
+        cos θ in the broadcast shape, which is () if all columns are scalars. Columns of xarray are combined by their
+        labels, and give a ``DataArray``; those of pandas have to have equal labels, and give a ``Series`` or a
+        ``DataFrame``.
 
     Raises
     ------
@@ -122,6 +127,7 @@ def cos_tilt(
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
+@suggesting
 def outcome(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -129,8 +135,8 @@ def outcome(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -166,6 +172,7 @@ def outcome(
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
+@suggesting
 def attitude(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -173,8 +180,8 @@ def attitude(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
@@ -208,6 +215,7 @@ def attitude(
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
+@suggesting
 def count(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -215,8 +223,8 @@ def count(
     speed: npt.ArrayLike | None = None,
     *,
     time: npt.ArrayLike | None = None,
-    gravity: float | None = None,
-    tilt: float | None = None,
+    gravity: npt.ArrayLike | None = None,
+    tilt: npt.ArrayLike | None = None,
     attitude: Sequence[float] | Rotation | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,

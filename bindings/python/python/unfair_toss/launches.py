@@ -11,19 +11,20 @@ import numpy.typing as npt
 
 from ._native import Batch, Body, Solver, numbers
 from .errors import MalformedError
+from .labels import combined
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
 Columns = tuple[npt.NDArray[np.float64], ...]
-"""Rates about x, y, z in rad/s, and speeds in m/s or times in s."""
+"""Rates about x, y, z in rad/s, speeds in m/s or times in s, and gravity in m/s² and tilts in rad where they vary."""
 
 _Result = TypeVar("_Result", np.float64, np.int8)
 
 _OPERAND: Any = ["readonly", "contig", "aligned", "nbo"]
 """How each block of a column has to be; NumPy's stubs do not know "contig"."""
 
-_NAMES = ("rate_x", "rate_y", "rate_z", "speed")
+_RATES = ("rate_x", "rate_y", "rate_z")
 
 _BLOCK = 1 << 18
 """Launches of a call of the kernels: so many that the call itself does not count."""
@@ -46,8 +47,8 @@ class Launches:
         columns: tuple[npt.ArrayLike | None, ...],
         *,
         time: npt.ArrayLike | None,
-        gravity: float | None,
-        tilt: float | None,
+        gravity: npt.ArrayLike | None,
+        tilt: npt.ArrayLike | None,
         attitude: Sequence[float] | Rotation | None,
         body: str | Body,
         solver: str | Solver | None,
@@ -58,8 +59,15 @@ class Launches:
             raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
         if time is not None and gravity is not None:
             raise MalformedError("gravity has no effect with time", field="gravity", valid="None, or a speed")
-        last = column("time", time) if time is not None else column("speed", speed)
-        self.columns = tuple(column(name, rate) for name, rate in zip(_NAMES, rates, strict=False)) + (last,)
+        given: dict[str, Any] = dict(zip(_RATES, rates, strict=True))
+        given |= {"speed": speed} if time is None else {"time": time}
+        given |= {name: value for name, value in (("gravity", gravity), ("tilt", tilt)) if value is not None}
+        given, self.labels = combined(given)
+        read = {name: column(name, value) for name, value in given.items()}
+        # One gravity or tilt for all launches is no column.
+        one = {name: given[name] for name in ("gravity", "tilt") if name in read and read[name].ndim == 0}
+        self.columns = tuple(numbers for name, numbers in read.items() if name not in one)
+        varying = [name in read and name not in one for name in ("gravity", "tilt")]
         try:
             self.shape = np.broadcast_shapes(*(column.shape for column in self.columns))
         except ValueError:
@@ -68,9 +76,10 @@ class Launches:
         self.size = math.prod(self.shape)
         self.batch = Batch(
             body,
-            tilt=tilt,
+            tilt=one.get("tilt", 0.0 if varying[1] else None),
             attitude=attitude,
-            gravity=9.81 if gravity is None else gravity,
+            gravity=one.get("gravity", 9.81),
+            varying=varying,
             timed=time is not None,
             solver=solver,
             threads=threads,
@@ -128,7 +137,8 @@ class Launches:
             solve(columns, flat[numbers * first : numbers * (first + columns[0].size)], first)
         if result is not target:
             np.copyto(result, target)
-        return result
+        labelled: npt.NDArray[_Result] = result if self.labels is None else self.labels.put_on(result)
+        return labelled
 
     def _places(
         self, out: npt.NDArray[_Result] | None, dtype: type[_Result], width: tuple[int, ...]
@@ -161,7 +171,7 @@ def _plain(column: npt.NDArray[np.generic], shape: tuple[int, ...]) -> npt.NDArr
 
 
 def column(name: str, value: npt.ArrayLike | None) -> npt.NDArray[np.generic]:
-    """An argument as an array of numbers, in whatever type and layout it comes; by position, never by label."""
+    """An argument as an array of numbers, in whatever type and layout it comes, by position."""
     expected = "real numbers"
     to_numpy = None if isinstance(value, type) else getattr(value, "to_numpy", None)
     if to_numpy is not None:

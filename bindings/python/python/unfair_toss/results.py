@@ -98,7 +98,7 @@ class _HoldsArrays:
         if type(other) is not type(self):
             return NotImplemented
         pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
-        return all(bool(np.array_equal(one, two)) if isinstance(one, np.ndarray) else one == two for one, two in pairs)
+        return all(bool(np.array_equal(one, two, equal_nan=True)) if isinstance(one, np.ndarray) else one == two for one, two in pairs)
 
 
 @dataclass(frozen=True)
@@ -260,6 +260,47 @@ class Inverse(ShownAsTable):
     inertia_ratio: float
     rate_ratio: float
     cone_angle: float
+
+
+@dataclass(frozen=True, eq=False)
+class Wobble(ShownAsTable, _HoldsArrays):
+    """The wobble that explains counts. Intervals are at a level of 95 %.
+
+    Attributes
+    ----------
+    same_side, tosses : int
+        The counts of all people together.
+    probability : float
+        The share of tosses that landed on the side that had been up.
+    interval : tuple of 2 floats
+        The interval of the share.
+    interval_kind : str
+        What the interval is.
+    inertia_ratio : float
+        k = I3/I1 of the coin.
+    rate_ratio : float or None
+        √(ωx² + ωy²)/ωz; None for a share of ½ or less, at which the coin does not spin.
+    cone_angle : float
+        Angle ψ between the normal and the angular momentum in rad; π/2 for a share of ½ or less.
+    cone_angle_interval : tuple of 2 floats
+        The smallest and the largest ψ that have a share in the interval, in rad.
+    each_cone_angle : ndarray of shape (n,)
+        ψ of each person alone in rad; NaN where no wobble explains the counts.
+    each_cone_angle_interval : ndarray of shape (n, 2)
+        Its interval.
+    """
+
+    same_side: int
+    tosses: int
+    probability: float
+    interval: tuple[float, float]
+    interval_kind: str
+    inertia_ratio: float
+    rate_ratio: float | None
+    cone_angle: float
+    cone_angle_interval: tuple[float, float]
+    each_cone_angle: npt.NDArray[np.float64]
+    each_cone_angle_interval: npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

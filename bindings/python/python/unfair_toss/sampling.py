@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._native import Plan, Solver, Space, Tally, count
-from .columns import stages
 from .errors import MalformedError, PartError
-from .given import a_function, an, wrong
+from .given import a_function, an, suggesting, wrong
 from .results import ShownAsTable
 from .tallies import tally
 
@@ -66,11 +65,13 @@ class Estimate(ShownAsTable):
 def _estimate(values: _native._EstimateValues, plan: Plan) -> Estimate:
     probability, interval, kind, points, counts, proven = values
     heads, tails, undecided = counts or (None, None, None)
+    by_stage = None if proven is None else dict(proven)
     return Estimate(
-        probability, interval, kind, points, heads, tails, undecided, proven is not None, stages(proven), plan
+        probability, interval, kind, points, heads, tails, undecided, proven is not None, by_stage, plan
     )
 
 
+@suggesting
 def merge(parts: Iterable[Tally]) -> Estimate:
     """The estimate from all parts of a plan, in any order.
 
@@ -110,6 +111,7 @@ def merge(parts: Iterable[Tally]) -> Estimate:
     return estimate(whole)
 
 
+@suggesting
 def estimate(whole: Tally) -> Estimate:
     """The estimate from a tally of all launches of its plan.
 
@@ -135,6 +137,7 @@ def estimate(whole: Tally) -> Estimate:
         raise PartError(str(error), field="parts", valid=error.valid) from None
 
 
+@suggesting
 def probability(
     space: Space,
     plan: Plan | None = None,

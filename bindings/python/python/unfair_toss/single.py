@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
 from ._native import Body, Solver, Toss
-from .results import Intervals, Inverse, Landing, Margins, Trace, Work
+from .given import suggesting
+from .labels import combined
+from .results import Intervals, Inverse, Landing, Margins, Trace, Wobble, Work
 
 
+@suggesting
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     """How a toss lands.
 
@@ -46,6 +50,7 @@ def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     )
 
 
+@suggesting
 def margins(toss: Toss) -> Margins:
     """How far a toss is from landing the other way.
 
@@ -68,6 +73,7 @@ def margins(toss: Toss) -> Margins:
     return Margins(time, speed, gravity, tilt, (x, y, z), (rates[0], rates[1], rates[2]), (earlier, later))
 
 
+@suggesting
 def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     """The speeds from ``slowest`` to that of a toss with which it lands heads.
 
@@ -97,6 +103,7 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     return Intervals(heads, min(length / (toss.speed - float(slowest)), 1.0))
 
 
+@suggesting
 def trace(
     toss: Toss, points: int | None = None, *, dt: float | None = None, solver: str | Solver = "exact"
 ) -> Trace:
@@ -132,6 +139,7 @@ def trace(
     return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0])
 
 
+@suggesting
 def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     """How to launch a coin from horizontal so that long flights land heads with a wanted probability.
 
@@ -154,3 +162,43 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     """
     found = _native.inverse(probability, body)
     return Inverse(float(probability), *found)
+
+
+@suggesting
+def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
+    """The wobble that explains how often coins landed on the side that had been up.
+
+    It assumes long flights from horizontal, all with the same angle ψ; 180° - ψ explains the counts as well. People
+    differ, so several of them have Student's interval with the people as its sample; one has Clopper and Pearson's.
+
+    Parameters
+    ----------
+    same_side : int or array_like of int, one per person
+        Numbers of tosses that landed on the side that had been up.
+    tosses : int or array_like of int, one per person
+        Numbers of all tosses, at least 1.
+    body : str or Body
+        A symmetric body, for the ratio of rates.
+
+    Returns
+    -------
+    Wobble
+        The same numbers as ``unfair-toss inverse --counts --format json``, to the bit.
+
+    Raises
+    ------
+    errors.InputError
+        For counts that cannot be, with the person's number as ``.index``; and if no wobble explains them, because even
+        the upper end of the interval is below ½.
+
+    Examples
+    --------
+    The flips of F. Bartoš et al., arXiv 2310.04153:
+
+    >>> round(np.degrees(ut.wobble(178078, 350757).cone_angle), 2)
+    81.16
+    """
+    counts, _ = combined({"same_side": same_side, "tosses": tosses})
+    (same, of), (share, interval, kind), (k, ratio), (angle, ends), people = _native.wobble(**counts, body=body)
+    each = np.array(people)
+    return Wobble(same, of, share, interval, kind, k, ratio, angle, ends, each[:, 0], each[:, 1:])
