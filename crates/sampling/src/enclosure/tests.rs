@@ -162,6 +162,45 @@ fn single_speeds_are_enclosed() {
     }
 }
 
+/// Any thresholds give a right enclosure; better ones give it in fewer cells.
+#[test]
+fn an_enclosure_takes_as_many_cells_as_it_did() {
+    let cells = |(space, accuracies): (Space, [f64; 3])| {
+        let coin = space.coin().unwrap();
+        accuracies.map(|accuracy| enclosed(&Sampler::exact(), (&space, coin), accuracy, 1 << 20).cells)
+    };
+    let accuracies = [[1e-3, 1e-5, 1e-6], [1e-2, 1e-3, 1e-4], [1e-4, 1e-6, 1e-7], [3e-2, 1e-2, 4e-3]];
+    let expected = [
+        [11, 25, 47],
+        [1, 1, 1],
+        [831, 4795, 11011],
+        [277, 299, 345],
+        [1, 1, 1],
+        [63, 87, 283],
+        [7, 59, 87],
+        [1, 1, 1],
+        [1857, 9697, 21169],
+    ];
+    // Sines that are rounded otherwise may halve a cell more.
+    for (expected, found) in expected.into_iter().zip(spaces().zip(accuracies.into_iter().cycle()).map(cells)) {
+        let is_near = |(found, expected): (u64, u64)| found.abs_diff(expected) <= expected / 50;
+        assert!(found.into_iter().zip(expected).all(is_near), "{found:?}, not {expected:?}");
+    }
+}
+
+#[test]
+fn a_cell_is_halved_until_its_middle_is_no_f64() {
+    let space = spaces().next().unwrap();
+    let (directions, _) = directions_of(&space);
+    let mut cell = roots(&directions).remove(0);
+    for _ in 0..51 {
+        cell = cell.halves(0).expect("a middle")[1].clone();
+        let [lo, hi] = cell.interval(0);
+        assert!(lo < f64::midpoint(lo, hi) && f64::midpoint(lo, hi) < hi);
+    }
+    assert_eq!((cell.halvings(), cell.halves(0).is_none()), (51, true));
+}
+
 /// The same for any number of threads, and with fewer cells than are needed the best that they gave.
 #[test]
 fn a_computation_stops_at_its_number_of_cells() {
