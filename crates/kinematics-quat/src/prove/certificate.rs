@@ -108,3 +108,47 @@ impl fmt::Display for Integration {
         f.pad(self.name())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Formulation, Launch, Scheme, Solver, Stepping, TimeOfFlight, Toss};
+    use numerics::big::{Big, exactly};
+
+    use super::*;
+    use crate::QuaternionSolver;
+
+    /// 4 asin(bound/2), as arctangent of half the bound over √(1 - bound²/4).
+    fn angle(bound: f64) -> Big {
+        let half = exactly(0.5 * bound).with_precision(200).value();
+        let along = (exactly(1.0).with_precision(200).value() - &half * &half).sqrt();
+        numerics::Elementary::atan2(&half, &along) << 2
+    }
+
+    #[test]
+    fn the_angle_is_bounded_by_four_arcsines_of_half_the_distance() {
+        let launch = Launch::new([1.0, 1.0, 2.5], TimeOfFlight::Given(0.5)).unwrap();
+        let landing = exact::ExactSolver.land(&Toss::new(Coin::PAPER, launch)).unwrap();
+        let solver = QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap(), Formulation::default());
+        let found = solver.certify(&Toss::new(Coin::PAPER, launch)).unwrap();
+        assert!(
+            found.angle_bound() < 1e-6
+                && found.landing().state.attitude.angle_to(&landing.state.attitude) <= found.angle_bound()
+        );
+        for bound in [0.0, 1e-300, 3e-17, 1e-9, 0.01, 0.3, 1.0, 1.4] {
+            let of = IntegratedCertificate { attitude_error_bound: bound, ..found }.angle_bound();
+            let [exact, of_big] = [angle(bound), exactly(of).with_precision(200).value()];
+            assert!(of_big >= exact && of <= exact.to_f64().value() * (1.0 + 1e-14), "{bound}: {of}");
+        }
+        for bound in [1.5, 2.0, f64::INFINITY] {
+            let all = IntegratedCertificate { attitude_error_bound: bound, ..found };
+            assert_eq!(all.angle_bound(), std::f64::consts::PI, "{bound}");
+        }
+    }
+
+    #[test]
+    fn integrations_are_named_as_they_are_printed() {
+        let names = Integration::ALL.map(|integration| integration.to_string());
+        assert_eq!(names, ["coarse", "f64", "finest tolerance", "double-double", "more digits"]);
+        assert_eq!(format!("{:>8}|{:<7}|", Integration::AsConfigured, Integration::Coarse), "     f64|coarse |");
+    }
+}
