@@ -195,7 +195,7 @@ impl Elementary for WideBall {
         let [sin, cos] = self.midpoint.sine_and_cosine();
         let error = self.radius.clone();
         let [one, middle] = [part(1.0), size(&self.midpoint)];
-        let of_sine = if middle < one { middle } else { one.clone() };
+        let of_sine = middle.min(one.clone());
         [Self::rounded(sin, error.clone(), &of_sine), Self::rounded(cos, error, &one)]
     }
 
@@ -358,8 +358,12 @@ mod tests {
         assert!(
             tiny(2001).is_right_to(0.6) && !tiny(2001).is_right_to(0.4) && !tiny(2001).widened(f64::NAN).has_sign()
         );
+        // The angle of the origin itself is a convention, which has no error.
+        assert_eq!(exact.atan2(&exact).error(), 0.0);
         assert_eq!(exact.clone() / exact, exact_less(MANY));
-        assert_eq!(tiny(2001).to_big(), *tiny(2001).midpoint());
+        let one = tiny(2001);
+        assert_eq!((one.to_big(), one.digits()), (one.midpoint().clone(), Elementary::digits(one.midpoint())));
+        assert_eq!(one.digits(), 200);
     }
 
     /// The size of the divisor is rounded to 64 digits, and a difference magnifies that.
