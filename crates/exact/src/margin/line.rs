@@ -344,32 +344,38 @@ mod tests {
         assert!(ended > 30 && endless > 5, "{ended} {endless}");
     }
 
-    /// Next to a flip, where nothing but the errors is left of the height, and far from it.
+    /// Next to a flip, and next to where the slope is 0: where nothing but the errors is left of either.
     #[test]
-    fn heights_next_to_a_flip_are_right_to_their_errors_and_these_are_not_much_larger() {
+    fn heights_and_slopes_next_to_0_are_right_to_their_errors_and_these_are_not_much_larger() {
         let mut largest = [[0.0_f64; 2]; 2];
-        lines(|line| {
-            let mut change = 0.1;
-            for _ in 0..8 {
-                let exact = line.height(2, change);
-                for (stage, largest) in largest.iter_mut().enumerate() {
-                    let Height { value, slope, error, slope_error } = line.height(stage, change);
-                    let off =
-                        [(value - exact.value).abs() - exact.error, (slope - exact.slope).abs() - exact.slope_error];
-                    for ((off, error), largest) in off.into_iter().zip([error, slope_error]).zip(largest) {
-                        assert!(off <= error, "{stage} {change}: {off:e} > {error:e}");
-                        *largest = largest.max(off / error);
-                    }
+        let mut check = |line: &Line, change: f64| {
+            let exact = line.height(2, change);
+            for (stage, largest) in largest.iter_mut().enumerate() {
+                let Height { value, slope, error, slope_error } = line.height(stage, change);
+                let off = [(value - exact.value).abs() - exact.error, (slope - exact.slope).abs() - exact.slope_error];
+                for ((off, error), largest) in off.into_iter().zip([error, slope_error]).zip(largest) {
+                    assert!(off <= error, "{stage} {change}: {off:e} > {error:e}");
+                    *largest = largest.max(off / error);
                 }
-                // Newton's step towards the flip.
-                if exact.slope.abs() > 1e-3 {
-                    change -= exact.value / exact.slope;
+            }
+            exact
+        };
+        lines(|line| {
+            let [mut flip, mut top] = [0.1; 2];
+            for _ in 0..8 {
+                let Height { value, slope, .. } = check(line, flip);
+                if slope.abs() > 1e-3 {
+                    flip -= value / slope;
+                }
+                let Height { slope, .. } = check(line, top);
+                let [before, after] = [-1e-4, 1e-4].map(|further| line.height(2, top + further).slope);
+                let curvature = (after - before) / 2e-4;
+                if curvature.abs() > 1e-3 {
+                    top -= slope / curvature;
                 }
             }
         });
-        // A slope in double-double ends as an f64, as the one in more digits does.
-        let [rough, [fine, _]] = largest;
-        assert!(rough.into_iter().chain([fine]).all(|part| part > 0.01), "{largest:?}");
+        assert!(largest.iter().flatten().all(|part| *part > 0.01), "{largest:?}");
     }
 
     #[test]

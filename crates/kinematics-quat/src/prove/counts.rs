@@ -188,6 +188,12 @@ mod tests {
         let counts = proving.counts();
         let by = Integration::ALL.map(|kind| counts.by(kind));
         assert_eq!((by, counts.undecided()), ([2, 6, 2, 0, 0], 2));
+        // Of a solver with the finest tolerance no other flight is finer.
+        let finest = Stepping::adaptive(Scheme::TAYLOR, f64::EPSILON).unwrap();
+        let proving = Proving::new(QuaternionSolver::new(finest, Formulation::default())).unwrap();
+        proving.tilts(&tosses, &mut found).unwrap();
+        let by = Integration::ALL.map(|kind| proving.counts().by(kind));
+        assert_eq!((by, proving.counts().undecided()), ([1, 4, 0, 0, 0], 1));
         let plain: Vec<Tilt> =
             solver.land_all(&tosses, SimdLevel::widest()).into_iter().map(|landing| landing.unwrap().tilt()).collect();
         let mut in_lanes = [UNSET; 5];

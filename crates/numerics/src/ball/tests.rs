@@ -312,8 +312,8 @@ fn check_radii_of_sums<N: Elementary>(one: &[Ball<N>; 2], other: &[Ball<N>; 2]) 
             let [x, y] = [a, b].map(|ball| digits(0.0).like_big(&ball.midpoint.to_big()));
             let [r, s] = [a.radius, b.radius].map(digits);
             error = error + x.magnitude() * &s + y.magnitude() * &r + &r * &s;
-            size = size + (&x * &y).magnitude();
-            middle = middle + x * y;
+            size += (&x * &y).magnitude();
+            middle += x * y;
         }
         let rounding = digits(ball.midpoint.rounding() * 2.0 * pairs.len() as f64);
         let (radius, found) = (error + &rounding * &size, digits(ball.radius));

@@ -129,6 +129,46 @@ fn the_invariants_bound_an_error_across_the_curve() {
     }
 }
 
+/// Of κ1 and κ3 with a known error, the speed is smaller and the gradients are larger by what the error can make of them.
+#[test]
+fn errors_of_the_constants_count_by_their_formulas() {
+    for (moments, toss) in tosses() {
+        let plain = polhode(&toss);
+        let kappas = [(0, 1e-4), (1, 3e-4)].map(|(index, radius): (usize, f64)| plain.kappas[index].widened(radius));
+        let wide = Polhode { kappas, ..plain };
+        let (rates, [r, s]) = (RATES[0], kappas.map(|kappa| kappa.radius()));
+        let ([x, y, z], [k, l]) = (rates, kappas.map(|kappa| kappa.to_f64()));
+        let speed = (k * y * z).hypot(x * z).hypot(l * x * y);
+        let expected = speed - 2.0 * (r + s) * wide.fastest * wide.fastest;
+        approx::assert_relative_eq!(wide.speed(rates), expected, epsilon = 1e-15, max_relative = 1e-12);
+        let (error, ideal, [of_a, of_b]) = (1e-5, 0.1, wide.residuals(rates));
+        let off = wide.widest * error;
+        let across_a = x.hypot(k * y) + off + r * wide.fastest;
+        let across_b = z.hypot(l * y) + off + s * wide.fastest;
+        let expected = 0.5 * (across_a * of_b + across_b * of_a) / (ideal - 0.5 * off * (across_a + across_b));
+        let found = wide.across(rates, error, ideal);
+        approx::assert_relative_eq!(found, expected.min(error), epsilon = 0.0, max_relative = 1e-12);
+        let of_kappas = r * y * y - 1e-4 * y * y;
+        assert!(of_kappas.abs() < 1e-15 && of_a >= 1e-4 * y * y && of_b >= 3e-4 * y * y, "{moments:?}");
+    }
+}
+
+/// A flight by other couplings than those of the toss has no bound: of a body that is nearly a sphere they are tiny.
+#[test]
+fn couplings_of_another_body_are_refused() {
+    for moments in [MOMENTS[0], [1.0, 1.0 + 1e-6, 1.0 + 2e-6], [1.0, 1.3, 1.3 + 1e-9]] {
+        let toss = toss(moments, RATES[0]);
+        let flight = RigidFlight::new(&toss).unwrap();
+        let largest = flight.couplings[1].abs();
+        assert!(Polhode::new(&toss, &flight).is_some(), "{moments:?}");
+        for index in 0..3 {
+            let mut other = flight;
+            other.couplings[index] += 4.0 * UNIT_ROUNDOFF * largest;
+            assert!(Polhode::new(&toss, &other).is_none(), "{moments:?} {index}");
+        }
+    }
+}
+
 /// The parts of one step are those of the formulas (16), (17) and (20), and at most two thirds more.
 #[test]
 fn each_part_of_a_step_counts_by_its_formula() {
