@@ -220,6 +220,18 @@ fn without_its_conditions_there_is_no_shift() {
     assert!(errors.bound() == f64::INFINITY);
 }
 
+/// Rates in another unit whose product with it may leave the range of f64, or lose digits below it.
+#[test]
+fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
+    let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
+    for (size, is_told) in [(1e-210, false), (1e-190, true), (1.0, true), (1e190, true), (1e210, false)] {
+        let rates = [40.0, -23.0, 63.0].map(|part: f64| part * size);
+        let launch = Launch::in_unit(rates, degree, TimeOfFlight::Given(10.0 / size)).unwrap();
+        let toss = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
+        assert_eq!(Polhode::new(&toss, &RigidFlight::new(&toss).unwrap()).is_some(), is_told, "{size:e}");
+    }
+}
+
 /// Rates in degrees and the axes of a tensor are rounded, and no more.
 #[test]
 fn the_rounding_of_the_toss_counts() {
