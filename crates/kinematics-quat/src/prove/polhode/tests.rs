@@ -220,6 +220,42 @@ fn without_its_conditions_there_is_no_shift() {
     assert!(errors.bound() == f64::INFINITY);
 }
 
+/// The shift is bounded by (17) exactly where the conditions (18) hold, and underflow counts unless no product can have it.
+#[test]
+fn a_shift_is_bounded_where_its_conditions_hold() {
+    let start = [1e-3, 1.5, 1e-3];
+    let polhode = polhode(&toss(MOMENTS[0], start));
+    let (mut bounded, mut refused) = (0, 0);
+    for (power, h) in (0..24).flat_map(|power| [0.01, 0.1, 0.5, 1.0].map(|h| (power, h))) {
+        let error = 1e-6 * 1.5_f64.powi(power);
+        let mut errors = Errors::at_launch(polhode, start);
+        errors.add(&Step { h, turn: 0.0, rates: error, rounding: 0.5 * error, after: start });
+        let reach = polhode.grown(error, h);
+        let most = reach + 0.5 * error;
+        let time = |speed: f64| {
+            let tilt = 1.4143 * polhode.widest * polhode.fastest * most / speed;
+            let arc =
+                (2.0 * polhode.growth + 0.5774 * polhode.widest * polhode.coupling * reach) * h * reach + 1.5 * error;
+            if tilt <= 0.25 { arc / (1.0 - tilt) / (polhode.coupling * speed) } else { f64::INFINITY }
+        };
+        let (first, end) = (polhode.speed_near(start, 0.0), polhode.speed_near(start, most));
+        let least = first / exp_above(polhode.growth * h);
+        let slowed = polhode.growth * time(0.875 * least);
+        if slowed > 0.125 || end <= 0.0 {
+            refused += 1;
+            assert_eq!(errors.along.shift, f64::INFINITY, "{error:e} {h}");
+        } else {
+            bounded += 1;
+            let speed = least.max((first * end).sqrt() / exp_above(0.5 * polhode.growth * h)) * (1.0 - slowed);
+            approx::assert_relative_eq!(errors.along.shift, time(speed), epsilon = 0.0, max_relative = 1e-10);
+        }
+    }
+    assert!(bounded > 20 && refused > 20, "{bounded} {refused}");
+    let mut errors = Errors::at_launch(polhode, start);
+    errors.add(&Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: 0.0, after: start });
+    assert!(errors.growing.error >= 1e-150);
+}
+
 /// Rates in another unit whose product with it may leave the range of f64, or lose digits below it.
 #[test]
 fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
