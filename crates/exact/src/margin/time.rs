@@ -149,6 +149,16 @@ mod tests {
         Some((near, phase(&near)))
     }
 
+    /// Compares flips in double-double with those in more digits; whether they were found.
+    fn is_found(toss: &CoinToss, phase: DoubleDouble) -> bool {
+        let Some(halves) = in_double_double(toss, phase) else { return false };
+        let exact = in_digits(toss).expect("flips");
+        for (half, exact) in halves.expect("flips").into_iter().zip(exact) {
+            assert!((half - exact).abs() <= RESOLUTION * exact.abs(), "{toss:?}: {half:e} {exact:e}");
+        }
+        true
+    }
+
     #[test]
     fn flips_in_double_double_are_those_of_more_digits_and_all_but_the_nearest_are_found_so() {
         let (mut found, mut open) = (0, 0);
@@ -156,23 +166,41 @@ mod tests {
             for from_touch in [-0.5, -0.1, -1e-3, -1e-6, -1e-9, -1e-12, -1e-15, 1e-15, 1e-3, 0.5] {
                 for from_flip in [1.0, 0.1, -0.01, 1e-4, -1e-6, 1e-9, -1e-12, 1e-15] {
                     let Some((toss, phase)) = toss(tilt, from_touch, from_flip) else { continue };
-                    let rough = in_double_double(&toss, phase);
                     let is_far = f64::abs(from_flip) >= 10.0 * least && (f64::abs(from_touch) >= 1e-4 || tilt != 0.0);
-                    assert!(rough.is_some() || !is_far, "{tilt} {from_touch} {from_flip}");
-                    let Some(halves) = rough else {
-                        open += 1;
-                        continue;
-                    };
-                    found += 1;
-                    let exact = in_digits(&toss).expect("flips");
-                    for (half, exact) in halves.expect("flips").into_iter().zip(exact) {
-                        let off = (half - exact).abs() / exact.abs();
-                        assert!(off <= RESOLUTION, "{tilt} {from_touch} {from_flip}: {half:e} {exact:e}");
-                    }
+                    let is_found = is_found(&toss, phase);
+                    assert!(is_found || !is_far, "{tilt} {from_touch} {from_flip}");
+                    found += u32::from(is_found);
+                    open += u32::from(!is_found);
                 }
             }
         }
         assert!(found > 100 && open > 20, "{found} {open}");
+    }
+
+    /// The vertical of a tilted coin has fewer digits, which count most where the cone just reaches the horizontal.
+    #[test]
+    fn flips_of_tilted_coins_next_to_a_touch_are_those_of_more_digits() {
+        let (mut found, mut open) = (0, 0);
+        for from_touch in [-0.3, -0.05] {
+            let reaches = |tilt: f64| toss(tilt, from_touch, 1.0).is_some();
+            let [mut flips, mut none] = [0.0, if reaches(0.8) { -0.8 } else { 0.8 }];
+            assert!(reaches(flips) && !reaches(none));
+            while (flips - none).abs() > 1e-15 {
+                let middle = f64::midpoint(flips, none);
+                *(if reaches(middle) { &mut flips } else { &mut none }) = middle;
+            }
+            for power in 1..16 {
+                let tilt = flips - none.signum() * 10f64.powi(-power);
+                for from_flip in [1.0, -1e-2, 1e-3, -1e-4, 1e-5, 1e-6, -1e-7, 1e-9] {
+                    let Some((toss, phase)) = toss(tilt, from_touch, from_flip) else { continue };
+                    let is_found = is_found(&toss, phase);
+                    assert!(is_found || power > 3 || f64::abs(from_flip) < 1e-4, "{tilt} {from_flip}");
+                    found += u32::from(is_found);
+                    open += u32::from(!is_found);
+                }
+            }
+        }
+        assert!(found > 40 && open > 40, "{found} {open}");
     }
 
     #[test]
