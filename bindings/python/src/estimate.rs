@@ -10,8 +10,8 @@ use crate::errors::Failure;
 use crate::plans::{Plan, accuracy, plan_of};
 use crate::solver::backend_of;
 use crate::space::space_of;
-use crate::tally::threads_of;
 use crate::threads;
+use crate::threads::threads_of;
 
 /// Values of an estimate: the probability, its interval and what that means, the number of launches, the counts of heads,
 /// tails and undecided, where they were counted, and by stage of the proof, where they are proven.

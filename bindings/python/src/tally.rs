@@ -6,10 +6,10 @@ use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
 use crate::estimate::{Values, values};
-use crate::given::{count, text};
+use crate::given::text;
 use crate::plans::{Plan, plan_of};
 use crate::space::{Space, space_of};
-use crate::threads;
+use crate::threads::{self, threads_of};
 
 /// The result of some launches of a plan, as ``tally`` returns it.
 ///
@@ -100,9 +100,4 @@ pub(crate) fn tally(
         Ok(pool.install(|| sampler.tally(&space, plan, start..end))?)
     })?;
     Ok(Tally { tally })
-}
-
-/// The number of threads that an argument is; `None` for all cores.
-pub(crate) fn threads_of(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
-    if value.is_none() { Ok(None) } else { count("threads", value).map(Some) }
 }

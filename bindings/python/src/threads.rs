@@ -17,6 +17,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::errors::{Failure, malformed};
+use crate::given::count;
 
 /// The largest number of threads.
 const MOST_THREADS: usize = 1024;
@@ -53,6 +54,11 @@ impl Stop {
             resume_unwind(Box::new("stopped"));
         }
     }
+}
+
+/// The number of threads that an argument is; `None` for all cores.
+pub(crate) fn threads_of(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
+    if value.is_none() { Ok(None) } else { count("threads", value).map(Some) }
 }
 
 /// The pool of this many threads; of all cores for `None`.

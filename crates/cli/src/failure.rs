@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::{Map, Value, json};
 use toss::{Error, InputError, SolveError};
 
-use crate::output::{SCHEMA, plain_json};
+use crate::json::{SCHEMA, plain_json};
 
 /// The reason why a command gives no answer.
 #[derive(Debug, thiserror::Error)]

@@ -6,8 +6,10 @@
 
 mod chart;
 mod commands;
+mod estimate;
 mod failure;
 mod help;
+mod json;
 mod output;
 mod quantity;
 mod solver_args;

@@ -8,14 +8,11 @@ use clap::{ArgMatches, Command};
 use dynamics::quantity::Given;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde::Serialize;
-use serde_json::ser::{CompactFormatter, Formatter};
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
+use crate::json::{SCHEMA, plain_json};
 use crate::quantity;
-
-/// The number of the format that `docs/json.md` describes. It grows when a field changes its meaning or goes away.
-pub(crate) const SCHEMA: u32 = 1;
 
 /// The format of an answer, for people or for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -196,28 +193,6 @@ pub(crate) fn json(input: &Input, answer: &impl Serialize) -> String {
 /// would round it.
 fn whole(number: u64) -> Value {
     if number <= 1 << 53 { number.into() } else { number.to_string().into() }
-}
-
-/// Plain data as JSON: numbers with the fewest digits that read back as the same number, and no -0.
-pub(crate) fn plain_json(value: &impl Serialize) -> String {
-    let mut text = Vec::new();
-    let written = value.serialize(&mut serde_json::Serializer::with_formatter(&mut text, NoNegativeZero));
-    written.expect("plain data with string keys is always JSON");
-    String::from_utf8(text).expect("JSON is UTF-8")
-}
-
-/// Compact JSON in which -0, which equals 0 and surprises programs, is 0.
-struct NoNegativeZero;
-
-impl Formatter for NoNegativeZero {
-    fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> std::io::Result<()> {
-        CompactFormatter.write_f64(to, without_sign_of_zero(value))
-    }
-}
-
-/// -0 as 0; any other number as it is.
-pub(crate) fn without_sign_of_zero(value: f64) -> f64 {
-    value + 0.0
 }
 
 /// A number with its sign and so many decimal places; what is rounded to 0 has the sign of 0.

@@ -19,9 +19,8 @@ use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
 use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
-pub use principal::PrincipalAxes;
+pub use principal::{PrincipalAxes, principal_acceleration};
 
-use crate::body_rate::principal_acceleration;
 use crate::coin::Coin;
 use crate::error::{InputError, require};
 

@@ -29,13 +29,6 @@ pub fn transverse_acceleration(q: f64, rate_x: f64, rate_y: f64) -> (f64, f64) {
     (-q * rate_y, q * rate_x)
 }
 
-/// Euler's equations of any rigid body in its principal axes: ω' (rad/s²) from ω (rad/s) and the
-/// [couplings](crate::RigidBody::couplings).
-#[inline]
-pub fn principal_acceleration([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> [f64; 3] {
-    [a * second * third, b * third * first, c * first * second]
-}
-
 /// Angular momentum S of a coin with body rate `rate` (BF, kg m²/s). |S| is conserved.
 pub fn angular_momentum(coin: &Coin, rate: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(coin.i1() * rate.x, coin.i1() * rate.y, coin.i3() * rate.z)

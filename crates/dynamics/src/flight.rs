@@ -19,16 +19,8 @@ use crate::phase::RoughPhases;
 use crate::solver::Work;
 #[cfg(any(feature = "integrators", doc))]
 use crate::stepping::Stepping;
-use crate::stepping::tightened;
+use crate::stepping::{LONG_FLIGHT, tightened};
 use crate::toss::CoinToss;
-
-/// Phase (rad) above which the tolerance of the steps is divided by phase/`LONG_FLIGHT`.
-///
-/// The errors of the steps add up in |ω|, and the errors of |ω| add up in the phase. The error at landing therefore
-/// grows like tolerance × phase²; the largest factor that was measured is 0.14. With the tightened tolerance the error
-/// at landing stays below the [error estimate](Stepping::error_estimate), 100 × tolerance × (1 + phase) and rounding. A
-/// tolerance is not tightened below ε, where rounding is larger than what steps leave out.
-pub(crate) const LONG_FLIGHT: f64 = 100.0;
 
 /// The flight of a toss, with its rates divided by σ, a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -97,7 +97,7 @@ mod tests {
         let tensor = [[2.0, 0.3, -0.1], [0.3, 2.2, 0.25], [-0.1, 0.25, 1.4]];
         let body = Body::from_tensor(tensor).unwrap();
         let flight = flight(body, [1.0, -0.5, 1.25]);
-        let found = flight.in_body(crate::body_rate::principal_acceleration(flight.couplings, flight.rates));
+        let found = flight.in_body(crate::body::principal_acceleration(flight.couplings, flight.rates));
         let rate = Vector3::new(1.0, -0.5, 1.25);
         let torque = body.angular_momentum(&rate).cross(&rate);
         assert!((body.angular_momentum(&found) - torque).norm() < 1e-14, "{found:?}");

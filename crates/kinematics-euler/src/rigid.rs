@@ -25,7 +25,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use dynamics::body_rate::principal_acceleration;
+use dynamics::body::principal_acceleration;
 use dynamics::integrate::OdeSystem;
 use dynamics::{
     Attitude, EulerAngles, Formulation, Frame, Landing, RigidFlight, Singularity, SolveError, State, Stepping, Toss,

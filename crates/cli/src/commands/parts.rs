@@ -10,8 +10,9 @@ use dynamics::quantity::read_count;
 use sampling::{Plan, Sampler, Space, Tally};
 use toss::report::Estimate;
 
-use crate::commands::probability::text;
+use crate::estimate::text;
 use crate::failure::Failure;
+use crate::json::plain_json;
 use crate::output::{self, FormatArgs, Input};
 use crate::space_args::ThreadArgs;
 
@@ -77,7 +78,7 @@ impl ShardArgs {
         if !there {
             let tally =
                 threads.ask(sampler, (launches, "launches"), |sampler| sampler.tally(space, plan, range.clone()))?;
-            let text = output::plain_json(&tally);
+            let text = plain_json(&tally);
             if whole_file::leads_to(path) {
                 return Ok(text);
             }

@@ -1,12 +1,13 @@
 //! `unfair-toss probability` estimates the probability of heads over a space of launches. It prints the error or
 //! interval of the estimate with it, as far as the method has one.
 
-use sampling::{Estimate, Found, Interval, IntervalKind, Method, Plan, Sampler, Space};
+use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
 use toss::planner::How;
 use toss::solvers::{Integration, Proving};
-use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
+use toss::{Answer, Backend, Registry, Scene, Solver, Want, report};
 
 use crate::commands::parts::ShardArgs;
+use crate::estimate::text;
 use crate::failure::Failure;
 use crate::output::{Format, FormatArgs, Input};
 use crate::quantity;
@@ -151,48 +152,4 @@ impl Args {
 /// The error of a planner that answers a probability by something else than a sample.
 fn no_sample() -> Failure {
     Failure::usage("accuracy", "--accuracy: the plan for this space is no sample; --method chooses one")
-}
-
-/// An estimate as text.
-pub(crate) fn text(found: &Estimate, solver: &str) -> String {
-    let (probability, kind) = (found.probability, &found.interval_kind);
-    let (probability, interval) = match (found.interval, found.half_width()) {
-        (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
-            (probability.to_string(), format!("± {error:.1e} ({kind})"))
-        }
-        (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
-            (format!("{probability:.0$}", digits_for(error)), format!("{lo} to {hi} ({kind})"))
-        }
-        (Some(Interval { lo, hi }), Some(error)) => {
-            let digits = digits_for(error);
-            (format!("{probability:.digits$}"), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
-        }
-        _ => (format!("{probability:.6}"), kind.to_string()),
-    };
-    let launches = match found.found {
-        Found::Counts(counts) => {
-            format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
-        }
-        Found::Shares { .. } if *kind == IntervalKind::Proven => format!("all, in {} cells", found.points),
-        Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
-    };
-    let mut lines = vec![
-        format!("P(heads)     {probability}"),
-        format!("interval     {interval}"),
-        format!("launches     {launches}"),
-        format!("solver       {solver}"),
-    ];
-    if let Found::Counts(counts) = found.found
-        && counts.are_certified()
-    {
-        let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.proven().by(stage)));
-        lines.push(format!("proven by    {}", stages.join(", ")));
-    }
-    lines.join("\n")
-}
-
-/// The number of decimal places that show two digits of `error`, at least six.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 6 and 17")]
-fn digits_for(error: f64) -> usize {
-    (1.0 - error.log10().floor()).clamp(6.0, 17.0) as usize
 }

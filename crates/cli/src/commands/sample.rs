@@ -16,7 +16,8 @@ use toss::{Backend, Body, Error, InputError, Launch, Registry, TimeOfFlight, Tos
 
 use crate::Streams;
 use crate::failure::Failure;
-use crate::output::{DataFormat, plain_json, without_sign_of_zero};
+use crate::json::{plain_json, without_sign_of_zero};
+use crate::output::DataFormat;
 use crate::quantity;
 use crate::solver_args::SolverArgs;
 use crate::space_args::{SpaceArgs, ThreadArgs, require_few};

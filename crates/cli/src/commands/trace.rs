@@ -8,7 +8,8 @@ use toss::{Registry, Solver, Toss, TracePoint, trace};
 
 use crate::chart;
 use crate::failure::Failure;
-use crate::output::{self, DataFormat, Input, SeriesArgs, without_sign_of_zero};
+use crate::json::without_sign_of_zero;
+use crate::output::{self, DataFormat, Input, SeriesArgs};
 use crate::quantity;
 use crate::toss_args::FlightArgs;
 

@@ -13,6 +13,13 @@ pub struct PrincipalAxes<N> {
     pub axes: [[N; 3]; 3],
 }
 
+/// Euler's equations of any rigid body in its principal axes: ω' (rad/s²) from ω (rad/s) and the
+/// [couplings](crate::RigidBody::couplings).
+#[inline]
+pub fn principal_acceleration([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> [f64; 3] {
+    [a * second * third, b * third * first, c * first * second]
+}
+
 impl<N: Elementary> PrincipalAxes<N> {
     /// The axes x, y, z of BF in the order of their `moments`. The one in the middle is reversed if that is needed to
     /// make the axes right-handed.

@@ -12,7 +12,7 @@
 //! All right-hand sides are sums of products, so that the coefficient of tᵏ⁺¹ of each is a sum of products of those
 //! before it. A step computes the turn that leads from the attitude at its start to that at its end, as for coins.
 
-use dynamics::body_rate::principal_acceleration;
+use dynamics::body::principal_acceleration;
 use dynamics::integrate::OdeSystem;
 use dynamics::{Flight, RigidFlight, SolveError, Stepping, Toss, Work};
 use nalgebra::SVector;

@@ -1,0 +1,48 @@
+//! An estimate of P(heads) as text, of one run or of parts that were merged.
+
+use sampling::{Estimate, Found, Interval, IntervalKind};
+use toss::Stage;
+
+/// An estimate as text.
+pub(crate) fn text(found: &Estimate, solver: &str) -> String {
+    let (probability, kind) = (found.probability, &found.interval_kind);
+    let (probability, interval) = match (found.interval, found.half_width()) {
+        (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
+            (probability.to_string(), format!("± {error:.1e} ({kind})"))
+        }
+        (Some(Interval { lo, hi }), Some(error)) if *kind == IntervalKind::Proven => {
+            (format!("{probability:.0$}", digits_for(error)), format!("{lo} to {hi} ({kind})"))
+        }
+        (Some(Interval { lo, hi }), Some(error)) => {
+            let digits = digits_for(error);
+            (format!("{probability:.digits$}"), format!("{lo:.digits$} to {hi:.digits$} ({kind})"))
+        }
+        _ => (format!("{probability:.6}"), kind.to_string()),
+    };
+    let launches = match found.found {
+        Found::Counts(counts) => {
+            format!("{} heads, {} tails, {} undecided", counts.heads(), counts.tails(), counts.undecided())
+        }
+        Found::Shares { .. } if *kind == IntervalKind::Proven => format!("all, in {} cells", found.points),
+        Found::Shares { .. } => format!("{}, each at all its speeds", found.points),
+    };
+    let mut lines = vec![
+        format!("P(heads)     {probability}"),
+        format!("interval     {interval}"),
+        format!("launches     {launches}"),
+        format!("solver       {solver}"),
+    ];
+    if let Found::Counts(counts) = found.found
+        && counts.are_certified()
+    {
+        let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.proven().by(stage)));
+        lines.push(format!("proven by    {}", stages.join(", ")));
+    }
+    lines.join("\n")
+}
+
+/// The number of decimal places that show two digits of `error`, at least six.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 6 and 17")]
+fn digits_for(error: f64) -> usize {
+    (1.0 - error.log10().floor()).clamp(6.0, 17.0) as usize
+}
