@@ -8,7 +8,7 @@ use thiserror::Error;
 
 pub use solve::{Fault, Reason, Singularity, SolveError};
 
-use crate::quantity::look_alike;
+use crate::look_alike::look_alike;
 
 /// An input value that describes no toss. It is found before anything is computed.
 #[derive(Debug, Clone, PartialEq, Error)]

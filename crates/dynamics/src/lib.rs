@@ -68,6 +68,7 @@ pub mod free_rotation;
 #[cfg(feature = "integrators")]
 pub mod integrate;
 pub mod launch;
+mod look_alike;
 pub mod outcome;
 pub mod phase;
 pub mod precession;

@@ -12,7 +12,9 @@ use numerics::{Angle, AngleUnit, Quantity, Unit};
 
 use crate::error::InputError;
 
-pub use typed::{look_alike, read_count, read_fraction};
+pub use typed::{read_count, read_fraction};
+
+pub use crate::look_alike::look_alike;
 
 /// The kind of a physical quantity, which decides the units that it may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

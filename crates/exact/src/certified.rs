@@ -49,10 +49,10 @@ use dynamics::{Attitude, CoinToss, Outcome, SolveError};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, Stage};
-use crate::given::{in_double_double, scaled};
+use crate::given::in_double_double;
 use crate::motion::CoinMotion;
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
-use crate::tilt_terms::{TiltTerms, terms};
+use crate::tilt_terms::{TiltTerms, cos_tilt_in};
 
 /// Proves the outcome of a toss.
 ///
@@ -175,23 +175,6 @@ pub fn cos_tilt_in_double_double(toss: &CoinToss) -> Option<Ball<DoubleDouble>> 
     let k = toss.coin.exact_inertia_ratio();
     let k = Ball::new(k, (2f64.powi(-97) * k.hi()).max(f64::MIN_POSITIVE));
     Some(cos_tilt_in(toss, &time, vertical, k))
-}
-
-/// cos θ in any kind of number, from the time in the unit of [`scaled`] rates, the vertical (BF) at launch, and k.
-pub(crate) fn cos_tilt_in<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N; 3], k: N) -> N {
-    let (rate, _) = toss.launch.given_rate();
-    if rate.x == 0.0 && rate.y == 0.0 {
-        let [.., m_z] = vertical;
-        return m_z;
-    }
-    let [x, y, z] = scaled(&rate, time);
-    let momentum = [x.clone(), y.clone(), k * z];
-    let across = x.clone() * x + y.clone() * y;
-    let squared = across.clone() + momentum[2].clone() * momentum[2].clone();
-    let size = squared.sqrt();
-    let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
-    let [mean, cosine, sine] = terms(vertical, momentum, across);
-    (mean + cosine * cos + sine * size * sin) / squared
 }
 
 /// Error bound of [`TiltTerms::height`] at a `phase` (rad), in units of [`TiltTerms::size`].

@@ -27,8 +27,8 @@ use dynamics::{AngleUnit, CoinToss, Outcome};
 use numerics::big::{Big, exactly};
 use numerics::{Elementary, WideBall};
 
-use crate::certified::cos_tilt_in;
 use crate::given::{in_digits, right_to_roundings};
+use crate::tilt_terms::cos_tilt_in;
 
 /// Digits to begin with.
 const FEWEST_DIGITS: usize = 192;

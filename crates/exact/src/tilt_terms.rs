@@ -15,8 +15,9 @@
 use dynamics::CoinToss;
 use nalgebra::Vector3;
 use numerics::scale::power_of_two_scale;
-use numerics::{Number, UNIT_ROUNDOFF};
+use numerics::{Elementary, Number, UNIT_ROUNDOFF};
 
+use crate::given::scaled;
 use crate::heads::HeadsPhases;
 
 /// Error of `mean`, `cosine` and `sine`, in units of `size`.
@@ -118,6 +119,23 @@ impl TiltTerms {
     pub fn heads(&self) -> HeadsPhases {
         HeadsPhases::new([self.mean, self.cosine, self.sine].map(|term| term / self.size), TERM_ERROR + UNIT_ROUNDOFF)
     }
+}
+
+/// cos θ in any kind of number, from the time in the unit of [`scaled`] rates, the vertical (BF) at launch, and k.
+pub(crate) fn cos_tilt_in<N: Elementary>(toss: &CoinToss, time: &N, vertical: [N; 3], k: N) -> N {
+    let (rate, _) = toss.launch.given_rate();
+    if rate.x == 0.0 && rate.y == 0.0 {
+        let [.., m_z] = vertical;
+        return m_z;
+    }
+    let [x, y, z] = scaled(&rate, time);
+    let momentum = [x.clone(), y.clone(), k * z];
+    let across = x.clone() * x + y.clone() * y;
+    let squared = across.clone() + momentum[2].clone() * momentum[2].clone();
+    let size = squared.sqrt();
+    let [sin, cos] = (size.clone() * time.clone()).sine_and_cosine();
+    let [mean, cosine, sine] = terms(vertical, momentum, across);
+    (mean + cosine * cos + sine * size * sin) / squared
 }
 
 #[cfg(test)]
