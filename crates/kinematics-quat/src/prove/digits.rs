@@ -236,3 +236,29 @@ fn cos_tilt<N: Elementary>([a, b, c]: &[N; 3], [w, x, y, z]: &[N; 4]) -> N {
     let sum = times(a, &along_x) + times(b, &along_y) + times(c, &(upright.clone() - inverted.clone()));
     sum / (upright + inverted)
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Coin, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// In a step the series are those of angles of at most ½ rad, on which the error of their order rests.
+    #[test]
+    fn steps_are_as_many_as_half_radians() {
+        for (k, rate, time) in
+            [(0.5, [3.0, -4.0, 7.0], 2.1), (1.7, [0.3, 0.1, -9.0], 11.0), (1.0, [40.0, 9.0, 0.0], 3.3)]
+        {
+            let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+            let coin = CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch };
+            let [x, y, z] = rate.map(|rate: f64| 0.5 * rate * time);
+            let turns = x.hypot(y) + z.abs() + 2.0 * (k - 1.0).abs() * z.abs();
+            for found in [in_double_double(&coin).unwrap(), in_digits(&coin, 192).unwrap()] {
+                assert_eq!(f64::from(found.steps), (2.0 * turns).ceil(), "{rate:?}");
+            }
+        }
+        let still = Launch::new([0.0; 3], TimeOfFlight::Given(1.0)).unwrap();
+        let found = in_double_double(&CoinToss { coin: Coin::DISC, launch: still }).unwrap();
+        assert_eq!((found.steps, found.outcome), (1, Outcome::Heads));
+    }
+}

@@ -79,6 +79,34 @@ fn errors_are_below_their_bounds_and_not_far_below() {
     }
 }
 
+/// A tilt leaves one part of the vertical seen from the coin 0, other attitudes do not.
+#[test]
+fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic() {
+    let (numbers, solver) = (&mut Numbers(11), solver(1e-9));
+    for phase in [1.0, 30.0, 300.0].into_iter().cycle().take(60) {
+        let attitude = Attitude::from_components([0; 4].map(|_| numbers.between(-1.0, 1.0))).unwrap();
+        let toss = random(numbers, phase);
+        let toss = Toss { launch: toss.launch.with_attitude(attitude), ..toss };
+        let coin = toss.coin().unwrap();
+        let exact = exact::certified::cos_tilt(&coin).unwrap();
+        let flown = solver.certify(&toss).unwrap();
+        let fine = digits::in_double_double(&coin).unwrap();
+        let finest = digits::in_digits(&coin, 192).unwrap();
+        for (found, bound) in [
+            (flown.cos_tilt(), flown.error_bound()),
+            (fine.cos_tilt, fine.cos_bound),
+            (finest.cos_tilt, finest.cos_bound),
+        ] {
+            assert!((found - exact).abs() <= bound + 4.0 * UNIT_ROUNDOFF && bound < 1e-6, "{toss:?}: {found} {exact}");
+        }
+        let turn = [0; 4].map(|_| numbers.between(-3.0, 3.0));
+        let turned = Attitude::from_components(turn).unwrap().body_to_lab(&Vector3::z());
+        let ([a, b, c], size) = attitude.vertical();
+        let height = (a * turned.x + b * turned.y + c * turned.z) / size;
+        assert!((cos_tilt(attitude, turn) - height).abs() < 1e-15, "{attitude:?} {turn:?}");
+    }
+}
+
 /// The defect of the attitude alone does not bound its error: the rates are integrated too.
 #[test]
 fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {

@@ -153,6 +153,20 @@ fn errors_of_the_constants_count_by_their_formulas() {
     }
 }
 
+/// The growth of an error is (16), and none is bounded that would more than double by its square.
+#[test]
+fn an_error_grows_by_its_formula() {
+    for (_, toss) in tosses() {
+        let polhode = polhode(&toss);
+        for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.3, 2.0), (2.0, 9.0)] {
+            let first = start * exp_above(polhode.growth * h);
+            let square = exp_above(2.0 * 0.5774 * polhode.widest * polhode.coupling * first * h);
+            let expected = if square <= 2.0 { first * square } else { f64::INFINITY };
+            approx::assert_relative_eq!(polhode.grown(start, h), expected, epsilon = 0.0, max_relative = 1e-12);
+        }
+    }
+}
+
 /// A flight by other couplings than those of the toss has no bound: of a body that is nearly a sphere they are tiny.
 #[test]
 fn couplings_of_another_body_are_refused() {
