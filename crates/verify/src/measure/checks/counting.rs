@@ -2,6 +2,8 @@
 //! outcomes in 256 bits, and the counts of whole plans from single tosses. Counting is what every probability rests on,
 //! and a rule that was changed for the better still gives other counts than the ones that were published.
 
+use std::fmt;
+
 use sampling::{Coordinate, Counts, Found, Plan, Sampler, Scrambled, Space, random_tosses};
 use toss::{
     Attitude, Batch, Coin, ExactSolver, Formulation, InputError, Launch, Outcome, Scheme, SimdLevel, SolveError,
@@ -65,12 +67,16 @@ const FIXED: [(Coordinate, f64); 6] = [
     (Coordinate::Tilt, 0.0),
 ];
 
+/// The ranges of the axes, as the command line reads them.
+fn ranges(axes: &Axes) -> impl Iterator<Item = (Coordinate, String)> {
+    axes.iter().map(|(of, lo, hi, points)| (*of, format!("{lo:?}:{hi:?}:{points}")))
+}
+
 /// The space of a grid.
 fn space(axes: &Axes) -> anyhow::Result<Space> {
     let fixed = FIXED.iter().filter(|(of, _)| axes.iter().all(|(varies, ..)| varies != of));
     let fixed = fixed.map(|(of, value)| (*of, format!("{value:?}")));
-    let varying = axes.iter().map(|(of, lo, hi, points)| (*of, format!("{lo:?}:{hi:?}:{points}")));
-    let texts: Vec<(Coordinate, String)> = fixed.chain(varying).collect();
+    let texts: Vec<(Coordinate, String)> = fixed.chain(ranges(axes)).collect();
     let texts: Vec<(Coordinate, &str)> = texts.iter().map(|(of, text)| (*of, text.as_str())).collect();
     Ok(Space::parse(Coin::PAPER, &texts)?)
 }
@@ -112,7 +118,8 @@ fn grid_launches() -> anyhow::Result<Measurement> {
             for (of, lo, hi, _) in axes {
                 let away = (found.values[*of as usize] - expected[*of as usize]).abs() / (hi - lo);
                 if away > worst.0 || away.is_nan() {
-                    worst = (away, format!("{} of launch {index} of {axes:?}", of.name()));
+                    let ranges: Vec<String> = ranges(axes).map(|(of, text)| format!("{}={text}", of.name())).collect();
+                    worst = (away, format!("{} of launch {index} of {}", of.name(), ranges.join(" ")));
                 }
             }
         }
@@ -181,7 +188,7 @@ fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
             let found = Batch::new(tosses).on(level).count()?;
             let found = Tally { heads: found.heads(), tails: found.tails(), undecided: found.ties() };
             if found.difference(&expected) > 0 {
-                inputs.push(format!("{points} tosses at {}: {found:?} instead of {expected:?}", level.name()));
+                inputs.push(format!("{points} tosses at {}: {found} instead of {expected}", level.name()));
             }
             difference += found.difference(&expected);
             launches += expected.all();
@@ -223,7 +230,7 @@ fn counted(
                 let found = counts(&space, sampler, plan);
                 let differs = found.map_or(f64::INFINITY, |found| Tally::from(&found).difference(&expected) as f64);
                 if differs > 0.0 && difference == 0.0 {
-                    first = format!("{plan:?}, tilt {tilt}");
+                    first = format!("{} with {points} launches, tilt {tilt}", plan.method());
                 }
                 difference += differs;
                 launches += expected.all();
@@ -247,6 +254,12 @@ struct Tally {
     heads: u64,
     tails: u64,
     undecided: u64,
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} heads, {} tails and {} undecided", self.heads, self.tails, self.undecided)
+    }
 }
 
 impl Tally {

@@ -96,7 +96,7 @@ fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let measure = |stepping: &Stepping| {
         let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, stepping)?;
         let error = (end - SVector::from(exact)).amax();
-        let input = format!("y(0) = (0, 1, 1), t = {time}, {:?}", stepping.control());
+        let input = format!("y(0) = (0, 1, 1), t = {time}, {stepping}");
         Ok(Measurement::figure(DETEST.id, stepping.scheme().name(), error, 1, input))
     };
     steppings.iter().map(measure).collect()
