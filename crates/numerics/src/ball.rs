@@ -171,7 +171,7 @@ impl<N: Elementary> Number for Ball<N> {
             #[expect(clippy::cast_precision_loss, reason = "a series has few terms")]
             let operations = 2.0 * pairs.len() as f64;
             // The sums of errors and sizes have three roundings for each pair.
-            Self::rounded(midpoint, (error + TINY) * (1.0 + 2.0 * operations * f64::EPSILON), operations * size)
+            Self::rounded(midpoint, error * (1.0 + 2.0 * operations * f64::EPSILON), operations * size)
         })
     }
 }

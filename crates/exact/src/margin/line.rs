@@ -231,11 +231,11 @@ fn fine_error(phase: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Coin, Launch, TimeOfFlight};
+    use dynamics::{AngleUnit, Attitude, Coin, Launch, TimeOfFlight, Unit};
 
     use super::*;
 
-    /// Tosses with parts of all signs, from horizontal, tilted and in any attitude.
+    /// Tosses with parts of all signs, from horizontal, tilted and in any attitude; the last ones in degrees per second.
     fn tosses() -> Vec<CoinToss> {
         let rates = [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2e3, 3e3, 5e2]];
         let start = |rate: [f64; 3]| Launch::new(rate, TimeOfFlight::Given(0.7)).unwrap();
@@ -244,6 +244,9 @@ mod tests {
             let start = start(rate);
             [start, start.with_tilt(0.6).unwrap(), start.with_tilt(-2.0).unwrap(), start.with_attitude(turned)]
         });
+        let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let in_degrees = Launch::in_unit([60.0, -35.0, 143.0], degree, TimeOfFlight::Given(0.7)).unwrap();
+        let launches = launches.chain([in_degrees, in_degrees.with_attitude(turned)]);
         launches.map(|launch| CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }).collect()
     }
 

@@ -87,6 +87,11 @@ fn margins_of_any_size_flip_the_outcome_and_none_smaller_does() {
             assert_eq!(outcome_of((1.0 - slack).max(0.0)), outcome, "{axis} {from_edge}");
             assert_ne!(outcome_of(1.0 + slack), outcome, "{axis} {from_edge}");
         }
+        let tilt = tilt.unwrap();
+        let tilted = |part: f64| toss(Vector3::new(2.0, 3.0, 1.0), 0.4 + part * tilt, edge - from_edge);
+        let slack = 1e-12 + 1e-16 / tilt.abs();
+        assert_eq!(certify_coin(&tilted((1.0 - slack).max(0.0))).unwrap().outcome(), outcome, "{from_edge}");
+        assert_ne!(certify_coin(&tilted(1.0 + slack)).unwrap().outcome(), outcome, "{from_edge}");
     }
 }
 
