@@ -474,6 +474,7 @@ mod tests {
         let jet = Jet::<_, 5>::variable(value, slope, 0);
         assert_eq!((jet.to_f64(), jet.to_double_double().hi(), jet.sign(), jet.error()), (-3.0, -3.0, -1.0, 0.5));
         assert_eq!((jet.to_big(), jet.digits()), (value.to_big(), value.digits()));
+        assert_eq!([-jet, jet - jet.with_constant(value)].map(|jet| jet.sign()), [1.0, 0.0]);
         assert!(jet.has_known_sign() && !jet.widened(4.0).has_known_sign() && jet.is_in_range());
         assert!((jet.pi().value().midpoint() - std::f64::consts::PI).abs() < 1e-15 && jet.pi().is_constant());
         let wide = jet.widened(4.0);
