@@ -210,6 +210,7 @@ fn each_part_of_a_step_counts_by_its_formula() {
         let expected = 3e-7 + 0.5 * errors.along.integral + polhode.across * errors.along.shift;
         approx::assert_relative_eq!(errors.bound(), expected, epsilon = 0.0, max_relative = 1e-9);
     }
+    assert_eq!(Errors::at_launch(polhode, rate).fastest(), polhode.fastest);
     let moved = Errors::at_launch(Polhode { launched: 1e-9, ..polhode }, rate);
     within(moved.along.shift, 1e-9 / speeds[0] * 0.99);
     assert!(moved.growing.error == 1e-9 && moved.along.across <= 1e-9);
