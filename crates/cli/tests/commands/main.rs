@@ -1,7 +1,6 @@
 //! Runs each command as a user does, and checks its answers, exit codes and standard output. The libraries have tests of their
 //! own; these show that options reach them and that answers come back unchanged.
 
-#[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/fields.rs"]
 mod fields;
