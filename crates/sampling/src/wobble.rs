@@ -64,7 +64,7 @@ impl Wobble {
     /// Pearson's interval; several people have Student's, with the people as the sample.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if there are no people; [`InputError::Malformed`] if they tossed more than 2^64 coins;
+    /// [`InputError::OutOfRange`] if there are no people; [`InputError::Malformed`] if they tossed 2^64 coins or more;
     /// [`InputError::OutsideModel`] if even the upper end of the interval
     /// is below ½, which no wobble explains.
     #[expect(clippy::cast_precision_loss, reason = "nobody tosses 2^53 coins")]

@@ -261,10 +261,9 @@ mod tests {
         (one - other).abs() <= part * one.abs().max(other.abs())
     }
 
-    /// The second bound of the module's table at one point of the line.
-    fn far_out(line: &Line, along: f64) -> f64 {
-        let phase = line.across().hypot(along);
-        let sine = along.abs() / phase;
+    /// The second bound of the module's table, with σ where the line is at `far` and φ where it is at `near`.
+    fn far_out(line: &Line, far: f64, near: f64) -> f64 {
+        let [sine, phase] = [far.abs() / line.across().hypot(far), line.across().hypot(near)];
         (sine * sine + (1.0 + 4.5 * sine) / phase + 10.0 / (phase * phase)).min(1.0)
     }
 
@@ -292,11 +291,8 @@ mod tests {
                 let ends = [from, to];
                 let far = if from.abs() > to.abs() { from } else { to };
                 let near = if from * to > 0.0 { f64::min(from.abs(), to.abs()) } else { 0.0 };
-                let sine = far.abs() / line.across().hypot(far);
-                let size = line.across().hypot(near);
-                let expected = (sine * sine + (1.0 + 4.5 * sine) / size + 10.0 / (size * size)).min(1.0);
-                let found = line.curvature_far_out(ends);
-                assert!(are_close(found, if expected.is_nan() { 1.0 } else { expected }, 1e-9), "{found} {expected}");
+                let [found, expected] = [line.curvature_far_out(ends), far_out(line, far, near)];
+                assert!(are_close(found, expected, 1e-9), "{found} {expected}");
                 let [found, expected] = [line.curvature_by_size(ends), by_size(line, far)];
                 assert!(are_close(found, expected, 1e-6), "{found} {expected}");
                 let both = line.curvature(change, sense, length);
@@ -308,7 +304,7 @@ mod tests {
                 // Over a part of the line it is at least that at each of its points.
                 for step in 0..=20 {
                     let along = from + (to - from) * f64::from(step) / 20.0;
-                    let here = far_out(line, along).min(by_size(line, along));
+                    let here = far_out(line, along, along).min(by_size(line, along));
                     assert!(both >= here.min(1.0) * (1.0 - 1e-9), "{from} {to} {along}: {both} {here}");
                 }
             }

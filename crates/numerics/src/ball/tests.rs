@@ -105,6 +105,9 @@ fn no_digit_that_underflows_is_forgotten() {
             assert!(is_right(&(a + b), &sum) && is_right(&(rough_a + rough_b), &sum), "{a:?} {b:?}");
             let product = &exact_a * &exact_b;
             assert!(is_right(&(a * b), &product) && is_right(&(rough_a * rough_b), &product), "{a:?} {b:?}");
+            let sum = Ball::sums_of_products(&[a, b], &[b, a], &[[0, 0], [1, 1], [0, 1]], &[2, 3]);
+            assert!(is_right(&sum[0], &(&product + &product)), "{a:?} {b:?}");
+            assert!(is_right(&sum[1], &(&exact_a * &exact_a)), "{a:?}");
             let angle = Elementary::atan2(&exact_a, &exact_b);
             assert!(is_angle(&a.atan2(&b), &angle) && is_angle(&rough_a.atan2(&rough_b), &angle), "{a:?} {b:?}");
             if exact_b != Big::ZERO {
