@@ -6,9 +6,11 @@ use toss::{Coin, Outcome, certify};
 /// The accuracy that is asked for, which most of these spaces reach in milliseconds.
 const ACCURACY: f64 = 0.02;
 const LAUNCHES: u64 = 512;
+/// Each of these spaces takes fewer cells, some seconds.
+const MOST_CELLS: u64 = 1 << 19;
 
 /// The proven interval holds the probability that it states, and it meets the interval of random launches with a confidence
-/// of all but 1e-13. Where heads or tails is proven to be certain, each of these launches lands so.
+/// of all but 1e-13. It takes a bounded number of cells. Where heads or tails is proven to be certain, each of these launches lands so.
 ///
 /// # Panics
 /// If this does not hold for `data`.
@@ -18,6 +20,7 @@ pub fn check(data: &[u8]) {
         Ok(found) => found,
         Err(error) => return crate::assert_said(&error),
     };
+    assert!(proven.points < MOST_CELLS, "{} cells of {space:?}", proven.points);
     let interval = proven.interval.expect("an enclosure has an interval");
     assert!(0.0 <= interval.lo && interval.hi <= 1.0 && interval.hi - interval.lo <= 2.0 * ACCURACY, "{proven:?}");
     assert!(interval.lo <= proven.probability && proven.probability <= interval.hi, "{proven:?}");

@@ -4,9 +4,9 @@ export const PRESETS = [
   {
     name: "quarter",
     title: "A quarter as people flip it",
-    words: "Its normal wobbles about the angular momentum by ψ = 81.2°. Over many such flips it lands as it started in 50.8 %, as it did in the 350 757 flips of 48 people.",
+    words: "Its normal wobbles about the angular momentum by ψ = 81.2°. Over many such flips 50.8 % land as they started, as did the 350 757 flips of 48 people.",
     scene: { coin: "us-quarter", by: "turn", turn: "38rev/s", wobble: "81.2deg", speed: "2.4m/s" },
-    pace: 0.01,
+    pace: 0.03,
   },
   {
     name: "cheated",
@@ -27,7 +27,7 @@ export const PRESETS = [
     title: "Keller's toss",
     words: "A half dollar without spin about its normal turns end over end. Only such a toss, thrown vigorously, is fair.",
     scene: { coin: "us-half", rate: ["38rev/s", "0", "0"], speed: "2.4m/s" },
-    pace: 0.01,
+    pace: 0.03,
   },
   {
     name: "racket",

@@ -117,9 +117,9 @@ const TEXTS: &[Text] = &[
         command: "inverse",
         usage: "(--probability P | --counts K/N|FILE.csv) [OPTIONS]",
         example: "unfair-toss inverse --counts 178078/350757",
-        meaning: "With --counts: K of N coins landed on the side that had been up. The answer is the angle ψ between the normal and \
+        meaning: "With --counts: of N coins, K landed on the side that had been up. The answer is the angle ψ between the normal and \
                   the angular momentum that explains this, with its 95 % interval, if all launches left flat, turned many times and \
-                  had the same ψ; 180° - ψ explains it as well. A file has a person a row, in the columns same and tosses.",
+                  had the same ψ; 180° - ψ explains it as well. A file has one person per row, in the columns same and tosses.",
     },
     Text {
         command: "limit",

@@ -61,7 +61,7 @@ enum Command {
     Merge(parts::Args),
     /// Find the ranges of speed that land heads
     Intervals(intervals::Args),
-    /// Find the launch that lands heads with a wanted probability
+    /// Find the wobble behind a probability of heads, or behind people's counts
     Inverse(inverse::Args),
     /// Compare the limit of the probability of heads for long flights with the share of long flights that land heads
     Limit(limit::Args),

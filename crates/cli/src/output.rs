@@ -69,6 +69,10 @@ impl SeriesArgs {
                 "format",
                 "--format has no effect with --svg on standard output, where the chart stands in place of the data",
             )),
+            (Some(path), _) if path.extension().is_some_and(|kind| kind != "svg") => Err(Failure::usage(
+                "svg",
+                format!("svg = '{}': a chart is written as SVG, to a name that ends in .svg", path.display()),
+            )),
             (Some(path), _) => require_folder("svg", path),
             _ => Ok(()),
         }

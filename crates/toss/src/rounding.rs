@@ -52,10 +52,21 @@ impl Rounding {
         !self.flight && !self.rate && self.body == BodyRounding::Exact
     }
 
-    /// Whether the time of flight was rounded so that its error has no bound: a landing above the launch may end the flight
-    /// near its top, where the time depends on the speed without a bound.
-    fn time_is_unbounded(&self, toss: &Toss) -> bool {
-        self.flight && matches!(toss.launch.time_of_flight(), TimeOfFlight::BallisticTo { drop, .. } if drop < 0.0)
+    /// A bound of the relative errors of the rates, of k and of the time of flight T of `toss`; `None` for a landing above the
+    /// launch that ends the flight next to its top, where T depends on the speed without a bound.
+    ///
+    /// T = (v0 + v1)/g, with v1 = √(v0² + 2 g drop) the speed at landing. If v0, g and drop < 0 are each off by 2 u of themselves,
+    /// with 2 g |drop| < v0², then v1 is off by at most 4 u v0²/v1, and T by (4 + 4 v0/v1) u of itself, at most 4 ε v0/v1.
+    fn relative_error(&self, toss: &Toss) -> Option<f64> {
+        let TimeOfFlight::BallisticTo { speed, gravity, drop } = toss.launch.time_of_flight() else {
+            return Some(RELATIVE);
+        };
+        if !self.flight || drop >= 0.0 {
+            return Some(RELATIVE);
+        }
+        let slowed = (1.0 + 2.0 * (gravity / speed) * (drop / speed)).sqrt();
+        // Above this, squares of the errors and the roundings of the line before make no difference.
+        (slowed > 1e-6).then(|| RELATIVE / slowed)
     }
 
     /// A bound of the angle (rad) between the landing of `toss` and that of the numbers as they were typed: 0 if none was
@@ -63,8 +74,8 @@ impl Rounding {
     /// all.
     ///
     /// The landed coin is the launched one, turned by Φ = (ωx, ωy, k ωz) T and then by -q T with q = (k - 1) ωz about n. Three
-    /// factors, each with a relative error of 4 ε, change Φ by up to 3.1 of it and q T by as much of q T and of
-    /// k ωz T, which |Φ| bounds.
+    /// factors, each with [this relative error](Self::relative_error), change Φ by up to 3.1 of it and q T by as much of q T and
+    /// of k ωz T, which |Φ| bounds.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
@@ -72,9 +83,9 @@ impl Rounding {
         if self.is_none() {
             return Ok(Some(0.0));
         }
-        let Some(coin_toss) = toss.coin().filter(|_| !self.time_is_unbounded(toss)) else { return Ok(None) };
+        let (Some(coin_toss), Some(relative)) = (toss.coin(), self.relative_error(toss)) else { return Ok(None) };
         let (turn, spin) = CoinMotion::new(&coin_toss).phases(toss.launch.time_of_flight())?;
-        Ok(Some(RELATIVE * (6.3 * turn.hi() + 3.1 * spin.hi().abs())))
+        Ok(Some(relative * (6.3 * turn.hi() + 3.1 * spin.hi().abs())))
     }
 
     /// Whether `outcome`, which is proven for `toss`, is proven for the numbers as they were typed. It is not if a number
@@ -87,10 +98,10 @@ impl Rounding {
             return Ok(true);
         }
         let Some(coin_toss) = toss.coin() else { return self.keeps_rigid(toss, outcome) };
-        if self.time_is_unbounded(toss) {
-            return Ok(false);
+        match self.relative_error(toss) {
+            Some(relative) => holds_within(&coin_toss, relative),
+            None => Ok(false),
         }
-        holds_within(&coin_toss, RELATIVE)
     }
 
     /// As [`Rounding::keeps`], for a body with I1 ≠ I2.
@@ -160,20 +171,58 @@ mod tests {
         // A rounding is at most an eighth of what the bound allows of each factor.
         assert!(largest > 0.01, "{largest}");
         let body = toss(Body::from_moments([1.0, 2.0, 2.5]).unwrap(), 1.0, TimeOfFlight::Given(1.0));
-        let caught = toss(Coin::DISC, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: -0.1 });
+        let top = 9.0 / 19.62_f64;
+        let caught =
+            toss(Coin::DISC, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop: -top.next_down() });
         let flight = Rounding { flight: true, ..NONE };
         assert_eq!([flight.error_bound(&body), flight.error_bound(&caught)], [Ok(None), Ok(None)]);
     }
 
+    fn caught(drop: f64) -> TimeOfFlight {
+        TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop }
+    }
+
     #[test]
-    fn a_catch_above_the_launch_is_kept_only_if_its_time_was_not_rounded() {
-        for (drop, expected) in [(-0.1, false), (0.1, true)] {
-            let caught = toss(Coin::PAPER, 1.0, TimeOfFlight::BallisticTo { speed: 3.0, gravity: 9.81, drop });
+    fn a_catch_above_the_launch_is_kept_where_its_time_of_flight_is_known() {
+        let top = 9.0 / 19.62_f64;
+        for (drop, expected) in [(0.1, true), (-0.1, true), (-top * (1.0 - 1e-11), true), (-top * (1.0 - 1e-13), false)]
+        {
+            let caught = toss(Coin::PAPER, 1.0, caught(drop));
             let certificate = certify(&caught).unwrap();
             let keeps = |rounded: Rounding| rounded.keeps(&caught, certificate.outcome());
-            assert_eq!(keeps(Rounding { flight: true, ..NONE }), Ok(expected));
+            assert_eq!(keeps(Rounding { flight: true, ..NONE }), Ok(expected), "{drop}");
             assert_eq!(keeps(Rounding { rate: true, ..NONE }), Ok(true));
         }
+        // Half a turn at landing is as near to the edge as an error of the time of flight: the higher the catch, the larger.
+        let near = |drop: f64, off: f64| {
+            let time = caught(drop);
+            let near = toss(Coin::PAPER, (std::f64::consts::FRAC_PI_2 - off) / time.seconds(), time);
+            Rounding { flight: true, ..NONE }.keeps(&near, Outcome::Heads).unwrap()
+        };
+        assert!(near(-0.1, 1e-13) && near(-top * (1.0 - 1e-9), 1e-9));
+        assert!(!near(-0.1, 1e-15) && !near(-top * (1.0 - 1e-9), 1e-13));
+    }
+
+    /// Errors a thousand million times as large as those of conversions show by how much they change the time of flight.
+    #[test]
+    fn a_time_of_flight_is_off_by_no_more_than_the_bound() {
+        const OFF: f64 = 1e-7;
+        let mut largest = 0.0_f64;
+        for part in [0.01, 0.3, 0.9, 0.99, 0.999] {
+            let drop = -part * 9.0 / 19.62;
+            let toss = toss(Coin::PAPER, 1.0, caught(drop));
+            let bound = Rounding { flight: true, ..NONE }.relative_error(&toss).unwrap() * OFF / f64::EPSILON;
+            let time = caught(drop).seconds();
+            for signs in 0..8_u8 {
+                let off = |bit: u8| 1.0 + if signs & bit == 0 { OFF } else { -OFF };
+                let changed =
+                    TimeOfFlight::BallisticTo { speed: 3.0 * off(1), gravity: 9.81 * off(2), drop: drop * off(4) };
+                let change = (changed.seconds() / time - 1.0).abs();
+                assert!(change <= bound, "{part} {signs}: {change:e}, not {bound:e}");
+                largest = largest.max(change / bound);
+            }
+        }
+        assert!(largest > 0.45, "{largest}");
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "P", allow_hyphen_values = true, required_unless_present = "counts",
           value_parser = quantity::fraction)]
     probability: Option<f64>,
-    /// How many of how many coins landed on the side that had been up; or a file that ends in .csv, with a person a row
+    /// Coins that landed on the side that had been up, of all tossed; or a file that ends in .csv, with one person per row
     #[arg(long, value_name = "K/N|FILE.csv", allow_hyphen_values = true, conflicts_with = "probability")]
     counts: Option<String>,
     #[command(flatten)]

@@ -206,6 +206,8 @@ fn counts_fractions_and_coordinates_may_be_written_in_any_of_their_forms() {
         assert_eq!(answer(one), answer(other), "{one}");
     }
     let map = |names: &str| stdout(&run(&format!("map --rate-x 0:9:3 --rate-y 0 --rate-z 0:9:3 --speed 3 {names}")));
+    let turned = stderr(&run("map --turn 38rev/s --wobble 60deg --speed 2:3:4 --up speed --spread 1%"));
+    assert!(turned.contains("--turn and --wobble fix rate_x: a map of it needs --rate-x"), "{turned}");
     assert_eq!(map("--across rate-z --up rate-x"), map("--across rate_z --up rate_x"));
     assert!(map("--across rate-z --up rate-x").starts_with("rate_z,rate_x,probability\n"));
     let grid = |points: &str| {

@@ -82,6 +82,9 @@ fn a_chart_for_standard_output_stands_there_alone() {
         assert_eq!(output.status.code(), Some(2));
         assert!(stderr(&output).contains("--format has no effect with --svg on standard output"));
     }
+    let output = drawn(&folder.path().join("chart.png"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("chart.png': a chart is written as SVG, to a name that ends in .svg"));
 }
 
 #[test]

@@ -194,6 +194,11 @@ impl<const T: usize> Function<T> {
         for slope in slopes {
             off = (off + slope.radius()).next_up();
         }
+        // Where the linear part is not known well, it helps to halve in the direction in which it varies most.
+        let variation = self.middle.slopes().iter().map(magnitude).sum::<f64>();
+        for (by, slope) in by.iter_mut().zip(slopes) {
+            *by = if variation > 0.0 { off * (magnitude(slope) / variation) } else { 0.0 };
+        }
         for (exponents, term) in self.whole.terms().filter(|(exponents, _)| exponents.iter().sum::<u8>() == 2) {
             // The mean of |t_i t_j|, or its largest value.
             let moment = if power == Power::One { moment(exponents) } else { 1.0 };
@@ -400,8 +405,15 @@ impl<const T: usize> Means<'_, '_, T> {
             return self.of_one_face(face);
         }
         if self.problem.has_one_speed() {
-            return self.of_one_speed();
+            return self.of_one_landing(self.motion.phases[1]);
         }
+        let found = self.of_many_speeds::<F>(enough);
+        let narrower = (found.width() > enough && self.is_speed_nearly_single()).then(|| self.of_any_speed());
+        narrower.filter(|other| other.width() < found.width()).unwrap_or(found)
+    }
+
+    /// The mean of the share of the speeds.
+    fn of_many_speeds<const F: usize>(&self, enough: f64) -> Bounds {
         match self.motion.room.sign() {
             Some(sign) if sign < 0.0 => match self.motion.mean.sign() {
                 Some(face) => self.of_one_face(face),
@@ -448,19 +460,35 @@ impl<const T: usize> Means<'_, '_, T> {
         let weight = self.weight();
         let lo = if lo > 0.0 { (lo.min(1.0) * weight.lo).next_down() } else { 0.0 };
         let hi = if hi < 1.0 { (hi.max(0.0) * weight.hi).next_up() } else { weight.hi };
-        let by = if by.iter().all(|by| by.is_finite()) {
-            by
-        } else {
-            std::array::from_fn(|index| {
-                if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 }
-            })
-        };
-        Bounds { lo, hi, by }
+        Bounds { lo, hi, by: self.finite_or_sizes(by) }
+    }
+
+    /// What each direction adds to a width or, if that is not known, the size of the cell in each direction.
+    fn finite_or_sizes(&self, by: [f64; MOST_DIRECTIONS]) -> [f64; MOST_DIRECTIONS] {
+        if by.iter().all(|by| by.is_finite()) {
+            return by;
+        }
+        std::array::from_fn(|index| {
+            if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 }
+        })
+    }
+
+    /// Whether the phase differs more among the launches of the cell than among the speeds of one.
+    fn is_speed_nearly_single(&self) -> bool {
+        let among_launches: f64 = self.motion.phases[1].variation().iter().sum();
+        upper(self.motion.span.values()) < among_launches
+    }
+
+    /// Bounds for each speed alone, and so for their mean, which divides by no small difference of phases.
+    fn of_any_speed(&self) -> Bounds {
+        let Motion { phases: [_, last], span, .. } = self.motion;
+        let before = span.map(|span| span.scaled(&Ball::new(0.5, 0.5)));
+        self.of_one_landing(last.minus(before).narrowed())
     }
 
     /// A single landing: the outcome is the sign of cos θ.
-    fn of_one_speed(&self) -> Bounds {
-        let Motion { phases: [_, phase], mean, cosine, sine, .. } = self.motion;
+    fn of_one_landing(&self, phase: Function<T>) -> Bounds {
+        let Motion { mean, cosine, sine, .. } = self.motion;
         let height = Function {
             middle: height(phase.middle, [mean.middle, cosine.middle, sine.middle]),
             whole: height(phase.whole, [mean.whole, cosine.whole, sine.whole]),
@@ -475,7 +503,12 @@ impl<const T: usize> Means<'_, '_, T> {
             // The density times a share is between the smallest and the largest density times it.
             Some(weight) => {
                 let all = weight.values();
-                let by = std::array::from_fn(|index| found.by[index] * magnitude(all) + weight.variation()[index]);
+                // What adds to the width of the share, in units of it.
+                let (parts, most) = (self.finite_or_sizes(found.by), found.hi.min(1.0));
+                let total = parts.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+                let by = std::array::from_fn(|index| {
+                    parts[index] / total * (most - found.lo) * magnitude(all) + weight.variation()[index] * most
+                });
                 Bounds {
                     lo: (lower(all).max(0.0) * found.lo).next_down(),
                     hi: (magnitude(all) * found.hi.min(1.0)).next_up(),
