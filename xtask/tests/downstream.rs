@@ -119,7 +119,7 @@ fn the_rust_of_the_readme_and_of_the_front_page_runs_in_a_crate_outside_the_work
     assert_eq!(stdout, "heads: 0.66566129, integrated 0.66566129\n");
 }
 
-/// The crate of docs/your-solver.md, with the sources of this workspace in place of their address. Its profiles are those of
+/// The crate of docs/your-solver.md, which has the clone beside it there, and the workspace around it here. Its profiles are those of
 /// the workspace, so that what the workspace has built is not built again.
 fn write_crate_of_the_page() -> PathBuf {
     let page = read("docs/your-solver.md");
@@ -132,7 +132,7 @@ fn write_crate_of_the_page() -> PathBuf {
     let mut manifest = block("toml Cargo.toml");
     for name in ["toss", "verify"] {
         let path = root().join("crates").join(name);
-        let line = format!("{name} = {{ git = \"https://github.com/YOU/unfair-toss\" }}");
+        let line = format!("{name} = {{ path = \"../unfair-toss/crates/{name}\" }}");
         assert!(manifest.contains(&line), "{manifest}");
         manifest = manifest.replace(&line, &format!("{name} = {{ path = {:?} }}", path.display().to_string()));
     }

@@ -71,7 +71,7 @@ impl SeriesArgs {
             )),
             (Some(path), _) if path.extension().is_some_and(|kind| kind != "svg") => Err(Failure::usage(
                 "svg",
-                format!("svg = '{}': a chart is written as SVG, to a name that ends in .svg", path.display()),
+                format!("svg = '{}' can't be used: expected a name that ends in .svg", path.display()),
             )),
             (Some(path), _) => require_folder("svg", path),
             _ => Ok(()),

@@ -41,10 +41,10 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         self.series.validate()?;
-        let axes = [Coordinate::named_in("across", &self.across)?, Coordinate::named_in("up", &self.up)?];
-        self.space.require_free_rates(axes)?;
         let space = self.space.space()?;
         let backend = self.solver.backend(registry)?;
+        let axes = [Coordinate::named_in("across", &self.across)?, Coordinate::named_in("up", &self.up)?];
+        self.space.require_free_rates(axes)?;
         let nodes = map_nodes(&space, axes)?;
         let node = first_node(&space, axes)?;
         let plan = self.plan.plan(self.method, &node, DEFAULTS)?;

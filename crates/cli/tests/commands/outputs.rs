@@ -84,7 +84,7 @@ fn a_chart_for_standard_output_stands_there_alone() {
     }
     let output = drawn(&folder.path().join("chart.png"));
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("chart.png': a chart is written as SVG, to a name that ends in .svg"));
+    assert!(stderr(&output).contains("chart.png' can't be used: expected a name that ends in .svg"));
 }
 
 #[test]
