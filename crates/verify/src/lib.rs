@@ -21,7 +21,6 @@
 pub mod bench;
 pub mod clock;
 mod commands;
-mod data;
 mod error;
 pub mod files;
 pub mod host;

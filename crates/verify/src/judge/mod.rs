@@ -12,15 +12,13 @@
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
-mod left_out;
 pub mod limits;
 pub mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;
 
-pub use left_out::LeftOut;
-pub use row::{Judge, Row, Status, judge, require_distinct, unused_limits};
+pub use row::{Judge, LeftOut, Row, Status, judge, require_distinct, unused_limits};
 
 #[cfg(test)]
 pub(crate) mod tests {

@@ -8,10 +8,10 @@
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
-use super::subject::Subject;
+use super::subject::{Subject, by_kind};
 use super::tosses::{FAMILIES, decades, flown_for, one};
 
 const SEED: u64 = 20_270_115;
@@ -116,11 +116,8 @@ impl Settings {
     }
 
     fn subject(&self, entry: &SolverEntry, turn_rate: f64) -> Result<Subject, InputError> {
-        let stepping = match self.scheme.is_adaptive() {
-            true => Stepping::adaptive(self.scheme, self.size),
-            false => Stepping::fixed(self.scheme, self.size / turn_rate),
-        };
-        Ok(Subject::new(entry, Some(stepping?), Formulation::default()))
+        let stepping = by_kind(self.scheme, self.size, self.size / turn_rate)?;
+        Ok(Subject::new(entry, Some(stepping), Formulation::default()))
     }
 }
 

@@ -17,13 +17,13 @@ use serde::Serialize;
 use toss::catalogue::CATALOGUE;
 use toss::planner::Model;
 use toss::{
-    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, TimeOfFlight, TracePoint,
-    Vector3, Want, level_speeds_of_heads,
+    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, SolveError, TimeOfFlight,
+    Toss, TracePoint, Vector3, Want, level_speeds_of_heads,
 };
 
 use crate::measure::case;
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
+use crate::measure::reference::ExactLanding;
 use crate::measure::tosses::{decades, stream};
 
 /// Seed of the scenes.
@@ -118,7 +118,7 @@ fn solve(scene: &TossScene) -> anyhow::Result<Solved> {
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
     outcome.model = Some(choice.model);
     outcome.expected = choice.expected_error;
-    outcome.error = Truth::new(&scene.toss).error(&scene.scene, &solution.answer)?;
+    outcome.error = Truth::new(&scene.toss.into())?.error(&scene.scene, &solution.answer)?;
     outcome.error_of_family = outcome.error;
     if !outcome.is_within_30(outcome.error) {
         outcome.error_of_family = outcome.error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0));
@@ -160,7 +160,7 @@ fn largest_of_neighbours(choice: &Choice, scene: &TossScene) -> anyhow::Result<O
         let toss = neighbour(&scene.toss, SEED, index)?;
         let near = Scene { want: scene.scene.want.of(toss), ..scene.scene.clone() };
         let Ok(answer) = choice.run(&near) else { return Ok(None) };
-        largest = largest.max(Truth::new(&toss).error(&near, &answer)?);
+        largest = largest.max(Truth::new(&toss.into())?.error(&near, &answer)?);
     }
     Ok(Some(largest))
 }
@@ -329,14 +329,17 @@ pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
 
 /// The exact answer to every scene about one toss.
 pub struct Truth {
-    landing: Reference,
-    toss: CoinToss,
+    landing: ExactLanding,
+    toss: Toss,
 }
 
 impl Truth {
-    /// Solves `toss` with the 256-bit reference.
-    pub fn new(toss: &CoinToss) -> Self {
-        Self { landing: Reference::new(toss), toss: *toss }
+    /// Solves `toss`.
+    ///
+    /// # Errors
+    /// [`SolveError`] for a phase above 2^53 rad.
+    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+        Ok(Self { landing: ExactLanding::new(toss)?, toss: *toss })
     }
 
     /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
@@ -345,7 +348,7 @@ impl Truth {
     ///
     /// # Errors
     /// Never: the times of a trace are valid.
-    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, InputError> {
+    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
         let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
         Ok(match answer {
             Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
@@ -363,7 +366,7 @@ impl Truth {
         })
     }
 
-    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, InputError> {
+    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, Error> {
         let mut largest = 0.0_f64;
         let launch = self.toss.launch;
         for point in points {
@@ -372,7 +375,7 @@ impl Truth {
                 self.landing.attitude_error(&point.attitude)
             } else {
                 let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                Reference::new(&CoinToss { launch: until, ..self.toss }).attitude_error(&point.attitude)
+                ExactLanding::new(&Toss { launch: until, ..self.toss })?.attitude_error(&point.attitude)
             };
             largest = largest.max(error);
         }

@@ -125,14 +125,14 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let deviation = |&(cone, probability): &(f64, f64)| (long_flight_probability(cone, cone) - probability).abs();
-    worst_cone(LONG_FLIGHT.id, &context.data.long_flights, 1, deviation)
+    let deviation = |cone: f64, probability: f64| (long_flight_probability(cone, cone) - probability).abs();
+    worst_cone(LONG_FLIGHT.id, context, 1, deviation)
 }
 
 /// Counts heads at the midpoints of a million equal parts of one turn, for horizontal launches with each cone angle ψ.
 fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PHASES: u32 = 1_000_000;
-    let deviation = |&(cone, _): &(f64, f64)| {
+    let deviation = |cone: f64, _| {
         let rate = Vector3::new(cone.sin(), 0.0, cone.cos() / Coin::PAPER.inertia_ratio());
         let launch = Launch::new(rate, TimeOfFlight::Given(0.0)).expect("sines and cosines are finite");
         let motion = CoinMotion::new(&CoinToss { coin: Coin::PAPER, launch });
@@ -143,19 +143,21 @@ fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             .count();
         (heads as f64 / f64::from(PHASES) - long_flight_probability(cone, cone)).abs()
     };
-    worst_cone(LONG_FLIGHT_SHARE.id, &context.data.long_flights, u64::from(PHASES), deviation)
+    worst_cone(LONG_FLIGHT_SHARE.id, context, u64::from(PHASES), deviation)
 }
 
 fn worst_cone(
     check: &str,
-    cones: &[(f64, f64)],
+    context: &Context,
     cases_each: u64,
-    deviation: impl Fn(&(f64, f64)) -> f64,
+    deviation: impl Fn(f64, f64) -> f64,
 ) -> anyhow::Result<Vec<Measurement>> {
-    let worst = cones.iter().map(|cone| (deviation(cone), cone.0)).max_by(|a, b| a.0.total_cmp(&b.0));
-    let (deviation, cone) = worst.ok_or_else(|| anyhow::anyhow!("no cone angle in the reference numbers"))?;
+    let flights = &context.data.long_flights;
+    let each = flights.iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
+    let worst = each.map(|(cone, probability)| (deviation(cone, probability), cone)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let (deviation, cone) = worst.context("no cone angle in the reference numbers")?;
     let input = format!("ψ = {}°", cone.to_degrees());
-    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * cones.len() as u64, input)])
+    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * flights.len() as u64, input)])
 }
 
 pub(super) const SHARES: Check = Check {
@@ -197,11 +199,11 @@ pub(super) const FIGURES: Check = Check {
 fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
-        let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
+        let found = Sampler::exact().estimate(&reference.space()?, Plan::ExactSpeed(Rest::Grid))?;
         let Found::Shares { rounding_error } = found.found else {
             anyhow::bail!("exact-speed gave counts instead of a share")
         };
-        let measured = measure((found.probability - reference.probability).abs(), rounding_error);
+        let measured = measure((found.probability - reference.probability.0).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());
         }

@@ -187,7 +187,7 @@ const PROOFS_RIGHT: u32 = 230;
 const GAP: RGBColor = RGBColor(205, 205, 205);
 
 /// The chart as SVG: a panel for each problem, with its title.
-pub(super) fn proofs(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
+pub(crate) fn proofs(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
     let columns = panels.len().max(1);
     svg(PROOFS_SIZE, |root| {
         let areas = root.split_evenly((1, columns));
