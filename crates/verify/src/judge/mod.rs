@@ -8,12 +8,12 @@
 //! | reads tables of limits | [`limits`] |
 //! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
 //! | compares the time of each check with its limit | [`time`] |
-//! | proposes limits for rows that have none | [`proposal`] |
+//! | proposes limits for rows that have none | `proposal` |
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
 pub mod limits;
-pub mod proposal;
+pub(crate) mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;

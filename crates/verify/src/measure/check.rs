@@ -258,7 +258,7 @@ pub(super) fn of_landings(
 
 impl Check {
     /// What most checks of solvers have in common.
-    pub(super) const OF_SOLVERS: Self = Self {
+    pub(crate) const OF_SOLVERS: Self = Self {
         id: "",
         claim: "",
         basis: Basis::ClosedForm,

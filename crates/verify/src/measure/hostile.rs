@@ -27,7 +27,6 @@ const LONGEST: f64 = 1e6;
 
 /// A flight of any body, and who flies it.
 pub(super) struct Flight {
-    /// The toss.
     pub(super) toss: Toss,
     /// The solver with its settings.
     pub(super) by: Subject,
@@ -70,9 +69,6 @@ pub(super) fn of_coin(entry: &SolverEntry, scheme: Scheme, index: u64, steps: f6
 }
 
 /// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
-///
-/// # Errors
-/// As [`of_coin`].
 pub(super) fn of_body(
     entry: &SolverEntry,
     scheme: Scheme,

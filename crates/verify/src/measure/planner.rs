@@ -30,7 +30,7 @@ use crate::measure::tosses::{decades, stream};
 const SEED: u64 = 12;
 
 /// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
-pub const ROUNDING: f64 = 0.5 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// The result of one scene.
 #[derive(Debug, Clone)]
@@ -220,7 +220,7 @@ impl Trial {
 
 /// A scene about a toss.
 #[derive(Debug, Clone)]
-pub struct TossScene {
+pub(crate) struct TossScene {
     /// Its kind: what is wanted, or `integrator` if the scene asks for one.
     pub kind: &'static str,
     /// The scene.
@@ -268,10 +268,7 @@ fn neighbour(toss: &CoinToss, seed: u64, index: u64) -> Result<CoinToss, InputEr
 /// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
 /// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
 /// 1e-2 to 1e-11.
-///
-/// # Errors
-/// Never: every scene is valid.
-pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+pub(crate) fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     let mut rng = stream(seed, index);
     let toss = random_toss(&mut rng)?;
     let kinds =
@@ -297,10 +294,7 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
 
 /// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
 /// of five have a range of speeds.
-///
-/// # Errors
-/// Never: every space is valid.
-pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
+pub(crate) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     let mut rng = stream(seed, index);
     let mut range = |free: f64, from: f64, to: f64, width: f64| {
         let lo = rng.random_range(from..to);
@@ -323,12 +317,12 @@ pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
 }
 
 /// The accuracy that scene number `index` asks of a probability, from 1e-1 to 1e-3.
-pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
+pub(crate) fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
     decades(&mut stream(seed, index), -3.0, -1.0)
 }
 
 /// The exact answer to every scene about one toss.
-pub struct Truth {
+pub(crate) struct Truth {
     landing: ExactLanding,
     toss: Toss,
 }
@@ -338,17 +332,14 @@ impl Truth {
     ///
     /// # Errors
     /// [`SolveError`] for a phase above 2^53 rad.
-    pub fn new(toss: &Toss) -> Result<Self, SolveError> {
+    pub(crate) fn new(toss: &Toss) -> Result<Self, SolveError> {
         Ok(Self { landing: ExactLanding::new(toss)?, toss: *toss })
     }
 
     /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
     /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
     /// most twice the scene's accuracy.
-    ///
-    /// # Errors
-    /// Never: the times of a trace are valid.
-    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
+    pub(crate) fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
         let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
         Ok(match answer {
             Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
@@ -386,10 +377,7 @@ impl Truth {
 /// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the
 /// intervals of speeds that land heads if only the speed is free, otherwise by `points` launches with another seed,
 /// many more than the models use.
-///
-/// # Errors
-/// Never for such a [`space`].
-pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
+pub(crate) fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
     const OTHER_SEED: u64 = 987_654_321;
     let free: Vec<Coordinate> = space.free().collect();
     let scrambled = Scrambled::new(points, OTHER_SEED);

@@ -50,9 +50,6 @@ impl Survey {
     }
 
     /// Solves tosses of bodies of every family with every subject.
-    ///
-    /// # Errors
-    /// As [`Survey::of`].
     pub(crate) fn of_bodies(subjects: &[Subject], effort: Effort) -> anyhow::Result<Self> {
         let number = match effort {
             Effort::Quick => 20,

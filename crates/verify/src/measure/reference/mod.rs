@@ -4,10 +4,10 @@
 //! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
 //! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
 //! k the inertia ratio, ωL is |S|/I1, ŝ the direction of the angular momentum S in the body frame (BF), ẑ the coin's normal and Q
-//! the attitude. Other bodies take elliptic functions, which `rigid` has. Tests compare it with numbers from [`outside`]
+//! the attitude. Other bodies take elliptic functions, which `rigid` has. Tests compare it with numbers from outside
 //! the workspace.
 
-pub mod outside;
+pub(crate) mod outside;
 mod rigid;
 
 use std::cmp::Ordering;
