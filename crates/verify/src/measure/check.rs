@@ -291,7 +291,7 @@ impl Check {
             }
             Measure::Landings { of, deviation, allowed } => {
                 let survey = of(context)?;
-                let each = context.subjects.iter().zip(&survey.landings);
+                let each = context.subjects.par_iter().zip(&survey.landings);
                 each.filter_map(|by| of_landings(survey, by, deviation, allowed)).collect()
             }
         };

@@ -73,7 +73,7 @@ impl Survey {
             let is_refused = |landing: &Answer| matches!(landing, Err(SolveError::NotSymmetric { .. }));
             if is_of_bodies && landings.iter().all(is_refused) { Vec::new() } else { landings }
         };
-        let landings = subjects.iter().map(fly).collect();
+        let landings = subjects.par_iter().map(fly).collect();
         Ok(Self { tosses, families, exact, landings })
     }
 

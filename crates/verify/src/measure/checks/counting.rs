@@ -135,8 +135,9 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         let expected = tally(tosses, |toss| Ok(Reference::new(&toss.coin().expect("a coin")).outcome()))?;
         difference += distance(of_each(&found), expected);
         let last = Sampler::exact().running_shares(&space, 1, 1)?.pop();
-        running += last.map_or(f64::INFINITY, |last| (last.grid * found.points() as f64 - expected[0] as f64).abs());
-        launches += expected.iter().sum::<u64>();
+        let all: u64 = expected.iter().sum();
+        running += last.map_or(f64::INFINITY, |last| (last.grid * all as f64 - expected[0] as f64).abs());
+        launches += all;
         inputs.push(format!("{} of {} heads, expected {}", found.heads(), found.points(), expected[0]));
     }
     let figure =

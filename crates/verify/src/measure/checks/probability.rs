@@ -152,11 +152,12 @@ fn worst_cone(
     check: &str,
     context: &Context,
     cases_each: u64,
-    deviation: impl Fn(f64, f64) -> f64,
+    deviation: impl Fn(f64, f64) -> f64 + Sync,
 ) -> anyhow::Result<Vec<Measurement>> {
     let flights = &context.data.long_flights;
-    let each = flights.iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
-    let worst = each.map(|(cone, probability)| (deviation(cone, probability), cone)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
+    let all: Vec<(f64, f64)> = each.map(|(cone, probability)| (deviation(cone, probability), cone)).collect();
+    let worst = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     let (deviation, cone) = worst.context("no cone angle in the reference numbers")?;
     let input = format!("ψ = {}°", cone.to_degrees());
     Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * flights.len() as u64, input)])
@@ -234,7 +235,7 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         ("isotropic rate, k = 1.98", 1.98),
         ("isotropic rate, k = 2.0", 2.0),
     ]
-    .into_iter()
+    .into_par_iter()
     .map(|(name, k)| {
         let (found, figure) = (mean(k), context.reference_probabilities.figure(name)?);
         let input = format!("{found:.9} for {figure:.9}");

@@ -56,7 +56,7 @@ fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// The largest deviation of each subject over the reference flights.
 fn over_flights(
     context: &Context,
-    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError>,
+    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError> + Sync,
     allowed: fn(&Allowance) -> f64,
 ) -> Vec<Measurement> {
     let flights = &context.data.flights;
@@ -66,7 +66,7 @@ fn over_flights(
         let allowed = |index: usize| Ok(Allowance::of(subject, &flights[index].toss)?.as_ref().map(allowed));
         Measurement::largest(subject, &deviations, |index| flights[index].toss, allowed)
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 pub(super) const DETEST: Check = Check {
@@ -137,7 +137,7 @@ pub(super) const PUBLISHED: Check = Check {
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(|context| {
-        Ok(context.subjects.iter().filter_map(|subject| published(context, subject)).collect())
+        Ok(context.subjects.par_iter().filter_map(|subject| published(context, subject)).collect())
     }),
     ..Check::OF_SOLVERS
 };
@@ -205,7 +205,7 @@ fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyho
     let speeds = (0..=200).map(|step| 3.0 + 0.01 * f64::from(step));
     let flights = speeds.map(|speed| TimeOfFlight::Ballistic { speed, gravity: DEFAULT_GRAVITY });
     let tosses = thrown(Coin::PAPER, rate, flights)?;
-    Ok(context.subjects.iter().map(|subject| misses(subject, &tosses, expected)).collect())
+    Ok(context.subjects.par_iter().map(|subject| misses(subject, &tosses, expected)).collect())
 }
 
 fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -214,7 +214,7 @@ fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
         Ok(misses(subject, &thrown(Coin::DISC, [1.0, 1.0, 2.5], times)?, Outcome::Heads))
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 fn thrown(coin: Coin, rate: [f64; 3], flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Toss>> {
@@ -247,7 +247,7 @@ fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let off: Vec<Deviation> = flips.iter().map(off).collect::<anyhow::Result<_>>()?;
         Ok(Measurement::largest(subject, &off, |index| tosses[index], |index| flip_allowance(subject, &tosses[index])))
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 /// The error (s) that the solver's estimate allows for a flip at the landing of `toss`: the allowed error of cos θ
