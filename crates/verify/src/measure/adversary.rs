@@ -38,7 +38,7 @@ const SLOW_STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 /// What the search found for one solver and scheme.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Findings {
+pub(crate) struct Findings {
     /// The subject's name.
     pub subject: String,
     /// Launches that were tried.

@@ -17,7 +17,7 @@ fn file<T: DeserializeOwned>(text: &str, name: &'static str) -> anyhow::Result<T
 /// A number that a file has as a text of more digits.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(try_from = "String")]
-pub struct Decimal(pub f64);
+pub(crate) struct Decimal(pub(crate) f64);
 
 impl TryFrom<String> for Decimal {
     type Error = String;
@@ -28,39 +28,29 @@ impl TryFrom<String> for Decimal {
 }
 
 /// All reference numbers of motions.
-pub struct ReferenceData {
-    /// Flights with their landings.
-    pub flights: Vec<ReferenceFlight>,
+pub(crate) struct ReferenceData {
+    pub(crate) flights: Vec<ReferenceFlight>,
     /// Flights of bodies that are no coins.
-    pub bodies: Vec<ReferenceBody>,
+    pub(crate) bodies: Vec<ReferenceBody>,
     /// Tosses with the time at which their outcome first changes.
-    pub first_flips: Vec<FirstFlip>,
-    /// Long flights with the probability of heads.
-    pub long_flights: Vec<ReferenceLongFlight>,
-    /// The problem DETEST B5.
-    pub detest_b5: Detest,
+    pub(crate) first_flips: Vec<FirstFlip>,
+    pub(crate) long_flights: Vec<ReferenceLongFlight>,
+    pub(crate) detest_b5: Detest,
 }
 
 /// A flight with its landing.
-pub struct ReferenceFlight {
-    /// Its name.
-    pub name: String,
-    /// The toss.
-    pub toss: Toss,
-    /// cos θ at landing.
-    pub cos_tilt: f64,
+pub(crate) struct ReferenceFlight {
+    pub(crate) toss: Toss,
+    pub(crate) cos_tilt: f64,
     /// cos θ at landing as printed, with all digits.
-    pub cos_tilt_digits: String,
-    /// Attitude at landing.
-    pub attitude: Attitude,
+    #[cfg(test)]
+    pub(crate) cos_tilt_digits: String,
+    pub(crate) attitude: Attitude,
 }
 
 /// A flight of a body that is no coin, from the identity.
-pub struct ReferenceBody {
-    /// Its name.
-    pub name: String,
-    /// The toss.
-    pub toss: Toss,
+pub(crate) struct ReferenceBody {
+    pub(crate) toss: Toss,
     landing: BodyLanding,
 }
 
@@ -73,7 +63,7 @@ enum BodyLanding {
 
 impl ReferenceBody {
     /// The error of a landing: of the attitude (rad), or of the rate, relative to its size at launch.
-    pub fn error(&self, landed: &State) -> f64 {
+    pub(crate) fn error(&self, landed: &State) -> f64 {
         match &self.landing {
             BodyLanding::Attitude(attitude) => attitude.angle_to(&landed.attitude),
             BodyLanding::Rate(rate) => (landed.rate - rate).norm() / self.toss.launch.turn_rate(),
@@ -84,21 +74,17 @@ impl ReferenceBody {
 /// A toss with the time at which its outcome first changes.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct FirstFlip {
+pub(crate) struct FirstFlip {
     name: String,
     i1: f64,
     i3: f64,
     rate: [f64; 3],
     /// Time of flight (s) at which the outcome first changes.
-    pub time: Decimal,
+    pub(crate) time: Decimal,
 }
 
 impl FirstFlip {
-    /// The toss, which lands at `time` (s).
-    ///
-    /// # Errors
-    /// If it is none.
-    pub fn toss(&self, time: f64) -> anyhow::Result<Toss> {
+    pub(crate) fn toss(&self, time: f64) -> anyhow::Result<Toss> {
         let launch = Launch::new(self.rate, TimeOfFlight::Given(time)).with_context(|| self.name.clone())?;
         Ok(Toss::new(Coin::from_moments(self.i1, self.i3)?, launch))
     }
@@ -107,21 +93,17 @@ impl FirstFlip {
 /// A cone angle ψ (°) with the long-flight probability of heads p(ψ).
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReferenceLongFlight {
-    /// ψ (°).
-    pub cone_deg: f64,
-    /// p(ψ).
-    pub probability: Decimal,
+pub(crate) struct ReferenceLongFlight {
+    pub(crate) cone_deg: f64,
+    pub(crate) probability: Decimal,
 }
 
 /// The problem DETEST B5: a time, and the state at that time.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Detest {
-    /// The time.
-    pub time: f64,
-    /// The state.
-    pub state: [Decimal; 3],
+pub(crate) struct Detest {
+    pub(crate) time: f64,
+    pub(crate) state: [Decimal; 3],
 }
 
 #[derive(Deserialize)]
@@ -163,15 +145,11 @@ struct BodyEntry {
 }
 
 impl ReferenceData {
-    /// The data inside this crate.
-    ///
-    /// # Errors
-    /// Never: tests read it.
-    pub fn inside() -> anyhow::Result<Self> {
+    pub(crate) fn inside() -> anyhow::Result<Self> {
         let file: Motions = file(include_str!("../../../data/motion.toml"), "motion.toml")?;
         Ok(Self {
-            flights: file.flight.into_iter().map(flight).collect::<anyhow::Result<_>>()?,
-            bodies: file.body.into_iter().map(body).collect::<anyhow::Result<_>>()?,
+            flights: file.flight.iter().map(flight).collect::<anyhow::Result<_>>()?,
+            bodies: file.body.iter().map(body).collect::<anyhow::Result<_>>()?,
             first_flips: file.first_flip,
             long_flights: file.long_flight,
             detest_b5: file.detest_b5,
@@ -179,7 +157,7 @@ impl ReferenceData {
     }
 }
 
-fn flight(entry: FlightEntry) -> anyhow::Result<ReferenceFlight> {
+fn flight(entry: &FlightEntry) -> anyhow::Result<ReferenceFlight> {
     let time_of_flight = match (entry.time, entry.speed, entry.gravity, entry.drop) {
         (Some(time), None, None, None) => TimeOfFlight::Given(time),
         (None, Some(speed), Some(gravity), drop) => TimeOfFlight::thrown(speed, gravity, drop),
@@ -189,13 +167,13 @@ fn flight(entry: FlightEntry) -> anyhow::Result<ReferenceFlight> {
     Ok(ReferenceFlight {
         toss: Toss::new(Coin::from_moments(entry.i1, entry.i3)?, launch),
         cos_tilt: entry.cos_tilt.parse()?,
-        cos_tilt_digits: entry.cos_tilt,
+        #[cfg(test)]
+        cos_tilt_digits: entry.cos_tilt.clone(),
         attitude: Attitude::from_components(entry.attitude.map(|Decimal(part)| part))?,
-        name: entry.name,
     })
 }
 
-fn body(entry: BodyEntry) -> anyhow::Result<ReferenceBody> {
+fn body(entry: &BodyEntry) -> anyhow::Result<ReferenceBody> {
     let rate = match (entry.rate, entry.rate_deg) {
         (Some(rate), None) => rate,
         (None, Some(rate)) => rate.map(f64::to_radians),
@@ -207,16 +185,16 @@ fn body(entry: BodyEntry) -> anyhow::Result<ReferenceBody> {
         _ => bail!("{}: either attitude or landed_rate_deg is needed", entry.name),
     };
     let launch = Launch::new(rate, TimeOfFlight::Given(entry.time))?;
-    Ok(ReferenceBody { toss: Toss { body: Body::from_moments(entry.moments)?, launch }, landing, name: entry.name })
+    Ok(ReferenceBody { toss: Toss { body: Body::from_moments(entry.moments)?, launch }, landing })
 }
 
 /// All reference probabilities.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReferenceProbabilities {
+pub(crate) struct ReferenceProbabilities {
     /// Shares of heads over a range of speeds, with all other inputs fixed.
     #[serde(rename = "share")]
-    pub shares: Vec<ReferenceShare>,
+    pub(crate) shares: Vec<ReferenceShare>,
     /// Probabilities over more inputs than the speed.
     #[serde(rename = "figure")]
     figures: Vec<ReferenceFigure>,
@@ -232,24 +210,18 @@ struct ReferenceFigure {
 /// A space in which only the speed is free, and its share of heads.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReferenceShare {
-    /// Its name.
-    pub name: String,
+pub(crate) struct ReferenceShare {
+    pub(crate) name: String,
     i1: f64,
     i3: f64,
     rate: [f64; 3],
     tilt: f64,
     speed: [f64; 2],
-    /// P(heads).
-    pub probability: Decimal,
+    pub(crate) probability: Decimal,
 }
 
 impl ReferenceShare {
-    /// The space.
-    ///
-    /// # Errors
-    /// If it is none.
-    pub fn space(&self) -> anyhow::Result<Space> {
+    pub(crate) fn space(&self) -> anyhow::Result<Space> {
         let [x, y, z] = self.rate.map(|rate| rate.to_string());
         let (tilt, speed) = (self.tilt.to_string(), format!("{}:{}", self.speed[0], self.speed[1]));
         let texts = [(RateX, &*x), (RateY, &y), (RateZ, &z), (Tilt, &tilt), (Speed, &speed)];
@@ -258,19 +230,10 @@ impl ReferenceShare {
 }
 
 impl ReferenceProbabilities {
-    /// The data inside this crate.
-    ///
-    /// # Errors
-    /// Never: tests read it.
-    pub fn inside() -> anyhow::Result<Self> {
+    pub(crate) fn inside() -> anyhow::Result<Self> {
         file(include_str!("../../../data/probability.toml"), "probability.toml")
     }
-
-    /// The probability called `name`.
-    ///
-    /// # Errors
-    /// If there is none.
-    pub fn figure(&self, name: &str) -> anyhow::Result<f64> {
+    pub(crate) fn figure(&self, name: &str) -> anyhow::Result<f64> {
         let found = self.figures.iter().find(|figure| figure.name == name);
         Ok(found.with_context(|| format!("no figure '{name}' in the reference numbers"))?.probability.0)
     }
@@ -286,21 +249,14 @@ struct Coins {
 /// alone.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReferenceCoin {
-    /// Its name in the catalogue.
-    pub name: String,
-    /// I1.
-    pub i1: Decimal,
-    /// I3.
-    pub i3: Decimal,
+pub(crate) struct ReferenceCoin {
+    pub(crate) name: String,
+    pub(crate) i1: Decimal,
+    pub(crate) i3: Decimal,
 }
 
 impl ReferenceCoin {
-    /// The data inside this crate.
-    ///
-    /// # Errors
-    /// Never: tests read it.
-    pub fn inside() -> anyhow::Result<Vec<Self>> {
+    pub(crate) fn inside() -> anyhow::Result<Vec<Self>> {
         Ok(file::<Coins>(include_str!("../../../data/coins.toml"), "coins.toml")?.coin)
     }
 }
