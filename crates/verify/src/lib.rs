@@ -13,15 +13,14 @@
 //!
 //! Data flows in one direction. [`measure`] compares the answers of solvers with references and contains no limits.
 //! [`mod@judge`] compares measurements with limits or, for a solver without limits, with its own error estimate, and
-//! with the regression baseline. [`render`] shows rows. [`mod@bench`] measures what a toss costs.
+//! with the regression baseline. [`render`] shows rows. `bench` measures what a toss costs.
 //!
 //! A [`Suite`] does all of this for the solvers of a registry, and [`main()`] is its program: a crate elsewhere judges a
 //! solver of its own by `verify::main(Suite::new(registry))`.
 
-pub mod bench;
+mod bench;
 pub mod clock;
 mod commands;
-mod data;
 mod error;
 pub mod files;
 pub mod host;

@@ -42,24 +42,24 @@ enum Flight {
     Dropped,
 }
 
-/// Where each value is among those of [`Inputs`].
-const NAMES: [&str; 16] = [
-    "rate x",
-    "rate y",
-    "rate z",
-    "time",
-    "speed",
-    "gravity",
-    "drop",
-    "i1",
-    "i3",
-    "radius",
-    "thickness",
-    "tilt",
-    "w",
-    "x",
-    "y",
-    "z",
+/// The values of [`Inputs`], and what they are drawn from.
+const VALUES: [(&str, [f64; 2]); 16] = [
+    ("rate x", [-60.0, 60.0]),
+    ("rate y", [-60.0, 60.0]),
+    ("rate z", [-60.0, 60.0]),
+    ("time", [0.3, 1.0]),
+    ("speed", [2.0, 5.0]),
+    ("gravity", [9.0, 10.0]),
+    ("drop", [-0.19, 1.5]),
+    ("i1", [3e-7, 6e-7]),
+    ("i3", [1e-7, 6e-7]),
+    ("radius", [0.008, 0.02]),
+    ("thickness", [0.0005, 0.01]),
+    ("tilt", [-3.1, 3.1]),
+    ("w", [-1.0, 1.0]),
+    ("x", [-1.0, 1.0]),
+    ("y", [-1.0, 1.0]),
+    ("z", [-1.0, 1.0]),
 ];
 
 const RATE: usize = 0;
@@ -74,50 +74,36 @@ const THICKNESS: usize = 10;
 const TILT: usize = 11;
 const COMPONENTS: usize = 12;
 
+/// One of the choices, in turn.
+fn one<T: Copy>(turn: u64, choices: &[T]) -> T {
+    choices[(turn % choices.len() as u64) as usize]
+}
+
 impl Inputs {
     /// Toss `index` of those in which the value `moved` counts.
     fn random(moved: usize, index: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(moved as u64);
         rng.set_stream(index);
-        let mut within = |low: f64, high: f64| rng.random_range(low..high);
-        let values = [
-            within(-60.0, 60.0),
-            within(-60.0, 60.0),
-            within(-60.0, 60.0),
-            within(0.3, 1.0),
-            within(2.0, 5.0),
-            within(9.0, 10.0),
-            within(-0.19, 1.5),
-            within(3e-7, 6e-7),
-            within(1e-7, 6e-7),
-            within(0.008, 0.02),
-            within(0.0005, 0.01),
-            within(-3.1, 3.1),
-            within(-1.0, 1.0),
-            within(-1.0, 1.0),
-            within(-1.0, 1.0),
-            within(-1.0, 1.0),
-        ];
-        let of = |choices: &[u64]| choices[(index % choices.len() as u64) as usize];
+        let values = VALUES.map(|(_, [low, high])| rng.random_range(low..high));
         let coin = match moved {
             I1 | I3 => CoinKind::Moments,
-            RADIUS | THICKNESS => [CoinKind::Cylinder, CoinKind::Millimetres][of(&[0, 1]) as usize],
-            _ => [CoinKind::Moments, CoinKind::Cylinder, CoinKind::Millimetres][of(&[0, 1, 2]) as usize],
+            RADIUS | THICKNESS => one(index, &[CoinKind::Cylinder, CoinKind::Millimetres]),
+            _ => one(index, &[CoinKind::Moments, CoinKind::Cylinder, CoinKind::Millimetres]),
         };
         let start = match moved {
-            TILT => [Start::Radians, Start::Degrees][of(&[0, 1]) as usize],
+            TILT => one(index, &[Start::Radians, Start::Degrees]),
             COMPONENTS.. => Start::Quaternion,
-            _ => [Start::Flat, Start::Radians, Start::Degrees, Start::Quaternion][of(&[0, 1, 2, 3]) as usize],
+            _ => one(index, &[Start::Flat, Start::Radians, Start::Degrees, Start::Quaternion]),
         };
         let flight = match moved {
             TIME => Flight::Time,
             DROP => Flight::Dropped,
-            SPEED | GRAVITY => [Flight::Thrown, Flight::Dropped][of(&[0, 1]) as usize],
-            _ => [Flight::Thrown, Flight::Time, Flight::Dropped][of(&[0, 1, 2, 0, 1]) as usize],
+            SPEED | GRAVITY => one(index, &[Flight::Thrown, Flight::Dropped]),
+            _ => one(index, &[Flight::Thrown, Flight::Time, Flight::Dropped, Flight::Thrown, Flight::Time]),
         };
         let degree = Unit::ratio(1, 360).expect("a unit");
-        let unit = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::RADIAN, AngleUnit::Turns(Unit::ONE)];
-        Self { values, coin, start, flight, unit: unit[(index / 5 % 4) as usize] }
+        let units = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::RADIAN, AngleUnit::Turns(Unit::ONE)];
+        Self { values, coin, start, flight, unit: one(index / 5, &units) }
     }
 
     /// The toss, if there is one.
@@ -224,13 +210,13 @@ fn survey(tries: u64) -> (Vec<String>, [usize; 2]) {
     let found: Vec<[usize; 2]> = std::thread::scope(|scope| {
         let surveys = [0, 1].map(|part| {
             scope.spawn(move || {
-                (part..NAMES.len()).step_by(2).map(|moved| next_to_edges(moved, tries)).collect::<Vec<_>>()
+                (part..VALUES.len()).step_by(2).map(|moved| next_to_edges(moved, tries)).collect::<Vec<_>>()
             })
         });
         let [even, odd] = surveys.map(|survey| survey.join().expect("a survey"));
         even.into_iter().zip(odd).flat_map(|(even, odd)| [even, odd]).collect()
     });
-    let lines = NAMES.iter().zip(&found).map(|(name, [tosses, wrong])| format!("{name}: {wrong} of {tosses}"));
+    let lines = VALUES.iter().zip(&found).map(|((name, _), [tosses, wrong])| format!("{name}: {wrong} of {tosses}"));
     let total = found.iter().fold([0, 0], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
     (lines.collect(), total)
 }

@@ -172,7 +172,7 @@ fn report() -> Value {
     let moves = Baseline::parse(before).expect("a baseline").moves(&Baseline::of(&rows, None), true);
     let compared = Compared { file: "quick.csv".to_owned(), found: true, written: false };
     let host = Host::here();
-    let (timings, left_out) = ([timing(Some(51.0)), timing(None)], [LeftOut::about_the_library(&CHECKS[0])]);
+    let (timings, left_out) = ([timing(Some(51.0)), timing(None)], [LeftOut { check: CHECKS[0].id, why: "a test" }]);
     let report = Report::new(&host, Effort::Quick, &rows, &timings, compared, &moves, &left_out, context.records());
     serde_json::from_str(&report.json().expect("JSON")).expect("JSON")
 }

@@ -4,7 +4,7 @@
 use toss::{Attitude, Batch, Body, ExactMotion, SimdLevel, Toss, certify};
 
 use super::contest::Contest;
-use super::tosses::Columns;
+use super::tosses::{Columns, attitude_error};
 
 /// Number of times that each launch is solved for, where its constants are to cost nothing.
 const TIMES: usize = 64;
@@ -34,7 +34,7 @@ pub(super) fn contests<'a>(columns: &'a Columns, many: &'a Columns) -> Vec<Conte
         let attitude = move |toss: &Toss| {
             motion(toss).state(toss.launch.time_of_flight()).map_or(Attitude::IDENTITY, |state| state.attitude)
         };
-        let error = tosses.iter().map(|toss| attitude(toss).angle_to(&exact(toss))).fold(0.0, f64::max);
+        let error = attitude_error(&tosses, tosses.iter().map(attitude));
         let run = move || launches.iter().for_each(|toss| _ = std::hint::black_box(attitude(toss)));
         contests.push(contest("attitude", name, tosses.len(), Some(error), run));
         contests.push(further_times(&tosses, name, motion));
@@ -67,12 +67,6 @@ fn further_times<'a>(tosses: &[Toss], name: &str, motion: Motion) -> Contest<'a>
         }
     };
     contest("cos θ at a further time", name, solved, None, run)
-}
-
-/// The attitude in double-double.
-fn exact(toss: &Toss) -> Attitude {
-    let state = ExactMotion::new(toss).state(toss.launch.time_of_flight());
-    state.map_or(Attitude::IDENTITY, |state| state.attitude)
 }
 
 fn contest<'a>(what: &str, name: &str, tosses: usize, error: Option<f64>, run: impl FnMut() + 'a) -> Contest<'a> {

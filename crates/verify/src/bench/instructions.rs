@@ -68,7 +68,7 @@ const WORKS: [&str; 24] = [
 ///
 /// # Errors
 /// If the work is unknown, or this machine does not have its SIMD level.
-pub fn work(name: &str, times: u32) -> anyhow::Result<()> {
+pub(crate) fn work(name: &str, times: u32) -> anyhow::Result<()> {
     let (work, by) = name.split_once('/').context("a work has a name such as count/avx2")?;
     match work {
         "cos-tilt" | "outcome" => one_by_one(work, by, times),
@@ -162,7 +162,7 @@ fn tosses(name: &str) -> usize {
 
 /// Number of instructions for each toss, by work.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Instructions(BTreeMap<String, f64>);
+pub(crate) struct Instructions(BTreeMap<String, f64>);
 
 /// A line of the baseline.
 #[derive(Serialize, Deserialize)]
@@ -176,7 +176,7 @@ impl Instructions {
     ///
     /// # Errors
     /// If there is no valgrind, or it fails.
-    pub fn count() -> anyhow::Result<Self> {
+    pub(crate) fn count() -> anyhow::Result<Self> {
         let count = |work: &&str| {
             let more = collected(work, 3)? - collected(work, 1)?;
             Ok((work.to_string(), more / (2 * tosses(work)) as f64))
@@ -185,10 +185,7 @@ impl Instructions {
     }
 
     /// Reads the baseline from the file at `path`; empty if there is no file.
-    ///
-    /// # Errors
-    /// If it cannot be read.
-    pub fn read(path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
         if !path.exists() {
             return Ok(Self::default());
         }
@@ -198,10 +195,7 @@ impl Instructions {
     }
 
     /// Writes the baseline with counts that are smaller or new; larger ones are not taken over.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn bless(&self, baseline: &Self, path: &Path) -> anyhow::Result<()> {
+    pub(crate) fn bless(&self, baseline: &Self, path: &Path) -> anyhow::Result<()> {
         let mut best = baseline.0.clone();
         for (work, count) in &self.0 {
             best.entry(work.clone()).and_modify(|old| *old = old.min(*count)).or_insert(*count);
@@ -214,7 +208,7 @@ impl Instructions {
     }
 
     /// The table of counts beside `baseline`, and whether a work takes more instructions than allowed.
-    pub fn compared(&self, baseline: &Self) -> (String, bool) {
+    pub(crate) fn compared(&self, baseline: &Self) -> (String, bool) {
         let mut text = format!("{:<28} {:>14} {:>10}\n", "work", "instructions", "baseline");
         let mut is_worse = false;
         for (work, count) in &self.0 {

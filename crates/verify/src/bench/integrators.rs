@@ -3,12 +3,10 @@
 
 use std::rc::Rc;
 
-use toss::{
-    Attitude, Body, ExactMotion, Formulation, QuaternionSolver, Scheme, SimdLevel, Solver, Stepping, TAYLOR, Toss,
-};
+use toss::{Attitude, Body, Formulation, QuaternionSolver, Scheme, SimdLevel, Solver, Stepping, TAYLOR, Toss};
 
 use super::contest::Contest;
-use super::tosses::Columns;
+use super::tosses::{Columns, attitude_error};
 
 /// Number of tosses that each integrator solves.
 pub(super) const FLOWN: usize = 1024;
@@ -69,7 +67,7 @@ fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Re
     let mut best: Option<(Stepping, f64)> = None;
     for step in 3 * A_DECADE..=15 * A_DECADE {
         let stepping = Stepping::adaptive(scheme, 10f64.powf(-f64::from(step) / f64::from(A_DECADE)))?;
-        let error = error(tosses, &fly(tosses, stepping));
+        let error = attitude_error(tosses, fly(tosses, stepping));
         if best.is_none_or(|(_, smallest)| error < smallest) {
             best = Some((stepping, error));
         }
@@ -83,12 +81,4 @@ fn loosest(tosses: &[Toss], scheme: Scheme, fly: &Fly, asked: f64) -> anyhow::Re
 fn one_by_one(tosses: &[Toss], stepping: Stepping) -> Vec<Attitude> {
     let solver = QuaternionSolver::new(stepping, Formulation::default());
     tosses.iter().map(|toss| solver.land(toss).expect("an ordinary flight").state.attitude).collect()
-}
-
-/// The largest angle to the exact attitude (rad).
-fn error(tosses: &[Toss], found: &[Attitude]) -> f64 {
-    let exact = |toss: &Toss| ExactMotion::new(toss).state(toss.launch.time_of_flight());
-    let error =
-        |(toss, found): (&Toss, &Attitude)| exact(toss).map_or(f64::NAN, |exact| found.angle_to(&exact.attitude));
-    tosses.iter().zip(found).map(error).fold(0.0, f64::max)
 }

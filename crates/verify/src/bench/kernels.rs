@@ -7,7 +7,7 @@ use toss::{Attitude, Batch, CoinMotion, CoinToss, ExactSolver, Outcome, SimdLeve
 use super::Row;
 use super::contest::Contest;
 use super::reference::{Reference, scalar};
-use super::tosses::{Columns, TOSSES};
+use super::tosses::{Columns, TOSSES, attitude_error};
 
 const COS_TILT: &str = "cos θ of a toss";
 const OUTCOME: &str = "proven outcome of a toss";
@@ -67,7 +67,9 @@ fn batches<'a>(columns: &'a Columns, level: SimdLevel) -> Vec<Contest<'a>> {
     let mut attitudes: [Vec<f64>; 4] = std::array::from_fn(|_| vec![0.0; TOSSES]);
     solve_cos_tilts(&batch, &mut cos_tilts);
     solve_attitudes(&batch, &mut attitudes);
-    let errors = [cos_tilt_error(columns, &cos_tilts), attitude_error(columns, &attitudes)];
+    let quaternion = |index: usize| attitudes.each_ref().map(|column| column[index]);
+    let found = (0..TOSSES).map(|index| Attitude::from_components(quaternion(index)).expect("a unit quaternion"));
+    let errors = [cos_tilt_error(columns, &cos_tilts), attitude_error(&columns.each(), found)];
     vec![
         contest(COS_TILT, &name, Some(errors[0]), move || solve_cos_tilts(&batch, &mut cos_tilts)),
         contest(OUTCOME, &format!("{name}, counted"), None, move || {
@@ -99,14 +101,4 @@ fn cos_tilt_error(columns: &Columns, found: &[f64]) -> f64 {
 
 fn coin(toss: &Toss) -> CoinToss {
     toss.coin().expect("columns of a coin")
-}
-
-/// The largest angle to the exact attitude (rad).
-fn attitude_error(columns: &Columns, found: &[Vec<f64>; 4]) -> f64 {
-    let error = |(index, toss): (usize, &Toss)| {
-        let found = Attitude::from_components(found.each_ref().map(|column| column[index]));
-        let exact = CoinMotion::new(&coin(toss)).state(toss.launch.time_of_flight());
-        found.ok().zip(exact.ok()).map_or(f64::NAN, |(found, exact)| found.angle_to(&exact.attitude))
-    };
-    columns.each().iter().enumerate().map(error).fold(0.0, f64::max)
 }

@@ -8,12 +8,12 @@
 
 mod bodies;
 mod contest;
-pub mod instructions;
+pub(crate) mod instructions;
 mod integrators;
 mod kernels;
 mod launches;
 mod reference;
-pub mod to_accuracy;
+pub(crate) mod to_accuracy;
 mod tosses;
 
 use std::fmt;
@@ -23,7 +23,7 @@ use contest::{Contest, race};
 use reference::Reference;
 
 /// The table of all contestants, the ways to solve a toss that are timed.
-pub struct Table {
+pub(crate) struct Table {
     host: Host,
     reference: String,
     rows: Vec<Row>,
@@ -43,7 +43,7 @@ impl Table {
     ///
     /// # Errors
     /// If the reference's process ends, or a contestant fails.
-    pub fn measure() -> anyhow::Result<Self> {
+    pub(crate) fn measure() -> anyhow::Result<Self> {
         let (columns, mut reference) = (tosses::Columns::new(tosses::TOSSES), Reference::start().ok());
         let flown = tosses::Columns::new(integrators::FLOWN);
         let mut contests = kernels::contests(&columns);

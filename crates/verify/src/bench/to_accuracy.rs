@@ -20,7 +20,7 @@ use crate::slope::slope;
 use crate::spaces::box_of_launches;
 
 /// How long each method takes to an accuracy, on one core.
-pub struct ToAccuracy {
+pub(crate) struct ToAccuracy {
     host: Host,
     accuracy: f64,
     rows: Vec<Row>,
@@ -85,7 +85,7 @@ impl ToAccuracy {
     ///
     /// # Errors
     /// If enclosure does not reach the accuracy.
-    pub fn measure(accuracy: f64) -> anyhow::Result<Self> {
+    pub(crate) fn measure(accuracy: f64) -> anyhow::Result<Self> {
         let pool = ThreadPoolBuilder::new().num_threads(1).build().context("cannot start a thread")?;
         let mut rows = Vec::new();
         for (name, space) in [("Fig. 4", named_space("paper-fig4")?), ("box", box_of_launches()?)] {

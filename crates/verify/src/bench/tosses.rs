@@ -1,7 +1,7 @@
 //! This file makes the tosses that all benchmarks solve, so that their times and errors can be compared. They are the
 //! same in every run.
 
-use toss::{Attitude, Batch, Body, Coin, SimdLevel, Toss, Tosses};
+use toss::{Attitude, Batch, Body, Coin, ExactMotion, SimdLevel, Toss, Tosses};
 
 /// Number of tosses, so few that their columns stay in the second-level cache.
 pub(super) const TOSSES: usize = 4096;
@@ -47,4 +47,13 @@ impl Columns {
     pub(super) fn each_of(&self, body: Body) -> Vec<Toss> {
         self.each().into_iter().map(|toss| Toss { body, launch: toss.launch }).collect()
     }
+}
+
+/// The largest angle between the attitudes that were found and the exact ones (rad).
+pub(super) fn attitude_error(tosses: &[Toss], found: impl IntoIterator<Item = Attitude>) -> f64 {
+    let error = |(toss, found): (&Toss, Attitude)| {
+        let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight());
+        exact.map_or(f64::NAN, |exact| found.angle_to(&exact.attitude))
+    };
+    tosses.iter().zip(found).map(error).fold(0.0, f64::max)
 }

@@ -13,7 +13,8 @@ use crate::measure::atlas;
 use crate::measure::atlas::expected::Expected;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, proofs};
-use crate::render::{charts, text};
+use crate::render::charts::{self, Palette};
+use crate::render::text;
 use crate::suite::Suite;
 
 /// Draw a figure that repeats exactly
@@ -50,8 +51,11 @@ impl Figure {
 }
 
 fn atlas_matrix(suite: &Suite) -> anyhow::Result<String> {
-    let names = atlas::names(suite.registry().entries())?;
-    Ok(charts::known_failures(&names, &Expected::of_this_workspace()?)?)
+    let contestants = atlas::contestants(suite.registry().entries())?;
+    let expected = Expected::of_this_workspace()?;
+    // A contestant that the table does not list is left out.
+    let known = contestants.iter().map(|contestant| &*contestant.name).filter(|name| expected.knows(name));
+    Ok(charts::matrix(&known.collect::<Vec<_>>(), |subject, hazard| expected.get(subject, hazard))?)
 }
 
 fn work_precision(suite: &Suite) -> anyhow::Result<String> {
@@ -78,7 +82,7 @@ fn proven_error() -> anyhow::Result<String> {
         Ok((title, proofs::proofs(problem)?))
     };
     let panels: Vec<_> = PROVEN.into_iter().map(panel).collect::<anyhow::Result<_>>()?;
-    Ok(charts::proven(&panels)?)
+    Ok(charts::proofs(&panels)?)
 }
 
 /// Prints and draws the accuracy of the committed records.
@@ -86,7 +90,7 @@ pub(super) fn history(suite: &Suite, out: &Path) -> anyhow::Result<u8> {
     let records = record::read(&suite.data().join("record"))?;
     ensure!(!records.is_empty(), "there are no records yet; `{}` writes one", suite.commands().bless());
     let path = out.join("history.svg");
-    files::write(&path, &charts::history(&records, suite.registry().entries())?)?;
+    files::write(&path, &charts::history(&records, &Palette::new(suite.registry().entries()))?)?;
     files::print(&format!("{}\nchart: {}\n", text::history(&records), path.display()))?;
     Ok(0)
 }

@@ -42,9 +42,6 @@ impl Foreign {
 
     /// The suite of the program, or `suite` without one. Its baseline and records are in a folder below `out`, unless
     /// `suite` has another one than the standard suite.
-    ///
-    /// # Errors
-    /// As [`Foreign::entry`].
     pub(super) fn in_place_of(&self, suite: Suite, out: &Path) -> Result<Suite, InputError> {
         let Some(entry) = self.entry()? else { return Ok(suite) };
         let is_standard = *suite.commands() == Commands::Workspace && suite.data() == Suite::standard().data();

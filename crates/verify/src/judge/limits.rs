@@ -9,8 +9,8 @@ use std::path::Path;
 use anyhow::{Context, ensure};
 use serde::Deserialize;
 
+use crate::files;
 use crate::measure::checks::CHECKS;
-use crate::{data, files};
 
 /// Allowed deviations by check and subject, with the reason for each check's limits.
 #[derive(Debug, Clone, Deserialize)]
@@ -53,7 +53,7 @@ impl Limits {
     /// # Errors
     /// Never: tests read them.
     pub fn of_this_workspace() -> anyhow::Result<Self> {
-        Self::parse(data::LIMITS)
+        Self::parse(include_str!("../../data/limits.toml"))
     }
 
     /// These limits and, for each check and subject without one among them, that of `others`.

@@ -8,19 +8,17 @@
 //! | reads tables of limits | [`limits`] |
 //! | compares a run with the regression baseline, the folder `baseline` | [`baseline`] |
 //! | compares the time of each check with its limit | [`time`] |
-//! | proposes limits for rows that have none | [`proposal`] |
+//! | proposes limits for rows that have none | `proposal` |
 //! | reads and writes dated records, the folder `record` | [`record`] |
 
 pub mod baseline;
-mod left_out;
 pub mod limits;
-pub mod proposal;
+pub(crate) mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;
 
-pub use left_out::LeftOut;
-pub use row::{Judge, Row, Status, judge, require_distinct, unused_limits};
+pub use row::{Judge, LeftOut, Row, Status, judge, require_distinct, unused_limits};
 
 #[cfg(test)]
 pub(crate) mod tests {

@@ -10,7 +10,7 @@ use super::row::{Row, Status};
 
 /// The limits for all rows that pass without one, within the ceilings of their checks, as the text of a file of limits;
 /// `None` if there are no such rows. `run` says which run measured them, such as `a standard run on 2026-11-22`.
-pub fn text(rows: &[Row], run: &str) -> Option<String> {
+pub(crate) fn text(rows: &[Row], run: &str) -> Option<String> {
     let mut checks: BTreeMap<&str, Vec<(&str, f64)>> = BTreeMap::new();
     for row in rows.iter().filter(|row| matches!(row.status, Status::PassByClaim | Status::NotJudged)) {
         let ceiling = ceiling(&row.check);
@@ -50,18 +50,10 @@ mod tests {
     use super::*;
     use crate::judge::judge;
     use crate::judge::limits::Limits;
-    use crate::measure::check::{Basis, Check, Judges};
+    use crate::measure::check::Check;
     use crate::measure::measurement::Measurement;
 
-    const CHECK: Check = Check {
-        id: "c",
-        claim: "",
-        basis: Basis::Invariant,
-        judges: Judges::Solver,
-        ceiling: 10.0,
-        unit: "1",
-        measure: crate::Measure::Own(|_| Ok(Vec::new())),
-    };
+    const CHECK: Check = Check { id: "c", ceiling: 10.0, ..Check::OF_SOLVERS };
 
     #[test]
     fn a_limit_is_twice_the_deviation_rounded_up_to_one_digit() {

@@ -83,6 +83,15 @@ pub struct Row {
     pub largest: Option<f64>,
 }
 
+/// A check that gave no row, and why, in words. A run that passes should say what it does not speak of.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The id of the check.
+    pub check: &'static str,
+    /// The reason.
+    pub why: &'static str,
+}
+
 /// What rows are judged by, and how their cases are repeated.
 #[derive(Debug, Clone, Copy)]
 pub struct Judge<'a> {
@@ -108,6 +117,27 @@ impl Judge<'_> {
 }
 
 impl Row {
+    /// A row that says something of the suite itself, with nothing else in it.
+    pub(super) fn of_the_suite(check: &str, claim: &str, subject: &str, status: Status) -> Self {
+        Self {
+            check: check.to_owned(),
+            claim: claim.to_owned(),
+            basis: None,
+            judges: None,
+            subject: subject.to_owned(),
+            unit: String::new(),
+            measured: None,
+            limit: None,
+            reserve: None,
+            status,
+            cases: 0,
+            worst_input: None,
+            failure: None,
+            replay: None,
+            largest: None,
+        }
+    }
+
     /// What was measured, divided by the limit: above 1 for what is over its limit, 0 if nothing deviates or nothing is
     /// judged, infinite if the subject failed or if nothing at all is allowed.
     pub fn part(&self) -> f64 {
@@ -217,22 +247,9 @@ pub fn unused_limits(rows: &[Row], limits: &Limits, measures: impl Fn(&str, &str
         .pairs()
         .filter(|(check, subject)| measures(check, subject))
         .filter(|(check, subject)| !rows.iter().any(|row| row.check == *check && row.subject == *subject))
-        .map(|(check, subject)| Row {
-            check: check.to_owned(),
-            claim: "Every limit belongs to something that was measured; a limit for anything else fails.".to_owned(),
-            basis: None,
-            judges: None,
-            subject: subject.to_owned(),
-            unit: String::new(),
-            measured: None,
-            limit: limits.get(check, subject),
-            reserve: None,
-            status: Status::NotMeasured,
-            cases: 0,
-            worst_input: None,
-            failure: None,
-            replay: None,
-            largest: None,
+        .map(|(check, subject)| {
+            let claim = "Every limit belongs to something that was measured; a limit for anything else fails.";
+            Row { limit: limits.get(check, subject), ..Row::of_the_suite(check, claim, subject, Status::NotMeasured) }
         })
         .collect()
 }

@@ -71,22 +71,15 @@ impl Timing {
     /// The failing row of a check that gave no measurement, for the reason `failure`.
     pub fn failing(&self, failure: String) -> Row {
         let (took, limit) = (self.judged_s(), self.limit_s);
+        let claim = "A check ends, and in less than ten times its usual time.";
         Row {
-            check: self.check.clone(),
-            claim: "A check ends, and in less than ten times its usual time.".to_owned(),
-            basis: None,
-            judges: None,
-            subject: "time".to_owned(),
             unit: "s".to_owned(),
             measured: Some(took),
             limit: Some(limit),
             reserve: Some(limit / took).filter(|reserve| reserve.is_finite()),
-            status: Status::Fail,
             cases: 1,
-            worst_input: None,
             failure: Some(failure),
-            replay: None,
-            largest: None,
+            ..Row::of_the_suite(&self.check, claim, "time", Status::Fail)
         }
     }
 }

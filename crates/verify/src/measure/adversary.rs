@@ -38,7 +38,7 @@ const SLOW_STEPS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 /// What the search found for one solver and scheme.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Findings {
+pub(crate) struct Findings {
     /// The subject's name.
     pub subject: String,
     /// Launches that were tried.
@@ -59,7 +59,7 @@ pub struct Findings {
 ///
 /// # Errors
 /// If a scheme takes neither a tolerance nor steps, or the exact motion fails.
-pub fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<Vec<Findings>> {
+pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<Vec<Findings>> {
     let contestants: Vec<_> = registry.iter().flat_map(by_scheme).collect();
     let fly = |index: u64| -> anyhow::Result<Vec<Run>> {
         let toss = launch(SEED, index);
@@ -106,10 +106,10 @@ fn subject((entry, scheme): (&SolverEntry, Option<Scheme>), toss: &Toss, index: 
 }
 
 /// One launch in so many is slow: all its rates are below 1e-3 rad/s, and it turns by up to 300 rad in hours to years.
-pub const SLOW_EVERY: u64 = 40;
+pub(super) const SLOW_EVERY: u64 = 40;
 
 /// Launch number `index` of the sequence that `seed` starts. It depends on these two numbers alone.
-pub fn launch(seed: u64, index: u64) -> Toss {
+pub(super) fn launch(seed: u64, index: u64) -> Toss {
     drawn(&mut stream(seed, index), index).expect("every launch is valid").into()
 }
 
@@ -131,7 +131,7 @@ fn drawn(rng: &mut ChaCha8Rng, index: u64) -> Result<CoinToss, InputError> {
 }
 
 /// Whether launch number `index` is a slow one.
-pub fn is_slow(index: u64) -> bool {
+pub(super) fn is_slow(index: u64) -> bool {
     index % SLOW_EVERY == SLOW_EVERY - 1
 }
 

@@ -12,7 +12,7 @@ use toss::{Attitude, Coin, Launch, Registry, TimeOfFlight};
 use crate::measure::subject::Subject;
 
 /// All that the toss was given by, as `NAME=VALUE` fields in SI units.
-pub fn text(toss: &Toss) -> String {
+pub(crate) fn text(toss: &Toss) -> String {
     let body = match (toss.body.coin().map(|coin| (coin, coin.cylinder())), toss.body.moments()) {
         (Some((_, Some(cylinder))), _) => {
             let [mass, radius, thickness] = cylinder.map(Quantity::to_f64);
@@ -27,21 +27,26 @@ pub fn text(toss: &Toss) -> String {
         Some(tilt) => format!("tilt={tilt:?}"),
         None => format!("attitude={}", list(&toss.launch.attitude().given_components())),
     };
-    let flight = match toss.launch.time_of_flight() {
-        TimeOfFlight::Given(time) => format!("time={time:?}"),
-        TimeOfFlight::Ballistic { speed, gravity } => format!("speed={speed:?} gravity={gravity:?}"),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            format!("speed={speed:?} gravity={gravity:?} drop={drop:?}")
-        }
+    let flight = flight(&toss.launch).map(|(name, value)| format!(" {name}={value:?}"));
+    format!("{body} rate={} {attitude}{}", list(&rate), flight.collect::<String>())
+}
+
+/// The numbers that the time of flight was given by.
+fn flight(launch: &Launch) -> impl Iterator<Item = (&'static str, f64)> {
+    let [time, speed, gravity, drop] = match launch.time_of_flight() {
+        TimeOfFlight::Given(time) => [Some(time), None, None, None],
+        TimeOfFlight::Ballistic { speed, gravity } => [None, Some(speed), Some(gravity), None],
+        TimeOfFlight::BallisticTo { speed, gravity, drop } => [None, Some(speed), Some(gravity), Some(drop)],
     };
-    format!("{body} rate={} {attitude} {flight}", list(&rate))
+    let all = [("time", time), ("speed", speed), ("gravity", gravity), ("drop", drop)];
+    all.into_iter().filter_map(|(name, value)| Some((name, value?)))
 }
 
 /// Reads a toss from fields as [`text`] writes them. What follows a `#` is a comment; a launch without a tilt is horizontal.
 ///
 /// # Errors
 /// If a field is missing, unknown or can't be read, or the toss is invalid.
-pub fn read(text: &str) -> anyhow::Result<Toss> {
+pub(crate) fn read(text: &str) -> anyhow::Result<Toss> {
     let mut fields = Fields::of(text.split_once('#').map_or(text, |(fields, _)| fields))?;
     let body = if let Some(moments) = fields.take("moments")? {
         Body::from_moments(moments)?
@@ -72,20 +77,20 @@ pub fn read(text: &str) -> anyhow::Result<Toss> {
 }
 
 /// The angle of the turn about the laboratory's x axis (rad) by which the launch is tilted; `None` for other attitudes.
-pub fn tilt(launch: &Launch) -> Option<f64> {
+pub(crate) fn tilt(launch: &Launch) -> Option<f64> {
     let attitude = launch.attitude();
     let horizontal = (attitude == Attitude::IDENTITY).then_some(0.0);
     attitude.tilt().map(Angle::radians).or(horizontal)
 }
 
 /// Whether the launch is horizontal, with heads up.
-pub fn is_horizontal(launch: &Launch) -> bool {
+pub(crate) fn is_horizontal(launch: &Launch) -> bool {
     tilt(launch) == Some(0.0)
 }
 
 /// The command of `unfair-toss` that solves the toss with the solver and settings of `subject`; `None` for a solver that is
 /// none of this workspace.
-pub fn command(toss: &Toss, subject: &Subject) -> Option<String> {
+pub(crate) fn command(toss: &Toss, subject: &Subject) -> Option<String> {
     Registry::standard().named(subject.entry.name()).ok()?;
     let tilt = tilt(&toss.launch)?;
     let body = match (toss.body.coin().map(|coin| (coin, coin.cylinder())), toss.body.moments()) {
@@ -95,16 +100,10 @@ pub fn command(toss: &Toss, subject: &Subject) -> Option<String> {
         (None, None) => format!("--inertia {}", list(&toss.body.inertia())),
     };
     let rate: [f64; 3] = toss.launch.rate().into();
-    let flight = match toss.launch.time_of_flight() {
-        TimeOfFlight::Given(time) => format!("--time {time:?}"),
-        TimeOfFlight::Ballistic { speed, gravity } => format!("--speed {speed:?} --gravity {gravity:?}"),
-        TimeOfFlight::BallisticTo { speed, gravity, drop } => {
-            format!("--speed {speed:?} --gravity {gravity:?} --drop {drop:?}")
-        }
-    };
+    let flight: String = flight(&toss.launch).map(|(name, value)| format!(" --{name} {value:?}")).collect();
     let (rate, by) = (list(&rate), subject.options());
     let program = "cargo run -q --release --bin unfair-toss -- toss";
-    Some(format!("{program} {body} --rate {rate} {flight} --tilt {tilt:?} {by}"))
+    Some(format!("{program} {body} --rate {rate}{flight} --tilt {tilt:?} {by}"))
 }
 
 fn list(numbers: &[f64]) -> String {

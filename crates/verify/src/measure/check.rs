@@ -2,7 +2,6 @@
 //! data: a deviation of one toss, the tosses on which it is taken, and how the deviations become one number. What does not
 //! fit that has a function of its own.
 
-use std::fmt;
 use std::sync::Arc;
 
 use dynamics::Toss;
@@ -76,7 +75,7 @@ pub struct Check {
 }
 
 /// How a check is measured.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub enum Measure {
     /// Deviations of what the library says of tosses, in sets of them, one for each row.
     Tosses(fn() -> Vec<Set>, Fold),
@@ -93,17 +92,6 @@ pub enum Measure {
     Both(&'static [Measure; 2]),
     /// What no deviation of a single toss is.
     Own(fn(&Context) -> anyhow::Result<Vec<Measurement>>),
-}
-
-impl fmt::Debug for Measure {
-    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        to.write_str(match self {
-            Self::Tosses(..) => "Tosses",
-            Self::Landings { .. } => "Landings",
-            Self::Both(_) => "Both",
-            Self::Own(_) => "Own",
-        })
-    }
 }
 
 /// How the deviations of a set become what is measured.
@@ -133,15 +121,11 @@ pub struct Set {
     subject: String,
     of_coins: bool,
     cases: Cases,
-    quick: Quick,
     deviation: OfToss,
 }
 
 /// Makes the cases of a set.
 type Cases = Box<dyn Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync>;
-
-/// A deviation of a toss that needs no reference, where there is one.
-type Quick = Box<dyn Fn(&Toss) -> Option<f64> + Sync>;
 
 /// A deviation of a toss.
 type OfToss = Box<dyn Fn(&Toss, &Reference) -> Deviation + Sync>;
@@ -153,8 +137,7 @@ impl Set {
         cases: impl Fn(&Context) -> anyhow::Result<Vec<Case>> + Sync + 'static,
         deviation: impl Fn(&Toss, &Reference) -> Deviation + Sync + 'static,
     ) -> Self {
-        let quick = Box::new(|_: &Toss| None);
-        Self { subject: subject.into(), of_coins: false, cases: Box::new(cases), quick, deviation: Box::new(deviation) }
+        Self { subject: subject.into(), of_coins: false, cases: Box::new(cases), deviation: Box::new(deviation) }
     }
 
     /// The tosses of any bodies that `tosses` makes, in the row of `subject`.
@@ -189,25 +172,15 @@ impl Set {
         Self::of_coins(subject, all, deviation)
     }
 
-    /// The same set, whose deviations are taken by `quick` where it says something; of the largest alone those that are not
-    /// near it.
-    pub(super) fn quickly(self, quick: impl Fn(&Toss) -> Option<f64> + Sync + 'static) -> Self {
-        Self { quick: Box::new(quick), ..self }
-    }
-
     fn measured(&self, check: &str, fold: Fold, cases: &[Case]) -> Measurement {
         let name = &*self.subject;
-        let quick = |case: &Case| (self.quick)(&case.toss);
-        let thorough = |case: &Case| {
+        let deviation = |case: &Case| {
             let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).map(Arc::new));
             let unsolved =
                 || SolveError::failed("the 256-bit reference", std::io::Error::other("it solves no such toss"));
             (self.deviation)(&case.toss, &*reference.ok_or_else(unsolved)?)
         };
-        let found: Vec<Deviation> = match fold {
-            Fold::Count => cases.par_iter().map(|case| quick(case).map_or_else(|| thorough(case), Ok)).collect(),
-            _ => shares(cases, quick, thorough),
-        };
+        let found: Vec<Deviation> = cases.par_iter().map(deviation).collect();
         let worst = |index: usize, failure| Worst::of_library(&cases[index].toss, failure);
         let mut sizes: Vec<f64> = found.iter().map(|found| found.clone().unwrap_or(f64::INFINITY)).collect();
         let figure = |measured: f64, input| Measurement::figure(check, name, measured, cases.len() as u64, input);
@@ -285,7 +258,7 @@ pub(super) fn of_landings(
 
 impl Check {
     /// What most checks of solvers have in common.
-    pub(super) const OF_SOLVERS: Self = Self {
+    pub(crate) const OF_SOLVERS: Self = Self {
         id: "",
         claim: "",
         basis: Basis::ClosedForm,
@@ -318,7 +291,7 @@ impl Check {
             }
             Measure::Landings { of, deviation, allowed } => {
                 let survey = of(context)?;
-                let each = context.subjects.iter().zip(&survey.landings);
+                let each = context.subjects.par_iter().zip(&survey.landings);
                 each.filter_map(|by| of_landings(survey, by, deviation, allowed)).collect()
             }
         };
@@ -380,55 +353,5 @@ impl Check {
                 subjects.filter_map(|subject| again(subject).transpose()).collect::<anyhow::Result<_>>()?
             }
         })
-    }
-}
-
-/// More than the error of the exact motion, of cos θ or of half the angle of an attitude: twice what its own checks allow.
-pub(super) const EXACT: f64 = 2e-15;
-
-/// The part of a bound that the error of the exact motion is at most, where it judges.
-const PART: f64 = 0.02;
-
-/// Errors divided by their `bounds`, the larger one, if the exact motion can judge them: `errors` are against it.
-pub(super) fn by_exact_motion(errors: [f64; 2], bounds: [f64; 2]) -> Option<f64> {
-    let can_judge = bounds.iter().all(|bound| EXACT <= PART * bound);
-    can_judge.then(|| (errors[0] / bounds[0]).max(errors[1] / bounds[1]))
-}
-
-/// The deviations of `cases` by `quick`, such as the exact motion, which costs far less than the 256-bit reference; where it
-/// says nothing, and for all near the largest, by `thorough`, so that no row rests on the exact motion alone.
-pub(super) fn shares<T: Sync>(
-    cases: &[T],
-    quick: impl Fn(&T) -> Option<f64> + Sync,
-    thorough: impl Fn(&T) -> Deviation + Sync,
-) -> Vec<Deviation> {
-    let judged: Vec<Option<f64>> = cases.par_iter().map(&quick).collect();
-    let largest = judged.iter().flatten().copied().fold(0.0, f64::max);
-    // Whatever exceeds its bound, or may be the largest, is within the two errors of the largest found.
-    let is_far = |share: f64| share < (largest - 2.0 * PART).min(1.0 - PART);
-    let all = cases.par_iter().zip(judged);
-    all.map(|(case, share)| match share {
-        Some(share) if is_far(share) => Ok(share),
-        _ => thorough(case),
-    })
-    .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_largest_is_judged_thoroughly_and_what_the_exact_motion_cannot_judge_too() {
-        assert_eq!(by_exact_motion([1e-13, 4e-13], [1e-12, 2e-12]), Some(0.2));
-        assert_eq!(by_exact_motion([1e-14, 4e-13], [1e-13 * 0.99, 2e-12]), None);
-        let cases = [0.3, 0.31, 0.2, -1.0, 0.29, 0.26];
-        let thorough = |case: &f64| Ok(case + 100.0);
-        let found = shares(&cases, |case| Some(*case).filter(|case| *case > 0.0), thorough);
-        assert_eq!(found, [Ok(100.3), Ok(100.31), Ok(0.2), Ok(99.0), Ok(100.29), Ok(0.26)]);
-        let found = shares(&[2.0, 0.99, 0.97], |case| Some(*case), thorough);
-        assert_eq!(found, [Ok(102.0), Ok(100.99), Ok(0.97)], "all that may be above 1");
-        let found = shares(&[f64::NAN, 0.5], |case| Some(*case), |_| Ok(7.0));
-        assert_eq!(found, [Ok(7.0), Ok(7.0)], "what is no number");
     }
 }

@@ -35,15 +35,15 @@ pub struct Context {
     /// These solvers with each of their schemes at tight settings.
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
-    pub data: ReferenceData,
+    pub(crate) data: ReferenceData,
     /// Reference probabilities from outside the workspace.
-    pub reference_probabilities: ReferenceProbabilities,
+    pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
-    pub coins: Vec<ReferenceCoin>,
+    pub(crate) coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
-    pub expected: Expected,
+    pub(crate) expected: Expected,
     /// The landings of every subject from random launches.
     pub survey: Shared<Survey>,
     /// The landings of bodies by every subject.
@@ -55,7 +55,7 @@ pub struct Context {
     /// The long flights.
     pub long_flights: Shared<LongFlights>,
     /// What the search by adversarial launches found.
-    pub search: Shared<Vec<Findings>>,
+    pub(crate) search: Shared<Vec<Findings>>,
     /// The sweep of tolerances and steps.
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.

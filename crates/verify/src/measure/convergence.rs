@@ -49,7 +49,7 @@ pub struct Convergence {
 ///
 /// # Errors
 /// If too few regular flights are found; the fixed space of launches has enough.
-pub fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
+pub(crate) fn convergence(registry: &[SolverEntry]) -> anyhow::Result<Vec<Convergence>> {
     let tosses = regular_flights()?;
     let flights: Vec<(CoinToss, Reference)> = tosses.iter().map(|toss| (*toss, Reference::new(toss))).collect();
     let integrators = registry.iter().filter(|entry| entry.integrates());

@@ -21,33 +21,33 @@ fn momenta(toss: &Toss, landing: &State) -> [Vector3<f64>; 2] {
 }
 
 /// Relative drift of |S|.
-pub fn momentum(toss: &Toss, landing: &State) -> f64 {
+pub(super) fn momentum(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = both(toss, landing, |state| toss.body.angular_momentum(&state.rate).norm());
     (after - before).abs() / before
 }
 
 /// Relative drift of the kinetic energy.
-pub fn energy(toss: &Toss, landing: &State) -> f64 {
+pub(super) fn energy(toss: &Toss, landing: &State) -> f64 {
     let [before, after] = both(toss, landing, |state| toss.body.kinetic_energy(&state.rate));
     (after - before).abs() / before
 }
 
 /// Drift of n·S, computed in BF, relative to |S|.
-pub fn normal_momentum_body(toss: &Toss, landing: &State) -> f64 {
+pub(super) fn normal_momentum_body(toss: &Toss, landing: &State) -> f64 {
     let [momentum, _] = momenta(toss, landing);
     let [before, after] = both(toss, landing, |state| state.attitude.lab_to_body(&momentum));
     (after.z - before.z).abs() / momentum.norm()
 }
 
 /// Drift of n·S, computed in TF, relative to |S|.
-pub fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
+pub(super) fn normal_momentum(toss: &Toss, landing: &State) -> f64 {
     let [momentum, _] = momenta(toss, landing);
     let [before, after] = both(toss, landing, |state| state.attitude.normal().dot(&momentum));
     (after - before).abs() / momentum.norm()
 }
 
 /// Drift of S as a vector in TF, relative to |S|; of a body that is no coin, as [`of_body`] has it.
-pub fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
+pub(super) fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
     if toss.coin().is_none() {
         return of_body(toss, landing)[2];
     }
@@ -57,7 +57,7 @@ pub fn momentum_vector(toss: &Toss, landing: &State) -> f64 {
 
 /// Drifts of a landing of any body: of |S|, of the kinetic energy, and of S as a vector in TF. They are relative to
 /// those of a body that turns as fast about its largest axis, because a rod that spins about itself has next to none.
-pub fn of_body(toss: &Toss, landing: &State) -> [f64; 3] {
+pub(super) fn of_body(toss: &Toss, landing: &State) -> [f64; 3] {
     let (largest, rate) = (toss.body.principal_moments()[2], toss.launch.rate().norm());
     let [before, after] = momenta(toss, landing);
     let energy = toss.body.kinetic_energy(&landing.rate) - toss.body.kinetic_energy(&toss.launch.rate());

@@ -8,10 +8,10 @@
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
+use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
-use super::subject::Subject;
+use super::subject::{Subject, by_kind};
 use super::tosses::{FAMILIES, decades, flown_for, one};
 
 const SEED: u64 = 20_270_115;
@@ -27,7 +27,6 @@ const LONGEST: f64 = 1e6;
 
 /// A flight of any body, and who flies it.
 pub(super) struct Flight {
-    /// The toss.
     pub(super) toss: Toss,
     /// The solver with its settings.
     pub(super) by: Subject,
@@ -70,9 +69,6 @@ pub(super) fn of_coin(entry: &SolverEntry, scheme: Scheme, index: u64, steps: f6
 }
 
 /// Flight number `index` of a body of a family, as [`of_coin`]. `None` where the family has no such body.
-///
-/// # Errors
-/// As [`of_coin`].
 pub(super) fn of_body(
     entry: &SolverEntry,
     scheme: Scheme,
@@ -116,11 +112,8 @@ impl Settings {
     }
 
     fn subject(&self, entry: &SolverEntry, turn_rate: f64) -> Result<Subject, InputError> {
-        let stepping = match self.scheme.is_adaptive() {
-            true => Stepping::adaptive(self.scheme, self.size),
-            false => Stepping::fixed(self.scheme, self.size / turn_rate),
-        };
-        Ok(Subject::new(entry, Some(stepping?), Formulation::default()))
+        let stepping = by_kind(self.scheme, self.size, self.size / turn_rate)?;
+        Ok(Subject::new(entry, Some(stepping), Formulation::default()))
     }
 }
 

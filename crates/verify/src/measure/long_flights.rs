@@ -3,12 +3,12 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::{Coin, InputError, Launch, Scheme, SolveError, SolverEntry, Stepping, TimeOfFlight, Toss};
+use toss::{Coin, InputError, Launch, SolveError, SolverEntry, Stepping, TimeOfFlight, Toss};
 
 use crate::measure::drift;
 use crate::measure::reference::ExactLanding;
 use crate::measure::run::Allowance;
-use crate::measure::subject::{Subject, subjects, usual};
+use crate::measure::subject::{Subject, by_kind, subjects};
 
 /// Step of schemes without a tolerance (s); the default of 1e-3 s would need too many steps.
 const STEP: f64 = 1e-2;
@@ -58,7 +58,7 @@ impl LongFlights {
     /// # Errors
     /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
-        let subjects = subjects(registry, stepping)?;
+        let subjects = subjects(registry, |scheme| by_kind(scheme, Stepping::DEFAULT_TOLERANCE, STEP))?;
         let flights: Vec<(&Subject, f64)> =
             subjects.iter().flat_map(|subject| TIMES.map(|time| (subject, time))).collect();
         let fly = |(subject, time): (&Subject, f64)| -> Result<LongFlight, InputError> {
@@ -78,10 +78,6 @@ impl LongFlights {
     pub fn of<'a>(&'a self, subject: &'a str) -> impl Iterator<Item = (f64, &'a Result<Drift, String>)> {
         self.0.iter().filter(move |flight| flight.subject == subject).map(|flight| (flight.time, &flight.found))
     }
-}
-
-fn stepping(scheme: Scheme) -> Result<Stepping, InputError> {
-    if scheme.is_adaptive() { usual(scheme) } else { Stepping::fixed(scheme, STEP) }
 }
 
 impl Drift {

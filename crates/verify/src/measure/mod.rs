@@ -3,29 +3,29 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what is measured: a solver with its settings; the text of a toss; both together; how a worst case is repeated | [`subject`], [`case`], [`run`], [`replay`] |
+//! | what is measured: a solver with its settings; the text of a toss; both together; how a worst case is repeated | [`subject`], `case`, [`run`], [`replay`] |
 //! | the 256-bit reference, and numbers from outside the workspace | [`mod@reference`] |
 //! | claims and how they are measured | [`check`], [`checks`], [`measurement`] |
 //! | data that several checks share, and how many cases are tried | [`context`], [`effort`] |
-//! | tosses: random ones, of last bits and of bodies, those of an adversary, flights at the finest tolerances | `tosses`, [`adversary`], `hostile` |
-//! | flights of every solver: on random launches, for long times, and near the places where methods fail | [`survey`], [`long_flights`], [`atlas`] |
-//! | error by step and by work; drift of conserved quantities | [`convergence`], [`work_precision`], [`drift`] |
-//! | the accuracy of the planner | [`planner`] |
+//! | tosses: random ones, of last bits and of bodies, those of an adversary, flights at the finest tolerances | `tosses`, `adversary`, `hostile` |
+//! | flights of every solver: on random launches, for long times, and near the places where methods fail | [`survey`], `long_flights`, [`atlas`] |
+//! | error by step and by work; drift of conserved quantities | `convergence`, [`work_precision`], `drift` |
+//! | the accuracy of the planner | `planner` |
 //! | probabilities of the named spaces | [`tables`] |
 
-pub mod adversary;
+mod adversary;
 pub mod atlas;
-pub mod case;
+pub(crate) mod case;
 pub mod check;
 pub mod checks;
 pub mod context;
-pub mod convergence;
-pub mod drift;
+pub(crate) mod convergence;
+mod drift;
 pub mod effort;
 mod hostile;
-pub mod long_flights;
+pub(crate) mod long_flights;
 pub mod measurement;
-pub mod planner;
+pub(crate) mod planner;
 pub mod reference;
 pub mod replay;
 pub mod run;

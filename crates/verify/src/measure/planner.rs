@@ -17,20 +17,20 @@ use serde::Serialize;
 use toss::catalogue::CATALOGUE;
 use toss::planner::Model;
 use toss::{
-    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, TimeOfFlight, TracePoint,
-    Vector3, Want, level_speeds_of_heads,
+    Answer, Choice, Coin, CoinToss, Error, InputError, Launch, Outcome, Registry, Scene, SolveError, TimeOfFlight,
+    Toss, TracePoint, Vector3, Want, level_speeds_of_heads,
 };
 
 use crate::measure::case;
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
+use crate::measure::reference::ExactLanding;
 use crate::measure::tosses::{decades, stream};
 
 /// Seed of the scenes.
 const SEED: u64 = 12;
 
 /// Actual and expected errors below this count as this one, because a result near 1 is rounded by as much in f64.
-pub const ROUNDING: f64 = 0.5 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// The result of one scene.
 #[derive(Debug, Clone)]
@@ -118,7 +118,7 @@ fn solve(scene: &TossScene) -> anyhow::Result<Solved> {
     ensure!(solution.model == choice.model, "{} was planned, not {}", choice.model.name, solution.model.name);
     outcome.model = Some(choice.model);
     outcome.expected = choice.expected_error;
-    outcome.error = Truth::new(&scene.toss).error(&scene.scene, &solution.answer)?;
+    outcome.error = Truth::new(&scene.toss.into())?.error(&scene.scene, &solution.answer)?;
     outcome.error_of_family = outcome.error;
     if !outcome.is_within_30(outcome.error) {
         outcome.error_of_family = outcome.error.max(largest_of_neighbours(&choice, scene)?.unwrap_or(0.0));
@@ -160,7 +160,7 @@ fn largest_of_neighbours(choice: &Choice, scene: &TossScene) -> anyhow::Result<O
         let toss = neighbour(&scene.toss, SEED, index)?;
         let near = Scene { want: scene.scene.want.of(toss), ..scene.scene.clone() };
         let Ok(answer) = choice.run(&near) else { return Ok(None) };
-        largest = largest.max(Truth::new(&toss).error(&near, &answer)?);
+        largest = largest.max(Truth::new(&toss.into())?.error(&near, &answer)?);
     }
     Ok(Some(largest))
 }
@@ -220,7 +220,7 @@ impl Trial {
 
 /// A scene about a toss.
 #[derive(Debug, Clone)]
-pub struct TossScene {
+pub(crate) struct TossScene {
     /// Its kind: what is wanted, or `integrator` if the scene asks for one.
     pub kind: &'static str,
     /// The scene.
@@ -268,10 +268,7 @@ fn neighbour(toss: &CoinToss, seed: u64, index: u64) -> Result<CoinToss, InputEr
 /// Scene number `index` of the sequence that `seed` starts. Of ten scenes three want an outcome, three cos θ, two an
 /// attitude and one a trace, with accuracies from 1e-2 to 2e-15; the tenth asks for an integrator, with accuracies from
 /// 1e-2 to 1e-11.
-///
-/// # Errors
-/// Never: every scene is valid.
-pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
+pub(crate) fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
     let mut rng = stream(seed, index);
     let toss = random_toss(&mut rng)?;
     let kinds =
@@ -297,10 +294,7 @@ pub fn toss_scene(seed: u64, index: u64) -> Result<TossScene, InputError> {
 
 /// Space number `index` of the sequence that `seed` starts. Each rate and the tilt is a value or a range; four spaces
 /// of five have a range of speeds.
-///
-/// # Errors
-/// Never: every space is valid.
-pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
+pub(crate) fn space(seed: u64, index: u64) -> Result<Space, InputError> {
     let mut rng = stream(seed, index);
     let mut range = |free: f64, from: f64, to: f64, width: f64| {
         let lo = rng.random_range(from..to);
@@ -323,29 +317,29 @@ pub fn space(seed: u64, index: u64) -> Result<Space, InputError> {
 }
 
 /// The accuracy that scene number `index` asks of a probability, from 1e-1 to 1e-3.
-pub fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
+pub(crate) fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
     decades(&mut stream(seed, index), -3.0, -1.0)
 }
 
 /// The exact answer to every scene about one toss.
-pub struct Truth {
-    landing: Reference,
-    toss: CoinToss,
+pub(crate) struct Truth {
+    landing: ExactLanding,
+    toss: Toss,
 }
 
 impl Truth {
-    /// Solves `toss` with the 256-bit reference.
-    pub fn new(toss: &CoinToss) -> Self {
-        Self { landing: Reference::new(toss), toss: *toss }
+    /// Solves `toss`.
+    ///
+    /// # Errors
+    /// [`SolveError`] for a phase above 2^53 rad.
+    pub(crate) fn new(toss: &Toss) -> Result<Self, SolveError> {
+        Ok(Self { landing: ExactLanding::new(toss)?, toss: *toss })
     }
 
     /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
     /// is 0 or infinite. If the scene asks for an integrator, an undecided outcome has no error where |cos θ| is at
     /// most twice the scene's accuracy.
-    ///
-    /// # Errors
-    /// Never: the times of a trace are valid.
-    pub fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, InputError> {
+    pub(crate) fn error(&self, scene: &Scene, answer: &Answer) -> Result<f64, Error> {
         let wrong = |is_wrong: bool| if is_wrong { f64::INFINITY } else { 0.0 };
         Ok(match answer {
             Answer::Outcome(verdict) if verdict.outcome() == Outcome::Undecided && scene.by.is_some() => {
@@ -363,7 +357,7 @@ impl Truth {
         })
     }
 
-    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, InputError> {
+    fn trace_error(&self, points: &[TracePoint]) -> Result<f64, Error> {
         let mut largest = 0.0_f64;
         let launch = self.toss.launch;
         for point in points {
@@ -372,7 +366,7 @@ impl Truth {
                 self.landing.attitude_error(&point.attitude)
             } else {
                 let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                Reference::new(&CoinToss { launch: until, ..self.toss }).attitude_error(&point.attitude)
+                ExactLanding::new(&Toss { launch: until, ..self.toss })?.attitude_error(&point.attitude)
             };
             largest = largest.max(error);
         }
@@ -383,10 +377,7 @@ impl Truth {
 /// The probability of heads in `space`, computed in another way than by the models under test: from the lengths of the
 /// intervals of speeds that land heads if only the speed is free, otherwise by `points` launches with another seed,
 /// many more than the models use.
-///
-/// # Errors
-/// Never for such a [`space`].
-pub fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
+pub(crate) fn true_probability(space: &Space, points: u64) -> Result<f64, Error> {
     const OTHER_SEED: u64 = 987_654_321;
     let free: Vec<Coordinate> = space.free().collect();
     let scrambled = Scrambled::new(points, OTHER_SEED);

@@ -112,7 +112,7 @@ impl Solver for NotMade {
 /// # Errors
 /// Never for a scheme that takes a tolerance or steps.
 pub fn tight(scheme: Scheme) -> Result<Stepping, InputError> {
-    if scheme.is_adaptive() { Stepping::adaptive(scheme, TIGHT_TOLERANCE) } else { Stepping::fixed(scheme, TIGHT_STEP) }
+    by_kind(scheme, TIGHT_TOLERANCE, TIGHT_STEP)
 }
 
 /// `scheme` with the library's default tolerance or step.
@@ -120,11 +120,15 @@ pub fn tight(scheme: Scheme) -> Result<Stepping, InputError> {
 /// # Errors
 /// As [`tight`].
 pub fn usual(scheme: Scheme) -> Result<Stepping, InputError> {
-    if scheme.is_adaptive() {
-        Stepping::adaptive(scheme, Stepping::DEFAULT_TOLERANCE)
-    } else {
-        Stepping::fixed(scheme, Stepping::DEFAULT_STEP)
-    }
+    by_kind(scheme, Stepping::DEFAULT_TOLERANCE, Stepping::DEFAULT_STEP)
+}
+
+/// `scheme` with the tolerance or, if it takes none, with steps of this length (s).
+///
+/// # Errors
+/// For a tolerance or step outside its range.
+pub(super) fn by_kind(scheme: Scheme, tolerance: f64, step: f64) -> Result<Stepping, InputError> {
+    if scheme.is_adaptive() { Stepping::adaptive(scheme, tolerance) } else { Stepping::fixed(scheme, step) }
 }
 
 /// The solver of `entry` with each of its schemes, or once without if it is a closed form.

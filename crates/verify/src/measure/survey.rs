@@ -50,9 +50,6 @@ impl Survey {
     }
 
     /// Solves tosses of bodies of every family with every subject.
-    ///
-    /// # Errors
-    /// As [`Survey::of`].
     pub(crate) fn of_bodies(subjects: &[Subject], effort: Effort) -> anyhow::Result<Self> {
         let number = match effort {
             Effort::Quick => 20,
@@ -70,15 +67,13 @@ impl Survey {
     /// [`SolveError`] for a phase above 2^53 rad.
     pub fn of(subjects: &[Subject], tosses: Vec<Toss>, families: Vec<&'static str>) -> anyhow::Result<Self> {
         let exact = tosses.par_iter().map(ExactLanding::new).collect::<Result<_, _>>()?;
+        let is_of_bodies = tosses.first().is_some_and(|toss| toss.coin().is_none());
         let fly = |subject: &Subject| {
-            let refuses = |toss| matches!(subject.solver.tilt(toss), Err(SolveError::NotSymmetric { .. }));
-            match tosses.first() {
-                // A solver for coins refuses one body as the other.
-                Some(first) if first.coin().is_none() && tosses.iter().all(refuses) => Vec::new(),
-                _ => tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect(),
-            }
+            let landings: Landings = tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect();
+            let is_refused = |landing: &Answer| matches!(landing, Err(SolveError::NotSymmetric { .. }));
+            if is_of_bodies && landings.iter().all(is_refused) { Vec::new() } else { landings }
         };
-        let landings = subjects.iter().map(fly).collect();
+        let landings = subjects.par_iter().map(fly).collect();
         Ok(Self { tosses, families, exact, landings })
     }
 

@@ -248,7 +248,6 @@ pub(super) const FLOWN: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 3.0] }
 
 /// Bodies and launches that are hard in the same way.
 pub(super) struct Family {
-    /// Its name.
     pub(super) name: &'static str,
     /// Moments about three axes and the rate along them, from numbers in 0..1 of which no two are related.
     make: fn(&mut Numbers) -> ([f64; 3], [f64; 3]),

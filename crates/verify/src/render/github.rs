@@ -19,7 +19,7 @@ const IN_FULL: usize = 100;
 
 /// One `::error` for each failing row and one `::warning` for each that became worse, the worst first, each with the
 /// command that repeats it.
-pub fn annotations(report: &Report<'_>) -> String {
+pub(crate) fn annotations(report: &Report<'_>) -> String {
     let failing = report.failing();
     let errors = failing.iter().map(|row| {
         let replay = row.replay.as_ref().map_or_else(String::new, |replay| format!("\nRepeat with: {replay}"));
@@ -61,7 +61,7 @@ fn property(text: &str) -> String {
 
 /// The summary: the verdict, the pattern, what fails and what became worse with the commands that repeat it, what each
 /// solver reaches at which cost, one line a family, and folded one line a check.
-pub fn summary(report: &Report<'_>) -> String {
+pub(crate) fn summary(report: &Report<'_>) -> String {
     let failing = report.failing();
     let verdict = match (report.passed, report.worse().is_empty()) {
         (true, true) => "✅ PASS",

@@ -63,7 +63,7 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
 ];
 
 /// Renders `report` with its `charts`.
-pub fn page(report: &Report<'_>, charts: &[Chart]) -> String {
+pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {

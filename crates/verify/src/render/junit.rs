@@ -18,7 +18,7 @@ const WORSE: &str = "worse than the baseline";
 ///
 /// # Errors
 /// If the XML can't be written, which plain rows never cause.
-pub fn xml(report: &Report<'_>) -> anyhow::Result<String> {
+pub(crate) fn xml(report: &Report<'_>) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
     for block in Block::all(report.rows) {
         let mut suite = TestSuite::new(block.worst().check.as_str());

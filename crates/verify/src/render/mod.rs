@@ -2,13 +2,13 @@
 //! or judged here.
 
 pub mod charts;
-pub mod github;
-pub mod html;
-pub mod junit;
-pub mod metrics;
-pub mod pattern;
+pub(crate) mod github;
+pub(crate) mod html;
+pub(crate) mod junit;
+pub(crate) mod metrics;
+pub(crate) mod pattern;
 pub mod report;
-pub mod text;
+pub(crate) mod text;
 pub(crate) mod words;
 
 pub use report::Report;

@@ -12,7 +12,7 @@ use crate::measure::check::Judges;
 const LISTED: usize = 6;
 
 /// The paragraph on `rows`: which fail, which pass, and what that points to.
-pub fn of_rows(rows: &[Row]) -> String {
+pub(crate) fn of_rows(rows: &[Row]) -> String {
     let items: Vec<Item<'_>> = rows.iter().map(|row| Item::of(row, !row.status.passes())).collect();
     let failing = items.iter().filter(|item| item.bad).count();
     let found = Found::new(&items);
@@ -29,7 +29,7 @@ pub fn of_rows(rows: &[Row]) -> String {
 }
 
 /// The paragraph on what became worse than the baseline; empty if nothing did.
-pub fn of_moves(moves: &[Move], rows: &[Row]) -> String {
+pub(crate) fn of_moves(moves: &[Move], rows: &[Row]) -> String {
     let worse = |check: &str, subject: &str| {
         let is_it = |moved: &&Move| moved.check == check && moved.subject == subject;
         moves.iter().filter(is_it).any(|moved| moved.direction == Direction::Worse)

@@ -17,14 +17,14 @@ use crate::measure::run::Run;
 use crate::{CHECKS, Check};
 
 /// The line for a check that has just ended, with its rows and its time.
-pub fn ended(rows: &[Row], timing: &Timing) -> String {
+pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
     let failing = rows.iter().filter(|row| !row.status.passes()).count();
     let result = if failing == 0 { "ok".to_owned() } else { format!("FAIL: {failing}") };
     format!("{:<width$} {:>7.1} s  {:>4} rows  {result}\n", timing.check, timing.t_wall_s, rows.len(), width = width())
 }
 
 /// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
-pub fn report(report: &Report<'_>, verbose: bool) -> String {
+pub(crate) fn report(report: &Report<'_>, verbose: bool) -> String {
     let mut out = format!("\n{}\n", report.pattern);
     let blocks = Block::all(report.rows);
     if !verbose {
@@ -40,7 +40,7 @@ pub fn report(report: &Report<'_>, verbose: bool) -> String {
 }
 
 /// Whether the run passes, and how many rows do.
-pub fn passing(rows: &[Row]) -> String {
+pub(crate) fn passing(rows: &[Row]) -> String {
     let failing = rows.iter().filter(|row| !row.status.passes()).count();
     let verdict = if failing == 0 { "PASS" } else { "FAIL" };
     format!("\n{verdict}: {} of {} rows pass{}\n", rows.len() - failing, rows.len(), remarks(rows))
@@ -113,7 +113,7 @@ fn line(row: &Row, width: usize) -> String {
 }
 
 /// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
-pub fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
+pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
     let width = all.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));
     let line = |run: &Run| {
@@ -135,14 +135,14 @@ pub fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
 }
 
 /// What a check of the library measures on the toss, or why it failed.
-pub fn of_library(check: &Check, found: &Measurement) -> String {
+pub(crate) fn of_library(check: &Check, found: &Measurement) -> String {
     let failure = found.worst.as_ref().and_then(|worst| worst.failure.clone());
     let measured = failure.unwrap_or_else(|| format!("{:.1e} {}", found.measured, check.unit));
     format!("{:<27} {:<31} {measured}\n", check.id, found.subject)
 }
 
 /// What a row measures on the toss, what is allowed, and the verdict.
-pub fn of_row(row: &Row) -> String {
+pub(crate) fn of_row(row: &Row) -> String {
     let number = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:e}"));
     let (measured, limit, unit) = (number(row.measured), number(row.limit), &row.unit);
     let failure = row.failure.as_ref().map(|failure| format!(": {failure}")).unwrap_or_default();
@@ -151,10 +151,10 @@ pub fn of_row(row: &Row) -> String {
 }
 
 /// The check whose errors are followed: random launches, against the exact motion.
-pub const FOLLOWED: &str = "random-attitude";
+pub(crate) const FOLLOWED: &str = "random-attitude";
 
 /// One block for each record: its date, commit and host, then the errors of every subject.
-pub fn history(records: &[Record]) -> String {
+pub(crate) fn history(records: &[Record]) -> String {
     let block = |record: &Record| {
         let host = &record.host;
         let commit: String = host.commit.chars().take(12).collect();

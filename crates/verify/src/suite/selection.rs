@@ -17,7 +17,9 @@ impl Suite {
         }
         let (run, left_out): (Vec<&Check>, Vec<&Check>) =
             CHECKS.iter().partition(|check| self.of_the_library || check.judges == Judges::Solver);
-        Ok((run, left_out.into_iter().map(LeftOut::about_the_library).collect()))
+        let about_the_library =
+            |check: &Check| LeftOut { check: check.id, why: "as they judge the library and not a solver" };
+        Ok((run, left_out.into_iter().map(about_the_library).collect()))
     }
 
     /// Whether `subject` must have a row under `check`: not if the check was left out, nor if a solver of this workspace

@@ -49,13 +49,13 @@ impl Atlas {
     /// Never for the library's own solvers and hazards.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
         let contestants = contestants(registry)?;
-        let mut spots = Vec::new();
-        for hazard in HAZARDS {
-            for distance in hazard.distances {
-                spots.extend(fly(hazard, *distance, &contestants)?);
-            }
-        }
-        Ok(Self { spots })
+        let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
+        let places: Vec<Place> =
+            places.map(|(hazard, distance)| Place::new(hazard, distance)).collect::<Result<_, _>>()?;
+        let flights: Vec<(&Place, &Subject)> =
+            places.iter().flat_map(|place| contestants.iter().map(move |by| (place, by))).collect();
+        // Each flight is a task of its own for the threads, because a few take a second and would delay those after them.
+        Ok(Self { spots: flights.into_par_iter().with_max_len(1).map(|(place, by)| place.flown(by)).collect() })
     }
 
     /// The spots of one contestant at one hazard, from far to near.
@@ -85,16 +85,11 @@ pub fn replay(registry: &[SolverEntry], toss: &Toss) -> anyhow::Result<Vec<Run>>
     Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, toss, &exact)).collect())
 }
 
-/// The names of the contestants, in their order, without solving anything.
+/// Every solver of `registry`, each integrator with every scheme in every formulation that it offers.
 ///
 /// # Errors
 /// Never for the library's own solvers.
-pub fn names(registry: &[SolverEntry]) -> Result<Vec<String>, InputError> {
-    Ok(contestants(registry)?.into_iter().map(|subject| subject.name).collect())
-}
-
-/// Every solver of `registry`, each integrator with every scheme in every formulation that it offers.
-fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
+pub fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();
     for entry in registry {
         let one = [Formulation::default()];
@@ -108,13 +103,24 @@ fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
     Ok(contestants)
 }
 
-fn fly(hazard: &Hazard, distance: f64, contestants: &[Subject]) -> anyhow::Result<Vec<Spot>> {
-    let toss = (hazard.toss)(distance)?;
-    let exact = ExactLanding::new(&toss)?;
-    let conditioning = Conditioning::new(&toss)?;
-    let spot =
-        |subject: &Subject| Spot { hazard: hazard.id, distance, conditioning, run: Run::new(subject, &toss, &exact) };
-    // Each contestant is a task of its own for the threads, because a few take a second and would delay those after
-    // them.
-    Ok(contestants.par_iter().with_max_len(1).map(spot).collect())
+/// A toss of a hazard.
+struct Place {
+    hazard: &'static str,
+    distance: f64,
+    toss: Toss,
+    exact: ExactLanding,
+    conditioning: Option<Conditioning>,
+}
+
+impl Place {
+    fn new(hazard: &Hazard, distance: f64) -> anyhow::Result<Self> {
+        let toss = (hazard.toss)(distance)?;
+        let (exact, conditioning) = (ExactLanding::new(&toss)?, Conditioning::new(&toss)?);
+        Ok(Self { hazard: hazard.id, distance, toss, exact, conditioning })
+    }
+
+    fn flown(&self, subject: &Subject) -> Spot {
+        let Self { hazard, distance, conditioning, .. } = *self;
+        Spot { hazard, distance, conditioning, run: Run::new(subject, &self.toss, &self.exact) }
+    }
 }

@@ -2,8 +2,6 @@
 //! outcomes in 256 bits, and the counts of whole plans from single tosses. Counting is what every probability rests on,
 //! and a rule that was changed for the better still gives other counts than the ones that were published.
 
-use std::fmt;
-
 use sampling::{Coordinate, Counts, Found, Plan, Sampler, Scrambled, Space, random_tosses};
 use toss::{
     Attitude, Batch, Coin, ExactSolver, Formulation, InputError, Launch, Outcome, Scheme, SimdLevel, SolveError,
@@ -134,13 +132,13 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         let space = space(axes)?;
         let found = counts(&space, &Sampler::exact(), Plan::Grid)?;
         let tosses = (0..points(axes)).map(|index| toss(values(axes, index))).collect::<Result<Vec<_>, _>>()?;
-        let expected =
-            Tally::of(tosses.into_iter(), |toss| Ok(Reference::new(&toss.coin().expect("a coin")).outcome()))?;
-        difference += Tally::from(&found).difference(&expected);
+        let expected = tally(tosses, |toss| Ok(Reference::new(&toss.coin().expect("a coin")).outcome()))?;
+        difference += distance(of_each(&found), expected);
         let last = Sampler::exact().running_shares(&space, 1, 1)?.pop();
-        running += last.map_or(f64::INFINITY, |last| (last.grid * expected.all() as f64 - expected.heads as f64).abs());
-        launches += expected.all();
-        inputs.push(format!("{} of {} heads, expected {}", found.heads(), found.points(), expected.heads));
+        let all: u64 = expected.iter().sum();
+        running += last.map_or(f64::INFINITY, |last| (last.grid * all as f64 - expected[0] as f64).abs());
+        launches += all;
+        inputs.push(format!("{} of {} heads, expected {}", found.heads(), found.points(), expected[0]));
     }
     let figure =
         |subject, measured| Measurement::figure(GRID_COUNTS.id, subject, measured, launches, inputs.join("; "));
@@ -149,6 +147,10 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 /// Numbers of launches around those of a register, of a tile of the kernels and of a block of launches.
 const SIZES: [u64; 12] = [1, 3, 7, 8, 9, 127, 129, 511, 512, 513, 1023, 1100];
+
+/// The axes of the launches that are counted.
+const DRAWN: [(Coordinate, &str); 4] =
+    [(Coordinate::RateX, "1:40"), (Coordinate::RateY, "-9:9"), (Coordinate::RateZ, "5"), (Coordinate::Speed, "2:3")];
 
 fn one_by_one(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let sizes = match context.effort {
@@ -167,13 +169,7 @@ fn one_by_one(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 /// The difference between the counts of batches at every SIMD level and single proofs.
 fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
-    let space = [
-        (Coordinate::RateX, "1:40"),
-        (Coordinate::RateY, "-9:9"),
-        (Coordinate::RateZ, "5"),
-        (Coordinate::Speed, "2:3"),
-    ];
-    let space = Space::parse(Coin::PAPER, &space)?;
+    let space = Space::parse(Coin::PAPER, &DRAWN)?;
     let (mut difference, mut launches, mut inputs) = (0, 0, Vec::new());
     for points in sizes {
         let each = random_tosses(&space, 7, 0..*points);
@@ -183,15 +179,18 @@ fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
         let tosses =
             Tosses::new(Coin::PAPER, Attitude::about_x(0.2), 9.81, rates.each_ref().map(Vec::as_slice), &speeds)?;
         let singles = (0..each.len()).map(|index| tosses.toss(index)).collect::<Result<Vec<_>, _>>()?;
-        let expected = Tally::of(singles.into_iter(), |toss| Ok(certify(toss)?.outcome()))?;
+        let expected = tally(singles, |toss| Ok(certify(toss)?.outcome()))?;
         for level in SimdLevel::all() {
             let found = Batch::new(tosses).on(level).count()?;
-            let found = Tally { heads: found.heads(), tails: found.tails(), undecided: found.ties() };
-            if found.difference(&expected) > 0 {
-                inputs.push(format!("{points} tosses at {}: {found} instead of {expected}", level.name()));
+            let found = [found.heads(), found.tails(), found.ties()];
+            if found != expected {
+                let level = level.name();
+                inputs.push(format!(
+                    "{points} tosses at {level}: {found:?} heads, tails and undecided, not {expected:?}"
+                ));
             }
-            difference += found.difference(&expected);
-            launches += expected.all();
+            difference += distance(found, expected);
+            launches += points;
         }
     }
     Ok(Measurement::figure(ONE_BY_ONE.id, "batches", difference as f64, launches, inputs.join("; ")))
@@ -211,29 +210,23 @@ fn counted(
     sizes: &[u64],
     outcome: impl Fn(&Toss) -> Result<Outcome, SolveError>,
 ) -> anyhow::Result<Measurement> {
-    let axes = [
-        (Coordinate::RateX, "1:40"),
-        (Coordinate::RateY, "-9:9"),
-        (Coordinate::RateZ, "5"),
-        (Coordinate::Speed, "2:3"),
-    ];
     let (mut difference, mut launches, mut first) = (0.0, 0, "none".to_owned());
     for points in sizes {
         for (tilt, gravity) in [("0", "9.81"), ("0.3", "9.81"), ("0:1", "9:10")] {
             let rest = [(Coordinate::Tilt, tilt), (Coordinate::Gravity, gravity)];
-            let space = Space::parse(Coin::PAPER, &[&axes[..], &rest].concat())?;
+            let space = Space::parse(Coin::PAPER, &[&DRAWN[..], &rest].concat())?;
             let scrambled = Scrambled { scrambles: 3, ..Scrambled::new(3 * points.next_power_of_two(), 5) };
             for plan in [Plan::Random { points: *points, seed: 5 }, Plan::Sobol(scrambled)] {
                 let tosses = space.drawn(plan)?.flatten().map(|drawn| drawn.toss);
-                let expected = Tally::of(tosses, &outcome)?;
+                let expected = tally(tosses, &outcome)?;
                 // A sampler that fails where single launches do not has counted nothing.
                 let found = counts(&space, sampler, plan);
-                let differs = found.map_or(f64::INFINITY, |found| Tally::from(&found).difference(&expected) as f64);
+                let differs = found.map_or(f64::INFINITY, |found| distance(of_each(&found), expected) as f64);
                 if differs > 0.0 && difference == 0.0 {
                     first = format!("{} with {points} launches, tilt {tilt}", plan.method());
                 }
                 difference += differs;
-                launches += expected.all();
+                launches += expected.iter().sum::<u64>();
             }
         }
     }
@@ -248,47 +241,28 @@ pub(super) fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow
     }
 }
 
-/// Numbers of outcomes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Tally {
-    heads: u64,
-    tails: u64,
-    undecided: u64,
+/// The numbers of heads, tails and undecided.
+fn of_each(counts: &Counts) -> [u64; 3] {
+    [counts.heads(), counts.tails(), counts.undecided()]
 }
 
-impl fmt::Display for Tally {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} heads, {} tails and {} undecided", self.heads, self.tails, self.undecided)
+/// The same of `tosses`, one by one.
+fn tally(
+    tosses: impl IntoIterator<Item = Toss>,
+    outcome: impl Fn(&Toss) -> Result<Outcome, SolveError>,
+) -> Result<[u64; 3], SolveError> {
+    let mut numbers = [0; 3];
+    for toss in tosses {
+        match outcome(&toss)? {
+            Outcome::Heads => numbers[0] += 1,
+            Outcome::Tails => numbers[1] += 1,
+            Outcome::Undecided => numbers[2] += 1,
+        }
     }
+    Ok(numbers)
 }
 
-impl Tally {
-    fn of(
-        tosses: impl Iterator<Item = Toss>,
-        outcome: impl Fn(&Toss) -> Result<Outcome, SolveError>,
-    ) -> Result<Self, SolveError> {
-        tosses.map(|toss| outcome(&toss)).try_fold(Self::default(), |mut tally, outcome| {
-            match outcome? {
-                Outcome::Heads => tally.heads += 1,
-                Outcome::Tails => tally.tails += 1,
-                Outcome::Undecided => tally.undecided += 1,
-            }
-            Ok(tally)
-        })
-    }
-
-    fn all(&self) -> u64 {
-        self.heads + self.tails + self.undecided
-    }
-
-    fn difference(&self, other: &Self) -> u64 {
-        let each = [(self.heads, other.heads), (self.tails, other.tails), (self.undecided, other.undecided)];
-        each.into_iter().map(|(found, expected)| found.abs_diff(expected)).sum()
-    }
-}
-
-impl From<&Counts> for Tally {
-    fn from(counts: &Counts) -> Self {
-        Self { heads: counts.heads(), tails: counts.tails(), undecided: counts.undecided() }
-    }
+/// The sum of the differences.
+fn distance(found: [u64; 3], expected: [u64; 3]) -> u64 {
+    found.iter().zip(expected).map(|(found, expected)| found.abs_diff(expected)).sum()
 }

@@ -277,5 +277,5 @@ fn coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let input = least.map(|(key, cell)| format!("{:.4} of {} intervals: {key}", share(*cell), cell[0]));
         Ok(Measurement::figure(COVERAGE.id, name, measured, tries, input.unwrap_or_default()))
     };
-    Method::ALL.into_iter().map(of_method).collect()
+    Method::ALL.into_par_iter().map(of_method).collect()
 }

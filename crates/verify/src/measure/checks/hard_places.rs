@@ -244,8 +244,9 @@ pub(super) const HOSTILE: Check = Check {
     ceiling: 1.0,
     measure: Measure::Own(|context| {
         let integrators = context.registry.iter().filter(|entry| entry.integrates());
-        let each = integrators.flat_map(|entry| entry.schemes().iter().map(move |scheme| (entry, *scheme)));
-        each.map(|(entry, scheme)| on_hostile_flights(context.effort, entry, scheme)).collect()
+        let each: Vec<(&SolverEntry, Scheme)> =
+            integrators.flat_map(|entry| entry.schemes().iter().map(move |scheme| (entry, *scheme))).collect();
+        each.into_par_iter().map(|(entry, scheme)| on_hostile_flights(context.effort, entry, scheme)).collect()
     }),
     ..Check::OF_SOLVERS
 };

@@ -9,7 +9,6 @@
 use std::f64::consts::TAU;
 
 use dynamics::phase::RoughPhases;
-use exact::motion::COS_TILT_ERROR;
 use toss::{CoinMotion, CoinToss, Formulation, Launch, State, TimeOfFlight, Toss};
 
 use crate::measure::case::is_horizontal;
@@ -17,6 +16,7 @@ use crate::measure::check::{Allowed, Basis, Check, Landed, Measure, ceiling, of_
 use crate::measure::context::Context;
 use crate::measure::drift;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, tight};
 use crate::measure::survey::{Answer, Landings, Survey};
 
@@ -293,9 +293,9 @@ pub(super) const BODIES_WITHIN_ESTIMATE: Check = Check {
 
 /// The larger one of the errors of cos θ and of the attitude, divided by what the estimate allows.
 pub(super) fn part_of_estimate(Landed { exact, landing, .. }: &Landed<'_>) -> Option<f64> {
-    let allowed = landing.error?.max(COS_TILT_ERROR);
+    let allowed = Allowance::by_estimate(landing.error?);
     let attitude = exact.attitude_error(&landing.state.attitude);
-    Some((exact.cos_tilt_error(landing.cos_tilt) / allowed).max(attitude / (10.0 * allowed)))
+    Some((exact.cos_tilt_error(landing.cos_tilt) / allowed.cos_tilt).max(attitude / allowed.attitude))
 }
 
 pub(super) const BODIES_STATED: Check = Check {

@@ -7,7 +7,7 @@ use anyhow::Context as _;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
-use toss::{Answer, Error, InputError, Scene, Want};
+use toss::{Error, InputError, Scene, Toss, Want};
 
 use crate::measure::case;
 use crate::measure::check::{Check, Measure};
@@ -16,7 +16,6 @@ use crate::measure::effort::Effort;
 use crate::measure::hostile;
 use crate::measure::measurement::Measurement;
 use crate::measure::planner::{Solved, Truth};
-use crate::measure::reference::ExactLanding;
 
 pub(super) const DELIVERS: Check = Check {
     id: "plan-delivers",
@@ -105,7 +104,7 @@ fn plan(index: u64) -> anyhow::Result<Planned> {
     };
     let (by, scene) = asked(want, ["gamma", "euler", "quaternion"][rng.random_range(0..3)], &mut rng);
     let input = format!("{} # {kind} {by}", case::text(&toss));
-    planned(kind, &scene, input, |answer| Ok(Truth::new(&coin).error(&scene, answer)?))
+    planned(kind, &scene, &toss, input)
 }
 
 /// Plan number `index` of a body, and its answer; `None` where there is no such body.
@@ -115,15 +114,7 @@ fn plan_body(index: u64) -> anyhow::Result<Option<Planned>> {
     let want = if rng.random() { Want::Tilt(toss) } else { Want::Attitude(toss) };
     let (by, scene) = asked(want, ["euler", "quaternion"][rng.random_range(0..2)], &mut rng);
     let input = format!("{} # {} {by}", case::text(&toss), scene.want.kind().name());
-    let error = |answer: &Answer| {
-        let exact = ExactLanding::new(&toss)?;
-        Ok(match answer {
-            Answer::Tilt(cos_tilt) => exact.cos_tilt_error(*cos_tilt),
-            Answer::Attitude(state) => exact.attitude_error(&state.attitude),
-            _ => f64::INFINITY,
-        })
-    };
-    planned(BODIES, &scene, input, error).map(Some)
+    planned(BODIES, &scene, &toss, input).map(Some)
 }
 
 /// A scene that wants this by the solver, with any scheme and accuracy, and these in words.
@@ -134,13 +125,8 @@ fn asked(want: Want, solver: &str, rng: &mut ChaCha8Rng) -> (String, Scene) {
     (by, Scene::new(want, accuracy).by(solver, scheme))
 }
 
-/// What comes of the plan of a scene.
-fn planned(
-    kind: &'static str,
-    scene: &Scene,
-    input: String,
-    error: impl FnOnce(&Answer) -> anyhow::Result<f64>,
-) -> anyhow::Result<Planned> {
+/// What comes of the plan of a scene about `toss`.
+fn planned(kind: &'static str, scene: &Scene, toss: &Toss, input: String) -> anyhow::Result<Planned> {
     let answer = match scene.plan().and_then(|decision| decision.choice.run(scene)) {
         Ok(answer) => answer,
         Err(Error::Solve(_) | Error::Input(InputError::OutOfRange { field: "accuracy", .. })) => {
@@ -148,5 +134,5 @@ fn planned(
         }
         Err(error) => return Err(error.into()),
     };
-    Ok(Planned { kind, error_by_accuracy: Some(error(&answer)? / scene.accuracy), input })
+    Ok(Planned { kind, error_by_accuracy: Some(Truth::new(toss)?.error(scene, &answer)? / scene.accuracy), input })
 }

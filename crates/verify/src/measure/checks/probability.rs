@@ -11,10 +11,12 @@ use rayon::prelude::*;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::enclosure::{coordinates, require_enclosable};
 use sampling::{
-    Coordinate, ESTIMATORS, Estimate, Found, Interval, Plan, Rest, RunningStep, Sampler, Scrambled, Space,
-    clopper_pearson, long_flight_probability, named_space, random_tosses, rms_error,
+    ESTIMATORS, Estimate, Found, Interval, Plan, Rest, RunningStep, Sampler, Scrambled, Space, clopper_pearson,
+    long_flight_probability, named_space, random_tosses, rms_error,
 };
-use toss::{Coin, CoinMotion, CoinToss, ExactSolver, Formulation, Launch, SolverEntry, TimeOfFlight, Vector3};
+use toss::{
+    Coin, CoinMotion, CoinToss, ExactSolver, Formulation, InputError, Launch, SolverEntry, TimeOfFlight, Vector3,
+};
 
 use super::counting::counts;
 use crate::measure::check::{Basis, Check, Measure};
@@ -125,14 +127,14 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let deviation = |&(cone, probability): &(f64, f64)| (long_flight_probability(cone, cone) - probability).abs();
-    worst_cone(LONG_FLIGHT.id, &context.data.long_flights, 1, deviation)
+    let deviation = |cone: f64, probability: f64| (long_flight_probability(cone, cone) - probability).abs();
+    worst_cone(LONG_FLIGHT.id, context, 1, deviation)
 }
 
 /// Counts heads at the midpoints of a million equal parts of one turn, for horizontal launches with each cone angle ψ.
 fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     const PHASES: u32 = 1_000_000;
-    let deviation = |&(cone, _): &(f64, f64)| {
+    let deviation = |cone: f64, _| {
         let rate = Vector3::new(cone.sin(), 0.0, cone.cos() / Coin::PAPER.inertia_ratio());
         let launch = Launch::new(rate, TimeOfFlight::Given(0.0)).expect("sines and cosines are finite");
         let motion = CoinMotion::new(&CoinToss { coin: Coin::PAPER, launch });
@@ -143,19 +145,22 @@ fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             .count();
         (heads as f64 / f64::from(PHASES) - long_flight_probability(cone, cone)).abs()
     };
-    worst_cone(LONG_FLIGHT_SHARE.id, &context.data.long_flights, u64::from(PHASES), deviation)
+    worst_cone(LONG_FLIGHT_SHARE.id, context, u64::from(PHASES), deviation)
 }
 
 fn worst_cone(
     check: &str,
-    cones: &[(f64, f64)],
+    context: &Context,
     cases_each: u64,
-    deviation: impl Fn(&(f64, f64)) -> f64,
+    deviation: impl Fn(f64, f64) -> f64 + Sync,
 ) -> anyhow::Result<Vec<Measurement>> {
-    let worst = cones.iter().map(|cone| (deviation(cone), cone.0)).max_by(|a, b| a.0.total_cmp(&b.0));
-    let (deviation, cone) = worst.ok_or_else(|| anyhow::anyhow!("no cone angle in the reference numbers"))?;
+    let flights = &context.data.long_flights;
+    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
+    let all: Vec<(f64, f64)> = each.map(|(cone, probability)| (deviation(cone, probability), cone)).collect();
+    let worst = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let (deviation, cone) = worst.context("no cone angle in the reference numbers")?;
     let input = format!("ψ = {}°", cone.to_degrees());
-    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * cones.len() as u64, input)])
+    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * flights.len() as u64, input)])
 }
 
 pub(super) const SHARES: Check = Check {
@@ -197,11 +202,11 @@ pub(super) const FIGURES: Check = Check {
 fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
-        let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
+        let found = Sampler::exact().estimate(&reference.space()?, Plan::ExactSpeed(Rest::Grid))?;
         let Found::Shares { rounding_error } = found.found else {
             anyhow::bail!("exact-speed gave counts instead of a share")
         };
-        let measured = measure((found.probability - reference.probability).abs(), rounding_error);
+        let measured = measure((found.probability - reference.probability.0).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());
         }
@@ -230,7 +235,7 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         ("isotropic rate, k = 1.98", 1.98),
         ("isotropic rate, k = 2.0", 2.0),
     ]
-    .into_iter()
+    .into_par_iter()
     .map(|(name, k)| {
         let (found, figure) = (mean(k), context.reference_probabilities.figure(name)?);
         let input = format!("{found:.9} for {figure:.9}");
@@ -239,76 +244,43 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     .collect()
 }
 
-/// The name of a reference probability, and the space of launches that it belongs to.
-struct Figure {
-    name: &'static str,
-    coin: Coin,
-    axes: [(Coordinate, String); 4],
-}
-
-impl Figure {
-    fn space(&self) -> anyhow::Result<Space> {
-        let texts: Vec<_> = self.axes.iter().map(|(of, text)| (*of, text.as_str())).collect();
-        Ok(Space::parse(self.coin, &texts)?)
-    }
-}
-
-/// All reference probabilities with their spaces.
-fn all() -> anyhow::Result<Vec<Figure>> {
-    Ok(known()?.into_iter().chain(finite_flights()?).collect())
-}
-
-/// Range of speeds (m/s) whose flights last some 10^8 turns, so the long-flight limit holds.
-const LONG: &str = "0:1e9";
-
-fn known() -> anyhow::Result<Vec<Figure>> {
+/// The names of all reference probabilities, and the spaces of launches that they belong to.
+fn all() -> anyhow::Result<Vec<(&'static str, Space)>> {
+    // The flights of these speeds (m/s) last some 10^8 turns, so that the long-flight limit holds.
+    const LONG: &str = "0:1e9";
     let coin = |k: f64| Coin::from_moments(1.0, k);
     // Three independent normal components of equal deviation have an isotropic direction. S = (I1 ωx, I1 ωy, I3 ωz), so
     // with k = 0.5 an isotropic S needs twice the deviation in ωz.
-    let isotropic = |deviation_z: f64| {
-        let [x, z] = [1.0, deviation_z].map(|deviation| format!("normal:0:{deviation}"));
-        [(RateX, x.clone()), (RateY, x), (RateZ, z), (Speed, LONG.to_owned())]
-    };
-    let turns = |number: f64| number * std::f64::consts::TAU;
-    Ok(vec![
-        Figure { name: "isotropic angular momentum", coin: coin(0.5)?, axes: isotropic(2.0) },
-        Figure { name: "isotropic rate, k = 0.5", coin: coin(0.5)?, axes: isotropic(1.0) },
-        Figure { name: "isotropic rate, k = 1.0", coin: coin(1.0)?, axes: isotropic(1.0) },
-        Figure { name: "isotropic rate, k = 1.98", coin: coin(1.98)?, axes: isotropic(1.0) },
-        Figure { name: "isotropic rate, k = 2.0", coin: coin(2.0)?, axes: isotropic(1.0) },
+    let normal = "normal:0:1";
+    let [from, to] = [36.0, 40.0].map(|turns: f64| turns * std::f64::consts::TAU);
+    let mut spaces = vec![
+        ("isotropic angular momentum", space(coin(0.5)?, [normal, normal, "normal:0:2", LONG])?),
+        ("isotropic rate, k = 0.5", space(coin(0.5)?, [normal, normal, normal, LONG])?),
+        ("isotropic rate, k = 1.0", space(coin(1.0)?, [normal, normal, normal, LONG])?),
+        ("isotropic rate, k = 1.98", space(coin(1.98)?, [normal, normal, normal, LONG])?),
+        ("isotropic rate, k = 2.0", space(coin(2.0)?, [normal, normal, normal, LONG])?),
         // J. B. Keller, Am. Math. Mon. 93 (1986), 191: no spin, 36 to 40 turns a second.
-        Figure {
-            name: "Keller's box",
-            coin: Coin::DISC,
-            axes: axes(format!("{}:{}", turns(36.0), turns(40.0)), "0", "0", "2.1:2.7"),
-        },
-        Figure {
-            name: "box of four coordinates",
-            coin: Coin::PAPER,
-            axes: axes("1:60".to_owned(), "1:60", "1:60", "3:5"),
-        },
-    ])
-}
-
-/// Flights too short for the long-flight limit, with precession rates ωL from 2 to 20 rad/s.
-fn finite_flights() -> anyhow::Result<Vec<Figure>> {
-    let figure = |(name, degrees): (&'static str, f64)| {
-        // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ.
-        let cone = degrees.to_radians();
-        let (x, cot) = (format!("{}:{}", 2.0 * cone.sin(), 20.0 * cone.sin()), cone.cos() / cone.sin());
-        let z = if degrees == 90.0 { "0" } else { "x" };
-        Ok(Figure { name, coin: Coin::from_moments(1.0, cot)?, axes: axes(x, "0", z, "3:5") })
-    };
-    let flights = [
-        ("finite flights, 60 degrees", 60.0),
+        ("Keller's box", space(Coin::DISC, [&format!("{from}:{to}"), "0", "0", "2.1:2.7"])?),
+        ("box of four coordinates", four_coordinates()?),
+    ];
+    // Flights too short for the long-flight limit, with precession rates ωL from 2 to 20 rad/s.
+    for (name, degrees) in [
+        ("finite flights, 60 degrees", 60.0_f64),
         ("finite flights, 75 degrees", 75.0),
         ("finite flights, 90 degrees", 90.0),
-    ];
-    flights.into_iter().map(figure).collect()
+    ] {
+        // ψ is fixed by k ωz/ωx = cot ψ, here with ωz = ωx; then ωx = ωL sin ψ.
+        let cone = degrees.to_radians();
+        let x = format!("{}:{}", 2.0 * cone.sin(), 20.0 * cone.sin());
+        let z = if degrees == 90.0 { "0" } else { "x" };
+        spaces.push((name, space(coin(cone.cos() / cone.sin())?, [&x, "0", z, "3:5"])?));
+    }
+    Ok(spaces)
 }
 
-fn axes(x: String, y: &str, z: &str, speed: &str) -> [(Coordinate, String); 4] {
-    [(RateX, x), (RateY, y.to_owned()), (RateZ, z.to_owned()), (Speed, speed.to_owned())]
+/// The space of these rates and speeds.
+fn space(coin: Coin, [x, y, z, speed]: [&str; 4]) -> Result<Space, InputError> {
+    Space::parse(coin, &[(RateX, x), (RateY, y), (RateZ, z), (Speed, speed)])
 }
 
 fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -319,8 +291,8 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(points, 1)));
     all()?
         .into_iter()
-        .map(|of| {
-            let (name, found) = (of.name, Sampler::exact().estimate(&of.space()?, plan)?);
+        .map(|(name, space)| {
+            let found = Sampler::exact().estimate(&space, plan)?;
             let figure = context.reference_probabilities.figure(name)?;
             let interval = found.interval.map_or(String::new(), |i| format!(", {:.8} to {:.8}", i.lo, i.hi));
             let input = format!("{:.8} for {figure:.8}{interval}", found.probability);
@@ -366,18 +338,17 @@ fn accuracy_for(space: &Space) -> f64 {
 
 fn enclosures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let mut measurements = Vec::new();
-    for of in all()? {
-        let space = of.space()?;
+    for (name, space) in all()? {
         // The flights of some spaces make 10^8 turns, and have as many edges.
         if require_enclosable(&space).is_err() || space.axis(Speed).bounds()[1] > 1e3 {
             continue;
         }
-        let figure = context.reference_probabilities.figure(of.name)?;
+        let figure = context.reference_probabilities.figure(name)?;
         let [middle, half_width] = enclosed(&space, accuracy_for(&space))?;
         let input = format!("{middle:.12} ± {half_width:.1e} for {figure:.12}");
         // A reference number that is rounded to f64 is off by 1e-16.
         let ratio = ((middle - figure).abs() - f64::EPSILON).max(0.0) / half_width;
-        measurements.push(Measurement::figure(ENCLOSURES.id, of.name, ratio, 1, input));
+        measurements.push(Measurement::figure(ENCLOSURES.id, name, ratio, 1, input));
     }
     Ok(measurements)
 }
@@ -433,9 +404,8 @@ pub(super) const EXACT_COVERAGE: Check = Check {
 
 /// The space of the paper's coin with rates from 1 to 60 rad/s on each axis and speeds from 3 to 5 m/s, whose P(heads)
 /// is among the reference numbers.
-fn four_coordinates() -> anyhow::Result<Space> {
-    let axes = [(RateX, "1:60"), (RateY, "1:60"), (RateZ, "1:60"), (Speed, "3:5")];
-    Ok(Space::parse(Coin::PAPER, &axes)?)
+fn four_coordinates() -> Result<Space, InputError> {
+    space(Coin::PAPER, ["1:60", "1:60", "1:60", "3:5"])
 }
 
 fn probability(context: &Context) -> anyhow::Result<f64> {

@@ -7,10 +7,10 @@
 use dynamics::Toss;
 use dynamics::phase::RoughPhases;
 use rayon::prelude::*;
-use toss::{CoinToss, ExactSolver, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Solver, Stepping};
+use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
 
 use super::exact::at_an_edge;
-use crate::measure::check::{Check, EXACT, Fold, Measure, Set, by_exact_motion, shares};
+use crate::measure::check::{Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
@@ -88,7 +88,6 @@ fn bounds() -> Vec<Set> {
             Ok(share(&taylor(tolerance)?.enclose(&(*toss).into())?, reference))
         };
         Set::of_tries(name, tosses, share)
-            .quickly(move |toss| quick_share(&taylor(tolerance).ok()?.enclose(toss).ok()?, toss))
     }
     fn is_short(toss: &CoinToss) -> bool {
         RoughPhases::new(toss).largest().is_ok_and(|phase| phase <= LONGEST)
@@ -107,14 +106,6 @@ fn bounds() -> Vec<Set> {
 fn share(found: &IntegratedCertificate, reference: &Reference) -> f64 {
     let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
     of_cos_tilt.max(distance(found, reference) / found.attitude_error_bound())
-}
-
-/// The same by the exact motion, if it can judge the flight.
-fn quick_share(found: &IntegratedCertificate, toss: &Toss) -> Option<f64> {
-    let exact = ExactSolver.land(toss).ok()?;
-    let distance = 0.5 * found.landing().state.attitude.angle_to(&exact.state.attitude);
-    let errors = [(found.cos_tilt() - exact.cos_tilt).abs(), distance];
-    by_exact_motion(errors, [found.error_bound(), found.attitude_error_bound()])
 }
 
 /// The distance of the quaternions, which is half the angle between the attitudes, or less.
@@ -138,10 +129,10 @@ fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) 
         (found.error_bound() < 2.0).then_some((index, *toss, found))
     };
     let bounded: Vec<(usize, Toss, IntegratedCertificate)> = tosses.par_iter().enumerate().filter_map(fly).collect();
-    let quick = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| quick_share(found, toss);
-    let thorough = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| {
+    let share = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| {
         Ok(Reference::of(toss).map_or(0.0, |reference| share(found, &reference)))
     };
+    let shares: Vec<Deviation> = bounded.par_iter().map(share).collect();
     let remark = format!("of {} tosses {} have a bound", tosses.len(), bounded.len());
     let worst = |at: usize, failure| {
         let (index, toss, _) = &bounded[at];
@@ -149,42 +140,29 @@ fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) 
         // The text of a toss has no tolerance, so that the whole check repeats it.
         Worst { replay: Replay::Check(BOUNDS.id.to_owned()), ..Worst::of_library(toss, failure).remarking(&remark) }
     };
-    Measurement::without_estimate(&format!("bodies: {}", family.name), &shares(&bounded, quick, thorough), worst)
+    Measurement::without_estimate(&format!("bodies: {}", family.name), &shares, worst)
 }
 
 fn outcomes() -> Vec<Set> {
-    fn of_coin_by(toss: &CoinToss, right: Outcome) -> Deviation {
+    let of_coin = |toss: &CoinToss, reference: &Reference| {
         require_short(toss)?;
-        Ok(f64::from(usual()?.certify(&(*toss).into())?.outcome() != right))
-    }
-    // Next to an edge a body may be undecided.
-    fn of_body_by(toss: &Toss, right: Outcome) -> Deviation {
-        let found = usual()?.certify(toss).map_or(Outcome::Undecided, |found| found.outcome());
-        Ok(f64::from(found != Outcome::Undecided && found != right))
-    }
-    let coins = |name, tosses: fn(u64) -> anyhow::Result<Vec<CoinToss>>| {
-        Set::of_tries(name, tosses, move |toss, reference| of_coin_by(toss, reference.outcome()))
-            .quickly(move |toss| of_coin_by(&toss.coin()?, clear_outcome(toss)?).ok())
+        Ok(f64::from(usual()?.certify(&(*toss).into())?.outcome() != reference.outcome()))
     };
     let coins = [
-        coins("random", |tries| random(tries, 1e2, 35)),
-        coins("adversarial", |tries| adversarial(tries / 4, few_turns)),
+        Set::of_tries("random", |tries| random(tries, 1e2, 35), of_coin),
+        Set::of_tries("adversarial", |tries| adversarial(tries / 4, few_turns), of_coin),
     ];
+    // Next to an edge a body may be undecided.
+    let of_body = |toss: &Toss, reference: &Reference| {
+        let found = usual()?.certify(toss).map_or(Outcome::Undecided, |found| found.outcome());
+        Ok(f64::from(found != Outcome::Undecided && found != reference.outcome()))
+    };
     let of_family = |family: &'static Family| {
         let tosses = move |context: &Context| {
             let tosses = launches(family, tries(context.effort) / 20, FLOWN);
             Ok(tosses.flat_map(|toss| [Some(toss), at_an_edge(&toss)]).flatten().collect())
         };
-        Set::new(format!("bodies: {}", family.name), tosses, move |toss, reference| {
-            of_body_by(toss, reference.outcome())
-        })
-        .quickly(move |toss| of_body_by(toss, clear_outcome(toss)?).ok())
+        Set::new(format!("bodies: {}", family.name), tosses, of_body)
     };
     coins.into_iter().chain(FAMILIES.iter().map(of_family)).collect()
-}
-
-/// The outcome by the exact motion, where cos θ is far from 0.
-fn clear_outcome(toss: &Toss) -> Option<Outcome> {
-    let tilt = ExactSolver.tilt(toss).ok().filter(|tilt| tilt.cos_tilt.abs() > 1e3 * EXACT)?;
-    Some(Outcome::of(tilt.cos_tilt, 0.0))
 }

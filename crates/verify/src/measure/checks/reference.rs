@@ -17,7 +17,7 @@ use toss::{Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solv
 use crate::measure::check::{Basis, Check, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
-use crate::measure::reference::outside::{FirstFlip, ReferenceBody, ReferenceFlight};
+use crate::measure::reference::outside::{Decimal, FirstFlip, ReferenceBody, ReferenceFlight};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 
@@ -56,7 +56,7 @@ fn attitude(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 /// The largest deviation of each subject over the reference flights.
 fn over_flights(
     context: &Context,
-    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError>,
+    deviation: impl Fn(&dyn Solver, &ReferenceFlight) -> Result<f64, SolveError> + Sync,
     allowed: fn(&Allowance) -> f64,
 ) -> Vec<Measurement> {
     let flights = &context.data.flights;
@@ -66,7 +66,7 @@ fn over_flights(
         let allowed = |index: usize| Ok(Allowance::of(subject, &flights[index].toss)?.as_ref().map(allowed));
         Measurement::largest(subject, &deviations, |index| flights[index].toss, allowed)
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 pub(super) const DETEST: Check = Check {
@@ -87,7 +87,7 @@ impl OdeSystem<3> for AsymmetricBody {
 }
 
 fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let (time, exact) = context.data.detest_b5;
+    let (time, exact) = (context.data.detest_b5.time, context.data.detest_b5.state.map(|Decimal(part)| part));
     let steppings = [
         Stepping::adaptive(Scheme::DOP853, 1e-12)?,
         Stepping::adaptive(Scheme::DOPRI5, 1e-12)?,
@@ -125,7 +125,7 @@ fn deviation_of_moments(context: &Context, entry: &CatalogueEntry) -> f64 {
     let reference = context.coins.iter().find(|coin| coin.name == entry.name);
     let (Some(reference), Ok(coin)) = (reference, entry.coin()) else { return f64::INFINITY };
     let relative = |(found, expected): (f64, f64)| (found / expected - 1.0).abs();
-    [coin.i1(), coin.i3()].into_iter().zip(reference.moments).map(relative).fold(0.0, f64::max)
+    [coin.i1(), coin.i3()].into_iter().zip([reference.i1.0, reference.i3.0]).map(relative).fold(0.0, f64::max)
 }
 
 pub(super) const PUBLISHED: Check = Check {
@@ -137,19 +137,19 @@ pub(super) const PUBLISHED: Check = Check {
     ceiling: ceiling::ATTITUDE,
     unit: "rad",
     measure: Measure::Own(|context| {
-        let refuses = |subject: &Subject, body: &ReferenceBody| {
-            matches!(subject.solver.tilt(&body.toss), Err(SolveError::NotSymmetric { .. }))
-        };
-        let solves = |subject: &&Subject| !context.data.bodies.iter().any(|body| refuses(subject, body));
-        Ok(context.subjects.iter().filter(solves).map(|subject| published(context, subject)).collect())
+        Ok(context.subjects.par_iter().filter_map(|subject| published(context, subject)).collect())
     }),
     ..Check::OF_SOLVERS
 };
 
-/// The largest error of `subject` on the published motions, with the largest ratio to what its estimate allows.
-fn published(context: &Context, subject: &Subject) -> Measurement {
+/// The largest error of `subject` on the published motions, with the largest ratio to what its estimate allows; `None` of a
+/// solver for coins.
+fn published(context: &Context, subject: &Subject) -> Option<Measurement> {
     let bodies = &context.data.bodies;
     let landings: Vec<_> = bodies.par_iter().map(|body| subject.solver.land(&body.toss)).collect();
+    if landings.iter().any(|landing| matches!(landing, Err(SolveError::NotSymmetric { .. }))) {
+        return None;
+    }
     let error = |(body, landing): (&ReferenceBody, &Result<Landing, SolveError>)| {
         landing.as_ref().map(|landing| body.error(&landing.state)).map_err(Clone::clone)
     };
@@ -159,7 +159,7 @@ fn published(context: &Context, subject: &Subject) -> Measurement {
         let estimate = landings[index].as_ref().ok().and_then(|landing: &Landing| landing.error);
         Ok(Some(estimate.map_or(f64::INFINITY, |estimate| 10.0 * estimate.max(1e-15))))
     };
-    Measurement::largest(subject, &errors, |index| bodies[index].toss, allowed)
+    Some(Measurement::largest(subject, &errors, |index| bodies[index].toss, allowed))
 }
 
 pub(super) const CHEATED_IN_FLIGHT: Check = Check {
@@ -205,7 +205,7 @@ fn at_every_speed(context: &Context, rate: [f64; 3], expected: Outcome) -> anyho
     let speeds = (0..=200).map(|step| 3.0 + 0.01 * f64::from(step));
     let flights = speeds.map(|speed| TimeOfFlight::Ballistic { speed, gravity: DEFAULT_GRAVITY });
     let tosses = thrown(Coin::PAPER, rate, flights)?;
-    Ok(context.subjects.iter().map(|subject| misses(subject, &tosses, expected)).collect())
+    Ok(context.subjects.par_iter().map(|subject| misses(subject, &tosses, expected)).collect())
 }
 
 fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -214,7 +214,7 @@ fn forever(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let times = (1..=count).map(|step| TimeOfFlight::Given(last * f64::from(step) / f64::from(count)));
         Ok(misses(subject, &thrown(Coin::DISC, [1.0, 1.0, 2.5], times)?, Outcome::Heads))
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 fn thrown(coin: Coin, rate: [f64; 3], flights: impl Iterator<Item = TimeOfFlight>) -> anyhow::Result<Vec<Toss>> {
@@ -240,13 +240,14 @@ fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement 
 
 fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let flips = &context.data.first_flips;
-    let tosses: Vec<Toss> = flips.iter().map(|flip| flight(flip, flip.time)).collect::<anyhow::Result<_>>()?;
+    let tosses: Vec<Toss> = flips.iter().map(|flip| flip.toss(flip.time.0)).collect::<anyhow::Result<_>>()?;
     let measure = |subject: &Subject| {
-        let off = |flip: &FirstFlip| Ok(flip_time(subject.solver.as_ref(), flip)?.map(|time| (time - flip.time).abs()));
+        let off =
+            |flip: &FirstFlip| Ok(flip_time(subject.solver.as_ref(), flip)?.map(|time| (time - flip.time.0).abs()));
         let off: Vec<Deviation> = flips.iter().map(off).collect::<anyhow::Result<_>>()?;
         Ok(Measurement::largest(subject, &off, |index| tosses[index], |index| flip_allowance(subject, &tosses[index])))
     };
-    context.subjects.iter().map(measure).collect()
+    context.subjects.par_iter().map(measure).collect()
 }
 
 /// The error (s) that the solver's estimate allows for a flip at the landing of `toss`: the allowed error of cos θ
@@ -257,16 +258,12 @@ fn flip_allowance(subject: &Subject, toss: &Toss) -> Result<Option<f64>, SolveEr
     Ok(Allowance::of(subject, toss)?.map(|allowance| 2.0 * allowance.cos_tilt / rate + rounding))
 }
 
-fn flight(flip: &FirstFlip, time: f64) -> anyhow::Result<Toss> {
-    Ok(Toss::new(flip.coin, Launch::new(flip.rate, TimeOfFlight::Given(time))?))
-}
-
 /// The time (s) of the sign change of cos θ between launch and 1.5 times the expected time, by bisection.
 fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64, SolveError>> {
-    let (mut heads, mut tails) = (0.0, 1.5 * flip.time);
+    let (mut heads, mut tails) = (0.0, 1.5 * flip.time.0);
     for _ in 0..60 {
         let middle = 0.5 * (heads + tails);
-        match solver.tilt(&flight(flip, middle)?).map(|tilt| tilt.cos_tilt) {
+        match solver.tilt(&flip.toss(middle)?).map(|tilt| tilt.cos_tilt) {
             Ok(cos_tilt) if cos_tilt > 0.0 => heads = middle,
             Ok(_) => tails = middle,
             Err(error) => return Ok(Err(error)),

@@ -10,7 +10,7 @@ use dashu_float::FBig;
 use dynamics::Toss;
 use toss::TimeOfFlight;
 
-use super::{Big, PRECISION, big, product, to_f64};
+use super::{Big, PRECISION, big, product, sin_cos, to_f64};
 
 type Matrix = [[Big; 3]; 3];
 
@@ -84,11 +84,16 @@ fn turned(moments: [f64; 3], rate: [f64; 3], time: f64) -> Option<[Big; 4]> {
 struct Motion {
     lambda: Big,
     k: Big,
-    k_prime: Big,
-    c: Big,
-    v: Big,
+    falls: Falls,
     launch: Big,
     omega: Big,
+}
+
+/// The factors by which terms of the theta functions fall: exp(-πK'/K), exp(-πv/(2K)) and exp(-π(K' + c)/(2K)).
+struct Falls {
+    both: Big,
+    less: Big,
+    more: Big,
 }
 
 impl Motion {
@@ -119,11 +124,15 @@ impl Motion {
         };
         let folded = if w[0] < Big::ZERO { big(2.0) * &k - folded } else { folded };
         let launch = if w[1] < Big::ZERO { -folded } else { folded };
-        let slope = slope(&k, &k_prime, &v);
+        let rate = pi() / &k;
+        let fall = |exponent: &Big| (-(&rate * exponent)).exp();
+        let half = |exponent: Big| fall(&(exponent / big(2.0)));
+        let falls = Falls { both: fall(&k_prime), less: half(v), more: half(k_prime + c) };
+        let slope = slope(&falls);
         let steady = &g / &i[2] + &p3 / (big(2.0) * &g);
         // The slope of ln θ1 at iπv/(2K) is that of ln θ4 at iπc/(2K), but for 1.
         let omega = steady + pi() * &lambda / (big(2.0) * &k) * slope;
-        Self { lambda, k, k_prime, c, v, launch, omega }
+        Self { lambda, k, falls, launch, omega }
     }
 
     /// The matrix that takes components in the body to those along axes of which the third is along the momentum.
@@ -131,7 +140,7 @@ impl Motion {
         let x = pi() * (&self.lambda * time + &self.launch) / (big(2.0) * &self.k);
         let [a, b] = self.thetas(&x);
         let norm = &a[0] * &a[0] + &a[1] * &a[1] + &b[0] * &b[0] + &b[1] * &b[1];
-        let (sin, cos) = (&self.omega * time / big(2.0)).sin_cos();
+        let (sin, cos) = sin_cos(&(&self.omega * time / big(2.0)));
         let turned = |part: &[Big; 2]| [&part[0] * &cos - &part[1] * &sin, &part[0] * &sin + &part[1] * &cos];
         let ([w, z], [x, y]) = (turned(&a), turned(&b));
         let two = |p: &Big, q: &Big| big(2.0) * p * q;
@@ -145,17 +154,15 @@ impl Motion {
 
     /// θ4 and θ1 of x - iπc/(2K), by as many terms of the Fourier series as it takes, also for nomes next to 1.
     fn thetas(&self, x: &Big) -> [[Big; 2]; 2] {
-        let rate = pi() / &self.k;
-        let (sin, cos) = x.sin_cos();
+        let Falls { both, less, more } = &self.falls;
+        let (sin, cos) = sin_cos(x);
         let once = [cos, sin];
         let mut angle = [big(1.0), big(0.0)];
         let mut sums = [[big(0.0), big(0.0)], [big(0.0), big(0.0)]];
+        // exp(-πs/K), where s is n ((2n - 1) K' + v) = 2n² K' - nc, n (2nK' + c) and 2nK'.
+        let (mut grown, mut shrunk, mut fall) = (big(1.0), big(1.0), big(1.0));
         for index in 0_u32.. {
-            // n = index/2: whole numbers belong to θ4, the others to θ1. 2n² K' - nc = n ((2n - 1) K' + v).
-            let n = big(f64::from(index) / 2.0);
-            let less = (big(f64::from(index)) - big(1.0)) * &self.k_prime + &self.v;
-            let more = big(f64::from(index)) * &self.k_prime + &self.c;
-            let [grown, shrunk] = [less, more].map(|exponent| (-(&rate * &n * exponent)).exp());
+            // n = index/2: whole numbers belong to θ4, the others to θ1.
             let weight = if index == 0 { big(0.5) } else { big(1.0) };
             let sign = if (index / 2) % 2 == 0 { weight } else { -weight };
             let (sum, difference) = ((&grown + &shrunk) * &sign, (&grown - &shrunk) * &sign);
@@ -170,19 +177,23 @@ impl Motion {
             if index > 2 && to_f64(&grown) < 1e-75 {
                 break;
             }
+            (grown, shrunk) = (grown * &fall * less, shrunk * &fall * more);
+            fall *= both;
         }
         sums
     }
 }
 
 /// Σ (-1)^n (2n + 1) q^(2n(n + 1)) cosh (2n + 1)w over the same with sinh and without the factor, less 1; w = πv/K.
-fn slope(k: &Big, k_prime: &Big, v: &Big) -> Big {
-    let rate = pi() / k;
+fn slope(Falls { both, less, .. }: &Falls) -> Big {
     let (mut above, mut below) = (big(0.0), big(0.0));
+    let squared = less * less;
+    let mut wave = big(1.0) / &squared;
+    let wider = &wave * &wave;
+    let quarter = &(both * both) * &(both * both);
+    let (mut fall, mut by) = (big(1.0), quarter.clone());
     for n in 0_u32.. {
         let odd = big(2.0 * f64::from(n) + 1.0);
-        let fall = (-(big(2.0 * f64::from(n) * (f64::from(n) + 1.0)) * &rate * k_prime)).exp();
-        let wave = (&rate * &odd * v).exp();
         let size = &fall * &wave;
         let [cosh, sinh] = [&wave + big(1.0) / &wave, &wave - big(1.0) / &wave].map(|sum| sum * &fall);
         (above, below) =
@@ -190,6 +201,8 @@ fn slope(k: &Big, k_prime: &Big, v: &Big) -> Big {
         if n > 1 && to_f64(&(size * odd / &below)).abs() < 1e-75 {
             break;
         }
+        (fall, wave) = (fall * &by, wave * &wider);
+        by *= &quarter;
     }
     above / below - big(1.0)
 }

@@ -9,7 +9,6 @@ use serde::Deserialize;
 use toss::catalogue::named_coin;
 use toss::{Body, Coin, CoinToss, Launch, TimeOfFlight, Toss};
 
-use crate::data;
 use crate::measure::case;
 use crate::measure::tosses::{random_flights, throw};
 
@@ -67,7 +66,7 @@ struct Entry {
 /// # Errors
 /// Never: tests read them.
 pub fn all() -> anyhow::Result<Vec<Problem>> {
-    let file: File = toml::from_str(data::PROBLEMS).context("in problems.toml")?;
+    let file: File = toml::from_str(include_str!("../../../data/problems.toml")).context("in problems.toml")?;
     file.problem.into_iter().map(|entry| entry.problem().context("in problems.toml")).collect()
 }
 

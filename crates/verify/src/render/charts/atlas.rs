@@ -21,28 +21,11 @@ const LEFT: i32 = 360;
 const TOP: i32 = 160;
 const CELL: (i32, i32) = (177, 46);
 
-/// What stands in a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Cell {
-    /// The worst answer.
-    Answer(Answer),
-    /// The answer may be right, or a typed error.
-    RightOrTypedError,
-}
-
-impl From<Expectation> for Cell {
-    fn from(expected: Expectation) -> Self {
-        match expected {
-            Expectation::Right => Self::Answer(Answer::Right),
-            Expectation::TypedError => Self::Answer(Answer::TypedError),
-            Expectation::SilentlyWrong => Self::Answer(Answer::SilentlyWrong),
-            Expectation::RightOrTypedError => Self::RightOrTypedError,
-        }
-    }
-}
-
 /// The matrix as SVG: `worst` is the worst answer of a subject at a hazard.
-pub(super) fn matrix(subjects: &[&str], worst: impl Fn(&str, &str) -> Option<Cell>) -> Result<String, ChartError> {
+pub(crate) fn matrix(
+    subjects: &[&str],
+    worst: impl Fn(&str, &str) -> Option<Expectation>,
+) -> Result<String, ChartError> {
     let width = LEFT + CELL.0 * as_i32(HAZARDS.len()) + 40;
     let height = TOP + CELL.1 * as_i32(subjects.len()) + 120;
     svg((width.cast_unsigned(), height.cast_unsigned()), |root| {
@@ -77,17 +60,17 @@ fn as_i32(count: usize) -> i32 {
 }
 
 /// Draws a cell by a colour and a word, so that nobody has to rely on the colour.
-fn draw(root: &Panel<'_>, (x, y): (i32, i32), cell: Cell) -> Drawn {
+fn draw(root: &Panel<'_>, (x, y): (i32, i32), cell: Expectation) -> Drawn {
     let (fill, text, word) = match cell {
-        Cell::Answer(Answer::Right) => (GREEN.mix(0.25), BLACK, "right"),
-        Cell::Answer(Answer::TypedError) => (ORANGE.mix(0.45), BLACK, "typed error"),
-        Cell::Answer(Answer::Unclaimed) => (GREY.mix(0.25), BLACK, "no claim"),
-        Cell::Answer(Answer::SilentlyWrong) => (VERMILION.mix(1.0), WHITE, "WRONG"),
-        Cell::RightOrTypedError => (ORANGE.mix(0.25), BLACK, "right or error"),
+        Expectation::Answer(Answer::Right) => (GREEN.mix(0.25), BLACK, "right"),
+        Expectation::Answer(Answer::TypedError) => (ORANGE.mix(0.45), BLACK, "typed error"),
+        Expectation::Answer(Answer::Unclaimed) => (GREY.mix(0.25), BLACK, "no claim"),
+        Expectation::Answer(Answer::SilentlyWrong) => (VERMILION.mix(1.0), WHITE, "WRONG"),
+        Expectation::RightOrTypedError => (ORANGE.mix(0.25), BLACK, "right or error"),
     };
     let corners = [(x + 2, y + 2), (x + CELL.0 - 2, y + CELL.1 - 2)];
     root.draw(&Rectangle::new(corners, fill.filled()))?;
-    if cell == Cell::Answer(Answer::SilentlyWrong) {
+    if cell == Expectation::Answer(Answer::SilentlyWrong) {
         root.draw(&Rectangle::new(corners, FAINT.stroke_width(1)))?;
     }
     centred(root, word, (x + CELL.0 / 2, y + CELL.1 / 2), text)

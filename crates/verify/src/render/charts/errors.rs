@@ -88,7 +88,7 @@ const HISTORY_TITLE: &str = "Largest error of the attitude from random launches,
 const HISTORY_RIGHT: u32 = 300;
 
 /// The chart as SVG; `records` are not empty.
-pub(super) fn history(records: &[Record], palette: &Palette<'_>) -> Result<String, ChartError> {
+pub(crate) fn history(records: &[Record], palette: &Palette<'_>) -> Result<String, ChartError> {
     let last = records.len().saturating_sub(1);
     let x = Axis::named(records.iter().map(|record| record.host.date.clone()).collect());
     let y = Axis::logarithmic("error [rad]", 1e-17..1e-7);

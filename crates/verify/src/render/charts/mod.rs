@@ -9,13 +9,13 @@ use chart::{ChartError, Drawn, Panel, Series};
 use sampling::RunningStep;
 use toss::SolverEntry;
 
-use crate::judge::record::Record;
-use crate::measure::atlas::expected::Expected;
+use crate::measure::atlas::expected::Expectation;
 use crate::measure::work_precision::Sweep;
-use crate::measure::work_precision::proofs::Proof;
 use crate::render::Report;
-use atlas::Cell;
-use palette::Palette;
+pub(crate) use atlas::matrix;
+pub(crate) use errors::history;
+pub(crate) use palette::Palette;
+pub(crate) use work::proofs;
 
 /// A chart and the name of its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,25 +31,6 @@ pub struct Chart {
 /// The file of the chart with which a report opens.
 pub(super) const OVERVIEW: &str = "work-precision.svg";
 
-/// Draws the errors of committed records over time, as SVG. There is at least one record. Solvers have the colours of
-/// `registry`.
-///
-/// # Errors
-/// [`ChartError`] if it can't be drawn.
-pub fn history(records: &[Record], registry: &[SolverEntry]) -> Result<String, ChartError> {
-    errors::history(records, &Palette::new(registry))
-}
-
-/// Draws what the contestants called `names` are known to do where methods fail, as SVG. A contestant that `expected` does
-/// not list is left out.
-///
-/// # Errors
-/// [`ChartError`] if it can't be drawn.
-pub fn known_failures(names: &[String], expected: &Expected) -> Result<String, ChartError> {
-    let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| expected.knows(name)).collect();
-    atlas::matrix(&names, |subject, hazard| expected.get(subject, hazard).map(Cell::from))
-}
-
 /// Draws speed against accuracy on the problem `problem` of the record of the day `date`, as SVG. Solvers have the colours
 /// of `registry`.
 ///
@@ -62,15 +43,6 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     work::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
 }
 
-/// Draws work against the errors of Taylor series and against the bounds that they prove, as SVG: a panel for each problem,
-/// with its title.
-///
-/// # Errors
-/// [`ChartError`] if it can't be drawn.
-pub fn proven(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
-    work::proofs(panels)
-}
-
 /// Draws the charts of all records that the `report` has. Solvers have the colours of `registry`.
 ///
 /// # Errors
@@ -80,8 +52,8 @@ pub fn charts(report: &Report<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart
     let palette = Palette::new(registry);
     let mut charts = Vec::new();
     if let Some(all) = records.atlas {
-        let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Cell::Answer);
-        charts.push(chart("atlas-matrix.svg", atlas::matrix(&all.subjects(), worst)?));
+        let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Expectation::Answer);
+        charts.push(chart("atlas-matrix.svg", matrix(&all.subjects(), worst)?));
         charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
         charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
     }

@@ -24,13 +24,13 @@ const FREE: [[u8; 3]; 8] = [
 const UNKNOWN: [u8; 3] = [110; 3];
 
 /// The colours of a registry.
-pub(super) struct Palette<'a> {
+pub(crate) struct Palette<'a> {
     registry: &'a [SolverEntry],
     colours: Vec<[u8; 3]>,
 }
 
 impl<'a> Palette<'a> {
-    pub(super) fn new(registry: &'a [SolverEntry]) -> Self {
+    pub(crate) fn new(registry: &'a [SolverEntry]) -> Self {
         let set: Vec<[u8; 3]> = registry.iter().filter_map(SolverEntry::color).collect();
         let mut free = FREE.iter().copied().filter(|colour| !set.contains(colour)).cycle();
         let colours = registry.iter().map(|entry| entry.color().or_else(|| free.next()).unwrap_or(UNKNOWN)).collect();

@@ -31,8 +31,8 @@ const PANEL: (u32, u32) = (510, 560);
 /// Errors from ten radians down to below the last bit. An error of 0 is drawn at the end.
 const ERRORS: std::ops::Range<f64> = 10.0..1e-18;
 
-/// Light grey, drawn wide under the lines.
-const FRONT: RGBColor = RGBColor(205, 205, 205);
+/// Of the front, drawn wide under the lines, and between error and bound.
+const LIGHT: RGBColor = RGBColor(205, 205, 205);
 
 /// The work of a sample, over all its launches, in the unit of its axis; `None` for none.
 type Work = fn(&Sample) -> Option<f64>;
@@ -174,7 +174,7 @@ impl<'a> Drawing<'a> {
         }
         let label = String::new();
         let failures = Vec::new();
-        Series { label, colour: FRONT, width: 16, dashed: false, marker: Marker::None, points, failures }
+        Series { label, colour: LIGHT, width: 16, dashed: false, marker: Marker::None, points, failures }
     }
 }
 
@@ -183,11 +183,8 @@ const PROOFS_SIZE: (u32, u32) = (1800, 900);
 /// Room for the labels beside the lines (pixels).
 const PROOFS_RIGHT: u32 = 230;
 
-/// Between error and bound.
-const GAP: RGBColor = RGBColor(205, 205, 205);
-
 /// The chart as SVG: a panel for each problem, with its title.
-pub(super) fn proofs(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
+pub(crate) fn proofs(panels: &[(&str, Vec<Proof>)]) -> Result<String, ChartError> {
     let columns = panels.len().max(1);
     svg(PROOFS_SIZE, |root| {
         let areas = root.split_evenly((1, columns));
@@ -205,8 +202,9 @@ fn panel_of_proofs(panel: &Panel<'_>, title: &str, proofs: &[Proof]) -> Drawn {
         let (label, failures) = (label.to_owned(), Vec::new());
         Series { label, colour, width, dashed: false, marker, points, failures }
     };
-    let gap =
-        |proof: &Proof| line("", GAP, (2, Marker::None), vec![(proof.bound, proof.calls), (proof.error, proof.calls)]);
+    let gap = |proof: &Proof| {
+        line("", LIGHT, (2, Marker::None), vec![(proof.bound, proof.calls), (proof.error, proof.calls)])
+    };
     let of = |value: fn(&Proof) -> f64| proofs.iter().map(|proof| (value(proof), proof.calls)).collect::<Vec<_>>();
     let mut lines: Vec<Series> = proofs.iter().map(gap).collect();
     lines.push(line("proven bound", VERMILION, (LINE_WIDTH, Marker::Disc), of(|proof| proof.bound)));
