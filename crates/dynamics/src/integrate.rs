@@ -95,14 +95,14 @@ pub(crate) fn integrate_within<const N: usize>(
 }
 
 /// The accepted steps of `ode_solvers`.
-type Run<const N: usize> = SolverResult<f64, SVector<f64, N>>;
+type AcceptedSteps<const N: usize> = SolverResult<f64, SVector<f64, N>>;
 
 fn run<const N: usize>(
     system: &impl OdeSystem<N>,
     start: SVector<f64, N>,
     Span { duration, scale, longest }: Span,
     stepping: &Stepping,
-) -> Result<(Run<N>, Work), SolveError> {
+) -> Result<(AcceptedSteps<N>, Work), SolveError> {
     let scheme = RungeKutta::of(stepping.scheme())?;
     let end = duration * scale;
     if end == 0.0 {
@@ -183,7 +183,7 @@ fn step_through<const N: usize, S: OdeSystem<N>>(
     end: f64,
     scheme: RungeKutta,
     steps: &Steps,
-) -> Result<Run<N>, IntegrationError> {
+) -> Result<AcceptedSteps<N>, IntegrationError> {
     match scheme {
         RungeKutta::Dop853 => run_adaptive!(Dop853, system, start, end, steps, beta: 0.0, factors: 0.333, 6.0),
         RungeKutta::Dopri5 => run_adaptive!(Dopri5, system, start, end, steps, beta: 0.04, factors: 0.2, 10.0),

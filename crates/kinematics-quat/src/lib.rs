@@ -34,7 +34,7 @@ pub use crate::system::QuaternionSystem;
 use crate::system::half_product;
 use crate::taylor::coin::Coins;
 use crate::taylor::lockstep::fly;
-use crate::taylor::plan::Plans;
+use crate::taylor::plan::StepPlans;
 use crate::taylor::rigid::Bodies;
 pub use crate::taylor::rigid::RigidSystem;
 
@@ -55,8 +55,8 @@ pub struct QuaternionSolver {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Taylor {
     tolerance: f64,
-    coins: Plans,
-    bodies: Plans,
+    coins: StepPlans,
+    bodies: StepPlans,
 }
 
 impl QuaternionSolver {
@@ -78,7 +78,7 @@ impl QuaternionSolver {
     pub fn new(stepping: Stepping, formulation: Formulation) -> Self {
         let taylor = match (stepping.scheme(), stepping.control()) {
             (TAYLOR, StepControl::Tolerance(tolerance)) => {
-                let (coins, bodies) = (Plans::of_coins(tolerance), Plans::of_bodies(tolerance));
+                let (coins, bodies) = (StepPlans::of_coins(tolerance), StepPlans::of_bodies(tolerance));
                 Some(Taylor { tolerance, coins, bodies })
             }
             _ => None,

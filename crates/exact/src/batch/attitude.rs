@@ -5,7 +5,7 @@ use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, sin_cos_to_sign};
 
 use super::Batch;
-use super::kernel::{Kernel, Run};
+use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, without_negligible};
 use crate::compensated::compensated_landing;
 
@@ -23,7 +23,7 @@ impl Batch<'_> {
         // Half of an angle, measured in quarters of a turn, is twice the angle measured in turns.
         let constants = Constants::new(&self.tosses).with_phases_times(2.0);
         let start = if self.is_flat() { None } else { Some(self.tosses.attitude().components()) };
-        self.level.run(Run { kernel: &Attitudes { constants, start }, tosses: self.tosses, out })
+        self.level.run(BatchRun { kernel: &Attitudes { constants, start }, tosses: self.tosses, out })
     }
 }
 

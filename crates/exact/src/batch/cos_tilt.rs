@@ -11,7 +11,7 @@ use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
 
 use super::Batch;
-use super::kernel::{Kernel, Run};
+use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, TiltTerms, without_negligible};
 use crate::compensated::compensated_cos_tilt;
 
@@ -27,10 +27,10 @@ impl Batch<'_> {
         assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
         let constants = Constants::new(&self.tosses);
         if self.is_flat() {
-            self.level.run(Run { kernel: &Flat(constants), tosses: self.tosses, out: [out] })
+            self.level.run(BatchRun { kernel: &Flat(constants), tosses: self.tosses, out: [out] })
         } else {
             let kernel = &Tilted::new(constants, TiltTerms::new(&self.tosses));
-            self.level.run(Run { kernel, tosses: self.tosses, out: [out] })
+            self.level.run(BatchRun { kernel, tosses: self.tosses, out: [out] })
         }
     }
 }
@@ -112,7 +112,7 @@ mod tests {
         let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
         let doubled = TiltTerms { vertical: vertical.map(|part| 4.0 * part), norm: 4.0 * norm };
         let kernel = &Tilted::new(Constants::new(&tosses), doubled);
-        Batch::new(tosses).level.run(Run { kernel, tosses, out: [&mut found] }).unwrap();
+        Batch::new(tosses).level.run(BatchRun { kernel, tosses, out: [&mut found] }).unwrap();
         assert_eq!(found, expected);
     }
 }

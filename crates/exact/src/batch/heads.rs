@@ -14,7 +14,7 @@ use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{ATAN2_ERROR, Real, Simd, atan2};
 
 use super::Batch;
-use super::kernel::{Kernel, Run};
+use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
 use crate::tilt_terms::TERM_ERROR;
 
@@ -57,7 +57,7 @@ impl Batch<'_> {
         let out = [crest, half_width, crest_error, half_width_error, rate];
         assert!(out.iter().all(|column| column.len() == self.tosses.len()), "a column must have one entry per toss");
         let kernel = &Heads(Constants::new(&self.tosses), TiltTerms::new(&self.tosses));
-        self.level.run(Run { kernel, tosses: self.tosses, out })
+        self.level.run(BatchRun { kernel, tosses: self.tosses, out })
     }
 }
 
@@ -133,10 +133,10 @@ mod tests {
         [x, y, column(5.0, 3, 0.0), speeds]
     }
 
-    type Found = [Vec<f64>; 5];
+    type HeadsFound = [Vec<f64>; 5];
 
-    fn found(tosses: Tosses<'_>, level: SimdLevel) -> Found {
-        let mut columns: Found = std::array::from_fn(|_| vec![f64::NAN; tosses.len()]);
+    fn found(tosses: Tosses<'_>, level: SimdLevel) -> HeadsFound {
+        let mut columns: HeadsFound = std::array::from_fn(|_| vec![f64::NAN; tosses.len()]);
         let [crest, half_width, crest_error, half_width_error, rate] = columns.each_mut().map(Vec::as_mut_slice);
         let out = HeadsColumns { crest, half_width, crest_error, half_width_error, rate };
         Batch::new(tosses).on(level).heads(out).unwrap();

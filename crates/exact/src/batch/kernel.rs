@@ -33,13 +33,13 @@ pub(super) trait Kernel<const MID: usize, const OUT: usize> {
 }
 
 /// A kernel, the tosses that it is run over, and the columns for its results.
-pub(super) struct Run<'a, 'out, K, const MID: usize, const OUT: usize> {
+pub(super) struct BatchRun<'a, 'out, K, const MID: usize, const OUT: usize> {
     pub(super) kernel: &'a K,
     pub(super) tosses: Tosses<'a>,
     pub(super) out: [&'out mut [f64]; OUT],
 }
 
-impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for Run<'_, '_, K, MID, OUT> {
+impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for BatchRun<'_, '_, K, MID, OUT> {
     type Output = Result<(), Error>;
 
     #[inline(always)]
@@ -75,7 +75,7 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for Run<'
     }
 }
 
-impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> Run<'_, '_, K, MID, OUT> {
+impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> BatchRun<'_, '_, K, MID, OUT> {
     /// Solves the tosses of a tile that are not ordinary, one by one.
     #[cold]
     #[inline(never)]

@@ -29,7 +29,7 @@ use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{ROUGH_ERROR, Real, Simd, SimdLevel, rough_cos_of_half, rough_sin_of_half};
 
 use super::Batch;
-use super::kernel::{Kernel, Run};
+use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
 use super::proving::{self, Proving};
 use crate::certificate::{Certificate, ProvenCounts};
@@ -115,8 +115,8 @@ impl Filter {
     fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
         let (level, tosses) = (batch.level, batch.tosses.part(range.clone()));
         let done = match self {
-            Self::Flat(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
-            Self::Tilted(kernel) => level.run(Run { kernel, tosses, out: [heights] }),
+            Self::Flat(kernel) => level.run(BatchRun { kernel, tosses, out: [heights] }),
+            Self::Tilted(kernel) => level.run(BatchRun { kernel, tosses, out: [heights] }),
         };
         done.map_err(|error| error.after(range.start as u64))
     }

@@ -10,7 +10,7 @@ use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use crate::taylor::coin::{COMPENSATED, LARGEST_ORDER, Series};
 use crate::taylor::lockstep::{MOST_LANES, PerLane};
-use crate::taylor::plan::Plan;
+use crate::taylor::plan::StepPlan;
 
 /// What the bound of a step depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -42,12 +42,12 @@ pub(crate) struct StepBound {
 const SLACK: f64 = 1.0 + 1e-9;
 
 /// The bounds of many flights with the same `plan`, each with the same bits at every SIMD `level`.
-pub(crate) fn bounds(plan: &Plan, level: SimdLevel, steps: &[Steps]) -> Vec<StepBound> {
+pub(crate) fn bounds(plan: &StepPlan, level: SimdLevel, steps: &[Steps]) -> Vec<StepBound> {
     level.run(Kernel { plan, steps })
 }
 
 struct Kernel<'a> {
-    plan: &'a Plan,
+    plan: &'a StepPlan,
     steps: &'a [Steps],
 }
 
@@ -79,7 +79,7 @@ struct Lanes([PerLane; 5]);
 
 impl Lanes {
     #[inline(always)]
-    fn bounds<S: Simd>(&self, simd: S, plan: &Plan, series: &mut Series<S>) -> [PerLane; 3] {
+    fn bounds<S: Simd>(&self, simd: S, plan: &StepPlan, series: &mut Series<S>) -> [PerLane; 3] {
         let [modulus, spread, half_z, q, longest] = self.0.each_ref().map(|part| Real::load(simd, part));
         series.expand_eta(plan.order, q);
         series.expand(plan.order, modulus, half_z);

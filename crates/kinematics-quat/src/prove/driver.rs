@@ -17,7 +17,7 @@ use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
 use crate::prove::rigid_lanes::Enclosed;
 use crate::taylor::coin::Coins;
 use crate::taylor::lockstep::{Motion, by_kind, fly_all};
-use crate::taylor::plan::Plans;
+use crate::taylor::plan::StepPlans;
 use crate::{Landed, QuaternionSolver, Taylor};
 
 /// Roundings, in units of u, between the proven turn and cos θ: the vertical (4.2), the normal (4), their product (3) and
@@ -35,46 +35,46 @@ const DIGITS: [usize; 3] = [192, 384, 768];
 const NO_BOUND: &str =
     "next to a turn about the middle axis, or next to equal moments, the errors of this flight have no bound";
 
-type Found = Result<IntegratedCertificate, SolveError>;
+type Certified = Result<IntegratedCertificate, SolveError>;
 
 /// Flights that bound their error.
 trait Bounded: Motion {
     /// The plans of a solver for such flights.
-    fn plans(taylor: &Taylor) -> &Plans;
+    fn plans(taylor: &Taylor) -> &StepPlans;
 
     /// The plans of the finest tolerance.
-    fn finest() -> Plans;
+    fn finest() -> StepPlans;
 
     /// The landings by these `plans` with their bounds.
     fn enclosed(
         solver: &QuaternionSolver,
-        flown: (&[Self::Toss], &Plans),
+        flown: (&[Self::Toss], &StepPlans),
         level: SimdLevel,
         by: Integration,
-    ) -> Vec<Found>;
+    ) -> Vec<Certified>;
 
     /// What is stated of a toss that the finest tolerance leaves undecided, as `found`.
     ///
     /// # Errors
     /// [`SolveError`] if nothing is.
-    fn undecided(toss: &Self::Toss, found: IntegratedCertificate) -> Found;
+    fn undecided(toss: &Self::Toss, found: IntegratedCertificate) -> Certified;
 }
 
 impl Bounded for Coins {
-    fn plans(taylor: &Taylor) -> &Plans {
+    fn plans(taylor: &Taylor) -> &StepPlans {
         &taylor.coins
     }
 
-    fn finest() -> Plans {
-        Plans::of_coins(f64::EPSILON)
+    fn finest() -> StepPlans {
+        StepPlans::of_coins(f64::EPSILON)
     }
 
     fn enclosed(
         solver: &QuaternionSolver,
-        (tosses, plans): (&[CoinToss], &Plans),
+        (tosses, plans): (&[CoinToss], &StepPlans),
         level: SimdLevel,
         by: Integration,
-    ) -> Vec<Found> {
+    ) -> Vec<Certified> {
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
         fly_all::<Self>(plans, tosses, level, |index, landed| landings[index] = landed);
         let bounds = step_bounds(tosses, plans, level, &landings);
@@ -87,7 +87,7 @@ impl Bounded for Coins {
     }
 
     /// Decides by more and more digits.
-    fn undecided(toss: &CoinToss, mut found: IntegratedCertificate) -> Found {
+    fn undecided(toss: &CoinToss, mut found: IntegratedCertificate) -> Certified {
         let double_double = || by_digits(toss, in_double_double(toss)?, Integration::DoubleDouble);
         let more = |digits| by_digits(toss, in_digits(toss, digits)?, Integration::MoreDigits);
         for stage in [None].into_iter().chain(DIGITS.map(Some)) {
@@ -101,20 +101,20 @@ impl Bounded for Coins {
 }
 
 impl Bounded for Enclosed {
-    fn plans(taylor: &Taylor) -> &Plans {
+    fn plans(taylor: &Taylor) -> &StepPlans {
         &taylor.bodies
     }
 
-    fn finest() -> Plans {
-        Plans::of_bodies(f64::EPSILON)
+    fn finest() -> StepPlans {
+        StepPlans::of_bodies(f64::EPSILON)
     }
 
     fn enclosed(
         solver: &QuaternionSolver,
-        (tosses, plans): (&[Toss], &Plans),
+        (tosses, plans): (&[Toss], &StepPlans),
         level: SimdLevel,
         by: Integration,
-    ) -> Vec<Found> {
+    ) -> Vec<Certified> {
         let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
         fly_all::<Self>(plans, tosses, level, |index, landed| {
             found[index] = landed.and_then(|landed| {
@@ -126,7 +126,7 @@ impl Bounded for Enclosed {
         found
     }
 
-    fn undecided(_: &Toss, found: IntegratedCertificate) -> Found {
+    fn undecided(_: &Toss, found: IntegratedCertificate) -> Certified {
         let refused = SolveError::NotProven { solver: QuaternionSolver::NAME.to_owned(), why: NO_BOUND };
         if found.error_bound < 2.0 { Ok(found) } else { Err(refused) }
     }
@@ -151,12 +151,12 @@ impl QuaternionSolver {
     }
 
     /// [`QuaternionSolver::certify_all`] of coins.
-    pub(crate) fn certify_coins(&self, coins: &[CoinToss], level: SimdLevel) -> Vec<Found> {
+    pub(crate) fn certify_coins(&self, coins: &[CoinToss], level: SimdLevel) -> Vec<Certified> {
         self.decided_all::<Coins>(coins, level)
     }
 
     /// [`QuaternionSolver::certify_all`] of other bodies.
-    pub(crate) fn certify_bodies(&self, bodies: &[Toss], level: SimdLevel) -> Vec<Found> {
+    pub(crate) fn certify_bodies(&self, bodies: &[Toss], level: SimdLevel) -> Vec<Certified> {
         self.decided_all::<Enclosed>(bodies, level)
     }
 
@@ -184,13 +184,13 @@ impl QuaternionSolver {
     }
 
     /// The landing at the solver's own tolerance with its bounds.
-    fn enclosed<B: Bounded>(&self, toss: &B::Toss) -> Found {
+    fn enclosed<B: Bounded>(&self, toss: &B::Toss) -> Certified {
         let flown = (std::slice::from_ref(toss), B::plans(self.require_proofs()?));
         only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::AsConfigured))
     }
 
     /// The certificates of `tosses`.
-    fn decided_all<B: Bounded>(&self, tosses: &[B::Toss], level: SimdLevel) -> Vec<Found> {
+    fn decided_all<B: Bounded>(&self, tosses: &[B::Toss], level: SimdLevel) -> Vec<Certified> {
         let plans = match self.require_proofs() {
             Ok(taylor) => B::plans(taylor),
             Err(error) => return vec![Err(error); tosses.len()],
@@ -200,7 +200,7 @@ impl QuaternionSolver {
     }
 
     /// The certificate of the finest tolerance or of what follows it, if `found` does not decide.
-    fn decided<B: Bounded>(&self, toss: &B::Toss, mut found: IntegratedCertificate) -> Found {
+    fn decided<B: Bounded>(&self, toss: &B::Toss, mut found: IntegratedCertificate) -> Certified {
         if found.outcome == Outcome::Undecided && !self.is_finest() {
             let flown = (std::slice::from_ref(toss), &B::finest());
             let finer = only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::Finest))?;
@@ -230,14 +230,14 @@ impl QuaternionSolver {
 }
 
 /// The only one of these.
-fn only(found: Vec<Found>) -> Found {
+fn only(found: Vec<Certified>) -> Certified {
     found.into_iter().next().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
 }
 
 /// The bounds of the steps of each flight that has landed.
 fn step_bounds(
     tosses: &[CoinToss],
-    plans: &Plans,
+    plans: &StepPlans,
     level: SimdLevel,
     landings: &[Result<Landed, SolveError>],
 ) -> Vec<StepBound> {

@@ -11,7 +11,7 @@ use crate::prove::driver::{OF_COS_TILT, cos_tilt};
 use crate::prove::flight::{attitude_bound, steps};
 use crate::taylor::coin::Coins;
 use crate::taylor::lockstep::{by_kind, fly_all};
-use crate::taylor::plan::Plans;
+use crate::taylor::plan::StepPlans;
 use crate::{Landed, QuaternionSolver};
 
 /// The tolerance of the coarse flights.
@@ -93,7 +93,7 @@ impl QuaternionSolver {
 
 /// The outcomes that coarse flights prove; the others are undecided.
 fn coarse(tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
-    let plans = Plans::of_coarse_coins(COARSE);
+    let plans = StepPlans::of_coarse_coins(COARSE);
     let mut found = vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
     let mut flown = Vec::with_capacity(tosses.len());
     fly_all::<Coins>(&plans, tosses, level, |index, landed| match landed {

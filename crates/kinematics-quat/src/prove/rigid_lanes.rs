@@ -7,7 +7,7 @@ use numerics::lanes::{Real, Simd};
 use crate::Landed;
 use crate::prove::polhode::{Errors, Polhode, Step};
 use crate::taylor::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
-use crate::taylor::plan::Plan;
+use crate::taylor::plan::StepPlan;
 use crate::taylor::rigid::{Bodies, RigidSeries};
 
 /// The state of the body in each lane.
@@ -53,7 +53,7 @@ impl Motion for Enclosed {
     }
 
     #[inline(always)]
-    fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) {
+    fn advance<S: Simd>(&mut self, simd: S, plan: &StepPlan, series: &mut RigidSeries<S>, clock: &mut Clock) {
         let h = self.bodies.step(simd, plan, series, clock);
         let twice = self.bodies.twice.each_ref().map(|numbers| Real::load(simd, numbers));
         let defect = series.defect(plan.order, h, twice);

@@ -31,7 +31,7 @@ use numerics::lanes::{Complex, Double, Real, Simd, compensated_product, complex_
 
 use crate::prove::flight::Record;
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
-use crate::taylor::plan::Plan;
+use crate::taylor::plan::StepPlan;
 use crate::taylor::product::turned;
 use crate::{Landed, QuaternionSystem};
 
@@ -241,7 +241,7 @@ impl Motion for Coins {
     }
 
     #[inline(always)]
-    fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut Series<S>, clock: &mut Clock) {
+    fn advance<S: Simd>(&mut self, simd: S, plan: &StepPlan, series: &mut Series<S>, clock: &mut Clock) {
         let load = |numbers: &PerLane| Real::load(simd, numbers);
         let (eta, q, order) = (self.eta.each_ref().map(load), load(&self.q), plan.order);
         let (modulus, direction) = polar(eta);

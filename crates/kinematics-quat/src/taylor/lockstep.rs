@@ -12,7 +12,7 @@ use dynamics::{Body, CoinToss, Flight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use crate::Landed;
-use crate::taylor::plan::{Plan, Plans};
+use crate::taylor::plan::{StepPlan, StepPlans};
 
 /// The number of lanes of the widest vectors.
 pub(crate) const MOST_LANES: usize = 8;
@@ -45,7 +45,7 @@ pub(crate) trait Motion: Default {
     fn launch(&mut self, lane: usize, toss: &Self::Toss, flight: &Self::Flight);
 
     /// Takes one step in each lane, of the length that `clock` chooses.
-    fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut Self::Series<S>, clock: &mut Clock);
+    fn advance<S: Simd>(&mut self, simd: S, plan: &StepPlan, series: &mut Self::Series<S>, clock: &mut Clock);
 
     /// The end state of the flight in `lane`.
     fn landing(&self, lane: usize, flight: &Self::Flight, work: Work) -> Landed;
@@ -63,7 +63,7 @@ impl Clock {
     /// The length of the next step in each lane, from the sizes of the last two coefficients. It is subtracted from the
     /// remaining time.
     #[inline(always)]
-    pub(crate) fn step<S: Simd>(&mut self, simd: S, plan: &Plan, sizes: [Real<S>; 2]) -> Real<S> {
+    pub(crate) fn step<S: Simd>(&mut self, simd: S, plan: &StepPlan, sizes: [Real<S>; 2]) -> Real<S> {
         let left = Real::load(simd, &self.left);
         let h = plan.step(left, Real::load(simd, &self.inverse_tolerance), sizes);
         (left - h).store(&mut self.left);
@@ -75,7 +75,7 @@ impl Clock {
 /// `land` with the index and the landing of each. Lanes without a toss cost time, too, so that nothing is done if there is
 /// none.
 pub(crate) fn fly<M: Motion>(
-    plans: &Plans,
+    plans: &StepPlans,
     (len, toss): (usize, impl Fn(usize) -> Option<M::Toss>),
     level: SimdLevel,
     mut land: impl FnMut(usize, Result<Landed, SolveError>),
@@ -93,7 +93,7 @@ pub(crate) fn fly<M: Motion>(
 
 /// As [`fly`], all `tosses` of a slice.
 pub(crate) fn fly_all<M: Motion>(
-    plans: &Plans,
+    plans: &StepPlans,
     tosses: &[M::Toss],
     level: SimdLevel,
     land: impl FnMut(usize, Result<Landed, SolveError>),
@@ -103,7 +103,7 @@ pub(crate) fn fly_all<M: Motion>(
 
 /// One pass through the tosses, for either the long flights or the short ones.
 struct Queue<'a, M: Motion> {
-    plan: &'a Plan,
+    plan: &'a StepPlan,
     /// Whether this pass solves the long flights, and skips the short ones, or the other way round.
     long: bool,
     /// Whether a toss was skipped.
@@ -182,7 +182,7 @@ impl<M: Motion> Default for Lanes<M> {
 
 impl<M: Motion> Lanes<M> {
     /// Sets `lane` to the launch of `toss`.
-    fn launch(&mut self, lane: usize, plan: &Plan, toss: &M::Toss, flight: &M::Flight) {
+    fn launch(&mut self, lane: usize, plan: &StepPlan, toss: &M::Toss, flight: &M::Flight) {
         self.motion.launch(lane, toss, flight);
         let timing = M::timing(flight);
         (self.clock.left[lane], self.steps[lane]) = (timing.span(), 0);
@@ -192,7 +192,7 @@ impl<M: Motion> Lanes<M> {
     /// Counts the step of `lane`. If the flight has landed or has reached the limit of steps, returns the index of its
     /// toss and its end, and leaves the lane idle.
     #[inline(always)]
-    fn landed(&mut self, lane: usize, plan: &Plan) -> Option<(usize, Result<Landed, SolveError>)> {
+    fn landed(&mut self, lane: usize, plan: &StepPlan) -> Option<(usize, Result<Landed, SolveError>)> {
         let (index, flight) = self.flying[lane]?;
         self.steps[lane] += 1;
         if self.clock.left[lane] > 0.0 {
@@ -214,7 +214,7 @@ impl<M: Motion> Lanes<M> {
     }
 
     /// The end state of the flight in `lane`.
-    fn landing(&self, lane: usize, flight: &M::Flight, plan: &Plan) -> Landed {
+    fn landing(&self, lane: usize, flight: &M::Flight, plan: &StepPlan) -> Landed {
         let steps = u64::from(self.steps[lane]);
         let work = Work { rhs_calls: steps * plan.order as u64, accepted_steps: steps, rejected_steps: 0 };
         self.motion.landing(lane, flight, work)

@@ -26,7 +26,7 @@ const ROUNDING: f64 = 5e-13;
 
 /// The constants of a step that follow from the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Plan {
+pub(crate) struct StepPlan {
     pub(crate) tolerance: f64,
     /// The order of the series, which is even.
     pub(crate) order: usize,
@@ -40,7 +40,7 @@ pub(crate) struct Plan {
     growth: [[f64; 2]; OCTAVES_OF_COINS.len()],
 }
 
-impl Plan {
+impl StepPlan {
     /// The constants of coins, for local errors of `tolerance`.
     fn of_coins(tolerance: f64) -> Self {
         let order = order(tolerance);
@@ -107,40 +107,43 @@ fn order(tolerance: f64) -> usize {
 
 /// The plans of a solver with a given tolerance, for short and for long flights.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Plans {
-    pub(crate) short: Plan,
+pub(crate) struct StepPlans {
+    pub(crate) short: StepPlan,
     /// The plan of [long](dynamics::Flight::is_long) flights. Each of them has a tolerance of its own, so that all take
     /// the order of the finest tolerance, and compensated rates.
-    pub(crate) long: Plan,
+    pub(crate) long: StepPlan,
 }
 
-impl Plans {
+impl StepPlans {
     /// The plans of coins, for local errors of `tolerance`.
     pub(crate) fn of_coins(tolerance: f64) -> Self {
-        Self { short: Plan::of_coins(tolerance), long: Plan { tolerance, ..Plan::of_coins(f64::EPSILON) } }
+        Self { short: StepPlan::of_coins(tolerance), long: StepPlan { tolerance, ..StepPlan::of_coins(f64::EPSILON) } }
     }
 
     /// The plans of coins for local errors of so large a `tolerance` that rounding does not matter in long flights either.
     pub(crate) fn of_coarse_coins(tolerance: f64) -> Self {
-        let plan = Plan::of_coins(tolerance);
+        let plan = StepPlan::of_coins(tolerance);
         Self { short: plan, long: plan }
     }
 
     /// The plan of long or of short flights.
-    pub(crate) fn of(&self, long: bool) -> &Plan {
+    pub(crate) fn of(&self, long: bool) -> &StepPlan {
         if long { &self.long } else { &self.short }
     }
 
     /// Equal steps of coins, of this order and length in the unit of the flight.
     #[cfg(test)]
     pub(crate) fn fixed(order: usize, step: f64) -> Self {
-        let finest = Plan::of_coins(f64::EPSILON);
-        let plan = Plan { order, compensates: false, shortest: step, growth: [[1.0; 2]; 6], ..finest };
+        let finest = StepPlan::of_coins(f64::EPSILON);
+        let plan = StepPlan { order, compensates: false, shortest: step, growth: [[1.0; 2]; 6], ..finest };
         Self { short: plan, long: plan }
     }
 
     /// The plans of other bodies, for local errors of `tolerance`.
     pub(crate) fn of_bodies(tolerance: f64) -> Self {
-        Self { short: Plan::of_bodies(tolerance), long: Plan { tolerance, ..Plan::of_bodies(f64::EPSILON) } }
+        Self {
+            short: StepPlan::of_bodies(tolerance),
+            long: StepPlan { tolerance, ..StepPlan::of_bodies(f64::EPSILON) },
+        }
     }
 }

@@ -20,7 +20,7 @@ use numerics::lanes::{Real, Simd};
 
 use crate::taylor::coin::{INVERSES, LARGEST_ORDER};
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
-use crate::taylor::plan::Plan;
+use crate::taylor::plan::StepPlan;
 use crate::taylor::product::turned;
 use crate::{Landed, half_product};
 
@@ -161,7 +161,7 @@ impl Motion for Bodies {
     }
 
     #[inline(always)]
-    fn advance<S: Simd>(&mut self, simd: S, plan: &Plan, series: &mut RigidSeries<S>, clock: &mut Clock) {
+    fn advance<S: Simd>(&mut self, simd: S, plan: &StepPlan, series: &mut RigidSeries<S>, clock: &mut Clock) {
         self.step(simd, plan, series, clock);
     }
 
@@ -187,7 +187,7 @@ impl Bodies {
     pub(crate) fn step<S: Simd>(
         &mut self,
         simd: S,
-        plan: &Plan,
+        plan: &StepPlan,
         series: &mut RigidSeries<S>,
         clock: &mut Clock,
     ) -> Real<S> {

@@ -140,7 +140,7 @@ mod tests {
     /// Computes the products, and the polar form, of two complex numbers that come with their errors.
     struct OfAStep([Complex<Double<f64>>; 2]);
 
-    struct Found {
+    struct StepParts {
         product: Complex<f64>,
         compensated: Complex<Double<f64>>,
         modulus: f64,
@@ -148,13 +148,13 @@ mod tests {
     }
 
     impl WithSimd for OfAStep {
-        type Output = Found;
+        type Output = StepParts;
 
-        fn with_simd<S: Simd>(self, simd: S) -> Found {
+        fn with_simd<S: Simd>(self, simd: S) -> StepParts {
             let [a, b] = self.0.map(|number| number.map(|part| part.map(|value| Real::splat(simd, value))));
             let rough = |number: Complex<Double<Real<S>>>| number.map(|part| part[0]);
             let (modulus, direction) = polar(rough(a));
-            Found {
+            StepParts {
                 product: complex_product(rough(a), rough(b)).map(first),
                 compensated: compensated_product(a, b).map(|part| part.map(first)),
                 modulus: first(modulus),

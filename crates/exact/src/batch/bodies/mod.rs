@@ -94,7 +94,7 @@ impl Proving for Filtered<'_, '_> {
         match &self.1 {
             Some(constants) => {
                 let tosses = self.0.tosses.part(range);
-                self.0.level.run(Run { constants, tosses, out: heights });
+                self.0.level.run(BatchRun { constants, tosses, out: heights });
             }
             None => heights.fill(0.0),
         }
@@ -111,14 +111,14 @@ impl Proving for Filtered<'_, '_> {
 struct Columns<const N: usize>([[f64; TILE]; N]);
 
 /// The filter, run over tosses.
-struct Run<'a, 'out> {
+struct BatchRun<'a, 'out> {
     constants: &'a Constants,
     tosses: Tosses<'a, Body>,
     /// Receives a number with the proven sign of cos θ, and 0 where none is proven.
     out: &'out mut [f64],
 }
 
-impl WithSimd for Run<'_, '_> {
+impl WithSimd for BatchRun<'_, '_> {
     type Output = ();
 
     /// Two short loops over a tile overlap the operations of more tosses than one long loop.

@@ -144,7 +144,7 @@ fn results_have_the_same_bits_at_every_level_and_length() {
         let constants = Constants::new(&tosses).unwrap();
         let found = |level: SimdLevel, range: Range<usize>| {
             let mut out = vec![f64::NAN; range.len()];
-            level.run(Run { constants: &constants, tosses: tosses.part(range), out: &mut out });
+            level.run(BatchRun { constants: &constants, tosses: tosses.part(range), out: &mut out });
             out.into_iter().map(f64::to_bits).collect::<Vec<_>>()
         };
         let plain = found(SimdLevel::all()[0], 0..300);

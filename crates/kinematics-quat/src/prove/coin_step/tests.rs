@@ -5,7 +5,7 @@ use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
 use crate::taylor::coin::INVERSES;
-use crate::taylor::plan::Plans;
+use crate::taylor::plan::StepPlans;
 
 /// |η|, c, q and the length of a step.
 type Inputs = [f64; 4];
@@ -94,7 +94,7 @@ fn shares(longest: f64) -> [f64; 2] {
         let exact = summed(&exactly(inputs, 40, inverse), h);
         let off: Vec<f64> = exact.iter().zip(found).map(|(exact, found)| (*exact - found.into()).hi()).collect();
         let size = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
-        let plans = Plans::fixed(LARGEST_ORDER, h);
+        let plans = StepPlans::fixed(LARGEST_ORDER, h);
         let steps = Steps { modulus, spread: 0.0, half_z, q, longest: h };
         let bound = bounds(plans.of(false), level, &[steps])[0];
         let turn = bound.turn + bound.rates - 16.0 * UNIT_ROUNDOFF;
@@ -170,7 +170,7 @@ fn the_bounds_of_eta_are_those_of_the_theorem() {
         for inputs in inputs(20, 2.0) {
             let [modulus, half_z, q, h] = inputs;
             let steps = Steps { modulus, spread: 0.0, half_z, q, longest: h };
-            let mut plan = *Plans::fixed(order, h).of(false);
+            let mut plan = *StepPlans::fixed(order, h).of(false);
             plan.compensates = compensates;
             let bound = bounds(&plan, SimdLevel::widest(), &[steps])[0];
             let turn = q.abs() * h;

@@ -114,7 +114,7 @@ fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
     for (x, ratio) in [(1.0, 2.0), (0.2, 8.0), (0.05, 14.0)] {
         let toss = CoinToss { coin, launch: Launch::new([x, 0.0, 1.0], time).unwrap() };
         // |ω| h = 0.1, at order 4.
-        let plans = Plans::fixed(4, 0.1 / x.hypot(1.0));
+        let plans = StepPlans::fixed(4, 0.1 / x.hypot(1.0));
         let mut landed = None;
         fly_all::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
         let landed = landed.unwrap();
@@ -132,7 +132,7 @@ fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
 /// Each fault is one that the bound has to notice, because it follows the numbers of the steps.
 #[test]
 fn the_bound_grows_with_each_fault_of_a_step() {
-    let (toss, plans) = (random(&mut Numbers(3), 30.0).coin().unwrap(), Plans::of_coins(1e-10));
+    let (toss, plans) = (random(&mut Numbers(3), 30.0).coin().unwrap(), StepPlans::of_coins(1e-10));
     let mut landed = None;
     fly_all::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
     let Landed { flight, record, .. } = landed.unwrap();
