@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import Body, Solver
-from .given import suggesting
 from .launches import Launches
 from .results import ShownAsTable
 
@@ -58,7 +57,6 @@ def stages(numbers: Sequence[int] | None) -> dict[str, int] | None:
     return None if numbers is None else dict(zip(STAGES, numbers, strict=True))
 
 
-@suggesting
 def cos_tilt(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -127,7 +125,6 @@ def cos_tilt(
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
-@suggesting
 def outcome(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -172,7 +169,6 @@ def outcome(
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
-@suggesting
 def attitude(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -215,7 +211,6 @@ def attitude(
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
-@suggesting
 def count(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
