@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import Body, Solver
-from .launches import Launches
+from .launches import Attitudes, Launches
 from .results import ShownAsTable
-
-if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation
 
 
 @dataclass(frozen=True)
@@ -65,8 +61,9 @@ def cos_tilt(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -80,16 +77,20 @@ def cos_tilt(
         Angular velocity at launch in rad/s, along the axes of the body. These columns and the next broadcast against
         each other; contiguous ones of float64 are read in place.
     speed : array_like, optional
-        Upward speed at launch in m/s. The body lands at the height of its launch.
+        Upward speed at launch in m/s.
     time : array_like, optional
         Time of flight in s, instead of a speed.
     gravity : array_like, optional
-        In m/s²; 9.81 by default. It and the tilt may be columns, too, which cost the least if equal values follow each
-        other.
+        In m/s²; 9.81 by default. It, the tilt and the attitude may be columns, too, which cost the least if equal
+        values follow each other.
+    drop : array_like, optional
+        How far below its launch the body lands, in m; at the same height by default. Bodies with a drop are solved one
+        by one.
     tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
-    attitude : sequence of 4 floats or scipy Rotation, optional
-        Attitude at launch instead of a tilt, as the quaternion (w, x, y, z) from the body to the laboratory.
+    attitude : array_like of shape (..., 4) or scipy Rotation, optional
+        Attitude at launch instead of a tilt: one quaternion (w, x, y, z) from the body to the laboratory, or a column of
+        them. Columns of xarray have the dimension "component", those of pandas the columns w, x, y and z.
     body : str or Body
         A name of the catalogue (``bodies()``), or a body.
     solver : str or Solver, optional
@@ -119,8 +120,8 @@ def cos_tilt(
     Python's lock is released meanwhile. Arrays must not be written by another thread at the same time.
     """
     launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
+        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
+        body=body, solver=solver, threads=threads,
     )  # fmt: skip
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
@@ -133,8 +134,9 @@ def outcome(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -147,7 +149,7 @@ def outcome(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``.
     out : ndarray of int8, optional
         Array for the result, of the broadcast shape. After an exception its content is unspecified.
@@ -163,8 +165,8 @@ def outcome(
         As for ``cos_tilt``.
     """
     launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
+        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
+        body=body, solver=solver, threads=threads,
     )  # fmt: skip
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
@@ -177,8 +179,9 @@ def attitude(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -188,7 +191,7 @@ def attitude(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``; the default solver has an error of at most 1e-15 rad.
     out : ndarray of float64, optional
         Array for the result, of the broadcast shape and 4. After an exception its content is unspecified.
@@ -205,8 +208,8 @@ def attitude(
         As for ``cos_tilt``.
     """
     launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
+        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
+        body=body, solver=solver, threads=threads,
     )  # fmt: skip
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
@@ -219,8 +222,9 @@ def count(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -229,7 +233,7 @@ def count(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``.
 
     Returns
@@ -243,8 +247,8 @@ def count(
         As for ``cos_tilt``.
     """
     launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
+        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
+        body=body, solver=solver, threads=threads,
     )  # fmt: skip
     heads = tails = undecided = 0
     proven: list[int] | None = [0] * len(STAGES)
