@@ -7,8 +7,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use ::toss::{
-    Attitude, Backend, Body, Certificate, Error, ExactSolver, InputError, Launch, Outcome, Solver, Stage, TimeOfFlight,
-    Toss, Tosses, certify,
+    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, Stage, TimeOfFlight,
+    Toss, Tosses, Verdict, certify,
 };
 use dynamics::error::require;
 use pyo3::PyResult;
@@ -18,9 +18,6 @@ use crate::threads::{A_PROOF, Stop};
 
 /// Launches whose attitudes are interleaved at a time, so that what is between stays in the cache.
 const BLOCK: usize = 512;
-
-/// The same for outcomes: as many as a call proves.
-const OUTCOMES_BLOCK: usize = A_PROOF;
 
 /// Launches whose conditions are compared at a time.
 const COMPARED: usize = 64;
@@ -61,11 +58,16 @@ impl Common {
         self.drop.is_some() || self.varying[1]
     }
 
-    /// The solver that estimates outcomes; `None` where the exact motion proves them, which the kernels do.
-    fn estimating(&self) -> Option<&dyn Solver> {
-        match self.solver.as_ref()? {
-            Backend::Exact(_) => None,
-            Backend::Solver(solver) => Some(&**solver),
+    /// Whether outcomes are decided toss by toss, not by the kernels.
+    fn decides_one_by_one(&self) -> bool {
+        self.has_drop() || matches!(self.solver, Some(Backend::Solver(_)))
+    }
+
+    /// How a toss lands: proven, or estimated by a solver.
+    fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
+        match &self.solver {
+            Some(Backend::Solver(solver)) => Ok(Verdict::Estimated(solver.tilt(toss)?.outcome())),
+            _ => certify(toss).map(Verdict::Proven),
         }
     }
 }
@@ -155,33 +157,12 @@ impl Launches<'_> {
 
     /// Writes the proven outcomes of the launches in `range`, of any body.
     fn prove(&self, range: Range<usize>, outcomes: &mut [Outcome]) -> Result<(), Failure> {
-        if self.of.has_drop() {
-            return self.each(range, |place, _, toss| {
-                outcomes[place] = certify(toss)?.outcome();
-                Ok(())
-            });
-        }
         let start = range.start;
         let done = match self.of.body.coin() {
             Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).outcomes(outcomes),
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).outcomes(outcomes),
         };
         done.map_err(|error| self.failed(start, error))
-    }
-
-    /// Counts the proven outcomes of the launches in `range`, of any body.
-    fn count_proven(&self, range: Range<usize>) -> Result<Counts, Failure> {
-        if self.of.has_drop() {
-            return self.sum(range, |_, toss| Ok(one(certify(toss)?)));
-        }
-        let start = range.start;
-        let counts = match self.of.body.coin() {
-            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
-            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
-        };
-        let counts = counts.map_err(|error| self.failed(start, error))?;
-        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
-        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
     }
 
     /// The failure of the kernels in the part that starts at `start`, in the words of a single launch.
@@ -220,20 +201,6 @@ impl Launches<'_> {
         Ok(())
     }
 
-    /// The sum of what `count` finds of each launch in `range`.
-    fn sum(
-        &self,
-        range: Range<usize>,
-        count: impl Fn(&dyn Solver, &Toss) -> Result<Counts, Error>,
-    ) -> Result<Counts, Failure> {
-        let mut sum = NOTHING;
-        self.each(range, |_, solver, toss| {
-            sum = added(sum, count(solver, toss)?);
-            Ok(())
-        })?;
-        Ok(sum)
-    }
-
     /// Writes cos θ at landing.
     pub(crate) fn cos_tilts(&self, range: Range<usize>, out: &mut [f64]) -> Result<(), Failure> {
         let start = range.start;
@@ -248,15 +215,15 @@ impl Launches<'_> {
 
     /// Writes 1 for heads, -1 for tails and 0 for undecided launches.
     pub(crate) fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
-        if self.of.estimating().is_some() {
-            return self.each(range, |place, solver, toss| {
-                out[place] = sign(solver.tilt(toss)?.outcome());
+        if self.of.decides_one_by_one() {
+            return self.each(range, |place, _, toss| {
+                out[place] = sign(self.of.verdict(toss)?.outcome());
                 Ok(())
             });
         }
-        let mut block = [Outcome::Undecided; OUTCOMES_BLOCK];
-        for (number, out) in out.chunks_mut(OUTCOMES_BLOCK).enumerate() {
-            let from = range.start + number * OUTCOMES_BLOCK;
+        let mut block = [Outcome::Undecided; A_PROOF];
+        for (number, out) in out.chunks_mut(A_PROOF).enumerate() {
+            let from = range.start + number * A_PROOF;
             let outcomes = &mut block[..out.len()];
             self.prove(from..from + out.len(), outcomes)?;
             out.iter_mut().zip(outcomes).for_each(|(out, outcome)| *out = sign(*outcome));
@@ -290,23 +257,27 @@ impl Launches<'_> {
 
     /// Counts the outcomes; they are proven unless a solver estimates them.
     pub(crate) fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
-        if self.of.estimating().is_none() {
-            return self.count_proven(range);
+        if self.of.decides_one_by_one() {
+            let mut sum = NOTHING;
+            self.each(range, |_, _, toss| {
+                let verdict = self.of.verdict(toss)?;
+                let is = |face| u64::from(verdict.outcome() == face);
+                let by = |stage| u64::from(verdict.stage() == Some(stage));
+                let stages = verdict.is_proven().then(|| Stage::ALL.map(by));
+                sum = added(sum, (is(Outcome::Heads), is(Outcome::Tails), is(Outcome::Undecided), stages));
+                Ok(())
+            })?;
+            return Ok(sum);
         }
-        self.sum(range, |solver, toss| Ok(face(solver.tilt(toss)?.outcome(), None)))
+        let start = range.start;
+        let counts = match self.of.body.coin() {
+            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
+            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
+        };
+        let counts = counts.map_err(|error| self.failed(start, error))?;
+        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
+        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
     }
-}
-
-/// The counts of one launch that is proven, if it is.
-fn one(certificate: Certificate) -> Counts {
-    let stages = Stage::ALL.map(|stage| u64::from(stage == certificate.stage()));
-    face(certificate.outcome(), certificate.is_proven().then_some(stages))
-}
-
-/// The counts of one launch.
-fn face(outcome: Outcome, stages: Option<[u64; Stage::ALL.len()]>) -> Counts {
-    let is = |face| u64::from(outcome == face);
-    (is(Outcome::Heads), is(Outcome::Tails), is(Outcome::Undecided), stages)
 }
 
 /// Whether all values of `range` in each column are the one at `first`, to the bit.

@@ -119,10 +119,7 @@ def cos_tilt(
     -----
     Python's lock is released meanwhile. Arrays must not be written by another thread at the same time.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
-        body=body, solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
@@ -164,10 +161,7 @@ def outcome(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
-        body=body, solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
@@ -207,10 +201,7 @@ def attitude(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
-        body=body, solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
@@ -246,10 +237,7 @@ def count(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, drop=drop, tilt=tilt, attitude=attitude,
-        body=body, solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     heads = tails = undecided = 0
     proven: list[int] | None = [0] * len(STAGES)
     for first, columns in launches.blocks():

@@ -29,8 +29,6 @@ _Result = TypeVar("_Result", np.float64, np.int8)
 _OPERAND: Any = ["readonly", "contig", "aligned", "nbo"]
 """How each block of a column has to be; NumPy's stubs do not know "contig"."""
 
-_RATES = ("rate_x", "rate_y", "rate_z")
-
 _BLOCK = 1 << 18
 """Launches of a call of the kernels: so many that the call itself does not count."""
 
@@ -49,8 +47,10 @@ class Launches:
 
     def __init__(
         self,
-        columns: tuple[npt.ArrayLike | None, ...],
-        *,
+        rate_x: npt.ArrayLike,
+        rate_y: npt.ArrayLike,
+        rate_z: npt.ArrayLike,
+        speed: npt.ArrayLike | None,
         time: npt.ArrayLike | None,
         gravity: npt.ArrayLike | None,
         drop: npt.ArrayLike | None,
@@ -60,10 +60,9 @@ class Launches:
         solver: str | Solver | None,
         threads: int | None,
     ) -> None:
-        *rates, speed = columns
         if (speed is None) == (time is None):
             raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
-        given: dict[str, Any] = dict(zip(_RATES, rates, strict=True))
+        given: dict[str, Any] = {"rate_x": rate_x, "rate_y": rate_y, "rate_z": rate_z}
         given |= {"speed": speed} if time is None else {"time": time}
         for name, value in (("gravity", gravity), ("drop", drop), ("tilt", tilt)):
             if value is not None and time is not None and name != "tilt":
