@@ -33,16 +33,17 @@ def suggest(public: dict[str, Any]) -> None:
     for name, thing in list(public.items()):
         if inspect.isfunction(thing):
             # By its name in its module as well, by which it is pickled.
-            public[name] = vars(sys.modules[thing.__module__])[name] = _suggesting(thing, thing.__module__)
+            public[name] = vars(sys.modules[thing.__module__])[name] = _suggesting(thing)
         elif inspect.isclass(thing):
             for name, method in inspect.getmembers(thing, inspect.isroutine):
                 if not name.startswith("_"):
+                    call = _suggesting(method)
+                    call.__module__, call.__qualname__ = thing.__module__, f"{thing.__qualname__}.{name}"
                     is_static = isinstance(inspect.getattr_static(thing, name), staticmethod)
-                    call = _suggesting(method, thing.__module__)
                     setattr(thing, name, staticmethod(call) if is_static else call)
 
 
-def _suggesting(call: Callable[..., Any], module: str) -> Callable[..., Any]:
+def _suggesting(call: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(call)
     def suggesting(*args: Any, **kwargs: Any) -> Any:
         try:
@@ -51,10 +52,9 @@ def _suggesting(call: Callable[..., Any], module: str) -> Callable[..., Any]:
             known = inspect.signature(call).parameters
             for name in kwargs:
                 if name not in known:
-                    raise unexpected(call, name) from None
+                    raise unexpected(suggesting, name) from None
             raise
 
-    suggesting.__module__ = module
     return suggesting
 
 
