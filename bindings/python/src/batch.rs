@@ -1,30 +1,30 @@
 //! Many launches of one body, as columns of NumPy, on as many threads as are asked for.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use ::toss::{Attitude, Stage};
+use ::toss::Attitude;
+use dynamics::error::require;
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
 use crate::given::{count, number, optional_number};
-use crate::launches::{Common, Counts, Launches};
+use crate::launches::{Common, Counts, Launches, NOTHING, added};
 use crate::solver::backend_of;
-use crate::threads::{self, A_CALL, A_PROOF, Stop};
+use crate::threads::{self, A_CALL, A_PROOF};
 use crate::toss::{attitude_of, components_of};
 
 /// Most launches of a call if they are not solved by the kernels, so that work that is wanted no more ends soon.
 const A_SLOW_CALL: usize = 1 << 6;
 
 /// What the launches of some columns have in common, and the threads that solve them. The columns are the rates about x, y
-/// and z, the speeds, and gravity and the tilt where they vary.
+/// and z, the speeds, and where they vary gravity, the drop, the tilt, and w, x, y, z of the attitude.
 #[pyclass(frozen, module = "unfair_toss._native")]
 pub(crate) struct Batch {
     launches: Arc<Common>,
-    /// Whether gravity and the tilt vary.
-    varying: [bool; 2],
     pool: Option<Arc<rayon::ThreadPool>>,
 }
 
@@ -44,28 +44,31 @@ type Column<'py> = Bound<'py, PyArray1<f64>>;
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (body, *, tilt, attitude, gravity, varying, timed, solver, threads))]
+    #[pyo3(signature = (body, *, gravity, drop, tilt, attitude, varying, timed, solver, threads))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         body: &Bound<'_, PyAny>,
+        gravity: &Bound<'_, PyAny>,
+        drop: Option<&Bound<'_, PyAny>>,
         tilt: Option<&Bound<'_, PyAny>>,
         attitude: Option<&Bound<'_, PyAny>>,
-        gravity: &Bound<'_, PyAny>,
-        varying: [bool; 2],
+        varying: [bool; 4],
         timed: bool,
         solver: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (gravity, tilt) = (number("gravity", gravity)?, optional_number("tilt", tilt)?);
-        dynamics::error::require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
+        let (drop, tilt) = (optional_number("drop", drop)?, optional_number("tilt", tilt)?);
+        let gravity = number("gravity", gravity)?;
+        require("gravity [m/s²]", gravity, "finite and > 0", gravity > 0.0).map_err(Failure::from)?;
+        drop.map(|drop| require("drop [m]", drop, "finite", true)).transpose().map_err(Failure::from)?;
         let attitude = attitude_of(tilt, attitude.map(components_of).transpose()?)?.unwrap_or(Attitude::IDENTITY);
         let threads = threads.map(|threads| count("threads", threads)).transpose()?;
         let pool = if threads == Some(1) { None } else { Some(Arc::new(threads::pool(threads)?)) };
         let solver = solver.map(backend_of).transpose()?;
         // With a gravity of 2 m/s², a speed is the time of flight.
         let gravity = if timed { 2.0 } else { gravity };
-        let launches = Common { body: body_of(body)?.get().body, attitude, gravity, timed, solver };
-        Ok(Self { launches: Arc::new(launches), varying, pool })
+        let launches = Common { body: body_of(body)?.get().body, attitude, gravity, drop, varying, timed, solver };
+        Ok(Self { launches: Arc::new(launches), pool })
     }
 
     /// Whether the launches are solved by the kernels.
@@ -102,28 +105,25 @@ impl Batch {
     fn count(&self, py: Python<'_>, columns: Vec<Column<'_>>, first: u64) -> PyResult<Counts> {
         let columns = borrowed(&columns)?;
         let launches = self.launches(&columns, first)?;
-        let number = launches.speeds.len();
+        let number = launches.len();
         let counts = if self.is_vectorised() {
             threads::collect(py, self.pool.as_deref(), number, |range| count_runs(&launches, range))?
         } else {
-            let (own, pool) = (self.owned(&launches), self.pool.clone());
+            let (mut own, pool) = (launches.owned(), self.pool.clone());
             threads::aside(py, move |stop| {
-                let launches = own.borrowed(stop);
-                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&launches, range))
+                own.stop = Some(stop.clone());
+                threads::collected(pool.as_deref(), stop, A_SLOW_CALL, number, |range| count_runs(&own, range))
             })?
         };
         Ok(counts.into_iter().fold(NOTHING, added))
     }
 }
 
-/// The counts of no launches.
-const NOTHING: Counts = (0, 0, 0, Some([0; Stage::ALL.len()]));
-
 fn count_runs(launches: &Launches<'_>, range: Range<usize>) -> Result<Counts, Failure> {
     launches.runs(range).try_fold(NOTHING, |sum, run| Ok(added(sum, launches.count(run)?)))
 }
 
-/// Writes what is found of the launches in a range, of those with the same gravity and tilt at once.
+/// Writes what is found of the launches in a range, of those in a row at once that differ in rates and speeds only.
 fn by_runs<T>(
     launches: &Launches<'_>,
     range: Range<usize>,
@@ -134,12 +134,6 @@ fn by_runs<T>(
     let start = range.start;
     let place = |index: usize| width * (index - start);
     launches.runs(range).try_for_each(|run| solve(launches, run.clone(), &mut out[place(run.start)..place(run.end)]))
-}
-
-/// The sum of counts; it is proven if both are.
-fn added(one: Counts, two: Counts) -> Counts {
-    let stages = one.3.zip(two.3).map(|(one, two)| std::array::from_fn(|stage| one[stage] + two[stage]));
-    (one.0 + two.0, one.1 + two.1, one.2 + two.2, stages)
 }
 
 /// The columns, for reading.
@@ -174,10 +168,11 @@ impl Batch {
             let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
             return threads::fill(py, self.pool.as_deref(), a_call, out, width, solve);
         }
-        let (own, pool, length) = (self.owned(&launches), self.pool.clone(), out.len());
+        let (mut own, pool, length) = (launches.owned(), self.pool.clone(), out.len());
         let found = threads::aside(py, move |stop| {
-            let (launches, mut found) = (own.borrowed(stop), vec![T::default(); length]);
-            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&launches, range, out, width, solve);
+            own.stop = Some(stop.clone());
+            let mut found = vec![T::default(); length];
+            let solve = |range: Range<usize>, out: &mut [T]| by_runs(&own, range, out, width, solve);
             threads::filled(pool.as_deref(), stop, A_SLOW_CALL, &mut found, width, solve)?;
             Ok(found)
         })?;
@@ -185,53 +180,14 @@ impl Batch {
         Ok(())
     }
 
-    /// A copy of launches.
-    fn owned(&self, launches: &Launches<'_>) -> Owned {
-        let Launches { rates: [x, y, z], speeds, gravities, tilts, first, .. } = *launches;
-        let columns = [Some(x), Some(y), Some(z), Some(speeds), gravities, tilts].into_iter().flatten();
-        Owned {
-            of: self.launches.clone(),
-            varying: self.varying,
-            columns: columns.map(<[f64]>::to_vec).collect(),
-            first,
-        }
-    }
-
-    fn launches<'a>(&'a self, columns: &'a [PyReadonlyArray1<'_, f64>], first: u64) -> PyResult<Launches<'a>> {
-        let columns: Vec<&[f64]> =
-            columns.iter().map(|column| column.as_slice().map_err(no_column)).collect::<PyResult<_>>()?;
-        let right = 4 + self.varying.iter().filter(|varies| **varies).count();
+    fn launches<'a>(&self, columns: &'a [PyReadonlyArray1<'_, f64>], first: u64) -> PyResult<Launches<'a>> {
+        let slice = |column: &'a PyReadonlyArray1<'_, f64>| column.as_slice().map(Cow::Borrowed).map_err(no_column);
+        let columns: Vec<_> = columns.iter().map(slice).collect::<PyResult<_>>()?;
+        let [gravity, drop, tilt, attitude] = self.launches.varying.map(usize::from);
+        let right = 4 + gravity + drop + tilt + 4 * attitude;
         if columns.len() != right || columns.iter().any(|column| column.len() != columns[0].len()) {
             return Err(malformed("columns", "of different lengths", "as many of each kind"));
         }
-        Ok(launches(&self.launches, self.varying, &columns, first, None))
-    }
-}
-
-/// The launches of so many columns as they are told by what varies.
-fn launches<'a>(
-    of: &'a Common,
-    varying: [bool; 2],
-    columns: &[&'a [f64]],
-    first: u64,
-    stop: Option<&'a Stop>,
-) -> Launches<'a> {
-    let mut others = columns[4..].iter().copied();
-    let [gravities, tilts] = varying.map(|varies| if varies { others.next() } else { None });
-    Launches { of, rates: [columns[0], columns[1], columns[2]], speeds: columns[3], gravities, tilts, first, stop }
-}
-
-/// Launches whose columns are copies.
-struct Owned {
-    of: Arc<Common>,
-    varying: [bool; 2],
-    columns: Vec<Vec<f64>>,
-    first: u64,
-}
-
-impl Owned {
-    fn borrowed<'a>(&'a self, stop: &'a Stop) -> Launches<'a> {
-        let columns: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        launches(&self.of, self.varying, &columns, self.first, Some(stop))
+        Ok(Launches { of: self.launches.clone(), columns, first, stop: None })
     }
 }

@@ -135,22 +135,13 @@ impl Body {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (constructor, arguments) = match &self.origin {
             Origin::Named(name) => ("named", (name,).into_pyobject(py)?),
-            Origin::Cylinder(sizes) => ("cylinder", sizes[..].iter().copied().collect_tuple(py)?),
+            Origin::Cylinder(sizes) => ("cylinder", PyTuple::new(py, sizes)?),
             Origin::Moments(moments) => ("from_moments", (moments.clone(),).into_pyobject(py)?),
             Origin::Tensor(tensor) => ("from_tensor", (*tensor,).into_pyobject(py)?),
         };
         Ok((py.get_type::<Self>().getattr(constructor)?, arguments))
     }
 }
-
-/// Collects numbers into a tuple.
-trait CollectTuple: Iterator<Item = f64> + Sized {
-    fn collect_tuple(self, py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
-        PyTuple::new(py, self.collect::<Vec<f64>>())
-    }
-}
-
-impl<I: Iterator<Item = f64>> CollectTuple for I {}
 
 /// The body that an argument means: a name of the catalogue, or a [`Body`].
 pub(crate) fn body_of(argument: &Bound<'_, PyAny>) -> PyResult<Py<Body>> {

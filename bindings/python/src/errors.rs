@@ -63,18 +63,30 @@ impl Failure {
     fn exception(&self, py: Python<'_>) -> PyResult<PyErr> {
         let (class, Details { field, valid }) = class_of(&self.error);
         let field = self.argument.or(field.map(argument));
-        let kwargs = PyDict::new(py);
-        kwargs.set_item("field", field)?;
-        kwargs.set_item("index", self.launch())?;
-        kwargs.set_item("valid", valid)?;
         let mut message = self.message();
         if let Error::Input(InputError::UnknownName { value, known, .. }) = &self.error {
             let known: Vec<_> = known.split(", ").collect();
             message += &py.import("unfair_toss.given")?.call_method1("close", (value, known))?.extract::<String>()?;
         }
-        let class = py.import("unfair_toss.errors")?.getattr(class)?;
-        Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
+        made(py, class, &message, field, self.launch(), valid.as_deref())
     }
+}
+
+/// The exception of a class of `unfair_toss.errors`.
+fn made(
+    py: Python<'_>,
+    class: &str,
+    message: &str,
+    field: Option<&str>,
+    index: Option<u64>,
+    valid: Option<&str>,
+) -> PyResult<PyErr> {
+    let kwargs = PyDict::new(py);
+    kwargs.set_item("field", field)?;
+    kwargs.set_item("index", index)?;
+    kwargs.set_item("valid", valid)?;
+    let class = py.import("unfair_toss.errors")?.getattr(class)?;
+    Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
 }
 
 /// The exception of a failure, or what kept it from being made.
@@ -86,15 +98,8 @@ impl From<Failure> for PyErr {
 
 /// The exception of a value that is not what the argument `field` takes, for element `index` if it takes several.
 pub(crate) fn refused(py: Python<'_>, message: &str, field: &str, index: Option<usize>, valid: &str) -> PyErr {
-    let exception = || {
-        let kwargs = PyDict::new(py);
-        kwargs.set_item("field", field)?;
-        kwargs.set_item("index", index)?;
-        kwargs.set_item("valid", valid)?;
-        let class = py.import("unfair_toss.errors")?.getattr("MalformedError")?;
-        Ok(PyErr::from_value(class.call((message,), Some(&kwargs))?))
-    };
-    exception().unwrap_or_else(|error: PyErr| error)
+    let index = index.map(|index| index as u64);
+    made(py, "MalformedError", message, Some(field), index, Some(valid)).unwrap_or_else(|error| error)
 }
 
 /// The argument of Python that a field is given by, with its unit.

@@ -61,6 +61,7 @@ pub(crate) fn optional_number(field: &str, value: Option<&Bound<'_, PyAny>>) -> 
 }
 
 /// The whole number, 0 or above, that an argument is.
+#[pyfunction]
 pub(crate) fn count(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     Place { field, index: None }.count(value, A_COUNT)
 }
@@ -152,12 +153,6 @@ pub(crate) fn array_of_numbers<'py>(
         None => vec![number(field, values)?],
     };
     Ok(PyArray1::from_vec(py, found))
-}
-
-/// The whole number, 0 or above, that an argument is, for the Python layer.
-#[pyfunction(name = "count")]
-pub(crate) fn whole_number(field: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
-    count(field, value)
 }
 
 /// Refuses keywords that the class does not have, with a similar one that it has.

@@ -1,10 +1,14 @@
 //! What is found of launches in columns: by the kernels of [`::toss::Batch`] for coins, in the widest registers of the
-//! machine, and for the outcomes of other bodies; launch by launch for what else is asked of these, and by a solver.
+//! machine, and for the outcomes of other bodies; launch by launch for what else is asked of these, with a drop, and by a
+//! solver.
 
+use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 use ::toss::{
-    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, Solver, Stage, TimeOfFlight, Toss, Tosses,
+    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, Stage, TimeOfFlight,
+    Toss, Tosses, Verdict, certify,
 };
 use dynamics::error::require;
 use pyo3::PyResult;
@@ -15,17 +19,29 @@ use crate::threads::{A_PROOF, Stop};
 /// Launches whose attitudes are interleaved at a time, so that what is between stays in the cache.
 const BLOCK: usize = 512;
 
-/// The same for outcomes: as many as a call proves.
-const OUTCOMES_BLOCK: usize = A_PROOF;
+/// Launches whose conditions are compared at a time.
+const COMPARED: usize = 64;
 
 /// Counts of outcomes: heads, tails, undecided, and by stage of the proof where they are proven.
 pub(crate) type Counts = (u64, u64, u64, Option<[u64; Stage::ALL.len()]>);
+
+/// The counts of no launches.
+pub(crate) const NOTHING: Counts = (0, 0, 0, Some([0; Stage::ALL.len()]));
+
+/// The sum of counts; it is proven if both are.
+pub(crate) fn added(one: Counts, two: Counts) -> Counts {
+    let stages = one.3.zip(two.3).map(|(one, two)| std::array::from_fn(|stage| one[stage] + two[stage]));
+    (one.0 + two.0, one.1 + two.1, one.2 + two.2, stages)
+}
 
 /// What the launches of some columns have in common.
 pub(crate) struct Common {
     pub(crate) body: Body,
     pub(crate) attitude: Attitude,
     pub(crate) gravity: f64,
+    pub(crate) drop: Option<f64>,
+    /// Which of gravity, the drop, the tilt and the attitude vary instead.
+    pub(crate) varying: [bool; 4],
     /// Whether the last column has times of flight instead of speeds.
     pub(crate) timed: bool,
     /// `None` for the kernels.
@@ -35,75 +51,107 @@ pub(crate) struct Common {
 impl Common {
     /// Whether all that is asked of the launches is solved by the kernels.
     pub(crate) fn is_vectorised(&self) -> bool {
-        self.solver.is_none() && self.body.coin().is_some()
+        self.solver.is_none() && self.body.coin().is_some() && !self.has_drop()
     }
 
-    /// The solver that estimates outcomes; `None` where the exact motion proves them, which the kernels do.
-    fn estimating(&self) -> Option<&dyn Solver> {
-        match self.solver.as_ref()? {
-            Backend::Exact(_) => None,
-            Backend::Solver(solver) => Some(&**solver),
+    fn has_drop(&self) -> bool {
+        self.drop.is_some() || self.varying[1]
+    }
+
+    /// Whether outcomes are decided toss by toss, not by the kernels.
+    fn decides_one_by_one(&self) -> bool {
+        self.has_drop() || matches!(self.solver, Some(Backend::Solver(_)))
+    }
+
+    /// How a toss lands: proven, or estimated by a solver.
+    fn verdict(&self, toss: &Toss) -> Result<Verdict, SolveError> {
+        match &self.solver {
+            Some(Backend::Solver(solver)) => Ok(Verdict::Estimated(solver.tilt(toss)?.outcome())),
+            _ => certify(toss).map(Verdict::Proven),
         }
     }
 }
 
-/// Launches whose columns are borrowed.
+/// Launches in columns, borrowed or copied.
 pub(crate) struct Launches<'a> {
-    pub(crate) of: &'a Common,
-    pub(crate) rates: [&'a [f64]; 3],
-    pub(crate) speeds: &'a [f64],
-    /// Gravity (m/s²) and tilt (rad) of each launch, where they are not the same for all.
-    pub(crate) gravities: Option<&'a [f64]>,
-    pub(crate) tilts: Option<&'a [f64]>,
+    pub(crate) of: Arc<Common>,
+    /// The rates about x, y and z (rad/s), the speeds (m/s) or times (s), and what varies, in the order of [`Common::varying`]:
+    /// gravity (m/s²), the drop (m), the tilt (rad), and w, x, y, z of the attitude.
+    pub(crate) columns: Vec<Cow<'a, [f64]>>,
     /// The index of the first one.
     pub(crate) first: u64,
     /// What ends the work on them between two launches that are solved one by one.
-    pub(crate) stop: Option<&'a Stop>,
+    pub(crate) stop: Option<Stop>,
 }
 
 impl Launches<'_> {
+    /// A copy that borrows nothing.
+    pub(crate) fn owned(&self) -> Launches<'static> {
+        let columns = self.columns.iter().map(|column| Cow::Owned(column.to_vec())).collect();
+        Launches { of: self.of.clone(), columns, first: self.first, stop: None }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.columns[0].len()
+    }
+
+    /// The columns of rates.
+    fn rates(&self) -> [&[f64]; 3] {
+        [&self.columns[0], &self.columns[1], &self.columns[2]]
+    }
+
     /// `out` if it has `width` numbers for each launch.
     pub(crate) fn fitting<'b, T>(&self, out: &'b mut [T], width: usize) -> PyResult<&'b mut [T]> {
-        if out.len() == width * self.speeds.len() {
+        if out.len() == width * self.len() {
             return Ok(out);
         }
         Err(malformed("out", out.len(), "as many results as launches"))
     }
 
-    /// The parts of `range` with the same gravity and tilt.
+    /// The parts of `range` in which nothing varies but rates and speeds.
     pub(crate) fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let varying = [self.gravities, self.tilts];
-        let differ = move |one: usize, two: usize| {
-            varying.iter().flatten().any(|column| column[one].to_bits() != column[two].to_bits())
-        };
+        let others: Vec<&[f64]> = self.columns[4..].iter().map(|column| &**column).collect();
         let mut start = range.start;
         std::iter::from_fn(move || {
             let first = start;
-            let next = if varying == [None; 2] { None } else { (first..range.end).find(|index| differ(first, *index)) };
-            start = next.unwrap_or(range.end);
+            // Many are compared at a time, in vector registers, then few, then one.
+            let many = if others.is_empty() { range.end - first } else { COMPARED };
+            for step in [many, COMPARED / 8, 1] {
+                while start < range.end && start + step <= range.end && are_like(&others, first, start..start + step) {
+                    start += step;
+                }
+            }
             (first < start).then_some(first..start)
         })
     }
 
-    /// Gravity and the attitude of launch `index`.
-    fn conditions(&self, index: usize) -> Result<(f64, Attitude), InputError> {
-        let gravity = self.gravities.map_or(self.of.gravity, |column| column[index]);
-        let tilted = |column: &[f64]| Ok(Attitude::about_x(require("tilt [rad]", column[index], "finite", true)?));
-        Ok((gravity, self.tilts.map_or(Ok(self.of.attitude), tilted)?))
+    /// Gravity, the drop and the attitude of launch `index`.
+    fn conditions(&self, index: usize) -> Result<(f64, Option<f64>, Attitude), InputError> {
+        let mut others = self.columns[4..].iter().map(|column| column[index]);
+        let [gravity, drop, tilt, w] = self.of.varying.map(|varies| if varies { others.next() } else { None });
+        let attitude = match (tilt, w) {
+            (Some(tilt), _) => Attitude::about_x(require("tilt [rad]", tilt, "finite", true)?),
+            (None, Some(w)) => {
+                let [x, y, z] = std::array::from_fn(|_| others.next().unwrap_or(f64::NAN));
+                Attitude::from_components([w, x, y, z])?
+            }
+            (None, None) => self.of.attitude,
+        };
+        Ok((gravity.unwrap_or(self.of.gravity), drop.or(self.of.drop), attitude))
     }
 
     /// The launches in `range`, which is part of a run, as tosses of `body`.
     fn tosses<B: Copy + Into<Body>>(&self, body: B, range: Range<usize>) -> Result<Tosses<'_, B>, Failure> {
-        let (start, rates) = (range.start, self.rates.map(|column| &column[range.clone()]));
+        let (start, rates) = (range.start, self.rates().map(|column| &column[range.clone()]));
         let tosses = self
             .conditions(start)
-            .and_then(|(gravity, attitude)| Tosses::new(body, attitude, gravity, rates, &self.speeds[range]));
+            .and_then(|(gravity, _, attitude)| Tosses::new(body, attitude, gravity, rates, &self.columns[3][range]));
         tosses.map_err(|error| Failure::from(error).at(self.first + start as u64))
     }
 
     /// The launches in `range` for the kernels; `None` if they are solved one by one.
     fn batch(&self, range: Range<usize>) -> Result<Option<::toss::Batch<'_>>, Failure> {
-        let coin = self.of.body.coin().filter(|_| self.of.solver.is_none());
+        let coin = self.of.body.coin().filter(|_| self.of.is_vectorised());
         coin.map(|coin| self.tosses(coin, range).map(::toss::Batch::new)).transpose()
     }
 
@@ -115,18 +163,6 @@ impl Launches<'_> {
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).outcomes(outcomes),
         };
         done.map_err(|error| self.failed(start, error))
-    }
-
-    /// Counts the proven outcomes of the launches in `range`, of any body.
-    fn count_proven(&self, range: Range<usize>) -> Result<Counts, Failure> {
-        let start = range.start;
-        let counts = match self.of.body.coin() {
-            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
-            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
-        };
-        let counts = counts.map_err(|error| self.failed(start, error))?;
-        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
-        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
     }
 
     /// The failure of the kernels in the part that starts at `start`, in the words of a single launch.
@@ -142,10 +178,10 @@ impl Launches<'_> {
     }
 
     fn toss(&self, index: usize) -> Result<Toss, Failure> {
-        let (gravity, attitude) = self.conditions(index)?;
-        let speed = self.speeds[index];
-        let time = if self.of.timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::Ballistic { speed, gravity } };
-        let launch = Launch::new(self.rates.map(|column| column[index]), time)?.with_attitude(attitude);
+        let (gravity, drop, attitude) = self.conditions(index)?;
+        let speed = self.columns[3][index];
+        let time = if self.of.timed { TimeOfFlight::Given(speed) } else { TimeOfFlight::thrown(speed, gravity, drop) };
+        let launch = Launch::new(self.rates().map(|column| column[index]), time)?.with_attitude(attitude);
         Ok(Toss::new(self.of.body, launch))
     }
 
@@ -157,7 +193,7 @@ impl Launches<'_> {
     ) -> Result<(), Failure> {
         let solver = self.of.solver.as_ref().map_or(&ExactSolver as &dyn Solver, Backend::solver);
         for (place, index) in range.enumerate() {
-            self.stop.inspect(|stop| stop.here());
+            self.stop.iter().for_each(Stop::here);
             let at = |failure: Failure| failure.at(self.first + index as u64);
             let toss = self.toss(index).map_err(at)?;
             solve(place, solver, &toss).map_err(|error| at(error.into()))?;
@@ -179,15 +215,15 @@ impl Launches<'_> {
 
     /// Writes 1 for heads, -1 for tails and 0 for undecided launches.
     pub(crate) fn outcomes(&self, range: Range<usize>, out: &mut [i8]) -> Result<(), Failure> {
-        if self.of.estimating().is_some() {
-            return self.each(range, |place, solver, toss| {
-                out[place] = sign(solver.tilt(toss)?.outcome());
+        if self.of.decides_one_by_one() {
+            return self.each(range, |place, _, toss| {
+                out[place] = sign(self.of.verdict(toss)?.outcome());
                 Ok(())
             });
         }
-        let mut block = [Outcome::Undecided; OUTCOMES_BLOCK];
-        for (number, out) in out.chunks_mut(OUTCOMES_BLOCK).enumerate() {
-            let from = range.start + number * OUTCOMES_BLOCK;
+        let mut block = [Outcome::Undecided; A_PROOF];
+        for (number, out) in out.chunks_mut(A_PROOF).enumerate() {
+            let from = range.start + number * A_PROOF;
             let outcomes = &mut block[..out.len()];
             self.prove(from..from + out.len(), outcomes)?;
             out.iter_mut().zip(outcomes).for_each(|(out, outcome)| *out = sign(*outcome));
@@ -221,16 +257,35 @@ impl Launches<'_> {
 
     /// Counts the outcomes; they are proven unless a solver estimates them.
     pub(crate) fn count(&self, range: Range<usize>) -> Result<Counts, Failure> {
-        if self.of.estimating().is_none() {
-            return self.count_proven(range);
+        if self.of.decides_one_by_one() {
+            let mut sum = NOTHING;
+            self.each(range, |_, _, toss| {
+                let verdict = self.of.verdict(toss)?;
+                let is = |face| u64::from(verdict.outcome() == face);
+                let by = |stage| u64::from(verdict.stage() == Some(stage));
+                let stages = verdict.is_proven().then(|| Stage::ALL.map(by));
+                sum = added(sum, (is(Outcome::Heads), is(Outcome::Tails), is(Outcome::Undecided), stages));
+                Ok(())
+            })?;
+            return Ok(sum);
         }
-        let mut faces = [0; 3];
-        self.each(range, |_, solver, toss| {
-            faces[solver.tilt(toss)?.outcome() as usize] += 1;
-            Ok(())
-        })?;
-        Ok((faces[0], faces[1], faces[2], None))
+        let start = range.start;
+        let counts = match self.of.body.coin() {
+            Some(coin) => ::toss::Batch::new(self.tosses(coin, range)?).count(),
+            None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
+        };
+        let counts = counts.map_err(|error| self.failed(start, error))?;
+        let stages = (counts.without_proof() == 0).then(|| Stage::ALL.map(|stage| counts.by(stage)));
+        Ok((counts.heads(), counts.tails(), counts.ties(), stages))
     }
+}
+
+/// Whether all values of `range` in each column are the one at `first`, to the bit.
+fn are_like(columns: &[&[f64]], first: usize, range: Range<usize>) -> bool {
+    columns.iter().all(|column| {
+        let bits = column[first].to_bits();
+        column[range.clone()].iter().fold(0, |differing, value| differing | (value.to_bits() ^ bits)) == 0
+    })
 }
 
 /// The sign of cos θ.

@@ -22,34 +22,25 @@ mod tally;
 mod threads;
 mod toss;
 
-use pyo3::prelude::*;
-
 /// The Rust side of the package `unfair_toss`.
-#[pymodule]
-fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<body::Body>()?;
-    module.add_class::<toss::Toss>()?;
-    module.add_class::<solver::Solver>()?;
-    module.add_class::<batch::Batch>()?;
-    module.add_class::<space::Space>()?;
-    module.add_class::<plans::Plan>()?;
-    module.add_class::<tally::Tally>()?;
-    module.add_function(wrap_pyfunction!(given::array_of_numbers, module)?)?;
-    module.add_function(wrap_pyfunction!(given::whole_number, module)?)?;
-    module.add_function(wrap_pyfunction!(body::bodies, module)?)?;
-    module.add_function(wrap_pyfunction!(solver::solvers, module)?)?;
-    module.add_function(wrap_pyfunction!(space::spaces, module)?)?;
-    module.add_function(wrap_pyfunction!(single::land, module)?)?;
-    module.add_function(wrap_pyfunction!(single::margins, module)?)?;
-    module.add_function(wrap_pyfunction!(single::intervals, module)?)?;
-    module.add_function(wrap_pyfunction!(single::trace, module)?)?;
-    module.add_function(wrap_pyfunction!(single::solve, module)?)?;
-    module.add_function(wrap_pyfunction!(single::inverse, module)?)?;
-    module.add_function(wrap_pyfunction!(single::wobble, module)?)?;
-    module.add_function(wrap_pyfunction!(planner::plan, module)?)?;
-    module.add_function(wrap_pyfunction!(tally::tally, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate::estimate_by_solver, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate::estimate_by_accuracy, module)?)?;
-    Ok(())
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "a name of Python")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use crate::{
+        batch::Batch,
+        body::{Body, bodies},
+        estimate::{estimate_by_accuracy, estimate_by_solver},
+        given::{array_of_numbers, count},
+        planner::plan,
+        plans::Plan,
+        single::{intervals, inverse, land, margins, solve, trace, wobble},
+        solver::{Solver, solvers},
+        space::{Space, spaces},
+        tally::{Tally, tally},
+        toss::Toss,
+    };
 }

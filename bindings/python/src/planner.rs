@@ -1,12 +1,13 @@
 //! The planner: which model answers a question at the least cost.
 
 use ::toss::planner::How;
-use ::toss::{Choice, ExactSolver, Scene, StepControl, Want};
+use ::toss::{Choice, ExactSolver, Scene, Want};
 use pyo3::prelude::*;
 
 use crate::errors::malformed;
 use crate::given::{count, refused_value, text};
 use crate::plans::accuracy;
+use crate::solver::tolerance_of;
 use crate::space::Space;
 use crate::threads;
 use crate::toss::Toss;
@@ -53,11 +54,7 @@ pub(crate) fn plan(
     let exact = ExactSolver::NAME.to_owned();
     Ok(match (how, &scene.want) {
         (How::Integrator(entry, stepping), _) => {
-            let tolerance = match stepping.control() {
-                StepControl::Tolerance(tolerance) => Some(tolerance),
-                StepControl::Step(_) => None,
-            };
-            let scheme = Some(stepping.scheme().name());
+            let (scheme, tolerance) = (Some(stepping.scheme().name()), tolerance_of(*stepping));
             (model.name, entry.name().to_owned(), scheme, None, tolerance, None, costs, passed_over)
         }
         (How::Sampling(plan), Want::Probability(space)) => {

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
-use crate::given::{count, number, object, text};
+use crate::given::{self, count, number, object};
 use crate::space::{hash_of, space_of};
 
 /// Which launches of a space are tried. Make one by ``grid``, ``random``, ``sobol``, ``exact_speed`` or
@@ -137,8 +137,8 @@ impl Plan {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
-        let read = serde_json::from_str::<::toss::sampling::Plan>(&text);
+    fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let read = serde_json::from_str::<::toss::sampling::Plan>(&given::text("text", text, "a plan as JSON")?);
         Ok(read.map_err(|error| malformed("text", error, "a plan as JSON"))?.into())
     }
 
@@ -184,8 +184,4 @@ pub(crate) fn accuracy(value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// The plan that an argument is.
 pub(crate) fn plan_of(value: &Bound<'_, PyAny>) -> PyResult<::toss::sampling::Plan> {
     Ok(object::<Plan>("plan", value, "a Plan")?.get().plan)
-}
-
-fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    text("text", value, "a plan as JSON")
 }

@@ -9,7 +9,7 @@ use ::toss::{
     TimeOfFlight, Toss, TracePoint, Work, certify, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
-use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
@@ -248,17 +248,11 @@ pub(crate) fn solve<'py>(
 ) -> PyResult<Solution<'py>> {
     let backend = backend_of(solver)?;
     let times = times.as_slice().map_err(|error| malformed("t_eval", error, "contiguous times"))?.to_vec();
-    let out = PyArray2::zeros(py, [7, times.len()], false);
     let (states, work, estimate) = threads::aside(py, move |stop| solved(&backend, &toss, &times, stop))?;
-    {
-        let mut out = out.try_readwrite().map_err(|error| malformed("y", error, "a new array"))?;
-        let mut out = out.as_array_mut();
-        for (column, state) in states.iter().enumerate() {
-            let numbers = state.attitude.components().into_iter().chain(<[f64; 3]>::from(state.rate));
-            numbers.enumerate().for_each(|(row, number)| out[[row, column]] = number);
-        }
-    }
-    Ok((out, (work.rhs_calls, work.accepted_steps, work.rejected_steps), estimate))
+    let quaternion = |row: usize| states.iter().map(|state| state.attitude.components()[row]).collect();
+    let rate = |row: usize| states.iter().map(|state| state.rate[row]).collect();
+    let rows: Vec<Vec<f64>> = (0..4).map(quaternion).chain((0..3).map(rate)).collect();
+    Ok((PyArray2::from_vec2(py, &rows)?, (work.rhs_calls, work.accepted_steps, work.rejected_steps), estimate))
 }
 
 /// The states at `times`, the work, and the error estimate at landing.

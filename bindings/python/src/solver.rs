@@ -1,6 +1,6 @@
 //! Solvers by name, with their settings.
 
-use ::toss::{Backend, Formulation, Registry, SolverConfig};
+use ::toss::{Backend, Formulation, Registry, SolverConfig, Stepping};
 use dynamics::StepControl;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -76,25 +76,22 @@ impl Solver {
     /// The scheme by which it steps, also where it was not given; None for a closed form.
     #[getter]
     fn scheme(&self) -> PyResult<Option<&'static str>> {
-        Ok(self.backend()?.solver().stepping().map(|stepping| stepping.scheme().name()))
+        Ok(self.stepping()?.map(|stepping| stepping.scheme().name()))
     }
 
     /// The tolerance of an adaptive scheme, also where it was not given; else None.
     #[getter]
     fn rtol(&self) -> PyResult<Option<f64>> {
-        Ok(match self.backend()?.solver().stepping().map(|stepping| stepping.control()) {
-            Some(StepControl::Tolerance(tolerance)) => Some(tolerance),
-            _ => None,
-        })
+        Ok(self.stepping()?.and_then(tolerance_of))
     }
 
     /// The largest step of a scheme with equal steps in s, also where it was not given; else None.
     #[getter]
     fn step(&self) -> PyResult<Option<f64>> {
-        Ok(match self.backend()?.solver().stepping().map(|stepping| stepping.control()) {
-            Some(StepControl::Step(step)) => Some(step),
-            _ => None,
-        })
+        Ok(self.stepping()?.and_then(|stepping| match stepping.control() {
+            StepControl::Step(step) => Some(step),
+            StepControl::Tolerance(_) => None,
+        }))
     }
 
     /// The formulation, if one was given.
@@ -137,8 +134,20 @@ impl Solver {
 }
 
 impl Solver {
+    fn stepping(&self) -> PyResult<Option<Stepping>> {
+        Ok(self.backend()?.solver().stepping())
+    }
+
     pub(crate) fn backend(&self) -> PyResult<Backend> {
         Ok(Registry::standard().configured(&self.config).map_err(Failure::from)?)
+    }
+}
+
+/// The tolerance of an adaptive scheme.
+pub(crate) fn tolerance_of(stepping: Stepping) -> Option<f64> {
+    match stepping.control() {
+        StepControl::Tolerance(tolerance) => Some(tolerance),
+        StepControl::Step(_) => None,
     }
 }
 

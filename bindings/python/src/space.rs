@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::body::body_of;
 use crate::errors::{Failure, malformed};
-use crate::given::{axis, no_others, object, optional_number, text};
+use crate::given::{self, axis, no_others, object, optional_number, text};
 
 /// A distribution of the launches of one coin: each coordinate is independent of the others, or tied to one.
 ///
@@ -95,8 +95,8 @@ impl Space {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
-        let read = serde_json::from_str(&text);
+    fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let read = serde_json::from_str(&given::text("text", text, "a space as JSON")?);
         Ok(Self { space: read.map_err(|error| malformed("text", error, "a space as JSON"))? })
     }
 
@@ -128,8 +128,4 @@ pub(crate) fn hash_of(json: &str) -> u64 {
 #[pyfunction]
 pub(crate) fn spaces() -> Vec<(&'static str, String)> {
     named_spaces().map(|(name, space)| (name, space.description)).collect()
-}
-
-fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    text("text", value, "a space as JSON")
 }

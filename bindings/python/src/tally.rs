@@ -6,7 +6,7 @@ use pyo3::types::PyTuple;
 
 use crate::errors::{Failure, malformed};
 use crate::estimate::{Values, values};
-use crate::given::text;
+use crate::given;
 use crate::plans::{Plan, plan_of};
 use crate::space::{Space, space_of};
 use crate::threads::{self, threads_of};
@@ -60,8 +60,8 @@ impl Tally {
     /// text : str
     ///     As ``to_json`` writes it.
     #[staticmethod]
-    fn from_json(#[pyo3(from_py_with = json)] text: String) -> PyResult<Self> {
-        let read = serde_json::from_str(&text);
+    fn from_json(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let read = serde_json::from_str(&given::text("text", text, "a part of an estimate as JSON")?);
         Ok(Self { tally: read.map_err(|error| malformed("text", error, "a part of an estimate as JSON"))? })
     }
 
@@ -77,10 +77,6 @@ impl Tally {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         Ok((py.get_type::<Self>().getattr("from_json")?, (self.to_json()?,).into_pyobject(py)?))
     }
-}
-
-fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    text("text", value, "a part of an estimate as JSON")
 }
 
 /// The tally of the launches from number `start` up to `end`.

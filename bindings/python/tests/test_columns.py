@@ -235,6 +235,18 @@ def test_a_negative_speed_or_time_is_named_as_it_was_given():
         ({"tilt": np.nan}, "tilt [rad]"),
         ({"tilt": 0.1, "attitude": (1, 0, 0, 0)}, "attitude"),
         ({"attitude": (0, 0, 0, 0)}, "attitude (largest component)"),
+        ({"attitude": [[1, 0, 0, 0]] * 4, "tilt": V}, "attitude"),
+        ({"attitude": [[1, 0, 0, 0]] * 4, "tilt": 0.1}, "attitude"),
+        ({"attitude": [1, 0, 0]}, "attitude"),
+        ({"attitude": np.ones((4, 3))}, "attitude"),
+        ({"attitude": np.ones((3, 4))}, "columns"),
+        ({"attitude": Rotation.identity(3)}, "columns"),
+        ({"attitude": pandas.DataFrame(np.ones((4, 4)), columns=list("xyzw"))}, "attitude"),
+        ({"attitude": xarray.DataArray(np.ones((4, 4)), dims=("throw", "part"))}, "attitude"),
+        ({"attitude": xarray.DataArray(np.ones(4), {"component": list("xyzw")})}, "attitude"),
+        ({"attitude": xarray.DataArray([["1"] * 4] * 4, dims=("throw", "component"))}, "attitude"),
+        ({"drop": np.nan}, "drop [m]"),
+        ({"drop": [1.0, 2.0]}, "columns"),
         ({"threads": 0}, "threads"),
         ({"threads": 5000}, "threads"),
         ({"body": "groat"}, "body"),
@@ -249,8 +261,9 @@ def test_impossible_settings_are_refused(settings, field):
 
 
 def test_an_argument_without_effect_is_refused():
-    with pytest.raises(errors.MalformedError, match="gravity has no effect"):
-        ut.cos_tilt(X, Y, Z, time=V, gravity=9.81)
+    for name in ("gravity", "drop"):
+        with pytest.raises(errors.MalformedError, match=f"{name} has no effect"):
+            ut.cos_tilt(X, Y, Z, time=V, **{name: 9.81})
     with pytest.raises(errors.MalformedError, match="one of speed and time"):
         ut.cos_tilt(X, Y, Z)
 
@@ -265,7 +278,9 @@ def test_a_billion_launches_that_are_all_the_same_need_no_memory():
 
 
 def test_the_lock_of_python_is_released(launches):
-    batch = Batch("paper", tilt=None, attitude=None, gravity=9.81, varying=(False, False), timed=False, solver="exact", threads=1)
+    batch = Batch(
+        "paper", gravity=9.81, drop=None, tilt=None, attitude=None, varying=(False,) * 4, timed=False, solver="exact", threads=1
+    )  # fmt: skip
     out, done, turns, within = np.empty(1_000_000), threading.Event(), 0, []
 
     def compute():
@@ -328,15 +343,71 @@ def test_gravity_and_tilt_are_columns_with_the_bits_of_one_at_a_time(arguments, 
     assert timed[7] == ut.cos_tilt(rate[7], 1, 1, time=1.0, tilt=rate[7], **arguments)
 
 
+ATTITUDE = np.array([(1, 0, 0, 0), (0.5, 0.1, -0.3, 2.0), (0.5, 0.1, -0.3, 2.0), (0.5, 0.1, -0.3, -2.0), (0.8, 0.6, 0, 0)])
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("arguments", [{}, {"body": "racket"}, {"solver": "exact"}, {"solver": "quaternion"}], ids=str)
+def test_attitudes_are_columns_with_the_bits_of_one_at_a_time(arguments, threads):
+    rate, arguments = np.linspace(3.0, 40.0, 70), arguments | {"threads": threads}
+    for function in (ut.cos_tilt, ut.outcome, ut.attitude):
+        expected = np.array([function(rate, 2.0, rate[::-1], 2.5, attitude=one, **arguments) for one in ATTITUDE])
+        for given in (ATTITUDE[:, None], ATTITUDE[:, None].tolist(), np.repeat(ATTITUDE[:, None], 70, axis=1)):
+            assert (function(rate, 2.0, rate[::-1], 2.5, attitude=given, **arguments) == expected).all()
+        same = np.tile(ATTITUDE[1], (70, 1))
+        assert (function(rate, 2.0, rate[::-1], 2.5, attitude=same, **arguments) == expected[1]).all()
+        turns = Rotation.from_quat(ATTITUDE, scalar_first=True)
+        quaternions = turns.as_quat(scalar_first=True)
+        one = np.array([function(3, 2, 1, 2.5, attitude=one, **arguments) for one in quaternions])
+        assert (function(3, 2, 1, 2.5, attitude=turns, **arguments) == one).all()
+    faces = ut.outcome(rate, 2.0, rate[::-1], 2.5, attitude=ATTITUDE[:, None], gravity=rate, **arguments)
+    found = ut.count(rate, 2.0, rate[::-1], 2.5, attitude=ATTITUDE[:, None], gravity=rate, **arguments)
+    assert (found.heads, found.tails, found.points) == ((faces == 1).sum(), (faces == -1).sum(), faces.size)
+    assert found.certified == (arguments.get("solver") != "quaternion")
+
+
+DROP = [0.0, 1.0, 1.0, -0.2]
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("arguments", [{}, {"body": "racket"}, {"solver": "exact"}, {"solver": "quaternion"}], ids=str)
+def test_drops_and_attitudes_are_columns_with_the_bits_of_single_tosses(arguments, threads):
+    body, solver = arguments.get("body", "paper"), arguments.get("solver", "exact")
+    rate, drop = np.linspace(3.0, 40.0, 5)[:, None], np.array(DROP)
+    toss = lambda x, h, q: ut.toss(ut.Toss((x, 2, 9), speed=2.5, drop=h, attitude=q, body=body), solver)
+    single = [[toss(x, h, q) for h in DROP] for x, q in zip(rate[:, 0], ATTITUDE, strict=True)]
+    settings = {"drop": drop, "attitude": ATTITUDE[:, None], "threads": threads} | arguments
+    assert ut.cos_tilt(rate, 2, 9, 2.5, **settings).tolist() == [[one.cos_tilt for one in row] for row in single]
+    assert (ut.attitude(rate, 2, 9, 2.5, **settings) == [[one.attitude for one in row] for row in single]).all()
+    faces = ut.outcome(rate, 2, 9, 2.5, **settings)
+    assert [[{1: "heads", -1: "tails", 0: "undecided"}[face] for face in row] for row in faces.tolist()] == [
+        [one.outcome for one in row] for row in single
+    ]
+    found = ut.count(rate, 2, 9, 2.5, **settings)
+    assert (found.heads, found.points) == ((faces == 1).sum(), 20) and found.certified == (solver == "exact")
+    for one in DROP:
+        assert (ut.cos_tilt(rate, 2, 9, 2.5, **settings | {"drop": one}) == ut.cos_tilt(rate, 2, 9, 2.5, **settings)[:, DROP.index(one), None]).all()
+
+
 @pytest.mark.parametrize("solver", [None, "exact", "quaternion"])
-def test_a_wrong_gravity_or_tilt_is_named_by_its_launch(solver):
-    for name, value, field in [("gravity", 0.0, "gravity [m/s²]"), ("gravity", np.nan, "gravity [m/s²]"), ("tilt", np.inf, "tilt [rad]")]:
-        column = np.full(1000, 2.0)
-        column[700:] = value
-        for function in (ut.cos_tilt, ut.outcome, ut.attitude, ut.count):
-            with pytest.raises(errors.OutOfRangeError) as caught:
-                function(1.0, 2.0, 3.0, 1.0, solver=solver, **{name: column})
-            assert (caught.value.field, caught.value.index) == (field, 700)
+@pytest.mark.parametrize(
+    ("name", "right", "wrong", "field", "valid"),
+    [
+        ("gravity", 2.0, 0.0, "gravity [m/s²]", "finite and > 0"),
+        ("gravity", 2.0, np.nan, "gravity [m/s²]", "finite and > 0"),
+        ("tilt", 2.0, np.inf, "tilt [rad]", "finite"),
+        ("drop", 2.0, np.nan, "drop [m]", "finite"),
+        ("drop", 2.0, -9.0, "drop [m]", ">= -v0²/(2 g), the height that the toss reaches"),
+        ("attitude", (1, 0, 0, 0), (0, 0, 0, 0), "attitude (largest component)", "finite and > 0"),
+        ("attitude", (1, 0, 0, 0), (1, 0, np.nan, 0), "attitude (largest component)", "finite and > 0"),
+    ],
+)
+def test_a_wrong_condition_is_named_by_its_launch(solver, name, right, wrong, field, valid):
+    column = np.array([right] * 700 + [wrong] * 300)
+    for function in (ut.cos_tilt, ut.outcome, ut.attitude, ut.count):
+        with pytest.raises(errors.OutOfRangeError) as caught:
+            function(1.0, 2.0, 3.0, 1.0, solver=solver, **{name: column})
+        assert (caught.value.field, caught.value.index, caught.value.valid) == (field, 700, valid)
 
 
 def test_columns_of_xarray_are_combined_by_their_labels():
@@ -350,6 +421,23 @@ def test_columns_of_xarray_are_combined_by_their_labels():
     assert ut.outcome(x, 1, 1, v, gravity=v).sel(hand=1, throw="a") == ut.outcome(3, 1, 1, 2, gravity=2)
     assert ut.count(x, 1, 1, v) == ut.count(x.values[:, None], 1, 1, v.values)
     assert (ut.cos_tilt(x, [1.0, 2.0, 3.0], 1, 2) == ut.cos_tilt(x.values, [1.0, 2.0, 3.0], 1, 2)).all()
+
+
+def test_attitudes_are_combined_by_their_labels():
+    x = xarray.DataArray([3.0, 2.0, 1.0], {"throw": ["a", "b", "c"]})
+    turned = ut.attitude(x, 1.0, 1.0, xarray.DataArray([2.0, 4.0], {"hand": [1, 2]}))
+    found = ut.cos_tilt(x, 1.0, 1.0, 2.0, attitude=turned.transpose("component", "hand", "throw"))
+    one = turned.sel(throw="b", hand=2).values
+    assert found.dims == ("throw", "hand") and found.sel(throw="b", hand=2) == ut.cos_tilt(2.0, 1.0, 1.0, 2.0, attitude=one)
+    assert ut.cos_tilt(1, 1, 1, 2, attitude=turned).sel(throw="b", hand=2) == ut.cos_tilt(1, 1, 1, 2, attitude=one)
+    frame = pandas.DataFrame({"x": [3.0, 2.0], "v": [2.0, 4.0]}, index=["b", "a"])
+    turned = ut.attitude(frame.x, 1, 1, frame.v)
+    found = ut.cos_tilt(frame.x, 1, 1, frame.v, attitude=turned)
+    assert found["a"] == ut.cos_tilt(2.0, 1, 1, 4.0, attitude=turned.loc["a"])
+    for wrong in (turned[::-1], turned[:1]):
+        with pytest.raises(errors.MalformedError, match="has other labels") as caught:
+            ut.cos_tilt(frame.x, 1, 1, frame.v, attitude=wrong)
+        assert caught.value.field == "attitude"
 
 
 def test_columns_of_pandas_keep_their_labels():

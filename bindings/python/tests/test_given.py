@@ -123,8 +123,9 @@ CALLS = {
         f"{function.__name__}{words}": (function, COLUMNS | {"threads": 1} | more)
         for function in (ut.cos_tilt, ut.outcome, ut.attitude, ut.count)
         for words, more in [
-            ("", {"gravity": 9.0, "tilt": 0.1, "body": "paper"}),
+            ("", {"gravity": 9.0, "drop": 0.1, "tilt": 0.1, "body": "paper"}),
             (" by time", {"speed": None, "time": 1.0, "attitude": (1, 0, 0, 0)}),
+            (" of attitudes", {"attitude": [(1, 0, 0, 0)]}),
             (" by a solver", {"solver": "quaternion"}),
         ]
     },

@@ -1,6 +1,7 @@
 """The package: fast to import, fast to run, documented and typed, and its README's lines run."""
 
 import inspect
+import pickle
 import re
 import subprocess
 import sys
@@ -45,6 +46,12 @@ def test_everything_public_is_documented_with_units_and_errors():
             for parameter in inspect.signature(thing).parameters:
                 assert re.search(rf"\b{parameter}\b", text), f"{name}: {parameter}"
     assert (Path(ut.__file__).parent / "py.typed").exists()
+
+
+def test_functions_and_methods_are_pickled_by_their_names():
+    functions = [getattr(ut, name) for name in ut.__all__ if inspect.isroutine(getattr(ut, name))]
+    for function in [*functions, ut.Body.named, ut.Plan.random, ut.Space.with_body, ut.Trace.plot]:
+        assert pickle.loads(pickle.dumps(function)) is function and inspect.signature(function)
 
 
 def test_each_exception_is_a_value_error_or_a_runtime_error():

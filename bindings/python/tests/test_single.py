@@ -319,6 +319,12 @@ def test_a_rotation_is_an_attitude_without_reordering():
         (lambda: ut.Solver("euler", formulation="momentun"), errors.UnknownNameError, "momentum"),
         (lambda: ut.Space.named("paper-fig-4"), errors.UnknownNameError, "paper-fig4"),
         (lambda: ut.Body.named("zzz"), errors.UnknownNameError, None),
+        (lambda: ut.Body.cylinder(mass=1, radius=1, thicknes=1), TypeError, "thickness"),
+        (lambda: ut.Plan.random(10, sed=1), TypeError, "seed"),
+        (lambda: ut.Plan.grid().points(spaces=1), TypeError, "space"),
+        (lambda: ut.Space.named(nam="tails"), TypeError, "name"),
+        (lambda: ut.Space.named("tails").with_body(bdy="paper"), TypeError, "body"),
+        (lambda: ut.trace(CHEATED, 5).plot(axes=None), TypeError, "ax"),
         (lambda: ut.margins(CHEATED, zzz=1), TypeError, None),
     ],
 )

@@ -5,7 +5,7 @@ the side of heads; the laboratory's z axis points up, and heads is up where cos 
 An attitude is the unit quaternion (w, x, y, z) from the body to the laboratory.
 """
 
-from . import errors
+from . import errors, given
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
@@ -56,3 +56,5 @@ __all__ = [
     "trace",
     "wobble",
 ]
+
+given.suggest(globals())

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import Body, Solver
-from .given import suggesting
-from .launches import Launches
+from .launches import Attitudes, Launches
 from .results import ShownAsTable
-
-if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation
 
 
 @dataclass(frozen=True)
@@ -58,7 +53,6 @@ def stages(numbers: Sequence[int] | None) -> dict[str, int] | None:
     return None if numbers is None else dict(zip(STAGES, numbers, strict=True))
 
 
-@suggesting
 def cos_tilt(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -67,8 +61,9 @@ def cos_tilt(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -82,16 +77,20 @@ def cos_tilt(
         Angular velocity at launch in rad/s, along the axes of the body. These columns and the next broadcast against
         each other; contiguous ones of float64 are read in place.
     speed : array_like, optional
-        Upward speed at launch in m/s. The body lands at the height of its launch.
+        Upward speed at launch in m/s.
     time : array_like, optional
         Time of flight in s, instead of a speed.
     gravity : array_like, optional
-        In m/s²; 9.81 by default. It and the tilt may be columns, too, which cost the least if equal values follow each
-        other.
+        In m/s²; 9.81 by default. It, the tilt and the attitude may be columns, too, which cost the least if equal
+        values follow each other.
+    drop : array_like, optional
+        How far below its launch the body lands, in m; at the same height by default. Bodies with a drop are solved one
+        by one.
     tilt : array_like, optional
         Turn about the lab's x axis before the launch in rad.
-    attitude : sequence of 4 floats or scipy Rotation, optional
-        Attitude at launch instead of a tilt, as the quaternion (w, x, y, z) from the body to the laboratory.
+    attitude : array_like of shape (..., 4) or scipy Rotation, optional
+        Attitude at launch instead of a tilt: one quaternion (w, x, y, z) from the body to the laboratory, or a column of
+        them. Columns of xarray have the dimension "component", those of pandas the columns w, x, y and z.
     body : str or Body
         A name of the catalogue (``bodies()``), or a body.
     solver : str or Solver, optional
@@ -120,14 +119,10 @@ def cos_tilt(
     -----
     Python's lock is released meanwhile. Arrays must not be written by another thread at the same time.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.cos_tilts, np.float64, out)
 
 
-@suggesting
 def outcome(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -136,8 +131,9 @@ def outcome(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -150,7 +146,7 @@ def outcome(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``.
     out : ndarray of int8, optional
         Array for the result, of the broadcast shape. After an exception its content is unspecified.
@@ -165,14 +161,10 @@ def outcome(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.outcomes, np.int8, out)
 
 
-@suggesting
 def attitude(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -181,8 +173,9 @@ def attitude(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -192,7 +185,7 @@ def attitude(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``; the default solver has an error of at most 1e-15 rad.
     out : ndarray of float64, optional
         Array for the result, of the broadcast shape and 4. After an exception its content is unspecified.
@@ -208,14 +201,10 @@ def attitude(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     return launches.solved(launches.batch.attitudes, np.float64, out, (4,))
 
 
-@suggesting
 def count(
     rate_x: npt.ArrayLike,
     rate_y: npt.ArrayLike,
@@ -224,8 +213,9 @@ def count(
     *,
     time: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drop: npt.ArrayLike | None = None,
     tilt: npt.ArrayLike | None = None,
-    attitude: Sequence[float] | Rotation | None = None,
+    attitude: Attitudes | None = None,
     body: str | Body = "paper",
     solver: str | Solver | None = None,
     threads: int | None = 1,
@@ -234,7 +224,7 @@ def count(
 
     Parameters
     ----------
-    rate_x, rate_y, rate_z, speed, time, gravity, tilt, attitude, body, solver, threads
+    rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads
         As for ``cos_tilt``.
 
     Returns
@@ -247,10 +237,7 @@ def count(
     errors.InputError, errors.SolveError
         As for ``cos_tilt``.
     """
-    launches = Launches(
-        (rate_x, rate_y, rate_z, speed), time=time, gravity=gravity, tilt=tilt, attitude=attitude, body=body,
-        solver=solver, threads=threads,
-    )  # fmt: skip
+    launches = Launches(rate_x, rate_y, rate_z, speed, time, gravity, drop, tilt, attitude, body, solver, threads)
     heads = tails = undecided = 0
     proven: list[int] | None = [0] * len(STAGES)
     for first, columns in launches.blocks():

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 from .errors import MalformedError
 
 _Kind = TypeVar("_Kind")
-_Arguments = ParamSpec("_Arguments")
 
 
 def close(name: str, known: Iterable[str]) -> str:
@@ -23,22 +23,39 @@ def close(name: str, known: Iterable[str]) -> str:
 
 def unexpected(call: Callable[..., object], name: str) -> TypeError:
     """The exception of a keyword that a function or a class does not have, in Python's own words."""
-    message = f"{call.__name__}() got an unexpected keyword argument '{name}'"
+    message = f"{call.__qualname__}() got an unexpected keyword argument '{name}'"
     return TypeError(message + close(name, inspect.signature(call).parameters))
 
 
-def suggesting(function: Callable[_Arguments, _Kind]) -> Callable[_Arguments, _Kind]:
-    """The same function, whose exception for an unknown keyword suggests a similar one, as Python does from 3.13 on."""
-    known = inspect.signature(function).parameters
+def suggest(public: dict[str, Any]) -> None:
+    """Lets the exceptions of all functions and methods for an unknown keyword suggest a similar one, as those of Python's own
+    do from 3.13 on."""
+    for name, thing in list(public.items()):
+        if inspect.isfunction(thing):
+            # By its name in its module as well, by which it is pickled.
+            public[name] = vars(sys.modules[thing.__module__])[name] = _suggesting(thing)
+        elif inspect.isclass(thing):
+            for name, method in inspect.getmembers(thing, inspect.isroutine):
+                if not name.startswith("_"):
+                    call = _suggesting(method)
+                    call.__module__, call.__qualname__ = thing.__module__, f"{thing.__qualname__}.{name}"
+                    is_static = isinstance(inspect.getattr_static(thing, name), staticmethod)
+                    setattr(thing, name, staticmethod(call) if is_static else call)
 
-    @wraps(function)
-    def call(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> _Kind:
-        for name in kwargs:
-            if name not in known:
-                raise unexpected(function, name)
-        return function(*args, **kwargs)
 
-    return call
+def _suggesting(call: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(call)
+    def suggesting(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return call(*args, **kwargs)
+        except TypeError:
+            known = inspect.signature(call).parameters
+            for name in kwargs:
+                if name not in known:
+                    raise unexpected(suggesting, name) from None
+            raise
+
+    return suggesting
 
 
 def an(kind: type[_Kind], field: str, value: object) -> _Kind:

@@ -11,6 +11,10 @@ import numpy as np
 from .errors import MalformedError
 
 
+COMPONENTS = list("wxyz")
+"""The labels of the components of an attitude."""
+
+
 class Labels(NamedTuple):
     """The labels that columns have in common."""
 
@@ -37,9 +41,24 @@ def combined(given: dict[str, Any]) -> tuple[dict[str, Any], Labels | None]:
     return given | more, labels
 
 
-def _differ(name: str, what: str) -> MalformedError:
-    valid = "the labels of the other columns, or one number"
-    return MalformedError(f"{name} has {what}: expected {valid}", field=name, valid=valid)
+def components(attitudes: Any) -> list[Any] | None:
+    """The columns of w, x, y and z of attitudes with labels; None of others, and of a single one."""
+    xarray, pandas = sys.modules.get("xarray"), sys.modules.get("pandas")
+    if pandas and isinstance(attitudes, pandas.DataFrame):
+        if list(attitudes.columns) == COMPONENTS:
+            return [attitudes[name] for name in COMPONENTS]
+        raise _differ("attitude", "other columns", "the columns w, x, y and z")
+    if xarray and isinstance(attitudes, xarray.DataArray) and (attitudes.ndim > 1 or "component" in attitudes.dims):
+        names = attitudes.coords["component"].values.tolist() if "component" in attitudes.coords else COMPONENTS
+        if attitudes.sizes.get("component") != 4 or names != COMPONENTS:
+            raise _differ("attitude", "other components", 'a dimension "component" of w, x, y and z')
+        if attitudes.ndim > 1:
+            return [attitudes.isel(component=place, drop=True) for place in range(4)]
+    return None
+
+
+def _differ(name: str, what: str, valid: str = "the labels of the other columns, or one number") -> MalformedError:
+    return MalformedError(f"{name} has {what}: expected {valid}", field=name.split(" ")[0], valid=valid)
 
 
 def _of_xarray(xarray: Any, arrays: dict[str, Any]) -> tuple[dict[str, Any], Labels]:
@@ -53,7 +72,7 @@ def _of_xarray(xarray: Any, arrays: dict[str, Any]) -> tuple[dict[str, Any], Lab
     def put_on(result: Any) -> Any:
         labelled = xarray.DataArray(result, dims=(*same[0].dims, "component")[: result.ndim])
         if result.ndim > same[0].ndim:
-            labelled = labelled.assign_coords(component=list("wxyz"))
+            labelled = labelled.assign_coords(component=COMPONENTS)
         return labelled.assign_coords(same[0].coords)
 
     return dict(zip(arrays, same, strict=True)), Labels(same[0].shape, put_on)
@@ -68,6 +87,6 @@ def _of_pandas(pandas: Any, frames: dict[str, Any]) -> tuple[dict[str, Any], Lab
     def put_on(result: Any) -> Any:
         if result.ndim == 1:
             return pandas.Series(result, first.index)
-        return pandas.DataFrame(result, first.index, first.columns if first.ndim == 2 else list("wxyz"))
+        return pandas.DataFrame(result, first.index, first.columns if first.ndim == 2 else COMPONENTS)
 
     return frames, Labels(first.shape, put_on)

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import Batch, Body, Solver, numbers
 from .errors import MalformedError
-from .labels import combined
+from .given import wrong
+from .labels import combined, components
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
+Attitudes: TypeAlias = Union[npt.ArrayLike, "Rotation"]
+"""One attitude, or a column of them."""
+
 Columns = tuple[npt.NDArray[np.float64], ...]
-"""Rates about x, y, z in rad/s, speeds in m/s or times in s, and gravity in m/s² and tilts in rad where they vary."""
+"""Rates about x, y, z in rad/s and speeds in m/s or times in s; where they vary gravity in m/s², drops in m, tilts in rad,
+and the components of attitudes."""
 
 _Result = TypeVar("_Result", np.float64, np.int8)
 
 _OPERAND: Any = ["readonly", "contig", "aligned", "nbo"]
 """How each block of a column has to be; NumPy's stubs do not know "contig"."""
-
-_RATES = ("rate_x", "rate_y", "rate_z")
 
 _BLOCK = 1 << 18
 """Launches of a call of the kernels: so many that the call itself does not count."""
@@ -44,30 +47,34 @@ class Launches:
 
     def __init__(
         self,
-        columns: tuple[npt.ArrayLike | None, ...],
-        *,
+        rate_x: npt.ArrayLike,
+        rate_y: npt.ArrayLike,
+        rate_z: npt.ArrayLike,
+        speed: npt.ArrayLike | None,
         time: npt.ArrayLike | None,
         gravity: npt.ArrayLike | None,
+        drop: npt.ArrayLike | None,
         tilt: npt.ArrayLike | None,
-        attitude: Sequence[float] | Rotation | None,
+        attitude: Attitudes | None,
         body: str | Body,
         solver: str | Solver | None,
         threads: int | None,
     ) -> None:
-        *rates, speed = columns
         if (speed is None) == (time is None):
             raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
-        if time is not None and gravity is not None:
-            raise MalformedError("gravity has no effect with time", field="gravity", valid="None, or a speed")
-        given: dict[str, Any] = dict(zip(_RATES, rates, strict=True))
+        given: dict[str, Any] = {"rate_x": rate_x, "rate_y": rate_y, "rate_z": rate_z}
         given |= {"speed": speed} if time is None else {"time": time}
-        given |= {name: value for name, value in (("gravity", gravity), ("tilt", tilt)) if value is not None}
-        given, self.labels = combined(given)
-        read = {name: column(name, value) for name, value in given.items()}
-        # One gravity or tilt for all launches is no column.
-        one = {name: given[name] for name in ("gravity", "tilt") if name in read and read[name].ndim == 0}
+        for name, value in (("gravity", gravity), ("drop", drop), ("tilt", tilt)):
+            if value is not None and time is not None and name != "tilt":
+                raise MalformedError(f"{name} has no effect with time", field=name, valid="None, or a speed")
+            given |= {} if value is None else {name: value}
+        one_attitude, attitudes = (None, {}) if attitude is None else _attitudes(attitude)
+        given, self.labels = combined(given | attitudes)
+        read = {name: column(name.split(" ")[0], value) for name, value in given.items()}
+        # What is the same for all launches is no column.
+        one = {name: given[name] for name in ("gravity", "drop", "tilt") if name in read and read[name].ndim == 0}
         self.columns = tuple(numbers for name, numbers in read.items() if name not in one)
-        varying = [name in read and name not in one for name in ("gravity", "tilt")]
+        varying = [name in read and name not in one for name in ("gravity", "drop", "tilt", "attitude w")]
         try:
             self.shape = np.broadcast_shapes(*(column.shape for column in self.columns))
         except ValueError:
@@ -76,9 +83,10 @@ class Launches:
         self.size = math.prod(self.shape)
         self.batch = Batch(
             body,
-            tilt=one.get("tilt", 0.0 if varying[1] else None),
-            attitude=attitude,
             gravity=one.get("gravity", 9.81),
+            drop=one.get("drop"),
+            tilt=one.get("tilt", 0.0 if varying[2] else None),
+            attitude=(1.0, 0.0, 0.0, 0.0) if attitudes else one_attitude,
             varying=varying,
             timed=time is not None,
             solver=solver,
@@ -159,6 +167,26 @@ class Launches:
         if out.flags.c_contiguous and out.flags.aligned and not shared:
             return out, out
         return out, np.empty(shape, dtype)
+
+
+def _attitudes(given: Any) -> tuple[npt.NDArray[np.generic] | None, dict[str, Any]]:
+    """The attitude of all launches, or the columns of w, x, y and z if there are several."""
+    valid = "4 real numbers (w, x, y, z), or a column of shape (..., 4), or rotations of SciPy"
+    if hasattr(given, "as_quat"):
+        try:
+            given = given.as_quat(scalar_first=True)
+        except TypeError:
+            raise wrong("attitude", given, valid) from None
+    parts = components(given)
+    if parts is None:
+        read = column("attitude", given)
+        if read.shape[-1:] != (4,):
+            message = f"attitude has the shape {read.shape}: expected {valid}"
+            raise MalformedError(message, field="attitude", valid=valid)
+        if read.ndim == 1:
+            return read, {}
+        parts = list(np.moveaxis(read, -1, 0))
+    return None, {f"attitude {name}": part for name, part in zip("wxyz", parts, strict=True)}
 
 
 def _plain(column: npt.NDArray[np.generic], shape: tuple[int, ...]) -> npt.NDArray[np.float64] | None:

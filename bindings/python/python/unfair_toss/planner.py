@@ -7,7 +7,6 @@ from typing import Literal
 
 from . import _native
 from ._native import Space, Toss
-from .given import suggesting
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,6 @@ class Choice:
     passed_over: tuple[tuple[str, str], ...]
 
 
-@suggesting
 def plan(
     want: Literal["outcome", "tilt", "attitude", "trace", "probability"],
     of: Toss | Space,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._native import Plan, Solver, Space, Tally, count
 from .errors import MalformedError, PartError
-from .given import a_function, an, suggesting, wrong
+from .given import a_function, an, wrong
 from .results import ShownAsTable
 from .tallies import tally
 
@@ -71,7 +71,6 @@ def _estimate(values: _native._EstimateValues, plan: Plan) -> Estimate:
     )
 
 
-@suggesting
 def merge(parts: Iterable[Tally]) -> Estimate:
     """The estimate from all parts of a plan, in any order.
 
@@ -111,7 +110,6 @@ def merge(parts: Iterable[Tally]) -> Estimate:
     return estimate(whole)
 
 
-@suggesting
 def estimate(whole: Tally) -> Estimate:
     """The estimate from a tally of all launches of its plan.
 
@@ -137,7 +135,6 @@ def estimate(whole: Tally) -> Estimate:
         raise PartError(str(error), field="parts", valid=error.valid) from None
 
 
-@suggesting
 def probability(
     space: Space,
     plan: Plan | None = None,

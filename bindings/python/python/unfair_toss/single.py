@@ -7,12 +7,10 @@ import numpy.typing as npt
 
 from . import _native
 from ._native import Body, Solver, Toss
-from .given import suggesting
 from .labels import combined
 from .results import Intervals, Inverse, Landing, Margins, Trace, Wobble, Work
 
 
-@suggesting
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     """How a toss lands.
 
@@ -50,7 +48,6 @@ def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
     )
 
 
-@suggesting
 def margins(toss: Toss) -> Margins:
     """How far a toss is from landing the other way.
 
@@ -73,7 +70,6 @@ def margins(toss: Toss) -> Margins:
     return Margins(time, speed, gravity, tilt, (x, y, z), (rates[0], rates[1], rates[2]), (earlier, later))
 
 
-@suggesting
 def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     """The speeds from ``slowest`` to that of a toss with which it lands heads.
 
@@ -103,7 +99,6 @@ def intervals(toss: Toss, slowest: float = 0.0) -> Intervals:
     return Intervals(heads, min(length / (toss.speed - float(slowest)), 1.0))
 
 
-@suggesting
 def trace(
     toss: Toss, points: int | None = None, *, dt: float | None = None, solver: str | Solver = "exact"
 ) -> Trace:
@@ -139,7 +134,6 @@ def trace(
     return Trace(t[:, 0], attitude, angles, normal, face, cos_tilt[:, 0])
 
 
-@suggesting
 def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     """How to launch a coin from horizontal so that long flights land heads with a wanted probability.
 
@@ -164,7 +158,6 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     return Inverse(float(probability), *found)
 
 
-@suggesting
 def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
     """The wobble that explains how often coins landed on the side that had been up.
 

@@ -10,12 +10,11 @@ import numpy.typing as npt
 from . import _native
 from ._native import Solver, Toss, numbers
 from .errors import InputError, MalformedError, OutOfRangeError
-from .given import an, suggesting, wrong
+from .given import an, wrong
 from .launches import column
 from .results import DenseOutput, Solution, Work
 
 
-@suggesting
 def solve(
     toss: Toss,
     solver: str | Solver | None = None,

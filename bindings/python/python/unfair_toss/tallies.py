@@ -8,13 +8,12 @@ from collections.abc import Callable, Iterable
 from . import _native
 from ._native import Plan, Space, Tally, count
 from .errors import MalformedError
-from .given import a_function, an, suggesting, wrong
+from .given import a_function, an, wrong
 
 _SLICE = 1 << 28
 """Launches between two reports of progress: some tenths of a second."""
 
 
-@suggesting
 def tally(
     space: Space,
     plan: Plan,
