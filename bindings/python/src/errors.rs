@@ -50,12 +50,21 @@ impl Failure {
         }
     }
 
+    /// What the error says, with the argument in place of the field that it begins with.
+    fn text(&self) -> String {
+        let (text, field) = (self.error.to_string(), self.error.field().unwrap_or_default());
+        match text.strip_prefix(field) {
+            Some(rest) => format!("{}{rest}", argument(field)),
+            None => text,
+        }
+    }
+
     fn message(&self) -> String {
         match (self.index, &self.error) {
-            (_, Error::Launch { .. } | Error::BadLaunch { .. }) | (None, _) => self.error.to_string(),
-            (Some(index), error) => match self.argument {
-                Some(argument) => format!("{argument}[{index}]: {error}"),
-                None => format!("launch {index}: {error}"),
+            (_, Error::Launch { .. } | Error::BadLaunch { .. }) | (None, _) => self.text(),
+            (Some(index), _) => match self.argument {
+                Some(argument) => format!("{argument}[{index}]: {}", self.text()),
+                None => format!("launch {index}: {}", self.text()),
             },
         }
     }

@@ -5,15 +5,15 @@ use std::f64::consts::TAU;
 use ::toss::sampling::{SameSide, Wobble, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
 use ::toss::{
-    Backend, ExactMotion, InputError, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR,
-    TimeOfFlight, Toss, TracePoint, Work, certify, margin, speeds_of_heads,
+    Backend, ExactMotion, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR, TimeOfFlight, Toss,
+    TracePoint, Work, certify, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::body::{body_of, coin_of};
-use crate::errors::{Failure, malformed};
+use crate::errors::{Failure, malformed, refused};
 use crate::given::{counts, number, optional_number};
 use crate::planner::points_of;
 use crate::solver::backend_of;
@@ -186,17 +186,16 @@ pub(crate) fn trace<'py>(
     dt: Option<&Bound<'py, PyAny>>,
     solver: &Bound<'py, PyAny>,
 ) -> PyResult<Rows<'py>> {
+    if points.is_some() == dt.is_some() {
+        return Err(refused(py, "trace needs points or dt, and not both", "points", None, "either points or dt"));
+    }
     let backend = backend_of(solver)?;
     let (points, dt) = (points.map(points_of).transpose()?, optional_number("dt", dt)?);
     let flight = threads::aside(py, move |stop| {
         let solver = Stopping { solver: backend.solver(), stop };
         match (points, dt) {
-            (Some(points), None) => Ok(::toss::trace(&solver, &toss, points)?),
-            (None, Some(dt)) => Ok(trace_every(&solver, &toss, dt)?),
-            _ => {
-                let (field, expected) = ("points", "either points or dt");
-                Err(InputError::Malformed { field, value: "given with dt, or neither".to_owned(), expected }.into())
-            }
+            (Some(points), _) => Ok(::toss::trace(&solver, &toss, points)?),
+            (None, dt) => Ok(trace_every(&solver, &toss, dt.unwrap_or(toss.launch.flight_time()))?),
         }
     })?;
     let rows: Vec<Vec<f64>> = flight.iter().map(row).collect();

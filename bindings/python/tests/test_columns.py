@@ -264,7 +264,7 @@ def test_an_argument_without_effect_is_refused():
     for name in ("gravity", "drop"):
         with pytest.raises(errors.MalformedError, match=f"{name} has no effect"):
             ut.cos_tilt(X, Y, Z, time=V, **{name: 9.81})
-    with pytest.raises(errors.MalformedError, match="one of speed and time"):
+    with pytest.raises(errors.MalformedError, match="expected speed or time, and not both"):
         ut.cos_tilt(X, Y, Z)
 
 

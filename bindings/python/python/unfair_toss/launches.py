@@ -61,7 +61,7 @@ class Launches:
         threads: int | None,
     ) -> None:
         if (speed is None) == (time is None):
-            raise MalformedError("one of speed and time is needed", field="speed", valid="either speed or time")
+            raise MalformedError("expected speed or time, and not both", field="speed", valid="either speed or time")
         given: dict[str, Any] = {"rate_x": rate_x, "rate_y": rate_y, "rate_z": rate_z}
         given |= {"speed": speed} if time is None else {"time": time}
         for name, value in (("gravity", gravity), ("drop", drop), ("tilt", tilt)):

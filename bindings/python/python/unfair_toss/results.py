@@ -76,12 +76,14 @@ class _Flight:
         return xr.Dataset(values, coordinates)
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes."""
+        """Draws cos θ over time with matplotlib, on ``ax`` or the current axes, and returns the axes.
+
+        Fewer than twenty times are drawn as points, because a line between them would be no flight."""
         if ax is None:
             import matplotlib.pyplot as plt
 
             ax = plt.gca()
-        ax.plot(self.t, self._parts()["cos_tilt"])
+        ax.plot(self.t, self._parts()["cos_tilt"], "o" if self.t.size < 20 else "-")
         ax.axhline(0.0, color="0.6", linewidth=0.8)
         ax.set(xlabel="time after launch (s)", ylabel="cos θ (heads above 0)", ylim=(-1.05, 1.05))
         return ax
