@@ -77,7 +77,7 @@ pub enum Claim {
 /// The worst case of a measurement.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Worst {
-    /// The case's toss as [text](case::text), or what was measured in words.
+    /// The case's toss as text, or what was measured in words.
     pub input: String,
     /// The error, if the subject failed.
     pub failure: Option<String>,

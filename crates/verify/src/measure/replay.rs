@@ -13,7 +13,7 @@ use super::subject::Subject;
 pub enum Replay {
     /// One toss by one solver.
     Toss {
-        /// The toss as [text](case::text), which the option `--replay` of a suite takes.
+        /// The toss as text, which the option `--replay` of a suite takes.
         input: String,
         /// The command of `unfair-toss` with the solver and its settings, if it is a solver of this workspace.
         command: Option<String>,

@@ -77,7 +77,7 @@ impl Allowance {
 pub struct Run {
     /// The subject's name.
     pub subject: String,
-    /// The toss, as [text](case::text).
+    /// The toss, as text.
     pub inputs: String,
     /// How good the answer is.
     pub answer: Answer,

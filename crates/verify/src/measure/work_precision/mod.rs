@@ -40,7 +40,7 @@ pub struct Sample {
     pub tol: Option<f64>,
     /// The step (s) of a scheme with fixed steps.
     pub step: Option<f64>,
-    /// The toss as [text](crate::measure::case::text), or the number of launches.
+    /// The toss as text, or the number of launches.
     pub inputs: String,
     /// The worst answer over the launches.
     pub status: Answer,

@@ -29,7 +29,7 @@ impl Problem {
         self.tosses.iter().map(|toss| toss.launch.turn_rate()).fold(0.0, f64::max)
     }
 
-    /// The toss as [text](case::text), or the number of launches.
+    /// The toss as text, or the number of launches.
     pub fn inputs(&self) -> String {
         if let [toss] = &self.tosses[..] { case::text(toss) } else { format!("{} launches", self.tosses.len()) }
     }
