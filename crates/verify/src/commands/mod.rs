@@ -25,7 +25,7 @@ struct Program {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    run: run::Run,
+    run: run::RunArgs,
     #[command(flatten)]
     folders: Folders,
 }
@@ -43,7 +43,7 @@ struct Folders {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Run(run::Run),
+    Run(run::RunArgs),
     Bench(bench::Bench),
     Work(bench::Work),
     /// Draw the accuracy of the committed records over time

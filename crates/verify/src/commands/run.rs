@@ -23,7 +23,7 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 /// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
 /// within limits; 4 could not run.
 #[derive(Debug, Args)]
-pub(super) struct Run {
+pub(super) struct RunArgs {
     /// Take fewer cases: within a minute on two cores, once built
     #[arg(long, conflicts_with = "deep")]
     quick: bool,
@@ -102,7 +102,7 @@ fn time_factor(text: &str) -> Result<f64, String> {
 /// The environment variable with the name of the file into which a step of GitHub Actions writes its summary.
 const SUMMARY: &str = "GITHUB_STEP_SUMMARY";
 
-impl Run {
+impl RunArgs {
     /// Runs the checks and returns the exit code: 1 if a check fails, 3 if something is worse than the baseline.
     pub(super) fn run(&self, suite: Suite, out: &Path) -> anyhow::Result<u8> {
         if self.instead.list {

@@ -35,10 +35,10 @@ pub struct Survey {
 }
 
 /// What a solver answered to a toss.
-pub type Answer = Result<Landing, SolveError>;
+pub type Solved = Result<Landing, SolveError>;
 
 /// What a solver answered to each toss of a survey.
-pub type Landings = Vec<Answer>;
+pub type Landings = Vec<Solved>;
 
 impl Survey {
     /// Solves `launches` random launches with every subject.
@@ -70,7 +70,7 @@ impl Survey {
         let is_of_bodies = tosses.first().is_some_and(|toss| toss.coin().is_none());
         let fly = |subject: &Subject| {
             let landings: Landings = tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect();
-            let is_refused = |landing: &Answer| matches!(landing, Err(SolveError::NotSymmetric { .. }));
+            let is_refused = |landing: &Solved| matches!(landing, Err(SolveError::NotSymmetric { .. }));
             if is_of_bodies && landings.iter().all(is_refused) { Vec::new() } else { landings }
         };
         let landings = subjects.par_iter().map(fly).collect();

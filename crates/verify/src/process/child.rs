@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
 use super::Limits;
-use super::protocol::{self, Answer, HEADER};
+use super::protocol::{self, HEADER, Reply};
 
 /// The longest line that is read in one piece. An answer is far shorter.
 const LONGEST_LINE: u64 = 4096;
@@ -85,7 +85,7 @@ impl Process {
     }
 
     /// The answer to `question`, to which this process gives a number. The first answer may take as long as `start`.
-    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Answer, Fault> {
+    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Reply, Fault> {
         if let Ok(line) = self.lines.try_recv() {
             return Err(Fault::Unasked(beginning(&line)));
         }

@@ -21,7 +21,7 @@ use toss::{
 
 use pool::Pool;
 pub use protocol::HEADER;
-use protocol::{Answer, Landed};
+use protocol::{Landed, Reply};
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
@@ -117,8 +117,8 @@ impl ByProgram {
             }
         };
         match self.pool.ask(&protocol::question(toss, &flight, tolerance)) {
-            Ok(Answer::Landing(landing)) => Ok(landing),
-            Ok(Answer::Failed(words)) => Err(self.failed(words)),
+            Ok(Reply::Landing(landing)) => Ok(landing),
+            Ok(Reply::Failed(words)) => Err(self.failed(words)),
             Err(fault) => Err(self.failed(fault)),
         }
     }

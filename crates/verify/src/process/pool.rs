@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::Limits;
 use super::child::{Fault, Process};
-use super::protocol::Answer;
+use super::protocol::Reply;
 use crate::clock;
 
 /// A program that hangs or dies on some launches is asked on, until it has lost so many times the limit of an answer.
@@ -42,7 +42,7 @@ impl Pool {
     ///
     /// # Errors
     /// What the program did instead, in words; at once if it was given up.
-    pub(super) fn ask(&self, question: &str) -> Result<Answer, String> {
+    pub(super) fn ask(&self, question: &str) -> Result<Reply, String> {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
@@ -73,8 +73,8 @@ impl Pool {
 
 impl State {
     /// Keeps a process for the next question, and returns its answer.
-    fn take(&mut self, process: Process, answer: Answer, took: Duration, limits: &Limits) -> Result<Answer, String> {
-        if let Answer::Landing(landing) = &answer {
+    fn take(&mut self, process: Process, answer: Reply, took: Duration, limits: &Limits) -> Result<Reply, String> {
+        if let Reply::Landing(landing) = &answer {
             let gives_error = landing.error.is_some();
             if *self.gives_errors.get_or_insert(gives_error) != gives_error {
                 return Err("gives an error with some of its answers and none with others".to_owned());

@@ -15,7 +15,7 @@ const LISTED: usize = 6;
 pub(crate) fn of_rows(rows: &[Row]) -> String {
     let items: Vec<Item<'_>> = rows.iter().map(|row| Item::of(row, !row.status.passes())).collect();
     let failing = items.iter().filter(|item| item.bad).count();
-    let found = Found::new(&items);
+    let found = SortedRows::new(&items);
     let passing = found.passing();
     if failing == 0 {
         let whole = found.whole();
@@ -44,7 +44,7 @@ pub(crate) fn of_moves(moves: &[Move], rows: &[Row]) -> String {
         bad: true,
     }));
     if items.iter().any(|item| item.bad) {
-        format!("Worse than the baseline: {}.", Found::new(&items).bad())
+        format!("Worse than the baseline: {}.", SortedRows::new(&items).bad())
     } else {
         String::new()
     }
@@ -89,7 +89,7 @@ impl<'a> Item<'a> {
 }
 
 /// The rows, sorted by what they judge.
-struct Found<'a> {
+struct SortedRows<'a> {
     /// Rows about one solver.
     solvers: Vec<&'a Item<'a>>,
     /// Rows that compare two solvers. They say that one of the two is wrong, but not which.
@@ -100,7 +100,7 @@ struct Found<'a> {
     suite: Vec<&'a Item<'a>>,
 }
 
-impl<'a> Found<'a> {
+impl<'a> SortedRows<'a> {
     fn new(items: &'a [Item<'a>]) -> Self {
         let by = |judges: Option<Judges>| items.iter().filter(move |item| item.judges == judges);
         let (comparisons, solvers) = by(Some(Judges::Solver)).partition(|item| item.is_comparison());

@@ -9,27 +9,27 @@ use toss::{
 };
 
 /// What a foreign solver answers.
-pub(super) type Answer = Result<Landing, SolveError>;
+pub(super) type Solved = Result<Landing, SolveError>;
 
 /// A foreign solver with a fault.
 pub(super) struct Foreign {
     pub(super) name: &'static str,
     pub(super) claim: f64,
-    pub(super) fly: fn(&CoinToss) -> Answer,
+    pub(super) fly: fn(&CoinToss) -> Solved,
 }
 
 impl Solver for Foreign {
     fn name(&self) -> &str {
         self.name
     }
-    fn land(&self, toss: &Toss) -> Answer {
+    fn land(&self, toss: &Toss) -> Solved {
         let landing = (self.fly)(&toss.of_coin(self.name, "it is made for coins")?)?;
         Ok(landing.with_error(self.claim))
     }
 }
 
 /// A fault: the solver's name, the error that it claims, its flight, and the checks that must fail.
-pub(super) type Fault = (&'static str, f64, fn(&CoinToss) -> Answer, &'static [&'static str]);
+pub(super) type Fault = (&'static str, f64, fn(&CoinToss) -> Solved, &'static [&'static str]);
 
 /// What an honest solver of this accuracy claims.
 pub(super) const HONEST: f64 = 1e-12;
@@ -174,7 +174,7 @@ pub(super) const FLIPPED: &[&str] = &[
     SILENCE,
 ];
 
-pub(super) fn fly(toss: CoinToss) -> Answer {
+pub(super) fn fly(toss: CoinToss) -> Solved {
     ExactSolver.land(&toss.into())
 }
 

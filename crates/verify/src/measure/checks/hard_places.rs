@@ -176,9 +176,9 @@ pub(super) const REFUSED: Check = Check {
 };
 
 /// What was measured, its worst case, and what is allowed without a limit.
-type Found = (f64, Option<Worst>, Option<f64>);
+type Counted = (f64, Option<Worst>, Option<f64>);
 
-fn searched(context: &Context, found: fn(&Findings) -> Found) -> anyhow::Result<Vec<Measurement>> {
+fn searched(context: &Context, found: fn(&Findings) -> Counted) -> anyhow::Result<Vec<Measurement>> {
     let row = |findings: &Findings| {
         let (subject, cases, (measured, worst, allowed)) =
             (findings.subject.clone(), findings.launches, found(findings));

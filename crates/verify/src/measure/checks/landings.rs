@@ -18,7 +18,7 @@ use crate::measure::drift;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, tight};
-use crate::measure::survey::{Answer, Landings, Survey};
+use crate::measure::survey::{Landings, Solved, Survey};
 
 /// The landings of the random launches.
 const fn random(deviation: fn(&Landed<'_>) -> Option<f64>) -> Measure {
@@ -82,7 +82,7 @@ fn pair(
     (one, of_one): (&Subject, &Landings),
     (other, of_other): (&Subject, &Landings),
 ) -> Measurement {
-    let difference = |(a, b): (&Answer, &Answer)| match (a, b) {
+    let difference = |(a, b): (&Solved, &Solved)| match (a, b) {
         (Ok(a), Ok(b)) => Ok(a.state.attitude.angle_to(&b.state.attitude)),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
     };
