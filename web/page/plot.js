@@ -54,7 +54,9 @@ export class Plot {
   settings() {
     const { text, grid, faint } = colours();
     const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { stroke: faint, width: 1 }, font: "12px system-ui, sans-serif" };
-    const format = this.value ?? ((value) => (value == null ? "–" : value.toPrecision(4)));
+    const format = this.value ?? ((value) => value.toPrecision(4));
+    // Away from the pointer there is no value.
+    const shown = (format) => (_, value) => (value == null ? "" : format(value));
     return {
       width: Math.max(200, this.into.clientWidth),
       height: this.height,
@@ -66,9 +68,9 @@ export class Plot {
         { ...axis, size: 58, ...(this.logarithmic ? { values: (_, ticks) => ticks.map(power) } : {}) },
       ],
       series: [
-        { label: this.across, value: (_, value) => (value == null ? "–" : `${Number(value.toPrecision(3))}${this.unit}`) },
+        { label: this.across, value: shown((value) => `${Number(value.toPrecision(3))}${this.unit}`) },
         ...this.series.map(({ label, colour, dash, width = 2 }) => ({
-          label, stroke: colour, width, dash, points: { show: false }, value: (_, value) => format(value),
+          label, stroke: colour, width, dash, points: { show: false }, value: shown(format),
         })),
       ],
     };

@@ -8,7 +8,7 @@ import { colours } from "./theme.js";
 /** The charts of the flight. */
 export class Traces {
   constructor() {
-    const unit = (unit) => (value) => (value == null ? "–" : `${value.toPrecision(4)}${unit}`);
+    const unit = (unit) => (value) => `${value.toPrecision(4)}${unit}`;
     this.plots = {
       tilt: new Plot(byId("plot-tilt"), { title: "cos θ: above 0 the coin shows heads", series: [], value: unit("") }),
       height: new Plot(byId("plot-height"), { title: "height above the launch", series: [], value: unit(" m"), height: 120 }),
