@@ -257,6 +257,30 @@ fn a_computation_stops_at_its_number_of_cells() {
     }
 }
 
+/// The phase |L| T, with |L| of (3, -4, 12) and k ≤ 2 at most 24.5 and T at most 2 · 9/3, is compared with 2^53.
+#[test]
+fn the_largest_phase_is_that_of_the_fastest_and_longest_flight() {
+    let with = |z: f64| {
+        let space = Space::builder(Coin::DISC).rate_x(-1.0..=3.0).rate_y(-4.0..=2.0).rate_z(z).speed(2.0..=9.0);
+        largest_phase(&space.gravity(3.0..=9.0).build().unwrap())
+    };
+    assert!((with(-12.0) - 6.0 * 5f64.hypot(24.0)).abs() < 1e-12 && (with(0.0) - 30.0).abs() < 1e-12);
+    let still = Space::builder(Coin::DISC).rate_x(0.0).rate_y(0.0).rate_z(0.0).speed(1.0..=2.0).build().unwrap();
+    assert_eq!(largest_phase(&still), 0.0);
+}
+
+#[test]
+fn a_sum_of_which_nothing_is_known_has_all_probabilities() {
+    let ends = |middle: f64, radius: f64| ends(&Ball::new(DoubleDouble::from(middle), radius));
+    let all = Interval { lo: 0.0, hi: 1.0 };
+    for (middle, radius) in
+        [(f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY), (0.5, f64::NAN), (0.5, 9.0)]
+    {
+        assert_eq!(ends(middle, radius), all, "{middle} ± {radius}");
+    }
+    assert_eq!(ends(0.5, 0.25), Interval { lo: 0.25_f64.next_down(), hi: 0.75_f64.next_up() });
+}
+
 #[test]
 fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1.0..=2.0).rate_z(3.0).speed(3.0..=5.0);
