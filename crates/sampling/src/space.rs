@@ -91,8 +91,19 @@ impl Space {
         let [speeds, gravities] = [Coordinate::Speed, Coordinate::Gravity].map(|of| self.axis(of).bounds());
         // The lowest throw is the slowest one under the strongest gravity; the longest flight is the fastest one under
         // the weakest gravity.
+        let of_slowest = |error| match error {
+            InputError::OutOfRange { field: field @ "drop [m]", value, .. } if value.is_finite() => {
+                InputError::OutOfRange {
+                    field,
+                    value,
+                    valid: ">= -v0²/(2 g), the height that the slowest launch reaches; that of a normal speed is 8.3 deviations below \
+                        the mean",
+                }
+            }
+            other => other,
+        };
         for (speed, gravity) in [(speeds[0], gravities[1]), (speeds[1], gravities[0])] {
-            Launch::new([0.0; 3], TimeOfFlight::thrown(speed, gravity, drop))?;
+            Launch::new([0.0; 3], TimeOfFlight::thrown(speed, gravity, drop)).map_err(of_slowest)?;
         }
         Ok(Self { drop, ..self })
     }

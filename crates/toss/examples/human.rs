@@ -1,6 +1,6 @@
 //! How much do people's coins wobble?
 //!
-//! 48 people flipped coins 350 757 times, and 178 078 of the coins landed on the side that had been up (F. Bartoš et
+//! 48 people flipped coins 350 757 times, and 178 078 of the coins landed on the side that had been up (data set of F. Bartoš et
 //! al., "Fair coins tend to land on the same side they started", arXiv:2310.04153, 2023). The more a coin wobbles, the
 //! more often it does so. Let ψ be the angle between the coin's normal and its angular momentum. If every coin left the
 //! thumb flat, had the same ψ (or 180° - ψ) and flew for many turns, the share of coins that land on the same side

@@ -73,7 +73,9 @@ def solve(
             named = _scheme(method, scheme)
             solver = Solver(solver, scheme=named, rtol=_tolerance(rtol, atol), step=step, formulation=formulation)
         except InputError as error:
-            error.field = _as_given(error.field, settings)
+            field = _as_given(error.field, settings)
+            error.args = (str(error).replace(error.field or "", field or "", 1),)
+            error.field = field
             raise
     elif given:
         raise MalformedError(f"{given[0]} is given with a Solver, which has settings", field=given[0], valid="None")

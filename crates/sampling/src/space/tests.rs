@@ -56,6 +56,7 @@ fn a_drop_lengthens_every_flight_and_has_to_be_reached() {
     for (drop, speed) in [(-0.459, "3:5"), (f64::NAN, "3:5"), (-1.0, "4:5"), (-0.01, "normal:4:0.48")] {
         let refused = parse(&with(Speed, speed)).unwrap().with_drop(Some(drop)).unwrap_err();
         assert!(refused.to_string().starts_with("drop [m] = "), "{refused}");
+        assert_eq!(refused.to_string().contains("the slowest launch"), drop.is_finite(), "{refused}");
     }
     assert_eq!(parse(&BOX).unwrap().with_drop(None), parse(&BOX));
 }

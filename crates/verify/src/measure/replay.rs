@@ -39,6 +39,15 @@ impl Replay {
         Self::Toss { input, command: both, row }
     }
 
+    /// The same if a command gives the settings of the solver, else the whole check `id`: `--replay` takes the usual ones.
+    #[must_use]
+    pub fn with_settings_or(self, id: &str) -> Self {
+        match self {
+            Self::Toss { command: None, .. } => Self::Check(id.to_owned()),
+            given => given,
+        }
+    }
+
     /// The same, as the worst case of `row`.
     #[must_use]
     pub fn in_row(self, row: String) -> Self {
@@ -137,10 +146,12 @@ mod tests {
         let elsewhere = Commands::Program("checks".to_owned());
         assert_eq!(elsewhere.line(&replay), format!("checks --replay \"{input}\""));
         let of_row = format!("checks --replay \"{input}\" --row \"c / s\"");
-        assert_eq!(elsewhere.line(&replay.in_row("c / s".to_owned())), of_row);
+        assert_eq!(elsewhere.line(&replay.clone().in_row("c / s".to_owned())), of_row);
         assert_eq!(elsewhere.line(&Replay::Check("c".to_owned())), "checks --only c");
         let foreign = Replay::Toss { input: input.clone(), command: None, row: None };
         assert_eq!(Commands::Workspace.line(&foreign), format!("cargo xtask verify --replay \"{input}\""));
+        assert_eq!(foreign.clone().with_settings_or("c"), Replay::Check("c".to_owned()));
+        assert_eq!(replay.clone().with_settings_or("c"), replay, "a solver of this workspace");
         let with = |commands| Commands::With(Box::new(commands), " --claim 1".to_owned());
         let line = format!("cargo xtask verify --replay \"{input}\" --claim 1");
         assert_eq!(with(Commands::Workspace).line(&foreign), line);

@@ -274,7 +274,8 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
     let (Flight { toss, by }, measured) =
         judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
     let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", by.options());
-    let worst = Some(Worst::by(toss, by, None).remarking(&remark));
+    let worst = Worst::by(toss, by, None).remarking(&remark);
+    let worst = Some(Worst { replay: worst.replay.with_settings_or(HOSTILE.id), ..worst });
     let cases = landings.len() as u64;
     Ok(Measurement { subject: name, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(Some(1.0)))
 }
