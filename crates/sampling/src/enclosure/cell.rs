@@ -194,11 +194,6 @@ impl<const T: usize> Function<T> {
         for slope in slopes {
             off = (off + slope.radius()).next_up();
         }
-        // Where the linear part is not known well, it helps to halve in the direction in which it varies most.
-        let variation = self.middle.slopes().iter().map(magnitude).sum::<f64>();
-        for (by, slope) in by.iter_mut().zip(slopes) {
-            *by = if variation > 0.0 { off * (magnitude(slope) / variation) } else { 0.0 };
-        }
         for (exponents, term) in self.whole.terms().filter(|(exponents, _)| exponents.iter().sum::<u8>() == 2) {
             // The mean of |t_i t_j|, or its largest value.
             let moment = if power == Power::One { moment(exponents) } else { 1.0 };
