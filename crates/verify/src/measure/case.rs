@@ -46,7 +46,7 @@ fn flight(launch: &Launch) -> impl Iterator<Item = (&'static str, f64)> {
 ///
 /// # Errors
 /// If a field is missing, unknown or can't be read, or the toss is invalid.
-pub(crate) fn read(text: &str) -> anyhow::Result<Toss> {
+pub fn read(text: &str) -> anyhow::Result<Toss> {
     let mut fields = Fields::of(text.split_once('#').map_or(text, |(fields, _)| fields))?;
     let body = if let Some(moments) = fields.take("moments")? {
         Body::from_moments(moments)?

@@ -15,7 +15,7 @@
 
 mod adversary;
 pub mod atlas;
-pub(crate) mod case;
+pub mod case;
 pub mod check;
 pub mod checks;
 pub mod context;
