@@ -42,7 +42,7 @@ fn flight(launch: &Launch) -> impl Iterator<Item = (&'static str, f64)> {
     all.into_iter().filter_map(|(name, value)| Some((name, value?)))
 }
 
-/// Reads a toss from fields as [`text`] writes them. What follows a `#` is a comment; a launch without a tilt is horizontal.
+/// Reads a toss from fields as a row prints them. What follows a `#` is a comment; a launch without a tilt is horizontal.
 ///
 /// # Errors
 /// If a field is missing, unknown or can't be read, or the toss is invalid.
