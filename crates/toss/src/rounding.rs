@@ -74,7 +74,7 @@ impl Rounding {
     /// all.
     ///
     /// The landed coin is the launched one, turned by Φ = (ωx, ωy, k ωz) T and then by -q T with q = (k - 1) ωz about n. Three
-    /// factors, each with [this relative error](Self::relative_error), change Φ by up to 3.1 of it and q T by as much of q T and
+    /// factors, each with the same relative error, change Φ by up to 3.1 of it and q T by as much of q T and
     /// of k ωz T, which |Φ| bounds.
     ///
     /// # Errors
