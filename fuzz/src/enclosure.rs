@@ -6,11 +6,12 @@ use toss::{Coin, Outcome, certify};
 /// The accuracy that is asked for, which most of these spaces reach in milliseconds.
 const ACCURACY: f64 = 0.02;
 const LAUNCHES: u64 = 512;
-/// Each of these spaces takes fewer cells, some seconds.
+/// More cells, which take seconds, are a finding: halving has gone wrong.
 const MOST_CELLS: u64 = 1 << 19;
 
 /// The proven interval holds the probability that it states, and it meets the interval of random launches with a confidence
-/// of all but 1e-13. It takes a bounded number of cells. Where heads or tails is proven to be certain, each of these launches lands so.
+/// of all but 1e-13. Where heads or tails is proven to be certain, each of these launches lands so. It takes a bounded number of
+/// cells.
 ///
 /// # Panics
 /// If this does not hold for `data`.

@@ -176,7 +176,23 @@ def test_flights_become_tables_and_pictures(flight):
     assert dataset["t"].attrs["units"] == "s" and (dataset["t"].values == flight.t).all()
     axes = flight.plot()
     assert (axes.lines[0].get_ydata() == flight.cos_tilt).all() and "(s)" in axes.get_xlabel()
+    assert axes.lines[0].get_linestyle() == "-"
     matplotlib.pyplot.close()
+
+
+def test_few_times_are_points_and_no_line():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    line = ut.solve(TOSS, "quaternion").plot().lines[0]
+    assert (line.get_linestyle(), line.get_marker(), len(line.get_xdata())) == ("None", "o", 2)
+    matplotlib.pyplot.close()
+
+
+def test_a_wrong_setting_is_called_as_it_was_given():
+    with pytest.raises(ut.errors.UnknownNameError, match="^method = 'radau' is unknown") as caught:
+        ut.solve(TOSS, method="Radau")
+    assert caught.value.field == "method"
 
 
 def test_notebooks_show_answers_as_tables():

@@ -50,6 +50,12 @@ impl FormatArgs {
     }
 }
 
+/// Whether programs would take the chart for a picture of another kind, and refuse it.
+fn is_named_as_another_picture(path: &Path) -> bool {
+    let kinds = ["png", "jpg", "jpeg", "gif", "webp", "pdf"];
+    path.extension().is_some_and(|own| kinds.iter().any(|kind| own.eq_ignore_ascii_case(kind)))
+}
+
 /// Options of a command that prints a series of data.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SeriesArgs {
@@ -69,7 +75,7 @@ impl SeriesArgs {
                 "format",
                 "--format has no effect with --svg on standard output, where the chart stands in place of the data",
             )),
-            (Some(path), _) if path.extension().is_some_and(|kind| kind != "svg") => Err(Failure::usage(
+            (Some(path), _) if is_named_as_another_picture(path) => Err(Failure::usage(
                 "svg",
                 format!("svg = '{}' can't be used: expected a name that ends in .svg", path.display()),
             )),

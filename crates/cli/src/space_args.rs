@@ -111,14 +111,12 @@ impl SpaceArgs {
     /// Refuses a map over a rate that `--turn` and `--wobble` fix.
     pub(crate) fn require_free_rates(&self, axes: [Coordinate; 2]) -> Result<(), Failure> {
         let rates = [Coordinate::RateX, Coordinate::RateY, Coordinate::RateZ];
-        let fixed = axes.into_iter().find(|of| self.turn.words().is_some() && rates.contains(of));
-        fixed.map_or(Ok(()), |of| {
-            let rate = of.name();
-            let message = format!(
-                "--turn and --wobble fix {rate}: a map of it needs --rate-x, --rate-y and --rate-z, with its own as LO:HI:POINTS"
-            );
-            Err(Failure::usage("turn", message))
-        })
+        let Some(of) = axes.into_iter().find(|of| self.turn.is_given() && rates.contains(of)) else { return Ok(()) };
+        let rate = of.name();
+        let message = format!(
+            "--turn and --wobble fix {rate}: a map of it needs --rate-x, --rate-y and --rate-z, with its own as LO:HI:POINTS"
+        );
+        Err(Failure::usage("turn", message))
     }
 
     /// Refuses a number of points on an axis of the command line that no grid is laid over. A space with a name has its

@@ -116,6 +116,11 @@ impl TurnArgs {
         Ok(Some(rate_of_precession(&coin, turn.si(), wobble.si())?))
     }
 
+    /// Whether the rates are given by these options.
+    pub(crate) fn is_given(&self) -> bool {
+        self.turn.is_some()
+    }
+
     /// What was typed, for the title of a chart.
     pub(crate) fn words(&self) -> Option<String> {
         Some(format!("n turns at {}, ψ = {}", shown(self.turn?), shown(self.wobble?)))

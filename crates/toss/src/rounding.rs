@@ -193,7 +193,7 @@ mod tests {
             assert_eq!(keeps(Rounding { flight: true, ..NONE }), Ok(expected), "{drop}");
             assert_eq!(keeps(Rounding { rate: true, ..NONE }), Ok(true));
         }
-        // Half a turn at landing is as near to the edge as an error of the time of flight: the higher the catch, the larger.
+        // Next to a quarter of a turn an error of the time of flight decides: the higher the catch, the larger it may be.
         let near = |drop: f64, off: f64| {
             let time = caught(drop);
             let near = toss(Coin::PAPER, (std::f64::consts::FRAC_PI_2 - off) / time.seconds(), time);
@@ -203,7 +203,7 @@ mod tests {
         assert!(!near(-0.1, 1e-15) && !near(-top * (1.0 - 1e-9), 1e-13));
     }
 
-    /// Errors a thousand million times as large as those of conversions show by how much they change the time of flight.
+    /// Errors far larger than those of conversions show by how much they change the time of flight.
     #[test]
     fn a_time_of_flight_is_off_by_no_more_than_the_bound() {
         const OFF: f64 = 1e-7;

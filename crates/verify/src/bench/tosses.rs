@@ -53,7 +53,7 @@ impl Columns {
 pub(super) fn attitude_error(tosses: &[Toss], found: impl IntoIterator<Item = Attitude>) -> f64 {
     let error = |(toss, found): (&Toss, Attitude)| {
         let exact = ExactMotion::new(toss).state(toss.launch.time_of_flight());
-        exact.map_or(f64::NAN, |exact| found.angle_to(&exact.attitude))
+        exact.map_or(f64::INFINITY, |exact| found.angle_to(&exact.attitude))
     };
     tosses.iter().zip(found).map(error).fold(0.0, f64::max)
 }
