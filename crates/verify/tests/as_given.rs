@@ -222,15 +222,7 @@ fn survey(tries: u64) -> (Vec<String>, [usize; 2]) {
 }
 
 #[test]
-fn outcomes_next_to_an_edge_are_right_for_the_numbers_as_given() {
-    let (lines, [tosses, wrong]) = survey(60);
-    assert!(tosses > 600 && wrong == 0, "{tosses} {lines:#?}");
-}
-
-#[test]
-#[ignore = "takes minutes: more than 10 000 tosses"]
 fn ten_thousand_outcomes_next_to_an_edge_are_right_for_the_numbers_as_given() {
     let (lines, [tosses, wrong]) = survey(900);
-    println!("{lines:#?}\n{wrong} of {tosses} are wrong");
     assert!(tosses >= 10_000 && wrong == 0, "{tosses} {lines:#?}");
 }
