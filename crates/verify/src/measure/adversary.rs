@@ -64,7 +64,7 @@ pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<
     let fly = |index: u64| -> anyhow::Result<Vec<Run>> {
         let toss = launch(SEED, index);
         let exact = ExactLanding::new(&toss)?;
-        contestants.iter().map(|by| Ok(Run::new(&subject(*by, &toss, index)?, &toss, &exact))).collect()
+        contestants.par_iter().map(|by| Ok(Run::new(&subject(*by, &toss, index)?, &toss, &exact))).collect()
     };
     let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<anyhow::Result<_>>()?;
     let findings = |(column, by): (usize, &(&SolverEntry, Option<Scheme>))| {
