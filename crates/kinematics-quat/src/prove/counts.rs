@@ -1,7 +1,7 @@
 //! [`Proving`], a solver whose every outcome is proven by integration, with the counts of its proofs. Their fields are
 //! private, so that only proven outcomes are counted.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::{Error, Landing, Outcome, SolveError, Solver, Stepping, Tilt, Toss};
 use numerics::lanes::SimdLevel;
@@ -39,22 +39,6 @@ impl IntegratedCounts {
     pub fn by(&self, integration: Integration) -> u64 {
         self.by[integration as usize]
     }
-
-    fn add(&mut self, found: &Decided) {
-        match found.outcome {
-            Outcome::Heads => self.heads += 1,
-            Outcome::Tails => self.tails += 1,
-            Outcome::Undecided => self.undecided += 1,
-        }
-        self.by[found.integration as usize] += 1;
-    }
-
-    fn merge(&mut self, more: &Self) {
-        self.heads += more.heads;
-        self.tails += more.tails;
-        self.undecided += more.undecided;
-        self.by.iter_mut().zip(more.by).for_each(|(all, more)| *all += more);
-    }
 }
 
 /// A solver whose outcomes are those of [`QuaternionSolver::prove_outcomes`]. Counting code decides an outcome by cos θ and
@@ -63,7 +47,9 @@ impl IntegratedCounts {
 #[derive(Debug)]
 pub struct Proving {
     solver: QuaternionSolver,
-    counts: Mutex<IntegratedCounts>,
+    /// Of heads, tails and undecided tosses.
+    outcomes: [AtomicU64; 3],
+    by: [AtomicU64; Integration::ALL.len()],
 }
 
 impl Proving {
@@ -73,16 +59,26 @@ impl Proving {
     /// [`SolveError::NotProven`] for a solver that proves nothing.
     pub fn new(solver: QuaternionSolver) -> Result<Self, SolveError> {
         solver.require_proofs()?;
-        Ok(Self { solver, counts: Mutex::default() })
+        Ok(Self { solver, outcomes: Default::default(), by: Default::default() })
     }
 
     /// The numbers of tosses that were solved so far.
     pub fn counts(&self) -> IntegratedCounts {
-        *self.lock()
+        let read = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        let [heads, tails, undecided] = self.outcomes.each_ref().map(read);
+        IntegratedCounts { heads, tails, undecided, by: self.by.each_ref().map(read) }
     }
 
-    fn lock(&self) -> MutexGuard<'_, IntegratedCounts> {
-        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Counts an outcome that was proven, and gives its cos θ.
+    fn counted(&self, found: &Decided) -> Tilt {
+        let outcome = match found.outcome {
+            Outcome::Heads => 0,
+            Outcome::Tails => 1,
+            Outcome::Undecided => 2,
+        };
+        self.outcomes[outcome].fetch_add(1, Ordering::Relaxed);
+        self.by[found.integration as usize].fetch_add(1, Ordering::Relaxed);
+        found.tilt()
     }
 }
 
@@ -102,20 +98,15 @@ impl Solver for Proving {
 
     fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
         let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).pop();
-        let found = found.unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))?;
-        self.lock().add(&found);
-        Ok(found.tilt())
+        Ok(self.counted(&found.unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))?))
     }
 
     fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {
         assert_eq!(out.len(), tosses.len(), "one result a toss");
-        let mut counts = IntegratedCounts::default();
         for (index, found) in self.solver.decide(tosses, SimdLevel::widest()).into_iter().enumerate() {
             let found = found.map_err(|source| Error::of_launch(index, &tosses[index], source))?;
-            counts.add(&found);
-            out[index] = found.tilt();
+            out[index] = self.counted(&found);
         }
-        self.lock().merge(&counts);
         Ok(())
     }
 }
