@@ -23,7 +23,7 @@ print(f"{landing.outcome}, proven: {landing.certified}; tails from {3.0 + margin
 
 # %%
 figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
-for body, label in [("paper", "the paper's coin, k = ½"), ("us-quarter", "a US quarter, k = 1.98")]:
+for body, label in [("paper", "the paper's coin, k = ½"), ("us-quarter", "a US quarter, k = 1.99")]:
     flight = ut.trace(ut.Toss((1.0, 1.0, 2.5), time=6.0, body=body), 600)
     axes.plot(flight.t, flight.cos_tilt, label=label)
 axes.axvline(cheated.flight_time, color="grey", linestyle=":", label="caught at 3 m/s")

@@ -37,7 +37,7 @@ mod _native {
         given::{array_of_numbers, count},
         planner::plan,
         plans::Plan,
-        single::{intervals, inverse, land, margins, solve, trace, wobble},
+        single::{intervals, inverse, land, margins, rate_of_precession, solve, trace, wobble},
         solver::{Solver, solvers},
         space::{Space, spaces},
         tally::{Tally, tally},

@@ -135,6 +135,19 @@ pub(crate) fn inverse(probability: &Bound<'_, PyAny>, body: &Bound<'_, PyAny>) -
     Ok((k, rate_ratio(probability, k).map_err(Failure::from)?, cone))
 }
 
+/// The rate of a coin whose normal goes round its angular momentum at `turn` (rad/s), at the angle `wobble` (rad).
+#[pyfunction]
+pub(crate) fn rate_of_precession(
+    turn: &Bound<'_, PyAny>,
+    wobble: &Bound<'_, PyAny>,
+    body: &Bound<'_, PyAny>,
+) -> PyResult<(f64, f64, f64)> {
+    let coin = coin_of(&body_of(body)?.get().body, "the angle to the angular momentum is constant if I1 = I2")?;
+    let (turn, wobble) = (number("turn", turn)?, number("wobble", wobble)?);
+    let rate = dynamics::rate_of_precession(&coin, turn, wobble).map_err(Failure::from)?;
+    Ok((rate.x, rate.y, rate.z))
+}
+
 /// Values of a wobble: the counts of all people; the share with its interval and what that means; k and Ω/ωz; ψ with its
 /// interval; and these of each person alone, NaN where no wobble explains the counts.
 type Wobbled = ((u64, u64), (f64, (f64, f64), String), (f64, Option<f64>), (f64, (f64, f64)), Vec<[f64; 3]>);

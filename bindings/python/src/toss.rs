@@ -161,7 +161,9 @@ impl Given {
         let unused = [("gravity", gravity), ("drop", drop)].into_iter().find(|(_, value)| value.is_some());
         let time_of_flight = match (speed, time, unused) {
             (Some(_), Some(_), _) => return Err(malformed("time", "given with a speed", "either speed or time")),
-            (None, None, _) => return Err(malformed("speed", "None", "one of speed and time")),
+            (None, None, _) => {
+                return Err(Failure::from(InputError::Missing { field: "speed", expected: "a speed or a time" }).into());
+            }
             (None, Some(_), Some((field, _))) => return Err(malformed(field, "given with a time", "None, or a speed")),
             (None, Some(time), None) => TimeOfFlight::Given(time),
             (Some(speed), None, _) => TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop),

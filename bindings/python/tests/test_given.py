@@ -103,6 +103,7 @@ CALLS = {
     "trace": (ut.trace, {"toss": TOSS, "points": 5, "solver": "exact"}),
     "trace by steps": (ut.trace, {"toss": TOSS, "dt": 0.1}),
     "inverse": (ut.inverse, {"probability": 0.8, "body": "paper"}),
+    "rate_of_precession": (ut.rate_of_precession, {"turn": 240.0, "wobble": 1.4, "body": "us-quarter"}),
     "wobble": (ut.wobble, {"same_side": 60, "tosses": 100, "body": "paper"}),
     "wobble of people": (ut.wobble, {"same_side": [56, 61, 20], "tosses": np.array([100, 100, 100])}),
     "solve": (ut.solve, {"toss": TOSS, "solver": "euler", "t_eval": [0.0, 0.1], "scheme": "dopri5", "rtol": 1e-6}),

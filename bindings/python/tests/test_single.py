@@ -80,6 +80,16 @@ def test_intervals_inverse_and_plan_have_the_bits_of_the_command_line(ask):
     assert (found.method, found.points) == (expected["method"], expected["points"])
 
 
+def test_a_rate_of_precession_has_the_bits_of_the_command_line(ask):
+    expected = ask("toss", "--coin", "us-quarter", "--turn", "238.75", "--wobble", "1.4", "--speed", "2.4")
+    rate = ut.rate_of_precession(238.75, 1.4, "us-quarter")
+    landing = ut.toss(ut.Toss(rate, speed=2.4, body="us-quarter"))
+    assert (landing.cos_tilt, landing.attitude.tolist()) == (expected["cos_tilt"], expected["attitude"])
+    with pytest.raises(errors.OutOfRangeError) as refused:
+        ut.rate_of_precession(238.75, 4.0)
+    assert refused.value.field == "wobble [rad]"
+
+
 def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
     one, people = ut.wobble(178078, 350757), tmp_path / "people.csv"
     assert [round(float(np.degrees(angle)), 2) for angle in (one.cone_angle, *one.cone_angle_interval)] == [81.16, 80.27, 82.16]

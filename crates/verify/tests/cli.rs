@@ -81,7 +81,7 @@ fn a_row_above_its_limit_ends_the_run_with_1_and_is_printed_with_a_command_that_
         "{table}"
     );
     assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
-    let pattern = "Fails: exact, under the check reference-cos-tilt alone. Passes: euler, gamma, quaternion.";
+    let pattern = "Fails: exact, in one check (reference-cos-tilt). Passes: euler, gamma, quaternion.";
     assert!(table.contains(pattern), "{table}");
     for file in ["report.html", "report.json", "summary.md"] {
         assert!(std::fs::read_to_string(out.path().join(file)).unwrap().contains(pattern), "{file}");

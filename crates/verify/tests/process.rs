@@ -241,7 +241,7 @@ fn the_page_for_authors_states_the_columns_and_the_limits() {
     let says = [
         format!("within {} s ({} s for the first", limits.answer.as_secs(), start.as_secs()),
         format!("more than {} GB", limits.memory >> 30),
-        format!("loses {} s in such ways, or has used {} minutes", start.as_secs(), limits.total.as_secs() / 60),
+        format!("wastes {} s so, or has used {} minutes", start.as_secs(), limits.total.as_secs() / 60),
     ];
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     for words in says {

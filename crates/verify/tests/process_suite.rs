@@ -9,10 +9,14 @@ use programs::{answering, example, has_python};
 
 /// What `verify run` with a program prints and its exit code.
 fn verified(arguments: &[&str]) -> (String, Option<i32>) {
+    verify(&[&["--quick", "--only", "random-cos-tilt"], arguments].concat())
+}
+
+/// What `verify run` prints, and its exit code.
+fn verify(arguments: &[&str]) -> (String, Option<i32>) {
     let out = tempfile::tempdir().expect("a folder");
     let mut verify = std::process::Command::new(env!("CARGO_BIN_EXE_verify"));
-    let found =
-        verify.args(["run", "--quick", "--only", "random-cos-tilt"]).args(arguments).arg("--out").arg(out.path());
+    let found = verify.arg("run").args(arguments).arg("--out").arg(out.path());
     let found = found.output().expect("it starts");
     let text = [found.stdout, found.stderr].concat();
     (String::from_utf8_lossy(&text).into_owned(), found.status.code())
@@ -57,4 +61,32 @@ fn a_run_of_the_suite_judges_the_program_of_the_documentation_by_its_own_error_o
     // It is off by its rounding errors, which are above this claim.
     let (text, code) = verified(&["--command", &command, "--claim", "1e-18"]);
     assert!(code == Some(1) && text.contains("above its own claim"), "{code:?}, {text}");
+}
+
+#[test]
+fn a_failure_at_one_tolerance_is_repeated_at_that_tolerance() {
+    if !has_python() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let command = example(folder.path());
+    let script = folder.path().join("mine.py");
+    let (wrong, print) = (
+        "    if float(row['tolerance']) < 5e-12:\n        landing = product(landing, turn(1e-3, 0.0, 0.0))\n",
+        "    print(row",
+    );
+    let text = std::fs::read_to_string(&script).unwrap().replace(print, &format!("{wrong}{print}"));
+    std::fs::write(&script, text).unwrap();
+    let (text, code) = verify(&["--quick", "--only", "adversarial-silence", "--command", &command]);
+    assert!(code == Some(1) && text.contains(" times what its estimate allows"), "{code:?}, {text}");
+    let input = text.split("--replay \"").nth(1).and_then(|rest| rest.split('"').next()).expect(&text);
+    let (toss, tolerance) = input.split_once(" tolerance=").expect(input);
+    assert_eq!(tolerance, "1e-12");
+    let replay = |input: &str| verify(&["--replay", input, "--command", &command]);
+    let (text, code) = replay(input);
+    assert!(code == Some(1) && text.contains("silently wrong"), "{code:?}, {text}");
+    let (text, code) = replay(toss);
+    assert!(code == Some(0) && text.contains("right"), "at the usual tolerance: {code:?}, {text}");
+    let (text, code) = verify(&["--replay", input, "--row", "random-cos-tilt / command/own", "--command", &command]);
+    assert!(code == Some(4) && text.contains("leave it out"), "{code:?}, {text}");
 }

@@ -105,6 +105,7 @@ fn the_program_of_another_crate_keeps_its_files_in_its_own_folder_and_knows_its_
     let command = table.lines().find_map(|line| line.trim().strip_prefix(repeat)).expect(&table);
     let (toss, row) = command.trim_end_matches('"').split_once("\" --row \"").expect(&table);
     let output = program(&["--replay", toss, "--row", row], folder.path());
+    assert_eq!(output.status.code(), Some(1), "a row that fails");
     let judged = String::from_utf8(output.stdout).unwrap();
     assert!(judged.contains("random-attitude / two-turns") && judged.contains("FAIL"), "{judged}");
     let output = program(&["--replay", toss], folder.path());

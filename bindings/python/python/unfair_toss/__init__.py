@@ -11,7 +11,7 @@ from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
 from .results import DenseOutput, Intervals, Inverse, Landing, Margins, Solution, Trace, Wobble, Work
 from .sampling import Estimate, estimate, merge, probability
-from .single import intervals, inverse, margins, toss, trace, wobble
+from .single import intervals, inverse, margins, rate_of_precession, toss, trace, wobble
 from .solving import solve
 from .tallies import tally
 
@@ -48,6 +48,7 @@ __all__ = [
     "outcome",
     "plan",
     "probability",
+    "rate_of_precession",
     "solve",
     "solvers",
     "spaces",

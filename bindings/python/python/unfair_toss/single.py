@@ -158,6 +158,38 @@ def inverse(probability: float, body: str | Body = "paper") -> Inverse:
     return Inverse(float(probability), *found)
 
 
+def rate_of_precession(turn: float, wobble: float, body: str | Body = "paper") -> tuple[float, float, float]:
+    """The angular velocity of a coin by what can be seen: how fast it turns, and how far it wobbles.
+
+    Parameters
+    ----------
+    turn : float
+        How fast the normal goes round the angular momentum, in rad/s.
+    wobble : float
+        The angle ψ between the two, from 0 to π.
+    body : str or Body
+        A symmetric body.
+
+    Returns
+    -------
+    tuple of 3 floats
+        The rate in rad/s along the axes of the body, as of ``--turn`` and ``--wobble`` of ``unfair-toss``, to the bit. The
+        part across the normal is put along x.
+
+    Raises
+    ------
+    errors.InputError
+        For an angle outside its range, and for a body that is not symmetric.
+
+    Examples
+    --------
+    >>> rate = ut.rate_of_precession(38 * 2 * np.pi, np.radians(81.2), "us-quarter")
+    >>> ut.toss(ut.Toss(rate, speed=2.4, body="us-quarter")).outcome
+    'tails'
+    """
+    return _native.rate_of_precession(turn, wobble, body)
+
+
 def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
     """The wobble that explains how often coins landed on the side that had been up.
 

@@ -72,7 +72,8 @@ impl Args {
             (Some(counts), _) => Rates::counted(coin, &people(counts)?)?,
             (None, wanted) => Rates::wanted(coin, wanted.unwrap_or(f64::NAN))?,
         };
-        Ok(self.format.print(input, &rates, || rates.text()))
+        let is_of_a_coin = self.coin.given()?.is_some();
+        Ok(self.format.print(input, &rates, || rates.text(is_of_a_coin)))
     }
 }
 
@@ -144,31 +145,49 @@ impl Rates {
         Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted: Some(counted) })
     }
 
-    fn text(&self) -> String {
+    /// `is_of_a_coin`: whether the coin was given. ψ is the same for all coins, the ratio of the rates is not.
+    fn text(&self, is_of_a_coin: bool) -> String {
         let Self { probability, inertia_ratio, cone_angle, .. } = self;
-        let ratio =
-            self.rate_ratio.map_or_else(|| "none: the coin does not spin".to_owned(), |ratio| ratio.to_string());
-        let [ratio, coin] = [format!("Ω/ωz         {ratio}"), format!("coin         k = {inertia_ratio}")];
+        let ratio = self.rate_ratio.map(|ratio| format!("Ω/ωz         {ratio}"));
+        let coin = format!("coin         k = {inertia_ratio}");
         let Some(counted) = &self.counted else {
             let wanted = format!("P(heads)     {probability}, in the limit of long flights from horizontal");
-            return [wanted, ratio, format!("ψ            {}°", cone_angle.to_degrees()), coin].join("\n");
+            let angle = format!("ψ            {}°", cone_angle.to_degrees());
+            return [Some(wanted), ratio, Some(angle), Some(coin)].into_iter().flatten().collect::<Vec<_>>().join("\n");
         };
-        let Counted { same, tosses, interval: [lo, hi], interval_kind, cone_angle_interval, .. } = counted;
-        let [least, most] = cone_angle_interval.map(f64::to_degrees);
+        let Counted { same, tosses, interval: [lo, hi], interval_kind, .. } = counted;
         let mut lines = vec![
             format!("same side    {same} of {tosses}, {probability:.6}"),
             format!("interval     {lo:.6} to {hi:.6} ({interval_kind})"),
-            format!("ψ            {:.2}°, from {least:.2}° to {most:.2}°", cone_angle.to_degrees()),
-            ratio,
-            coin,
-            "assumed      long flights from horizontal, all with this ψ; 180° - ψ explains them as well".to_owned(),
+            format!("ψ            {}", self.angle(counted)),
         ];
+        lines.extend(ratio.filter(|_| is_of_a_coin).map(|ratio| [ratio, coin]).into_iter().flatten());
+        lines.push(
+            "assumed      long flights from horizontal, all with this ψ; 180° - ψ explains them as well".to_owned(),
+        );
         if !counted.people.is_empty() {
             let heading = row(["person", "same", "tosses", "share", "ψ/°", "from", "to"]);
             let people = counted.people.iter().zip(1..).map(|(person, number)| person.cells(number));
             lines.push(table(&std::iter::once(heading).chain(people).collect::<Vec<_>>()));
         }
+        if counted.people.iter().any(|person| person.cone_angle.is_none()) {
+            lines.push(
+                "-            the whole interval of this person's share is below 1/2, which no ψ explains".to_owned(),
+            );
+        }
         lines.join("\n")
+    }
+
+    /// ψ with its interval. At a share of ½ or less it is 90°, and at 1 any angle up to 45° serves.
+    fn angle(&self, Counted { cone_angle_interval, interval: [lo, _], .. }: &Counted) -> String {
+        let angle = self.cone_angle.to_degrees();
+        let [least, most] = cone_angle_interval.map(f64::to_degrees);
+        match self.probability {
+            share if share <= 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
+            share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most:.2}°"),
+            _ if *lo <= 0.5 => format!("{angle:.2}°, from {least:.2}° to {most:.2}°, as a share of 1/2 is possible"),
+            _ => format!("{angle:.2}°, from {least:.2}° to {most:.2}°"),
+        }
     }
 }
 

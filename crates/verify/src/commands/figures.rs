@@ -51,7 +51,7 @@ impl Figure {
 }
 
 fn atlas_matrix(suite: &Suite) -> anyhow::Result<String> {
-    let contestants = atlas::contestants(suite.registry().entries())?;
+    let contestants = atlas::contestants_at(suite.registry().entries(), None)?;
     let expected = Expected::of_this_workspace()?;
     // A contestant that the table does not list is left out.
     let known = contestants.iter().map(|contestant| &*contestant.name).filter(|name| expected.knows(name));

@@ -3,15 +3,18 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use clap::{Args, ValueEnum};
 use dynamics::Toss;
 use indicatif::{ProgressBar, ProgressStyle};
+use toss::{Formulation, StepControl};
 
 use super::program::Foreign;
 use crate::measure::atlas;
 use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
+use crate::measure::reference::ExactLanding;
+use crate::measure::run::{Answer, Run};
 use crate::render::{Report, github, junit, text, words};
 use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
@@ -20,8 +23,8 @@ use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 ///
 /// Writes report.html, report.json, junit.xml, summary.md, metrics for services that follow numbers, and charts.
 ///
-/// Exit codes: 0 all checks pass; 1 a check fails; 2 bad usage; 3 accuracy or work is worse than the baseline, though
-/// within limits; 4 could not run.
+/// Exit codes: 0 all checks pass; 1 a check fails, or a replayed toss; 2 bad usage; 3 accuracy or work is worse than the
+/// baseline, though within limits; 4 could not run.
 #[derive(Debug, Args)]
 pub(super) struct RunArgs {
     /// Take fewer cases: within a minute on two cores, once built
@@ -65,10 +68,10 @@ struct Instead {
     /// List the checks and what they claim
     #[arg(long, conflicts_with = "command")]
     list: bool,
-    /// Solve one toss, given as the text of a worst input, by every solver, scheme and formulation; for the solvers of this
-    /// workspace, take every measure of proofs, batches and margins on it, too
+    /// Solve one toss, given as the text of a worst input, by every solver, scheme and formulation, at its tolerance or step
+    /// if it has one; for the solvers of this workspace, take every measure of proofs, batches and margins on it, too
     #[arg(long, value_name = "INPUT", value_parser = input)]
-    replay: Option<Box<Toss>>,
+    replay: Option<Box<Replayed>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -80,9 +83,13 @@ enum Format {
     Github,
 }
 
-/// Reads a toss from its text.
-fn input(text: &str) -> Result<Box<Toss>, String> {
-    case::read(text).map(Box::new).map_err(|error| format!("{error:#}"))
+/// A toss, and the tolerance or the step of those who fly it.
+#[derive(Debug, Clone, Copy)]
+struct Replayed(Toss, Option<StepControl>);
+
+fn input(text: &str) -> Result<Box<Replayed>, String> {
+    let read = case::read_with_settings(text).map_err(|error| format!("{error:#}"));
+    read.map(|(toss, control)| Box::new(Replayed(toss, control)))
 }
 
 fn row(text: &str) -> Result<RowName, String> {
@@ -109,12 +116,12 @@ impl RunArgs {
             return list();
         }
         let suite = self.foreign.in_place_of(suite, out)?;
-        if let Some(toss) = &self.instead.replay {
-            let text = match &self.row {
-                Some(row) => as_row(&suite, toss, row)?,
-                None => by_all(&suite, toss, self.foreign.is_given())?,
+        if let Some(replayed) = &self.instead.replay {
+            let (passes, text) = match &self.row {
+                Some(row) => as_row(&suite, replayed, row)?,
+                None => by_all(&suite, replayed, self.foreign.is_given())?,
             };
-            return files::print(&text).map(|()| 0);
+            return files::print(&text).map(|()| u8::from(!passes));
         }
         let suite = self.asked_for(suite);
         let mut verified = measure(&suite)?;
@@ -178,22 +185,31 @@ fn list() -> anyhow::Result<u8> {
     Ok(0)
 }
 
-/// What a row measures on one toss, what is allowed, and the verdict.
-fn as_row(suite: &Suite, toss: &Toss, RowName(check, subject): &RowName) -> anyhow::Result<String> {
+/// Whether a row passes on one toss, and what it measures and allows.
+fn as_row(
+    suite: &Suite,
+    Replayed(toss, control): &Replayed,
+    RowName(check, subject): &RowName,
+) -> anyhow::Result<(bool, String)> {
+    ensure!(control.is_none(), "--row has a tolerance of its own: leave it out of --replay");
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
     let measured = check.again(&context, toss, &|name| name == subject)?;
     let judged = judge(check, measured, &suite.all_limits()?);
     let id = check.id;
     let of_many = || format!("'{id} / {subject}' measures no deviation of one such toss: --only {id} repeats it");
-    Ok(text::of_row(judged.first().with_context(of_many)?))
+    let row = judged.first().with_context(of_many)?;
+    Ok((row.status.passes(), text::of_row(row)))
 }
 
 /// The answers of every solver, scheme and formulation for one toss, side by side. Below come the deviations that the checks
 /// of the library measure on that toss, a quantity of several sets once: proofs, batches at every SIMD level, margins. They
-/// say nothing about a foreign program.
-fn by_all(suite: &Suite, toss: &Toss, is_foreign: bool) -> anyhow::Result<String> {
+/// say nothing about a foreign program. It passes if no solver in its default formulation is wrong without an error.
+fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -> anyhow::Result<(bool, String)> {
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
-    let runs = atlas::replay(&context.registry, toss)?;
+    let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, ExactLanding::new(toss)?);
+    let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
+    let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
+    let passes = !by_default.into_iter().any(|(_, run)| run.answer == Answer::SilentlyWrong);
     let mut table = text::runs(&runs, Conditioning::new(toss)?);
     for check in CHECKS.iter().filter(|check| check.judges == Judges::Library && !is_foreign) {
         let mut last = None;
@@ -203,7 +219,7 @@ fn by_all(suite: &Suite, toss: &Toss, is_foreign: bool) -> anyhow::Result<String
             }
         }
     }
-    Ok(table)
+    Ok((passes, table))
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.

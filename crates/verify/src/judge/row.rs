@@ -170,7 +170,9 @@ impl Verdict {
         let without_limit = |status| Self { measured, allowed: None, worst: worst.clone(), status };
         match (limit.map(|limit| limit.min(ceiling)), claim) {
             (Some(limit), _) => Self { measured, allowed: Some(limit), worst, status: by_limit(measured, limit) },
-            (None, Claim::Allows { .. }) if measured > ceiling && ceiling > 0.0 => {
+            (None, Claim::Allows { measured: by_claim, allowed, .. })
+                if by_claim <= allowed && measured > ceiling && ceiling > 0.0 =>
+            {
                 Self { measured, allowed: Some(ceiling), worst, status: Status::FailByClaim }
             }
             (None, Claim::Allows { measured, allowed, worst }) => {

@@ -73,7 +73,9 @@ pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<
             let Some((index, runs)) = of(answer).next() else { return Ok(None) };
             let toss = launch(SEED, index);
             let replay = Replay::toss(&toss, &subject(*by, &toss, index)?);
-            Ok(Some(Worst { input: case::text(&toss), failure: runs[column].failure.clone(), replay }))
+            let run = &runs[column];
+            let failure = run.failure.clone().unwrap_or_else(|| run.words());
+            Ok(Some(Worst { input: case::text(&toss), failure: Some(failure), replay }))
         };
         Ok(Findings {
             subject: runs.first().map(|runs| runs[column].subject.clone()).unwrap_or_default(),

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use anyhow::{Context, anyhow, ensure};
 use dynamics::{Body, Toss};
 use toss::quantity::{Angle, Quantity};
-use toss::{Attitude, Coin, Launch, Registry, TimeOfFlight};
+use toss::{Attitude, Coin, Launch, Registry, StepControl, TimeOfFlight};
 
 use crate::measure::subject::Subject;
 
@@ -42,12 +42,38 @@ fn flight(launch: &Launch) -> impl Iterator<Item = (&'static str, f64)> {
     all.into_iter().filter_map(|(name, value)| Some((name, value?)))
 }
 
+/// The tolerance or the step of `subject`, as a field behind the text of a toss; empty for a closed form.
+pub(crate) fn settings(subject: &Subject) -> String {
+    match subject.stepping.map(|stepping| stepping.control()) {
+        Some(StepControl::Tolerance(tolerance)) => format!(" tolerance={tolerance:?}"),
+        Some(StepControl::Step(step)) => format!(" step={step:?}"),
+        None => String::new(),
+    }
+}
+
 /// Reads a toss from fields as a row prints them. What follows a `#` is a comment; a launch without a tilt is horizontal.
 ///
 /// # Errors
 /// If a field is missing, unknown or can't be read, or the toss is invalid.
 pub fn read(text: &str) -> anyhow::Result<Toss> {
+    read_with_settings(text).and_then(|(toss, control)| {
+        ensure!(control.is_none(), "a toss has no tolerance and no step");
+        Ok(toss)
+    })
+}
+
+/// As [`read`], with the tolerance or the step of the solvers that fly the toss, if one is given.
+///
+/// # Errors
+/// As [`read`], and if both are given. Whether their sizes are valid is for a scheme to say.
+pub fn read_with_settings(text: &str) -> anyhow::Result<(Toss, Option<StepControl>)> {
     let mut fields = Fields::of(text.split_once('#').map_or(text, |(fields, _)| fields))?;
+    let control = match (fields.take("tolerance")?, fields.take("step")?) {
+        (Some([tolerance]), None) => Some(StepControl::Tolerance(tolerance)),
+        (None, Some([step])) => Some(StepControl::Step(step)),
+        (None, None) => None,
+        (Some(_), Some(_)) => return Err(anyhow!("either a tolerance or a step is needed")),
+    };
     let body = if let Some(moments) = fields.take("moments")? {
         Body::from_moments(moments)?
     } else if let Some(elements) = fields.take("inertia")? {
@@ -73,7 +99,7 @@ pub fn read(text: &str) -> anyhow::Result<Toss> {
         }
     };
     ensure!(fields.0.is_empty(), "unknown fields: {}", fields.0.into_keys().collect::<Vec<_>>().join(", "));
-    Ok(Toss { body, launch: Launch::new(rate, flight)?.with_attitude(attitude) })
+    Ok((Toss { body, launch: Launch::new(rate, flight)?.with_attitude(attitude) }, control))
 }
 
 /// The angle of the turn about the laboratory's x axis (rad) by which the launch is tilted; `None` for other attitudes.
@@ -161,6 +187,13 @@ mod tests {
         let tosses = launches.flat_map(|launch| bodies.map(|body| Toss { body, launch }));
         for toss in tosses.chain((0..500).map(|index| adversary::launch(3, index))) {
             assert_eq!(read(&text(&toss)).unwrap(), toss);
+            for (more, control) in
+                [(" tolerance=1e-9", StepControl::Tolerance(1e-9)), (" step=0.5", StepControl::Step(0.5))]
+            {
+                assert_eq!(read_with_settings(&(text(&toss) + more)).unwrap(), (toss, Some(control)));
+                assert!(read(&(text(&toss) + more)).is_err());
+            }
+            assert!(read_with_settings(&(text(&toss) + " step=1 tolerance=1")).is_err());
             assert_eq!(text(&read(&format!("{} # a remark", text(&toss))).unwrap()), text(&toss));
         }
     }

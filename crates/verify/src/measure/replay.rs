@@ -15,6 +15,8 @@ pub enum Replay {
     Toss {
         /// The toss as text, which the option `--replay` of a suite takes.
         input: String,
+        /// The tolerance or the step of the solver, as a further field of that text; empty if it has none.
+        settings: String,
         /// The command of `unfair-toss` with the solver and its settings, if it is a solver of this workspace.
         command: Option<String>,
         /// The row whose quantity is measured again, as `CHECK / SUBJECT`, if it is one of single tosses.
@@ -27,32 +29,24 @@ pub enum Replay {
 impl Replay {
     /// Repeats `toss` by the solver of `subject`.
     pub fn toss(toss: &Toss, subject: &Subject) -> Self {
-        Self::Toss { input: case::text(toss), command: case::command(toss, subject), row: None }
+        let (input, settings) = (case::text(toss), case::settings(subject));
+        Self::Toss { input, settings, command: case::command(toss, subject), row: None }
     }
 
     /// Repeats the toss by the solver of `subject` too, with which the other was compared.
     #[must_use]
     pub fn beside(self, subject: &Subject) -> Self {
-        let Self::Toss { input, command: by_the_other, row } = self else { return self };
+        let Self::Toss { input, settings, command: by_the_other, row } = self else { return self };
         let first = case::read(&input).ok().and_then(|toss| case::command(&toss, subject));
         let both = first.zip(by_the_other).map(|(first, then)| format!("{first} && {then}"));
-        Self::Toss { input, command: both, row }
+        Self::Toss { input, settings, command: both, row }
     }
 
-    /// The same if a command gives the settings of the solver, else the whole check `id`: `--replay` takes the usual ones.
-    #[must_use]
-    pub fn with_settings_or(self, id: &str) -> Self {
-        match self {
-            Self::Toss { command: None, .. } => Self::Check(id.to_owned()),
-            given => given,
-        }
-    }
-
-    /// The same, as the worst case of `row`.
+    /// The same, as the worst case of `row`, which gives the settings.
     #[must_use]
     pub fn in_row(self, row: String) -> Self {
         match self {
-            Self::Toss { input, command, .. } => Self::Toss { input, command, row: Some(row) },
+            Self::Toss { input, command, .. } => Self::Toss { input, settings: String::new(), command, row: Some(row) },
             whole @ Self::Check(_) => whole,
         }
     }
@@ -90,7 +84,9 @@ impl Commands {
     pub fn line(&self, replay: &Replay) -> String {
         match (self, replay) {
             (Self::Workspace, Replay::Toss { command: Some(command), .. }) => command.clone(),
-            (_, Replay::Toss { input, row, .. }) => self.with(&format!("--replay \"{input}\"{}", option(row))),
+            (_, Replay::Toss { input, settings, row, .. }) => {
+                self.with(&format!("--replay \"{input}{settings}\"{}", option(row)))
+            }
             (_, Replay::Check(check)) => self.with(&format!("--only {check}")),
         }
     }
@@ -148,12 +144,12 @@ mod tests {
         let of_row = format!("checks --replay \"{input}\" --row \"c / s\"");
         assert_eq!(elsewhere.line(&replay.clone().in_row("c / s".to_owned())), of_row);
         assert_eq!(elsewhere.line(&Replay::Check("c".to_owned())), "checks --only c");
-        let foreign = Replay::Toss { input: input.clone(), command: None, row: None };
-        assert_eq!(Commands::Workspace.line(&foreign), format!("cargo xtask verify --replay \"{input}\""));
-        assert_eq!(foreign.clone().with_settings_or("c"), Replay::Check("c".to_owned()));
-        assert_eq!(replay.clone().with_settings_or("c"), replay, "a solver of this workspace");
+        let settings = " tolerance=1e-6".to_owned();
+        let foreign = Replay::Toss { input: input.clone(), settings, command: None, row: None };
+        let with_settings = format!("cargo xtask verify --replay \"{input} tolerance=1e-6\"");
+        assert_eq!(Commands::Workspace.line(&foreign), with_settings);
         let with = |commands| Commands::With(Box::new(commands), " --claim 1".to_owned());
-        let line = format!("cargo xtask verify --replay \"{input}\" --claim 1");
+        let line = format!("{with_settings} --claim 1");
         assert_eq!(with(Commands::Workspace).line(&foreign), line);
         assert_eq!(with(elsewhere.clone()).line(&Replay::Check("c".to_owned())), "checks --only c --claim 1");
         assert_eq!(with(elsewhere).bless(), "checks --bless --claim 1");

@@ -83,12 +83,18 @@ pub struct Run {
     pub answer: Answer,
     /// The error that the solver returned.
     pub failure: Option<String>,
+    /// Whether it returned that error because it solves coins alone.
+    #[serde(skip)]
+    pub is_for_coins: bool,
     /// Error of cos θ at landing.
     pub err_cos_tilt: Option<f64>,
     /// Angle to the exact attitude at landing (rad).
     pub err_attitude: Option<f64>,
     /// The attitude's error, divided by what the solver's error estimate allows.
     pub err_by_allowance: Option<f64>,
+    /// The error of cos θ or of the attitude, whichever is larger as a part of what the solver's error estimate allows it.
+    #[serde(skip)]
+    pub part: Option<f64>,
     /// Relative drift of the angular momentum S in the transport frame; null also for a coin at rest.
     pub err_invariants: Option<f64>,
     /// Whether the outcome is the exact one; null if it was left undecided.
@@ -111,9 +117,11 @@ impl Run {
             inputs: case::text(toss),
             answer: Answer::TypedError,
             failure: None,
+            is_for_coins: false,
             err_cos_tilt: None,
             err_attitude: None,
             err_by_allowance: None,
+            part: None,
             err_invariants: None,
             outcome_ok: None,
             norm_error: None,
@@ -123,8 +131,22 @@ impl Run {
         };
         match subject.solver.land(toss) {
             Ok(landing) => failed.answered(&landing, toss, exact, Allowance::new(subject, toss, landing.error)),
-            Err(error) => Self { failure: Some(error.to_string()), ..failed },
+            Err(error) => {
+                let is_for_coins = matches!(error, SolveError::NotSymmetric { .. });
+                Self { failure: Some(error.to_string()), is_for_coins, ..failed }
+            }
         }
+    }
+
+    /// The errors in words, with what they are of what is allowed, or the error that the solver returned.
+    pub(crate) fn words(&self) -> String {
+        let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));
+        let (cos_tilt, attitude) = (number(self.err_cos_tilt), number(self.err_attitude));
+        let of_allowed = match (self.answer, self.part) {
+            (Answer::SilentlyWrong, Some(part)) if part > 1.0 => format!(", {part:.1e} times what its estimate allows"),
+            _ => String::new(),
+        };
+        format!("cos θ off by {cos_tilt:>7}, attitude by {attitude:>7} rad{of_allowed}")
     }
 
     fn answered(self, landing: &Landing, toss: &Toss, exact: &ExactLanding, allowance: Option<Allowance>) -> Self {
@@ -139,11 +161,13 @@ impl Run {
             Some(false) => Answer::SilentlyWrong,
             None => Answer::Unclaimed,
         };
+        let part = allowance.map(|allowed| (cos_tilt / allowed.cos_tilt).max(attitude / allowed.attitude));
         Self {
             answer,
             err_cos_tilt: Some(cos_tilt),
             err_attitude: Some(attitude),
             err_by_allowance: allowance.map(|allowance| attitude / allowance.attitude),
+            part,
             err_invariants: Some(drift::momentum_vector(toss, &landing.state)).filter(|drift| drift.is_finite()),
             outcome_ok,
             norm_error: Some(landing.norm_error),

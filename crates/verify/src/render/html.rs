@@ -37,7 +37,7 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
         "Each point is a run at one tolerance or step: the further right, the more \
       accurate; the lower, the cheaper. First all problems on one scale, by time on this machine; then each problem, left in \
       calls, which repeat exactly, and right in time. The grey band is the front: no integrator's run is better in both error \
-      and work. The exact motion calls nothing and is accurate to the last bit.",
+      and work.",
     ),
     (
         "order",
@@ -50,16 +50,10 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
         "atlas",
         "Where methods fail",
         "The worst answer of every solver, scheme and formulation near each hazard. The raw \
-      forms are the paper's equations as printed: they report success and are wrong. No default is wrong without an error. Below \
-      stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
+      forms are the paper's equations as printed. Below stand error and work against the distance from each hazard. The purple line is the effect of one rounding of the launch: \
       an error below it cannot be told from an error of the launch.",
     ),
-    (
-        "long-flights",
-        "Long flights",
-        "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s. The error grows \
-      in proportion to the time. The conserved quantities drift by some parts in 10⁸ at most.",
-    ),
+    ("long-flights", "Long flights", "Errors and drifts of the paper's cheated toss, flown for up to 10⁴ s."),
 ];
 
 /// Renders `report` with its `charts`.
@@ -178,14 +172,14 @@ fn reached(report: &Report<'_>) -> Markup {
     let enough = html! { span.whole { "to " (format!("{ENOUGH:e}")) " rad" } };
     html! {
         section {
-            h2 { "What each solver reaches, at which cost" }
+            h2 { "Accuracy and cost of each solver" }
             table.numbers {
                 tr { th { "solver" } th { "smallest error" } th.wide { "calls" } th { "time" }
                      th.wide { "calls " (enough) } th { "time " (enough) } }
                 @for one in &all { (line(one)) }
             }
             p.faint { "The largest error of the attitude over the " (launches) " launches of the problem " (problem) ", calls of the \
-                       right-hand side and time per launch on this machine: of the most accurate run, and of the cheapest run \
+                       right-hand side and time per launch on this machine (of a program, with the pipe to it): of the most accurate run, and of the cheapest run \
                        within " (format!("{ENOUGH:e}")) " rad, among the tolerances and steps that were flown." }
         }
     }
@@ -212,6 +206,7 @@ fn matrix(atlas: &Atlas) -> Markup {
     let cell = |subject: &str, hazard: &str| {
         let (class, sign, word) = match atlas.worst(hazard, subject) {
             Some(Answer::Right) => ("right", "✓", "right"),
+            Some(Answer::TypedError) if atlas.is_for_coins_alone(hazard, subject) => ("", "–", "coins alone"),
             Some(Answer::TypedError) => ("error", "!", "error"),
             Some(Answer::Unclaimed) => ("unclaimed", "?", "no claim"),
             Some(Answer::SilentlyWrong) => ("wrong", "✗", "WRONG"),
@@ -229,7 +224,8 @@ fn matrix(atlas: &Atlas) -> Markup {
         }
         p.faint {
             "The worst answer over all distances from each hazard: right ✓, an error that says why !, an answer without a usable \
-             claim ?, wrong without an error ✗. "
+             claim ?, wrong without an error ✗, not asked –. An error is the only right answer at F6, whose phases go beyond \
+             2⁵³ rad. "
             @for hazard in HAZARDS { b { (hazard.id) } " " (hazard.name) ". " }
         }
     }
@@ -244,7 +240,7 @@ fn families(report: &Report<'_>) -> Markup {
             @for family in Family::all(report.rows) {
                 @let worst = family.worst();
                 tr {
-                    th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing())) (family.name) } }
+                    th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
                     td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows()) @if family.failing() > 0 { " fail" } }
                     td { (reserve(worst).trim_start_matches("reserve ")) }
                     td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
@@ -256,8 +252,8 @@ fn families(report: &Report<'_>) -> Markup {
     }
 }
 
-fn mark(failing: usize) -> Markup {
-    html! { @if failing == 0 { span.pass { "✓ " } } @else { span.fail { "✗ " } } }
+fn mark(failing: usize, judged: usize) -> Markup {
+    html! { @if failing > 0 { span.fail { "✗ " } } @else if judged > 0 { span.pass { "✓ " } } @else { span.faint { "– " } } }
 }
 
 fn anchor(family: &str) -> String {
@@ -268,7 +264,7 @@ fn anchor(family: &str) -> String {
 fn in_full(family: &Family<'_>, report: &Report<'_>) -> Markup {
     html! {
         details id=(anchor(family.name)) open[family.failing() > 0] {
-            summary { b { (mark(family.failing())) (family.name) }
+            summary { b { (mark(family.failing(), family.judged())) (family.name) }
                       span.faint { (family.blocks.len()) " checks, " (family.rows()) " rows" } }
             @for block in &family.blocks {
                 (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
@@ -282,7 +278,7 @@ fn check(block: &Block<'_>, timing: Option<&Timing>) -> Markup {
     html! {
         details.check open[!all] {
             summary {
-                b { (mark(block.failing())) (worst.check) }
+                b { (mark(block.failing(), block.judged())) (worst.check) }
                 " " (worst.claim) " "
                 span.faint {
                     (block.rows.len() - block.failing()) " of " (block.rows.len()) " pass"

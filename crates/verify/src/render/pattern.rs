@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::words::family;
-use crate::judge::Row;
 use crate::judge::baseline::{Direction, Move};
+use crate::judge::{Row, Status};
 use crate::measure::check::Judges;
 
 /// How many names a list shows before it counts the rest.
@@ -19,7 +19,9 @@ pub(crate) fn of_rows(rows: &[Row]) -> String {
     let passing = found.passing();
     if failing == 0 {
         let whole = found.whole();
-        return format!("All {} rows pass{}{whole}.", rows.len(), if whole.is_empty() { "" } else { ": " });
+        let open = rows.iter().filter(|row| row.status == Status::NotJudged).count();
+        let open = if open > 0 { format!(", {open} not judged") } else { String::new() };
+        return format!("All {} rows pass{open}{}{whole}.", rows.len(), if whole.is_empty() { "" } else { ": " });
     }
     let mut text = format!("Fails: {}.", found.bad());
     if !passing.is_empty() {
@@ -208,11 +210,11 @@ impl<'a> SortedRows<'a> {
         let bad: BTreeSet<&str> = self.bad_items().iter().map(|item| item.check).collect();
         let all: BTreeSet<&str> = self.solvers.iter().map(|item| item.check).collect();
         if bad.len() == all.len() && all.len() > 1 {
-            format!(", under every check of solvers ({})", all.len())
+            format!(", in all {} solver checks", all.len())
         } else if bad.len() == 1 {
-            format!(", under the check {} alone", list(&bad))
+            format!(", in one check ({})", list(&bad))
         } else {
-            format!(", under {} of {} checks of solvers ({})", bad.len(), all.len(), list(&bad))
+            format!(", in {} of {} solver checks ({})", bad.len(), all.len(), list(&bad))
         }
     }
 

@@ -28,7 +28,7 @@ pub(crate) fn report(report: &Report<'_>, verbose: bool) -> String {
     let mut out = format!("\n{}\n", report.pattern);
     let blocks = Block::all(report.rows);
     if !verbose {
-        let _ = writeln!(out, "\n{:<width$}  rows  the row over its limit or closest to it", "check", width = width());
+        let _ = writeln!(out, "\n{:<width$}  rows  worst row", "check", width = width());
     }
     for block in &blocks {
         out += &if verbose { every_row(block) } else { summary(block) };
@@ -115,17 +115,11 @@ fn line(row: &Row, width: usize) -> String {
 /// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.
 pub(crate) fn runs(all: &[Run], conditioning: Option<Conditioning>) -> String {
     let width = all.iter().map(|run| run.subject.chars().count()).max().unwrap_or(0);
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1e}"));
     let line = |run: &Run| {
-        let calls = run.rhs_calls.map_or_else(|| "-".to_owned(), |calls| calls.to_string());
-        format!(
-            "{:<width$}  {:<14}  cos θ off by {:>7}, attitude by {:>7} rad  {calls:>8} calls  {}",
-            run.subject,
-            run.answer.name(),
-            number(run.err_cos_tilt),
-            number(run.err_attitude),
-            run.failure.as_deref().unwrap_or_default()
-        )
+        // A program tells none.
+        let calls = run.rhs_calls.filter(|calls| *calls > 0).map_or_else(|| "-".to_owned(), |calls| calls.to_string());
+        let (answer, failure) = (run.answer.name(), run.failure.as_deref().unwrap_or_default());
+        format!("{:<width$}  {answer:<14}  {}  {calls:>8} calls  {failure}", run.subject, run.words())
     };
     let rounding = conditioning.map_or_else(String::new, |conditioning| {
         let (attitude, cos_tilt) = (conditioning.rounding(), f64::EPSILON * conditioning.cos_tilt);

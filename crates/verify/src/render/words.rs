@@ -42,6 +42,7 @@ pub(super) fn relation(row: &Row) -> &'static str {
 pub(super) fn reserve(row: &Row) -> String {
     match row.part() {
         _ if row.status == Status::NotMeasured => "not measured".to_owned(),
+        _ if row.status == Status::NotJudged => "not judged".to_owned(),
         0.0 => "–".to_owned(),
         part if part < 1e-4 => format!("reserve {:.1e}×", 1.0 / part),
         part if part <= 1.0 => format!("reserve {:.1}×", 1.0 / part),
@@ -119,6 +120,11 @@ impl<'a> Block<'a> {
     /// The number of rows that fail.
     pub(super) fn failing(&self) -> usize {
         self.rows.iter().filter(|row| !row.status.passes()).count()
+    }
+
+    /// The number of rows with a verdict.
+    pub(super) fn judged(&self) -> usize {
+        self.rows.iter().filter(|row| row.status != Status::NotJudged).count()
     }
 }
 
@@ -208,6 +214,11 @@ impl<'a> Family<'a> {
     /// The number of rows that fail.
     pub(super) fn failing(&self) -> usize {
         self.blocks.iter().map(Block::failing).sum()
+    }
+
+    /// The number of rows with a verdict.
+    pub(super) fn judged(&self) -> usize {
+        self.blocks.iter().map(Block::judged).sum()
     }
 }
 

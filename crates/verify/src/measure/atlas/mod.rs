@@ -12,7 +12,7 @@ pub mod hazards;
 use dynamics::Toss;
 use rayon::prelude::*;
 use serde::Serialize;
-use toss::{Formulation, InputError, SolverEntry};
+use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 
 use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Answer, Run};
@@ -48,7 +48,7 @@ impl Atlas {
     /// # Errors
     /// Never for the library's own solvers and hazards.
     pub fn new(registry: &[SolverEntry]) -> anyhow::Result<Self> {
-        let contestants = contestants(registry)?;
+        let contestants = contestants_at(registry, None)?;
         let places = HAZARDS.iter().flat_map(|hazard| hazard.distances.iter().map(move |distance| (hazard, *distance)));
         let places: Vec<Place> =
             places.map(|(hazard, distance)| Place::new(hazard, distance)).collect::<Result<_, _>>()?;
@@ -68,6 +68,11 @@ impl Atlas {
         self.series(hazard, subject).map(|spot| spot.run.answer).max()
     }
 
+    /// Whether a contestant refused every toss near a hazard because it solves coins alone.
+    pub fn is_for_coins_alone(&self, hazard: &str, subject: &str) -> bool {
+        self.series(hazard, subject).all(|spot| spot.run.is_for_coins)
+    }
+
     /// The names of the contestants, in their order.
     pub fn subjects(&self) -> Vec<&str> {
         let Some(first) = self.spots.first() else { return Vec::new() };
@@ -76,27 +81,33 @@ impl Atlas {
     }
 }
 
-/// Solves one toss with every contestant.
+/// Every contestant. Its scheme takes `control` if it can, and otherwise the library's default tolerance or step.
 ///
 /// # Errors
-/// Never for the library's own solvers.
-pub fn replay(registry: &[SolverEntry], toss: &Toss) -> anyhow::Result<Vec<Run>> {
-    let exact = ExactLanding::new(toss)?;
-    Ok(contestants(registry)?.iter().map(|subject| Run::new(subject, toss, &exact)).collect())
+/// For a tolerance or a step that is invalid.
+pub fn contestants_at(registry: &[SolverEntry], control: Option<StepControl>) -> Result<Vec<Subject>, InputError> {
+    contestants(registry, |scheme| match control {
+        Some(StepControl::Tolerance(tolerance)) if scheme.is_adaptive() => Stepping::adaptive(scheme, tolerance),
+        Some(StepControl::Step(step)) if scheme.takes_steps() => Stepping::fixed(scheme, step),
+        _ => usual(scheme),
+    })
 }
 
-/// Every solver of `registry`, each integrator with every scheme in every formulation that it offers.
+/// Every solver of `registry`, each integrator with every scheme, set up by `stepping`, in every formulation that it offers.
 ///
 /// # Errors
-/// Never for the library's own solvers.
-pub fn contestants(registry: &[SolverEntry]) -> Result<Vec<Subject>, InputError> {
+/// If `stepping` returns one.
+fn contestants(
+    registry: &[SolverEntry],
+    stepping: impl Fn(Scheme) -> Result<Stepping, InputError>,
+) -> Result<Vec<Subject>, InputError> {
     let mut contestants = Vec::new();
     for entry in registry {
         let one = [Formulation::default()];
         let formulations = if entry.formulations().is_empty() { &one } else { entry.formulations() };
         for &formulation in formulations {
             for (entry, scheme) in by_scheme(entry) {
-                contestants.push(Subject::new(entry, scheme.map(usual).transpose()?, formulation));
+                contestants.push(Subject::new(entry, scheme.map(&stepping).transpose()?, formulation));
             }
         }
     }

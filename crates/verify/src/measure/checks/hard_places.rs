@@ -99,7 +99,10 @@ fn tilt_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let calls = calls.unwrap_or_default();
         let (fewest, most) = (calls.iter().min(), calls.iter().max());
         let spread = fewest.zip(most).map_or(f64::NAN, |(fewest, most)| *most as f64 / *fewest as f64 - 1.0);
-        let input = format!("{fewest:?} to {most:?} calls for tilts from 1 rad to 0");
+        let input = match fewest.zip(most) {
+            Some((fewest, most)) => format!("{fewest} to {most} calls for tilts from 1 rad to 0"),
+            None => "a flight failed".to_owned(),
+        };
         Measurement::figure(TILT_WORK.id, &subject.name, spread, calls.len() as u64, input).without_claim()
     };
     Ok(context.subjects.iter().filter(|subject| subject.stepping.is_some()).map(row).collect())
@@ -274,8 +277,7 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
     let (Flight { toss, by }, measured) =
         judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
     let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", by.options());
-    let worst = Worst::by(toss, by, None).remarking(&remark);
-    let worst = Some(Worst { replay: worst.replay.with_settings_or(HOSTILE.id), ..worst });
+    let worst = Some(Worst::by(toss, by, None).remarking(&remark));
     let cases = landings.len() as u64;
     Ok(Measurement { subject: name, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(Some(1.0)))
 }

@@ -103,7 +103,8 @@ fn proportion(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let points: Vec<[f64; 2]> = found.into_iter().flatten().collect();
             let slope = slope(&points);
             let subject = Subject::new(entry, Some(usual(*scheme)?), Formulation::default()).name;
-            let input = format!("slope {slope:.4}");
+            let input =
+                if slope.is_nan() { "too few flights for a slope".to_owned() } else { format!("slope {slope:.4}") };
             let (distance, cases) = ((slope - 1.0).abs(), points.len() as u64);
             measurements.push(Measurement::figure(PROPORTION.id, &subject, distance, cases, input).without_claim());
         }
