@@ -806,6 +806,28 @@ mod tests {
         reaches::<15>([2, 2], 1.0 / 9.0);
     }
 
+    /// Terms of even exponents have a mean, in series of four orders those of the second order too.
+    #[test]
+    fn the_mean_of_a_polynomial_is_that_of_its_even_terms() {
+        let middle = Jet::<_, 6>::constant(exactly(2.0))
+            + monomial([1, 0], exactly(7.0))
+            + monomial([2, 0], exactly(3.0))
+            + monomial([1, 1], exactly(5.0))
+            + monomial([0, 2], exactly(0.5));
+        let found = mean(&middle, &monomial::<15>([2, 2], exactly(9.0)));
+        let expected = 2.0 + 3.0 / 3.0 + 0.5 / 3.0 + 9.0 / 9.0;
+        assert!(found.lo <= expected && expected <= found.hi && found.width() < 1e-13, "{found:?}");
+    }
+
+    #[test]
+    fn the_measure_of_heads_has_room_for_its_roundings() {
+        for (from, to, exact) in [(-1.0, 1.0, 1.0), (0.25, 0.5, 0.25), (-1.0, TAU + 1.0, 2.0), (-0.5, 20.0 * TAU, 20.5)]
+        {
+            let [least, most] = heads_between(from, to, 0.5);
+            assert!(least < exact && exact < most && most - least < 1e-12, "{from} to {to}: {least} to {most}");
+        }
+    }
+
     /// The same of what a function is off its linear part, by its mean or by its largest value.
     #[test]
     fn a_positive_part_allows_for_all_second_derivatives() {

@@ -88,12 +88,16 @@ fn assert_contains(space: &Space, index: u32, roundings: f64) -> [u32; 2] {
     let [mut number, mut told] = [0; 2];
     for cell in cells(&directions, index) {
         let found = bounds_in(&problem, &cell, directions.len(), 0.0);
+        // By series of more terms, too.
+        let finer = bounds_in(&problem, &cell, directions.len(), 0.01 * found.width());
         let [rough, fine] = [points / 2, points].map(|points| mean_of_shares(space, &cell, points));
         let slack = 2.0 * (rough - fine).abs() + roundings;
-        assert!(
-            found.lo - slack <= fine && fine <= found.hi + slack,
-            "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
-        );
+        for found in [found, finer] {
+            assert!(
+                found.lo - slack <= fine && fine <= found.hi + slack,
+                "{index}: {fine} ± {slack:e} is not in {found:?} of {space:?}"
+            );
+        }
         number += 1;
         told += u32::from(slack < 0.2 * found.width() && found.width() < 0.1);
     }
