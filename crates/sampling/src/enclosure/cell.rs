@@ -220,6 +220,13 @@ fn moment(exponents: &[u8; 3]) -> f64 {
     exponents.iter().map(|exponent| 1.0 / (1.0 + f64::from(*exponent))).product()
 }
 
+/// Whether there may be a number in both.
+fn meet(one: &Ball<f64>, other: &Ball<f64>) -> bool {
+    let (apart, reach) = ((one.midpoint() - other.midpoint()).abs(), one.radius() + other.radius());
+    // Nothing is said of what is not a number.
+    apart.partial_cmp(&(reach * (1.0 + 1e-9))) != Some(std::cmp::Ordering::Greater)
+}
+
 /// Bounds of the mean of a function from its series about the middle, of order 2, and one over the whole cell.
 fn mean<const T: usize, const F: usize>(middle: &Jet<Ball<f64>, T>, whole: &Jet<Ball<f64>, F>) -> Bounds {
     let order = Jet::<Ball<f64>, F>::ORDER;
@@ -606,6 +613,10 @@ impl<const T: usize> Means<'_, '_, T> {
             return found;
         }
         let fine = self.fine_share::<F>(numerator, apart, &[half_width, first, last]);
+        debug_assert!(
+            share.middle.terms().zip(fine.terms()).all(|((_, term), (_, other))| meet(term, other)),
+            "derivatives about the middle are among those over the whole cell"
+        );
         let finer = mean(&share.middle, &fine);
         if finer.width() < found.width() { finer } else { found }
     }
