@@ -243,6 +243,17 @@ mod tests {
 
     use super::*;
 
+    #[test]
+    fn the_order_is_the_smallest_whose_remainder_is_below_the_digits() {
+        for digits in [53, 106, 192, 384, 768] {
+            let order = order(digits);
+            // log2 of 4/(n + 1)!
+            let remainder = |order: usize| 2.0 - (1..=order + 1).map(|factor| (factor as f64).log2()).sum::<f64>();
+            let wanted = -f64::from(digits) - 8.0;
+            assert!(remainder(order) <= wanted && remainder(order - 1) > wanted, "{digits}: {order}");
+        }
+    }
+
     /// In a step the series are those of angles of at most ½ rad, on which the error of their order rests.
     #[test]
     fn steps_are_as_many_as_half_radians() {

@@ -144,6 +144,12 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
             let found = certify(&thrown).unwrap().outcome() == Outcome::Heads;
             assert!(found == expected || nearest < 1e-11, "{drop:?}, {speed} m/s");
         }
+        // The first interval begins with the range where that lands heads, wherever it begins.
+        for slowest in (0..12).map(|step| 1.0 + 0.11 * f64::from(step)) {
+            let begins = speeds_of_heads(&toss, slowest).unwrap().unwrap().iter().any(|[slow, _]| *slow == slowest);
+            let thrown = with_flight(&toss, TimeOfFlight::thrown(slowest, 9.81, drop));
+            assert_eq!(begins, certify(&thrown).unwrap().outcome() == Outcome::Heads, "{drop:?}, {slowest} m/s");
+        }
     }
     let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
     assert_eq!(speeds_of_heads(&given, 0.0), Ok(None));
@@ -163,6 +169,16 @@ fn intervals_may_begin_on_edge() {
         let thrown = Toss { launch: launch.with_tilt(quarter).unwrap(), ..toss };
         assert_eq!(certify(&thrown).unwrap().outcome() == Outcome::Heads, expected, "{speed} {heads:?}");
     }
+}
+
+/// A body that spins about its normal on edge stays there, so that the search ends near where it began.
+#[test]
+fn a_search_along_an_edge_says_how_far_it_came() {
+    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let upright = toss([1.0, 2.0, 2.5], [0.0, 0.0, 5.0], TimeOfFlight::thrown(3.0, 9.81, None), 0.0);
+    let toss = Toss { launch: upright.launch.with_tilt(quarter).unwrap(), ..upright };
+    let Err(SolveError::StepLimit { time, .. }) = speeds_of_heads(&toss, 1.0) else { panic!("it has no outcome") };
+    assert!((2.0 / 9.81 - 1e-9..6.0 / 9.81).contains(&time), "{time}");
 }
 
 /// v/3 rad/s for 3 T is the motion of v rad/s for T, at a third of the rate. In rad/s a third is rounded, which after 4 × 10^5

@@ -155,7 +155,7 @@ fn errors_of_the_constants_count_by_their_formulas() {
 /// The growth of an error is (16), and none is bounded that would more than double by its square.
 #[test]
 fn an_error_grows_by_its_formula() {
-    for (_, toss) in tosses() {
+    for (_, toss) in tosses().chain([(THIN, toss(THIN, RATES[0]))]) {
         let polhode = polhode(&toss);
         for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.3, 2.0), (2.0, 9.0)] {
             let first = start * exp_above(polhode.growth * h);
@@ -300,4 +300,32 @@ fn the_rounding_of_the_toss_counts() {
     assert!(Errors::at_launch(found, rates).bound() >= 12.0 * UNIT_ROUNDOFF);
     let plain = toss(MOMENTS[0], RATES[0]);
     assert_eq!((polhode(&plain).launched, Errors::at_launch(polhode(&plain), RATES[0]).bound()), (0.0, 0.0));
+}
+
+/// Axes are those of the body frame only where that is known: an axis that rounds to one of them is not.
+#[test]
+fn axes_that_are_known_but_for_a_rounding_are_not_exact() {
+    let frame = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+    let with_radius = |radius: f64| frame.map(|axis| axis.map(|part| Ball::new(DoubleDouble::exactly(part), radius)));
+    assert!(are_exact(&with_radius(0.0)) && !are_exact(&with_radius(1e-300)));
+    let mut turned = with_radius(0.0);
+    turned[0][2] = Ball::new(DoubleDouble::exactly(0.8), 0.0);
+    assert!(!are_exact(&turned));
+}
+
+/// The smallest parts of a rate lose digits below the smallest f64 in the unit of the flight.
+#[test]
+fn what_underflow_takes_from_a_rate_is_within_its_bound() {
+    for smallest in [3.0, 5.0, 7.0].map(|digits: f64| digits * f64::from_bits(1)) {
+        let toss = toss(MOMENTS[0], [4.5, smallest, -1.0]);
+        let flight = RigidFlight::new(&toss).unwrap();
+        let axes = [0, 1, 2].map(|axis| {
+            let part = |place| Ball::new(DoubleDouble::exactly(f64::from(u8::from(place == axis))), 0.0);
+            [0, 1, 2].map(part)
+        });
+        let scale = numerics::scale::power_of_two_scale(4.5);
+        let found = ideal_rates(&toss, &axes, &flight).unwrap()[1];
+        let lost = (found.midpoint().to_f64() * scale - smallest).abs() / scale;
+        assert!(found.radius() >= lost && found.radius() > 0.0, "{smallest:e}: {found:?}");
+    }
 }
