@@ -268,7 +268,7 @@ mod tests {
     fn samples() -> Vec<(WideBall, Big)> {
         let mut samples = vec![(WideBall::new(big(0.0, MANY), &part(0.0)), big(0.0, 900))];
         for exponent in [-2000, -70, 3] {
-            for (index, share) in [0.0, 1e-55, 1e-20, 0.3, 0.99, 1.7].into_iter().enumerate() {
+            for (index, share) in [0.0, 1e-55, 1e-20, 0.3, 0.99, 1.7, 1.7].into_iter().enumerate() {
                 for mantissa in [1.618_033_988_749_895, -1.2] {
                     let midpoint = big(mantissa, MANY).times_power_of_two(exponent);
                     let radius = size(&midpoint) * part(share);
@@ -346,6 +346,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The smallest value of such a ball is exactly 0.
+    #[test]
+    fn the_root_of_a_ball_that_reaches_0_is_that_of_its_largest_value() {
+        let touching = WideBall::new(big(1.0, MANY), &part(1.0 - 8.0 * f64::EPSILON));
+        let error = touching.sqrt().error();
+        assert!((1.41..1.42).contains(&error), "{error}");
     }
 
     #[test]
