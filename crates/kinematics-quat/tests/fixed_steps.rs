@@ -7,10 +7,12 @@ use kinematics_quat::QuaternionSolver;
 
 /// The error of cos θ, divided by what is claimed, of a flight in so many steps of `part`/|ω|. `None` without a claim.
 fn part_of_claim(body: Body, rate: [f64; 3], scheme: Scheme, (part, steps): (f64, f64)) -> Option<f64> {
-    let step = part / Launch::new(rate, TimeOfFlight::Given(0.0)).unwrap().turn_rate();
-    let toss = Toss::new(body, Launch::new(rate, TimeOfFlight::Given(step * steps)).unwrap());
-    let solver = QuaternionSolver::new(Stepping::fixed(scheme, step).unwrap(), Formulation::default());
-    let (found, exact) = (solver.tilt(&toss).unwrap(), ExactSolver.tilt(&toss).unwrap());
+    let launch = |time: f64| Launch::new(rate, TimeOfFlight::Given(time)).expect("finite numbers");
+    let step = part / launch(0.0).turn_rate();
+    let toss = Toss::new(body, launch(step * steps));
+    let stepping = Stepping::fixed(scheme, step).expect("a scheme with equal steps");
+    let found = QuaternionSolver::new(stepping, Formulation::default()).tilt(&toss).expect("few enough steps");
+    let exact = ExactSolver.tilt(&toss).expect("a phase below 2^53");
     Some((found.cos_tilt - exact.cos_tilt).abs() / found.error?)
 }
 
