@@ -290,7 +290,7 @@ def test_exceptions_travel_to_other_processes():
 @pytest.mark.parametrize(
     ("arguments", "kind", "field"),
     [
-        ({}, errors.MalformedError, "speed"),
+        ({}, errors.MissingError, "speed"),
         ({"speed": 3, "time": 1}, errors.MalformedError, "time"),
         ({"time": 1, "gravity": 9}, errors.MalformedError, "gravity"),
         ({"time": 1, "drop": 9}, errors.MalformedError, "drop"),

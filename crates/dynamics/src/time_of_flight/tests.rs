@@ -10,6 +10,14 @@ fn a_ballistic_flight_lasts_two_v_over_g() {
     assert_eq!(thrown.seconds(), 6.0 / 9.81);
 }
 
+#[test]
+fn a_launch_with_another_time_of_flight_is_that_which_is_made_with_it() {
+    let [long, short] = [TimeOfFlight::Given(2.0), TimeOfFlight::Ballistic { speed: 1.0, gravity: 8.0 }];
+    let launch = |time| Launch::new([1.0, 2.0, 3.0], time).unwrap().with_tilt(0.3).unwrap();
+    assert_eq!(launch(long).with_time_of_flight(short), Ok(launch(short)));
+    assert_eq!(launch(long).with_time_of_flight(short).unwrap().flight_time(), 0.25);
+}
+
 /// Compares with 200 digits, for short and long falls, from rest, at the apex and next to it.
 #[test]
 fn a_flight_to_another_height_lasts_until_its_later_crossing() {
