@@ -83,7 +83,7 @@ impl Extent {
         match effort {
             Effort::Quick => Self { spaces: 1, seeds: 25, points: &POINTS[..3], truth: 1 << 17 },
             Effort::Standard => Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 },
-            Effort::Deep => Self { spaces: 20, seeds: 100, points: &POINTS, truth: 1 << 23 },
+            Effort::Deep => Self { spaces: 6, seeds: 25, points: &POINTS, truth: 1 << 20 },
         }
     }
 }
