@@ -73,6 +73,7 @@ fn invalid_input_is_refused_with_the_field_at_fault() {
         (format!("coin = {{ cylinder = [1, 1, 1, 1] }}\n{launch}"), "cylinder [kg, m, m] = '[1.0, 1.0, 1.0, 1.0]'"),
         (format!("coin = {{ }}\n{launch}"), "coin is missing: expected a name, { moments = [I1, I3] }"),
         (format!("coin = 3\n{launch}"), "invalid type: integer `3`, expected a name, { moments"),
+        (format!("{launch}attitude = 3"), "invalid type: integer `3`, expected [w, x, y, z], { tilt"),
         (format!("{launch}attitude = [1, 0, 0, 0, 0]"), "attitude = '[1.0, 0.0, 0.0, 0.0, 0.0]'"),
         ("[launch]\nrate = [1, 1, 2, 9]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0, 2.0, 9.0]'"),
         ("[launch]\nrate = [1, 1]\nspeed = 3".to_owned(), "rate [rad/s] = '[1.0, 1.0]'"),
