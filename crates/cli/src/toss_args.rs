@@ -233,7 +233,7 @@ impl TossArgs {
     /// The launch in the units in which it was typed, for the title of a chart.
     pub(crate) fn words(&self) -> String {
         let tilted = self.tilt.filter(|tilt| tilt.si() != 0.0);
-        let tilt = tilted.map_or_else(|| "horizontal".to_owned(), |tilt| format!("at a tilt of {}", shown(tilt)));
+        let tilt = tilted.map_or_else(|| "horizontally".to_owned(), |tilt| format!("at a tilt of {}", shown(tilt)));
         let rate = self.rate.turn.words().or_else(|| self.rate.words()).unwrap_or_default();
         format!("launched {tilt}, {rate}")
     }

@@ -162,7 +162,7 @@ pub static MODELS: [Model; 18] = [
     Model {
         name: "integrator",
         assumes: "a tolerance",
-        gives: "any of the above, as a cross-check",
+        gives: "a landing or a flight, as a cross-check",
         of: Of::Coins,
         kind: Kind::Integrator,
     },

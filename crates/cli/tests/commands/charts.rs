@@ -47,7 +47,7 @@ fn the_chart_of_a_flight_shows_how_it_lands() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let svg = std::fs::read_to_string(&path).unwrap();
         let title = format!(
-            "Coin &apos;paper&apos; (k = 0.5), launched horizontal, ω = ({}) rad/s: the coin lands {outcome}",
+            "Coin &apos;paper&apos; (k = 0.5), launched horizontally, ω = ({}) rad/s: the coin lands {outcome}",
             rate.replace(',', ", ")
         );
         assert!(svg.contains(&title), "{rate}");
@@ -107,7 +107,7 @@ fn words_and_legend_stand_beside_the_flight() {
 #[test]
 fn titles_have_the_units_that_were_typed_the_solver_and_the_space() {
     for (command, words) in [
-        ("trace --rate 38rev/s,1rpm,5rev/s --speed 3", "launched horizontal, ω = (38 rev/s, 1 rpm, 5 rev/s)"),
+        ("trace --rate 38rev/s,1rpm,5rev/s --speed 3", "launched horizontally, ω = (38 rev/s, 1 rpm, 5 rev/s)"),
         ("trace --rate 38rev/s,0rev/s,5rev/s --speed 3", "ω = (38, 0, 5) rev/s: the coin lands "),
         (
             "trace --turn 38rev/s --wobble 60deg --tilt 15deg --speed 3",
