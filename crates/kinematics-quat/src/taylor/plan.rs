@@ -147,3 +147,15 @@ impl StepPlans {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_flights_have_the_tolerance_that_was_asked_for() {
+        for plans in [StepPlans::of_coins(1e-7), StepPlans::of_bodies(1e-7)] {
+            assert_eq!([plans.short.tolerance, plans.long.tolerance], [1e-7; 2]);
+        }
+    }
+}

@@ -155,6 +155,18 @@ fn unit_sized<N: Elementary>(point: [N; 2]) -> [N; 2] {
 mod tests {
     use super::*;
     use crate::ball::Ball;
+    use crate::big::exactly;
+
+    /// In many digits a point may be far nearer to the origin than any f64.
+    #[test]
+    fn a_point_of_any_size_is_brought_to_that_of_1() {
+        for exponent in [-5000, -1100, -3, 0, 900] {
+            let part = |value: f64| exactly(value).with_precision(200).value().times_power_of_two(exponent);
+            let found = unit_sized([part(-0.75), part(1.25)]).map(|part| part.to_f64().value());
+            let larger = found[1];
+            assert!((1.0..2.0).contains(&larger) && found[0] == -0.6 * larger, "{exponent}: {found:?}");
+        }
+    }
 
     #[test]
     fn the_distance_after_a_step_is_that_of_the_farthest_numbers_of_two_balls() {
