@@ -1,12 +1,13 @@
 //! These tests check properties that all methods of sampling share: results that do not depend on threads,
 //! agreement with each other, and errors. They use the public interface alone.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use dynamics::{Coin, Error, Landing, SolveError, Solver, Toss};
 use exact::ExactSolver;
 use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
-use sampling::{Found, IntervalKind, Plan, Rest, Sampler, Scrambled, Space, named_space};
+use sampling::{Found, Interval, IntervalKind, Plan, Rest, Sampler, Scrambled, Space, named_space};
 
 fn space(texts: [&str; 4]) -> Space {
     let [x, y, z, speed] = texts;
@@ -44,6 +45,18 @@ fn progress_adds_up_to_the_number_of_launches() {
             .unwrap();
         assert_eq!((done.into_inner(), found.points), (found.points, plan.points(&space).unwrap()));
     }
+}
+
+/// Each interval that is reported is within those before, and the last is the answer.
+#[test]
+fn an_enclosure_reports_how_it_narrows() {
+    let widths = Mutex::new(Vec::new());
+    let narrowed = |interval: Interval| widths.lock().unwrap().push(interval.width());
+    let plan = Plan::Enclosure { accuracy: 1e-7 };
+    let found = Sampler::exact().on_narrowing(&narrowed).estimate(&named_space("paper-fig4").unwrap(), plan).unwrap();
+    let widths = widths.into_inner().unwrap();
+    assert!(widths.len() >= 2 && widths.is_sorted_by(|one, next| one > next), "{widths:?}");
+    assert!(widths.last().is_some_and(|last| *last >= found.interval.unwrap().width()), "{widths:?} {found:?}");
 }
 
 #[test]
