@@ -23,9 +23,8 @@ use rayon::prelude::*;
 use crate::axis::Distribution;
 use crate::coordinate::Coordinate;
 use crate::estimate::Estimate;
-use crate::fold::Progress;
+use crate::fold::{Narrowed, Progress};
 use crate::interval::Interval;
-use crate::sampler::Sampler;
 use crate::space::Space;
 use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
 use directions::{Direction, directions_of};
@@ -125,21 +124,19 @@ pub fn usual_accuracy(space: &Space) -> f64 {
     }
 }
 
+/// Where cells that are done, and narrower intervals, are reported.
+pub(crate) type Reports<'a> = (Progress<'a>, Narrowed<'a>);
+
 /// Encloses P(heads) of `space` to ± `accuracy`, with at most `most_cells` cells.
 ///
 /// # Errors
 /// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` below 2e-14; [`Error::NotReached`] with the
 /// accuracy that was reached.
-pub(crate) fn estimate(
-    sampler: &Sampler<'_>,
-    space: &Space,
-    accuracy: f64,
-    most_cells: u64,
-) -> Result<Estimate, Error> {
+pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_cells: u64) -> Result<Estimate, Error> {
     require_accuracy(accuracy)?;
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
-    let found = enclosed(sampler, (space, coin), accuracy, most_cells);
+    let found = enclosed(reports, (space, coin), accuracy, most_cells);
     let reached = 0.5 * found.interval.width();
     if reached > accuracy {
         return Err(Error::NotReached { number: found.cells, of: "cells", reached, accuracy });
@@ -149,14 +146,18 @@ pub(crate) fn estimate(
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.
 ///
-/// `sampler` says where progress is reported. Where a sum takes too many cells, `cells` are all that are allowed.
-fn enclosed(sampler: &Sampler<'_>, (space, coin): (&Space, Coin), accuracy: f64, most_cells: u64) -> Enclosure {
+/// Where a sum takes too many cells, `cells` are all that are allowed.
+fn enclosed(
+    (progress, narrowed): Reports<'_>,
+    (space, coin): (&Space, Coin),
+    accuracy: f64,
+    most_cells: u64,
+) -> Enclosure {
     let (directions, roundings) = directions_of(space);
     let is_across = directions.iter().flatten().any(Direction::is_across);
     let is_normal = |of: Coordinate| matches!(space.axis(of).distribution(), Distribution::Normal { .. });
     let beyond = BEYOND_REACH * space.free().filter(|of| is_normal(*of)).count() as f64;
-    let work =
-        Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress: sampler.progress };
+    let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress };
     let mut best = Enclosure { interval: Interval { lo: 0.0, hi: 1.0 }, cells: 0 };
     let goal = 2.0 * accuracy;
     // A first threshold from which few cells result, and lower ones as the last width asks for.
@@ -172,7 +173,7 @@ fn enclosed(sampler: &Sampler<'_>, (space, coin): (&Space, Coin), accuracy: f64,
         let now = interval.width();
         if now < best.interval.width() || best.cells == 0 {
             best = Enclosure { interval, cells };
-            (sampler.narrowed)(interval);
+            narrowed(interval);
         }
         let is_narrower = now < 0.9 * before;
         if is_narrower {

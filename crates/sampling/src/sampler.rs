@@ -80,7 +80,7 @@ impl<'a> Sampler<'a> {
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
         self.require_exact()?;
-        enclosure::estimate(self, space, accuracy, MOST_CELLS)
+        enclosure::estimate((self.progress, self.narrowed), space, accuracy, MOST_CELLS)
     }
 
     /// Estimates the probability of heads from the launches of a plan. A program that calls this function and not

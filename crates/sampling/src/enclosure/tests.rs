@@ -39,6 +39,8 @@ fn spaces() -> impl Iterator<Item = Space> {
     })
 }
 
+const SILENT: Reports<'static> = (&|_| {}, &|_| {});
+
 /// The mean of the share times the density over a cell, by the midpoint rule with so many points in each direction.
 fn mean_of_shares(space: &Space, cell: &Cell<'_>, points: u32) -> f64 {
     let directions: Vec<&Direction> = cell.directions.iter().flatten().copied().collect();
@@ -135,7 +137,7 @@ fn the_bounds_of_a_cell_contain_its_mean_over_narrow_speeds() {
 #[test]
 fn a_narrow_range_of_speeds_takes_few_more_cells_than_one_speed() {
     for space in spaces().filter(|space| coordinates(space) == 2).take(4) {
-        let cells = |space: &Space| estimate(&Sampler::exact(), space, 1e-2, MOST_CELLS).unwrap().points;
+        let cells = |space: &Space| estimate(SILENT, space, 1e-2, MOST_CELLS).unwrap().points;
         let [low, _] = space.axis(Coordinate::Speed).bounds();
         let one = cells(&space.with_axis(Coordinate::Speed, crate::Axis::from(low)).unwrap());
         for width in [1e-6, 1e-9, 4.0 * f64::EPSILON] {
@@ -167,7 +169,7 @@ fn sampled_probabilities_meet_the_proven_ones() {
     let (mut outside, mut total) = (0, 0);
     for space in spaces() {
         let accuracy = [1e-8, 1e-5, 5e-3][coordinates(&space) - 1];
-        let found = estimate(&Sampler::exact(), &space, accuracy, MOST_CELLS).unwrap();
+        let found = estimate(SILENT, &space, accuracy, MOST_CELLS).unwrap();
         let proven = found.interval.unwrap();
         assert!(proven.hi - proven.lo <= 2.0 * accuracy && found.interval_kind == crate::IntervalKind::Proven);
         let plan = Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1 << 13, 1)));
@@ -194,7 +196,7 @@ fn single_speeds_are_enclosed() {
         let space =
             Space::builder(Coin::PAPER).rate_x(1.0).rate_y(rate).rate_z(20.0 * part(5.0)).speed(2.0 + part(7.0));
         let space = space.tilt(if index % 2 == 0 { 0.0 } else { 0.5 }).build().unwrap();
-        let proven = estimate(&Sampler::exact(), &space, 1e-7, MOST_CELLS).unwrap().interval.unwrap();
+        let proven = estimate(SILENT, &space, 1e-7, MOST_CELLS).unwrap().interval.unwrap();
         let grid = space.with_axis(Coordinate::RateY, space.axis(Coordinate::RateY).with_points(200_001)).unwrap();
         let counted = Sampler::exact().estimate(&grid, Plan::Grid).unwrap().probability;
         // Each of some twenty edges lies between two points.
@@ -208,7 +210,7 @@ fn single_speeds_are_enclosed() {
 fn an_enclosure_takes_as_many_cells_as_it_did() {
     let cells = |(space, accuracies): (Space, [f64; 3])| {
         let coin = space.coin().unwrap();
-        accuracies.map(|accuracy| enclosed(&Sampler::exact(), (&space, coin), accuracy, 1 << 20).cells)
+        accuracies.map(|accuracy| enclosed(SILENT, (&space, coin), accuracy, 1 << 20).cells)
     };
     let accuracies = [[1e-3, 1e-5, 1e-6], [1e-2, 1e-3, 1e-4], [1e-4, 1e-6, 1e-7], [3e-2, 1e-2, 4e-3]];
     let expected = [
@@ -248,10 +250,10 @@ fn a_computation_stops_at_its_number_of_cells() {
     let space =
         Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
     let coin = space.coin().unwrap();
-    let all = enclosed(&Sampler::exact(), (&space, coin), 1e-5, MOST_CELLS);
-    let few = enclosed(&Sampler::exact(), (&space, coin), 1e-5, all.cells - 1);
+    let all = enclosed(SILENT, (&space, coin), 1e-5, MOST_CELLS);
+    let few = enclosed(SILENT, (&space, coin), 1e-5, all.cells - 1);
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
-    let error = estimate(&Sampler::exact(), &space, 1e-5, all.cells - 1).unwrap_err();
+    let error = estimate(SILENT, &space, 1e-5, all.cells - 1).unwrap_err();
     assert!(
         matches!(error, Error::NotReached { reached, number, .. } if reached > 1e-5 && number == few.cells),
         "{error}"
@@ -259,7 +261,7 @@ fn a_computation_stops_at_its_number_of_cells() {
     #[cfg(feature = "rayon")]
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(pool.install(|| enclosed(&Sampler::exact(), (&space, coin), 1e-5, MOST_CELLS)), all);
+        assert_eq!(pool.install(|| enclosed(SILENT, (&space, coin), 1e-5, MOST_CELLS)), all);
     }
 }
 
@@ -291,7 +293,7 @@ fn a_sum_of_which_nothing_is_known_has_all_probabilities() {
 fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1.0..=2.0).rate_z(3.0).speed(3.0..=5.0);
     let refused = |space: Space, why: &str| {
-        let error = estimate(&Sampler::exact(), &space, 1e-6, MOST_CELLS).unwrap_err().to_string();
+        let error = estimate(SILENT, &space, 1e-6, MOST_CELLS).unwrap_err().to_string();
         assert!(error.contains(why), "{error}");
     };
     refused(space().rate_y(1.0).speed(3.0).build().unwrap(), "nothing varies");
@@ -303,12 +305,11 @@ fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let body = dynamics::Body::from_moments([1.0, 2.0, 2.5]).unwrap();
     refused(space().build().unwrap().with_body(body), "I1 ≠ I2");
     for accuracy in [0.0, -1.0, 1e-17, f64::NAN] {
-        let error =
-            estimate(&Sampler::exact(), &space().build().unwrap(), accuracy, MOST_CELLS).unwrap_err().to_string();
+        let error = estimate(SILENT, &space().build().unwrap(), accuracy, MOST_CELLS).unwrap_err().to_string();
         assert!(error.contains("accuracy"), "{error}");
     }
     // The coin makes so many turns that the first sum already takes more cells than are allowed.
     let far = space().rate_y(1e10..=2e10).build().unwrap();
-    let error = estimate(&Sampler::exact(), &far, 2e-14, 1 << 16).unwrap_err();
+    let error = estimate(SILENT, &far, 2e-14, 1 << 16).unwrap_err();
     assert!(matches!(error, Error::NotReached { number: 65_536, of: "cells", reached: 0.5, .. }), "{error}");
 }
