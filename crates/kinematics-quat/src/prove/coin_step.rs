@@ -8,9 +8,9 @@
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
-use crate::taylor::coin::{COMPENSATED, LARGEST_ORDER, Series};
+use crate::taylor::coin::{COMPENSATED, Series};
 use crate::taylor::lockstep::{MOST_LANES, PerLane};
-use crate::taylor::plan::StepPlan;
+use crate::taylor::plan::{LARGEST_ORDER, StepPlan};
 
 /// What the bound of a step depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

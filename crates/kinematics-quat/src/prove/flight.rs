@@ -13,17 +13,7 @@ use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use crate::prove::coin_step::{StepBound, Steps};
 use crate::prove::rigid_lanes::Bound;
-
-/// What a bound of the error has to know of the steps of a flight.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Record {
-    /// The number of steps by series.
-    pub(crate) steps: u64,
-    /// The least and the largest |η|, in the unit of the flight.
-    pub(crate) moduli: [f64; 2],
-    /// The longest step, in the unit of the flight.
-    pub(crate) longest: f64,
-}
+use crate::taylor::coin::Record;
 
 /// A |η| below which it turns the coin by less than can be told from no turn.
 const NO_RATE: f64 = 1e-140;

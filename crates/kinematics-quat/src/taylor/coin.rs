@@ -29,14 +29,10 @@
 use dynamics::{CoinToss, Flight, SolveError, Work};
 use numerics::lanes::{Complex, Double, Real, Simd, compensated_product, complex_product, inverse, polar, sum, times};
 
-use crate::prove::flight::Record;
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
-use crate::taylor::plan::StepPlan;
+use crate::taylor::plan::{LARGEST_ORDER, StepPlan};
 use crate::taylor::product::turned;
 use crate::{Landed, QuaternionSystem};
-
-/// The highest order of a step.
-pub(crate) const LARGEST_ORDER: usize = 26;
 
 /// Number of coefficients of η, from the first on, that have twice as many digits if η is compensated. Later terms are
 /// so small that their rounding does not matter.
@@ -52,6 +48,17 @@ pub(crate) const INVERSES: [Double<f64>; LARGEST_ORDER] = {
     }
     inverses
 };
+
+/// What a bound of the error has to know of the steps of a flight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Record {
+    /// The number of steps by series.
+    pub(crate) steps: u64,
+    /// The least and the largest |η|, in the unit of the flight.
+    pub(crate) moduli: [f64; 2],
+    /// The longest step, in the unit of the flight.
+    pub(crate) longest: f64,
+}
 
 /// The coefficients Uₖ, Wₖ and rₖ of a step. They are aligned, because a vector that crosses a cache line takes two
 /// loads.

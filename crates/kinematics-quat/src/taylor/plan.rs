@@ -3,7 +3,8 @@
 
 use numerics::lanes::{Real, Simd};
 
-use crate::taylor::coin::LARGEST_ORDER;
+/// The highest order of a step.
+pub(crate) const LARGEST_ORDER: usize = 26;
 
 /// Exponents of two by which the shortest step of a coin is multiplied, tried one after the other from the largest on.
 /// A factor is kept if the last terms of the series allow it.

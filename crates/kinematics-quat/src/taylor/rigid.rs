@@ -18,9 +18,9 @@ use dynamics::{Flight, RigidFlight, SolveError, Stepping, Toss, Work};
 use nalgebra::SVector;
 use numerics::lanes::{Real, Simd};
 
-use crate::taylor::coin::{INVERSES, LARGEST_ORDER};
+use crate::taylor::coin::INVERSES;
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
-use crate::taylor::plan::StepPlan;
+use crate::taylor::plan::{LARGEST_ORDER, StepPlan};
 use crate::taylor::product::turned;
 use crate::{Landed, half_product};
 

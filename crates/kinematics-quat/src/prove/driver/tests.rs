@@ -5,7 +5,7 @@ use exact::{CoinMotion, ExactMotion, certify};
 use nalgebra::Vector3;
 
 use super::*;
-use crate::prove::flight::Record;
+use crate::taylor::coin::Record;
 
 pub(super) fn solver(tolerance: f64) -> QuaternionSolver {
     QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
