@@ -16,7 +16,7 @@ use crate::measure::reference::{ExactLanding, Reference};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::survey::{Landings, Survey};
-use crate::measure::tosses::tries;
+use crate::measure::tosses::{Case, tries};
 
 /// The kind of evidence that a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -105,15 +105,6 @@ pub enum Fold {
     Mean,
     /// The median.
     Median,
-}
-
-/// A toss, with its exact landing where that was computed before.
-#[derive(Clone)]
-pub struct Case {
-    /// The toss.
-    pub toss: Toss,
-    /// The landing in 256 bits.
-    pub reference: Option<Arc<Reference>>,
 }
 
 /// A named set of cases, and a deviation that is taken on each of them.

@@ -13,8 +13,6 @@ use toss::SolverEntry;
 use crate::measure::adversary::{Findings, search};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
-use crate::measure::check::Case;
-use crate::measure::checks::long_bodies;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
@@ -23,6 +21,7 @@ use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, Reference
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
 use crate::measure::tables::{Probability, fig4, probabilities};
+use crate::measure::tosses::{Case, long_bodies};
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
 

@@ -6,11 +6,13 @@
 //! moves no measurement of a solver.
 
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+use std::sync::Arc;
 
 use dynamics::{Body, Toss};
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
+use rayon::prelude::*;
 use sampling::Coordinate::{self, Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{AxisOrTie, Distribution, Space};
 use toss::{Attitude, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
@@ -349,6 +351,23 @@ pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Ite
     (0..number).filter_map(move |index| {
         launch(family, index, within.rate, |numbers| 10f64.powf(numbers.between(within.phase[0], within.phase[1])))
     })
+}
+
+/// A toss, with its exact landing where that was computed before.
+#[derive(Clone)]
+pub(crate) struct Case {
+    /// The toss.
+    pub(crate) toss: Toss,
+    /// The landing in 256 bits.
+    pub(crate) reference: Option<Arc<Reference>>,
+}
+
+/// The long flights of each family of bodies.
+pub(super) fn long_bodies(effort: Effort) -> Vec<Vec<Case>> {
+    let case = |toss: Toss| Case { toss, reference: Reference::of(&toss).map(Arc::new) };
+    let of =
+        |family| launches(family, tries(effort) / 20, LONG).collect::<Vec<_>>().into_par_iter().map(case).collect();
+    FAMILIES.iter().map(of).collect()
 }
 
 /// Toss number `index` of a family, of any size of rates, which turns by about `phase` (rad); `None` if there is none.

@@ -7,20 +7,18 @@
 //! angle between the coin's normal n and its angular momentum S.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use dynamics::Toss;
 use exact::certified::{cos_tilt_in_double_double, f64_bound};
 use exact::{ExactMotion, TiltTerms, certify, compensated_cos_tilt};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
-use rayon::prelude::*;
 use toss::{
     Attitude, Batch, CoinMotion, CoinToss, Error, Launch, Outcome, Sensitivity, SimdLevel, SolveError, TimeOfFlight,
     Tosses, Vector3, level_speeds_of_heads, margin, speeds_of_heads,
 };
 
 use crate::measure::case::is_horizontal;
-use crate::measure::check::{Basis, Case, Check, Fold, Measure, Set};
+use crate::measure::check::{Basis, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::measurement::Deviation;
@@ -404,14 +402,6 @@ fn rigid_attitudes(motion: fn(&Toss) -> ExactMotion) -> Vec<Set> {
     on_long_flights(move |toss, reference| {
         Ok(reference.attitude_error(&motion(toss).state(toss.launch.time_of_flight())?.attitude))
     })
-}
-
-/// The long flights of each family of bodies.
-pub(in crate::measure) fn long_bodies(effort: Effort) -> Vec<Vec<Case>> {
-    let case = |toss: Toss| Case { toss, reference: Reference::of(&toss).map(Arc::new) };
-    let of =
-        |family| launches(family, tries(effort) / 20, LONG).collect::<Vec<_>>().into_par_iter().map(case).collect();
-    FAMILIES.iter().map(of).collect()
 }
 
 fn at_edges() -> Vec<Set> {

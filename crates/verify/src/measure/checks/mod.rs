@@ -15,8 +15,6 @@ mod work;
 
 use crate::measure::check::Check;
 
-pub(super) use exact::long_bodies;
-
 /// All checks, in the order in which they run.
 pub const CHECKS: &[Check] = &[
     reference::COS_TILT,
