@@ -20,8 +20,12 @@ pub(crate) fn of_rows(rows: &[Row]) -> String {
     if failing == 0 {
         let whole = found.whole();
         let open = rows.iter().filter(|row| row.status == Status::NotJudged).count();
-        let open = if open > 0 { format!(", {open} not judged") } else { String::new() };
-        return format!("All {} rows pass{open}{}{whole}.", rows.len(), if whole.is_empty() { "" } else { ": " });
+        let end = if whole.is_empty() { whole } else { format!(": {whole}") };
+        let judged = rows.len() - open;
+        return match open {
+            0 => format!("All {judged} rows pass{end}."),
+            _ => format!("All {judged} rows that are judged pass, {open} are not{end}."),
+        };
     }
     let mut text = format!("Fails: {}.", found.bad());
     if !passing.is_empty() {

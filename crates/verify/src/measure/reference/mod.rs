@@ -1,5 +1,5 @@
 //! This module solves a toss in 256-bit arithmetic; every error in the suite is measured against it. It shares no code
-//! with the solvers, so a mistake in their formulas cannot hide in the reference.
+//! with the solvers. Its formula is that of the exact motion, which numbers from outside and integrators check.
 //!
 //! It takes the numbers that coin and launch were made from as exact, cylinder and tilt included, and evaluates
 //! `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)` with correctly rounded arithmetic, so its own error is about 2^-250 for the phases of a toss. Here q = (k - 1) ωz with
