@@ -24,6 +24,7 @@ __all__ = [
     "margins",
     "numbers",
     "plan",
+    "rate_of_precession",
     "solve",
     "solvers",
     "spaces",
