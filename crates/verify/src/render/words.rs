@@ -37,7 +37,7 @@ pub(super) fn relation(row: &Row) -> &'static str {
     if row.part() <= 1.0 { "≤" } else { ">" }
 }
 
-/// How far the row is from its limit: `reserve 2.3×`, `830 times over`; `–` where nothing deviates or nothing is
+/// How far the row is from its limit: `reserve 2.3×`, `830 times over`, `not judged`; `–` where nothing deviates or nothing is
 /// allowed.
 pub(super) fn reserve(row: &Row) -> String {
     match row.part() {

@@ -81,33 +81,24 @@ impl Atlas {
     }
 }
 
-/// Every contestant. Its scheme takes `control` if it can, and otherwise the library's default tolerance or step.
+/// Every solver of `registry`, each integrator with every scheme in every formulation that it offers. A scheme takes
+/// `control` if it can, and otherwise the library's default tolerance or step.
 ///
 /// # Errors
 /// For a tolerance or a step that is invalid.
 pub fn contestants_at(registry: &[SolverEntry], control: Option<StepControl>) -> Result<Vec<Subject>, InputError> {
-    contestants(registry, |scheme| match control {
+    let stepping = |scheme: Scheme| match control {
         Some(StepControl::Tolerance(tolerance)) if scheme.is_adaptive() => Stepping::adaptive(scheme, tolerance),
         Some(StepControl::Step(step)) if scheme.takes_steps() => Stepping::fixed(scheme, step),
         _ => usual(scheme),
-    })
-}
-
-/// Every solver of `registry`, each integrator with every scheme, set up by `stepping`, in every formulation that it offers.
-///
-/// # Errors
-/// If `stepping` returns one.
-fn contestants(
-    registry: &[SolverEntry],
-    stepping: impl Fn(Scheme) -> Result<Stepping, InputError>,
-) -> Result<Vec<Subject>, InputError> {
+    };
     let mut contestants = Vec::new();
     for entry in registry {
         let one = [Formulation::default()];
         let formulations = if entry.formulations().is_empty() { &one } else { entry.formulations() };
         for &formulation in formulations {
             for (entry, scheme) in by_scheme(entry) {
-                contestants.push(Subject::new(entry, scheme.map(&stepping).transpose()?, formulation));
+                contestants.push(Subject::new(entry, scheme.map(stepping).transpose()?, formulation));
             }
         }
     }
