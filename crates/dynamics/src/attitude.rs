@@ -181,15 +181,16 @@ impl Attitude {
         vertical_in_body(quarter_turned(self.given_components().map(exactly)))
     }
 
-    /// The coin's normal n (LF), the direction of BF's z axis.
+    /// The coin's normal n (LF), the direction of BF's z axis. Rounding takes no component beyond 1, so that its arc cosine
+    /// is an angle.
     pub fn normal(&self) -> Vector3<f64> {
-        self.body_to_lab(&Vector3::z())
+        self.body_to_lab(&Vector3::z()).map(|part| part.clamp(-1.0, 1.0))
     }
 
-    /// cos θ = n · ẑ: positive when heads is up.
+    /// cos θ = n · ẑ, from -1 to 1: positive when heads is up.
     pub fn cos_tilt(&self) -> f64 {
         let [w, x, y, z] = self.components();
-        (w * w + z * z) - (x * x + y * y)
+        ((w * w + z * z) - (x * x + y * y)).clamp(-1.0, 1.0)
     }
 
     /// The components in LF of the vector `body`, which is given in BF.

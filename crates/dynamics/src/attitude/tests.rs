@@ -13,6 +13,17 @@ fn a_quarter_turn_about_x_takes_the_normal_to_minus_y() {
 }
 
 #[test]
+fn rounding_takes_no_cosine_beyond_1() {
+    for index in 0..1000 {
+        let spun = Attitude::about_z(0.01 * f64::from(index));
+        for attitude in [spun, Attitude::about_x(PI) * spun] {
+            assert!(attitude.cos_tilt().acos().is_finite(), "{attitude:?}");
+            assert!(attitude.normal().iter().all(|part| part.acos().is_finite()), "{attitude:?}");
+        }
+    }
+}
+
+#[test]
 fn right_factors_turn_about_the_bodys_axes() {
     let tipped_then_spun = Attitude::about_x(FRAC_PI_2) * Attitude::about_z(1.0);
     approx::assert_abs_diff_eq!(tipped_then_spun.normal(), -Vector3::y(), epsilon = 1e-15);

@@ -283,7 +283,8 @@ pub(crate) fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
     let ([a, b, c], size) = launched.vertical();
     let (upright, inverted) = (w * w + z * z, x * x + y * y);
     let across = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x)];
-    (a * across[0] + b * across[1] + c * (upright - inverted)) / ((upright + inverted) * size)
+    let cosine = (a * across[0] + b * across[1] + c * (upright - inverted)) / ((upright + inverted) * size);
+    cosine.clamp(-1.0, 1.0)
 }
 
 /// Roundings of the attitude at landing. Half of a tilt in degrees is rounded to radians.
