@@ -465,10 +465,19 @@ impl<const T: usize> Means<'_, '_, T> {
         Bounds { lo, hi, by: self.finite_or_sizes(by) }
     }
 
-    /// What each direction adds to a width or, if that is not known, the size of the cell in each direction.
+    /// What each direction adds to a width. If that is not known, how much each changes the motion or, where that is not
+    /// known either, the size of the cell in each direction.
     fn finite_or_sizes(&self, by: [f64; MOST_DIRECTIONS]) -> [f64; MOST_DIRECTIONS] {
-        if by.iter().all(|by| by.is_finite()) {
+        let is_known = |by: &[f64; MOST_DIRECTIONS]| by.iter().all(|by| by.is_finite());
+        if is_known(&by) {
             return by;
+        }
+        let Motion { squared, room, mean, cosine, sine, .. } = self.motion;
+        let scale = magnitude(squared.middle.value());
+        let of_cosine = [room, mean, cosine, sine].map(|part| part.variation());
+        let changes = std::array::from_fn(|index| of_cosine.iter().map(|by| by[index]).sum::<f64>() / scale);
+        if is_known(&changes) && changes.iter().sum::<f64>() > 0.0 {
+            return changes;
         }
         std::array::from_fn(|index| {
             if self.cell.directions[index].is_some() { (-f64::from(self.cell.level[index])).exp2() } else { 0.0 }
