@@ -122,6 +122,11 @@ impl Context {
         })
     }
 
+    /// Whether the solver of `subject` (`solver` or `solver/scheme`) is under verification.
+    pub(crate) fn judges(&self, subject: &str) -> bool {
+        self.registry.iter().any(|entry| subject.split('/').next() == Some(entry.name()))
+    }
+
     /// The shared results that have been computed so far, for the reports.
     pub fn records(&self) -> Records<'_> {
         Records {

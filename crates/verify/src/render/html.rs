@@ -13,6 +13,7 @@ use crate::measure::atlas::hazards::HAZARDS;
 use crate::measure::planner::Line;
 use crate::measure::run::Answer;
 use crate::measure::tables::Probability;
+use crate::measure::work_precision::YARDSTICK;
 use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
 use crate::render::report::{Cost, ENOUGH, Reached};
@@ -180,7 +181,11 @@ fn reached(report: &Report<'_>) -> Markup {
             }
             p.faint { "The largest error of the attitude over the " (launches) " launches of the problem " (problem) ", calls of the \
                        right-hand side and time per launch on this machine (of a program, with the pipe to it): of the most accurate run, and of the cheapest run \
-                       within " (format!("{ENOUGH:e}")) " rad, among the tolerances and steps that were flown." }
+                       within " (format!("{ENOUGH:e}")) " rad, among the tolerances and steps that were flown."
+                @if all.iter().any(|one| one.subject.starts_with(YARDSTICK)) {
+                    " The lines called " (YARDSTICK) " are the library's quaternion, to compare with, here and in the charts; no row judges it."
+                }
+            }
         }
     }
 }

@@ -6,6 +6,7 @@
 
 pub mod problems;
 pub mod proofs;
+mod yardstick;
 
 use std::time::Duration;
 
@@ -22,6 +23,7 @@ use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Allowance, Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
+pub use yardstick::YARDSTICK;
 
 /// One subject at one setting on one problem. Errors are the largest over the problem's launches, counts and times
 /// their sums.
@@ -84,13 +86,14 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Samples every solver of `registry` on every problem. A body that is no coin is flown at the settings at which the
-    /// solver states an error for it: solvers for coins refuse it, and next to the separatrix rough settings say nothing.
+    /// Samples every solver of `registry` on every problem, and the library's quaternion as [`YARDSTICK`] if it is not among
+    /// them. A body that is no coin is flown at the settings at which the solver states an error for it: solvers for coins
+    /// refuse it, and next to the separatrix rough settings say nothing.
     ///
     /// # Errors
     /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, Error> {
-        let jobs = jobs(registry, problems, effort)?;
+        let jobs = jobs(&yardstick::beside(registry), problems, effort)?;
         let references: Vec<Vec<ExactLanding>> = problems
             .iter()
             .map(|problem| problem.tosses.par_iter().map(ExactLanding::new).collect::<Result<_, _>>())
