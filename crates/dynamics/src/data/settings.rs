@@ -1,17 +1,15 @@
-//! Settings of solvers as plain data, and all values that are written as a text.
+//! The choice of a solver as plain data, and values that are written as a text.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::number::{Number, twice};
 use crate::config::SolverConfig;
-use crate::entry::Settings;
 use crate::error::InputError;
 use crate::formulation::Formulation;
 use crate::outcome::Outcome;
-use crate::quantity::{Dimension, Given};
-use crate::scheme::Scheme;
-use crate::stepping::{StepControl, Stepping};
+use crate::quantity::Dimension;
+use crate::stepping::StepControl;
 
 /// Reads and writes values as the text of their `FromStr` and `Display`.
 macro_rules! as_text {
@@ -30,33 +28,7 @@ macro_rules! as_text {
     )*};
 }
 
-as_text!(Scheme, Formulation, Outcome, Given);
-
-/// A scheme and its step control as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SteppingData {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scheme: Option<Scheme>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tolerance: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<Number>,
-}
-
-/// Settings as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SettingsData {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scheme: Option<Scheme>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tolerance: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<Number>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    formulation: Option<Formulation>,
-}
+as_text!(Formulation, Outcome);
 
 /// The choice of a solver as it stands in a file.
 #[derive(Serialize, Deserialize)]
@@ -89,37 +61,6 @@ fn parts(control: Option<StepControl>) -> (Option<f64>, Option<Number>) {
         None => (None, None),
         Some(StepControl::Tolerance(tolerance)) => (Some(tolerance), None),
         Some(StepControl::Step(step)) => (None, Some(Number::Si(step))),
-    }
-}
-
-impl TryFrom<SteppingData> for Stepping {
-    type Error = InputError;
-
-    fn try_from(SteppingData { scheme, tolerance, step }: SteppingData) -> Result<Self, InputError> {
-        Self::new(scheme.unwrap_or(Self::DEFAULT.scheme()), control(tolerance, step)?)
-    }
-}
-
-impl From<Stepping> for SteppingData {
-    fn from(stepping: Stepping) -> Self {
-        let (tolerance, step) = parts(Some(stepping.control()));
-        Self { scheme: Some(stepping.scheme()), tolerance, step }
-    }
-}
-
-impl TryFrom<SettingsData> for Settings {
-    type Error = InputError;
-
-    fn try_from(SettingsData { scheme, tolerance, step, formulation }: SettingsData) -> Result<Self, InputError> {
-        let stepping = SteppingData { scheme, tolerance, step }.try_into()?;
-        Ok(Self { stepping, formulation: formulation.unwrap_or_default() })
-    }
-}
-
-impl From<Settings> for SettingsData {
-    fn from(Settings { stepping, formulation }: Settings) -> Self {
-        let SteppingData { scheme, tolerance, step } = stepping.into();
-        Self { scheme, tolerance, step, formulation: Some(formulation) }
     }
 }
 
