@@ -45,25 +45,6 @@ pub(crate) struct ConfigData {
     formulation: Option<Formulation>,
 }
 
-/// The step control that a tolerance or a step asks for.
-fn control(tolerance: Option<f64>, step: Option<Number>) -> Result<Option<StepControl>, InputError> {
-    match (tolerance, step) {
-        (None, None) => Ok(None),
-        (Some(tolerance), None) => Ok(Some(StepControl::Tolerance(tolerance))),
-        (None, Some(step)) => Ok(Some(StepControl::Step(step.si("step [s]", Dimension::Time)?))),
-        (Some(_), Some(_)) => Err(twice("step [s]", "either a tolerance or a step")),
-    }
-}
-
-/// The tolerance and the step of a step control, one of which is given.
-fn parts(control: Option<StepControl>) -> (Option<f64>, Option<Number>) {
-    match control {
-        None => (None, None),
-        Some(StepControl::Tolerance(tolerance)) => (Some(tolerance), None),
-        Some(StepControl::Step(step)) => (None, Some(Number::Si(step))),
-    }
-}
-
 impl TryFrom<ConfigData> for SolverConfig {
     type Error = InputError;
 
@@ -71,13 +52,22 @@ impl TryFrom<ConfigData> for SolverConfig {
         let named = Self::new(data.name);
         let with_scheme = data.scheme.into_iter().fold(named, Self::with_scheme);
         let formulated = data.formulation.into_iter().fold(with_scheme, Self::with_formulation);
-        control(data.tolerance, data.step)?.map_or(Ok(formulated.clone()), |control| formulated.with_control(control))
+        match (data.tolerance, data.step) {
+            (None, None) => Ok(formulated),
+            (Some(tolerance), None) => formulated.with_tolerance(tolerance),
+            (None, Some(step)) => formulated.with_step(step.si("step [s]", Dimension::Time)?),
+            (Some(_), Some(_)) => Err(twice("step [s]", "either a tolerance or a step")),
+        }
     }
 }
 
 impl From<SolverConfig> for ConfigData {
     fn from(config: SolverConfig) -> Self {
-        let (tolerance, step) = parts(config.control());
+        let (tolerance, step) = match config.control() {
+            None => (None, None),
+            Some(StepControl::Tolerance(tolerance)) => (Some(tolerance), None),
+            Some(StepControl::Step(step)) => (None, Some(Number::Si(step))),
+        };
         let (name, scheme) = (config.name().to_owned(), config.scheme().map(str::to_owned));
         Self { name, scheme, tolerance, step, formulation: config.formulation() }
     }
