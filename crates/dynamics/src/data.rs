@@ -1,4 +1,4 @@
-//! Reading and writing of coins, bodies, launches, choices of solvers and outcomes with serde, for configuration files.
+//! Reading and writing of coins, bodies, launches and choices of solvers with serde, for configuration files.
 //! Input is first read into plain structs and then converted by the constructors of these types, so that a file cannot make
 //! an invalid value. What was written is read back as the same value, to the bit.
 //!
@@ -20,7 +20,7 @@
 //! | type | as plain data |
 //! |---|---|
 //! | [`SolverConfig`](crate::SolverConfig) | `{ name = "quaternion", scheme = "dop853", tolerance = 1e-9, formulation = "momentum" }`, or `step` (s) |
-//! | [`Formulation`](crate::Formulation), [`Outcome`](crate::Outcome) | the name |
+//! | [`Formulation`](crate::Formulation) | the name; so are outcomes written |
 //! | [`Attitude`](crate::Attitude) | `[w, x, y, z]`, `{ tilt = 0.3 }` or `{ unit_quaternion = [w, x, y, z] }` |
 //!
 //! Drag and bounce are outside the model. They are fields of a launch nevertheless, so that they are refused with the

@@ -1,4 +1,4 @@
-//! The choice of a solver as plain data, and values that are written as a text.
+//! The choice of a solver as plain data, and outcomes, which are written by their names.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -11,24 +11,23 @@ use crate::outcome::Outcome;
 use crate::quantity::Dimension;
 use crate::stepping::StepControl;
 
-/// Reads and writes values as the text of their `FromStr` and `Display`.
-macro_rules! as_text {
-    ($($text:ty),*) => {$(
-        impl<'de> Deserialize<'de> for $text {
-            fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                String::deserialize(from)?.parse().map_err(D::Error::custom)
-            }
-        }
-
-        impl Serialize for $text {
-            fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-                to.collect_str(self)
-            }
-        }
-    )*};
+impl<'de> Deserialize<'de> for Formulation {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        String::deserialize(from)?.parse().map_err(D::Error::custom)
+    }
 }
 
-as_text!(Formulation, Outcome);
+impl Serialize for Formulation {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
+
+impl Serialize for Outcome {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
 
 /// The choice of a solver as it stands in a file.
 #[derive(Serialize, Deserialize)]

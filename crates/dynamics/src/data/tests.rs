@@ -10,7 +10,6 @@ use crate::coin::Coin;
 use crate::config::SolverConfig;
 use crate::formulation::Formulation;
 use crate::launch::Launch;
-use crate::outcome::Outcome;
 use crate::quantity::Dimension;
 use crate::time_of_flight::{DEFAULT_GRAVITY, TimeOfFlight};
 use crate::toss::Toss;
@@ -199,12 +198,4 @@ fn choices_of_solvers_are_read_back_and_refused_with_the_field_at_fault() {
     assert_read_back(&stepped);
     let text = "name = 'own'\nscheme = 'heun'\nstep = '2ms'\nformulation = 'vertical'";
     assert_eq!(toml::from_str(text), Ok(stepped));
-}
-
-#[test]
-fn outcomes_are_read_back() {
-    for outcome in Outcome::ALL {
-        assert_read_back(&outcome);
-    }
-    assert_refused::<Outcome>("'edge'", "outcome = 'edge' is unknown; known: heads, tails, undecided");
 }
