@@ -41,7 +41,7 @@ impl Fuzz {
         let host = host()?;
         let folder = root().join("target/fuzz");
         let targets: Vec<&str> = self.target.as_deref().map_or(TARGETS.to_vec(), |target| vec![target]);
-        build(&host, &targets)?;
+        build(&host)?;
         let mut broken = Vec::new();
         for target in targets {
             let (corpus, found) = (folder.join("corpus").join(target), folder.join("found"));
@@ -49,7 +49,8 @@ impl Fuzz {
                 std::fs::create_dir_all(folder)
                     .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
             }
-            let mut program = Command::new(folder.join(&host).join("release").join(target));
+            let mut program = Command::new(folder.join(&host).join("release/unfair-toss-fuzz"));
+            program.env("TARGET", target);
             match &self.input {
                 Some(file) => program.arg(file),
                 None => program.arg(corpus).arg(root().join("fuzz/seeds").join(target)),
@@ -76,12 +77,11 @@ fn host() -> Result<String, String> {
     host.map(str::to_owned).ok_or_else(|| "rustc does not name its platform".to_owned())
 }
 
-fn build(host: &str, targets: &[&str]) -> Result<(), String> {
+fn build(host: &str) -> Result<(), String> {
     let mut command = cargo();
     command.args(["build", "--locked", "--release", "--features", "libfuzzer", "--target", host]);
     command.arg("--manifest-path").arg(root().join("fuzz/Cargo.toml"));
     command.arg("--target-dir").arg(root().join("target/fuzz")).env("RUSTFLAGS", INSTRUMENTATION);
-    command.args(targets.iter().flat_map(|target| ["--bin", target]));
     let status = command.status().map_err(|error| format!("cannot start cargo: {error}"))?;
     if status.success() {
         Ok(())

@@ -1,6 +1,6 @@
 //! Rigid bodies, coins among them.
 
-use ::toss::catalogue::{BODIES, CATALOGUE, named_body};
+use ::toss::catalogue::{entries, named_body};
 use ::toss::{Coin, InputError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -168,6 +168,5 @@ pub(crate) fn coin_of(body: &::toss::Body, why: &'static str) -> PyResult<Coin> 
 /// The names of the coins and other bodies of the catalogue, each with a short description.
 #[pyfunction]
 pub(crate) fn bodies() -> Vec<(&'static str, &'static str)> {
-    let coins = CATALOGUE.iter().map(|entry| (entry.name, entry.description));
-    coins.chain(BODIES.iter().map(|entry| (entry.name, entry.description))).collect()
+    entries().map(|entry| (entry.name, entry.description)).collect()
 }

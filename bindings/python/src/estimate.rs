@@ -1,7 +1,7 @@
 //! Estimates of probabilities, as plain values.
 
 use ::toss::planner::How;
-use ::toss::report::{Estimate, Outcomes};
+use ::toss::report::Estimate;
 use ::toss::sampling::{self, Space};
 use ::toss::{Answer, Backend, Choice, InputError, Registry, Scene, Want};
 use pyo3::prelude::*;
@@ -21,7 +21,7 @@ pub(crate) type Values =
 /// The values of an estimate that `plan` has `found`.
 pub(crate) fn values(found: &sampling::Estimate, plan: sampling::Plan) -> Values {
     let Estimate { probability, interval, interval_kind, points, counts, proven_by, .. } = Estimate::new(found, plan);
-    let counts = counts.map(|Outcomes { heads, tails, undecided }| (heads, tails, undecided));
+    let counts = counts.map(|counts| (counts.heads(), counts.tails(), counts.undecided()));
     (probability, interval.map(Into::into), interval_kind, points, counts, proven_by)
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn estimate_by_accuracy(
     let (scene, pool) = (Scene::new(Want::Probability(space), accuracy), threads::pool(threads)?);
     let found = threads::aside(py, move |stop| {
         let progress = |_| stop.here();
-        Ok(pool.install(|| scene.choose_and_run_reporting(Registry::standard(), &progress))?)
+        Ok(pool.install(|| scene.choose_and_run(Registry::standard(), &progress))?)
     });
     match found? {
         (Choice { how: How::Sampling(plan), .. }, Answer::Probability(found)) => {

@@ -1,13 +1,12 @@
 //! The planner: which model answers a question at the least cost.
 
-use ::toss::planner::How;
-use ::toss::{Choice, ExactSolver, Scene, Want};
+use ::toss::report::Planned;
+use ::toss::{Scene, Want};
 use pyo3::prelude::*;
 
 use crate::errors::malformed;
 use crate::given::{count, refused_value, text};
 use crate::plans::accuracy;
-use crate::solver::tolerance_of;
 use crate::space::Space;
 use crate::threads;
 use crate::toss::Toss;
@@ -48,22 +47,10 @@ pub(crate) fn plan(
     }
     let asked = scene.clone();
     let decision = threads::aside(py, move |_| Ok(asked.plan()?))?;
-    let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
-    let passed_over = decision.passed_over.iter().map(|(model, why)| (model.to_string(), why.to_string())).collect();
-    let costs = (*expected_error, *expected_cost_ns);
-    let exact = ExactSolver::NAME.to_owned();
-    Ok(match (how, &scene.want) {
-        (How::Integrator(entry, stepping), _) => {
-            let (scheme, tolerance) = (Some(stepping.scheme().name()), tolerance_of(*stepping));
-            (model.name, entry.name().to_owned(), scheme, None, tolerance, None, costs, passed_over)
-        }
-        (How::Sampling(plan), Want::Probability(space)) => {
-            // An enclosure has no number of cells before.
-            let points = plan.points(space).ok();
-            (model.name, exact, None, Some(plan.method().name()), None, points, costs, passed_over)
-        }
-        _ => (model.name, exact, None, None, None, None, costs, passed_over),
-    })
+    let planned = Planned::new(&scene, &decision);
+    let Planned { model, solver, scheme, method, tolerance, points, expected_error, expected_cost_ns, .. } = planned;
+    let passed_over = planned.passed_over.into_iter().map(|other| (other.model, other.why)).collect();
+    Ok((model, solver, scheme, method, tolerance, points, (expected_error, expected_cost_ns), passed_over))
 }
 
 /// What may be wanted.

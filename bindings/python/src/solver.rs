@@ -144,7 +144,7 @@ impl Solver {
 }
 
 /// The tolerance of an adaptive scheme.
-pub(crate) fn tolerance_of(stepping: Stepping) -> Option<f64> {
+fn tolerance_of(stepping: Stepping) -> Option<f64> {
     match stepping.control() {
         StepControl::Tolerance(tolerance) => Some(tolerance),
         StepControl::Step(_) => None,

@@ -122,7 +122,7 @@ mod tests {
         let landed = Attitude::from_components([0.5, -0.1, 0.7, 0.4]).unwrap();
         let landing = answering(move || Ok(landed)).land(&toss).unwrap();
         assert_eq!((landing.state.attitude, landing.cos_tilt), (landed, landed.cos_tilt()));
-        let momentum = |state: &State| crate::body_rate::angular_momentum_tf(&Coin::PAPER, state);
+        let momentum = |state: &State| state.attitude.body_to_lab(&toss.body.angular_momentum(&state.rate));
         let launched = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
         let (before, after) = (momentum(&launched), momentum(&landing.state));
         // The component along the normal is that of the launch whatever the attitude is.

@@ -13,7 +13,7 @@ use std::str::FromStr;
 use crate::coin::Coin;
 use crate::error::{InputError, find_named};
 
-pub use bodies::{BODIES, BodyEntry, Relief, Shape, named_body};
+pub use bodies::{BODIES, Entry, Relief, Shape, entries, named_body};
 
 const US_MINT: &str = "United States Mint, Coin Specifications, \
                        https://www.usmint.gov/learn/coins-and-medals/circulating-coins/coin-specifications";
@@ -21,69 +21,24 @@ const EU_COUNCIL: &str = "Council Regulation (EU) No 729/2014, Annex I, Official
 const PAPER: &str = "\"Modeling the unfair toss of an unbiased coin\": I1 = 5e-7, I3 = I1/2";
 const FLAT: &str = "the limit h = 0 of a cylinder, I3 = 2 I1, with the paper's I1";
 
-/// How the moments of inertia of an entry are given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Body {
-    /// A coin given by its moments.
-    Moments(Coin),
-    /// A real coin, taken as a homogeneous cylinder, in the units in which mints publish it.
-    Cylinder {
-        /// Mass (g).
-        mass_g: f64,
-        /// Diameter (mm).
-        diameter_mm: f64,
-        /// Thickness (mm).
-        thickness_mm: f64,
-    },
-}
-
-/// A coin with a name.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CatalogueEntry {
-    /// Its name, as `us-quarter`.
-    pub name: &'static str,
-    /// A short description.
-    pub description: &'static str,
-    /// Its moments of inertia.
-    pub body: Body,
-    /// Where its figures are published.
-    pub source: &'static str,
-}
-
-impl CatalogueEntry {
-    /// The coin of this entry.
-    ///
-    /// # Errors
-    /// As [`Coin::from_cylinder`]; none for the entries of [`CATALOGUE`], as a test confirms.
-    pub fn coin(&self) -> Result<Coin, InputError> {
-        match self.body {
-            Body::Moments(coin) => Ok(coin),
-            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => {
-                Coin::from_cylinder(mass_g / 1e3, diameter_mm / 2e3, thickness_mm / 1e3)
-            }
-        }
-    }
-}
-
-const fn preset(name: &'static str, description: &'static str, coin: Coin, source: &'static str) -> CatalogueEntry {
-    CatalogueEntry { name, description, body: Body::Moments(coin), source }
+const fn preset(name: &'static str, description: &'static str, moments: [f64; 3], source: &'static str) -> Entry {
+    Entry { name, description, shape: Shape::Moments(moments), source }
 }
 
 /// An entry for a real coin; `figures` are its mass (g), diameter (mm) and thickness (mm).
 const fn real(
     name: &'static str,
     description: &'static str,
-    figures: (f64, f64, f64),
+    (mass_g, diameter_mm, thickness_mm): (f64, f64, f64),
     source: &'static str,
-) -> CatalogueEntry {
-    let (mass_g, diameter_mm, thickness_mm) = figures;
-    CatalogueEntry { name, description, body: Body::Cylinder { mass_g, diameter_mm, thickness_mm }, source }
+) -> Entry {
+    Entry { name, description, shape: Shape::Cylinder { mass_g, diameter_mm, thickness_mm }, source }
 }
 
 /// All coins that can be chosen by name.
-pub const CATALOGUE: &[CatalogueEntry] = &[
-    preset("paper", "the paper's moments (a rod with h = 3 r)", Coin::PAPER, PAPER),
-    preset("disc", "a flat disc with the paper's I1", Coin::DISC, FLAT),
+pub const CATALOGUE: &[Entry] = &[
+    preset("paper", "the paper's moments (a rod with h = 3 r)", [5e-7, 5e-7, 2.5e-7], PAPER),
+    preset("disc", "a flat disc with the paper's I1", [5e-7, 5e-7, 1e-6], FLAT),
     real("us-cent", "1 US cent", (2.500, 19.05, 1.52), US_MINT),
     real("us-nickel", "5 US cents", (5.000, 21.21, 1.95), US_MINT),
     real("us-dime", "10 US cents", (2.268, 17.91, 1.35), US_MINT),
@@ -126,14 +81,17 @@ mod tests {
     #[test]
     fn every_entry_is_a_coin_and_its_name_is_unique() {
         for (index, entry) in CATALOGUE.iter().enumerate() {
-            assert!(entry.coin().is_ok(), "{}", entry.name);
+            assert_eq!(entry.coin(), entry.name.parse(), "{}", entry.name);
             assert!(CATALOGUE[..index].iter().all(|other| other.name != entry.name), "{}", entry.name);
         }
+        assert_eq!(["paper", "disc"].map(str::parse), [Ok(Coin::PAPER), Ok(Coin::DISC)]);
+        let unknown = named_coin("doubloon").unwrap_err().to_string();
+        assert!(unknown.contains("known: paper, disc, us-cent, ") && unknown.ends_with(", euro-2"), "{unknown}");
     }
 
     #[test]
     fn has_at_least_twelve_real_coins_with_inertia_ratios_of_thin_discs() {
-        let real = CATALOGUE.iter().filter(|entry| matches!(entry.body, Body::Cylinder { .. }));
+        let real = CATALOGUE.iter().filter(|entry| matches!(entry.shape, Shape::Cylinder { .. }));
         let ratios: Vec<f64> = real.map(|entry| entry.coin().unwrap().inertia_ratio()).collect();
         assert!(ratios.len() >= 12);
         assert!(ratios.iter().all(|ratio| (1.95..2.0).contains(ratio)), "{ratios:?}");

@@ -214,8 +214,25 @@ mod tests {
             ([0.01, 0.01, -1e-9], "thickness [m]"),
             ([f64::NAN, 0.01, 0.001], "mass [kg]"),
             ([1e-300, 1e-10, 0.0], "I1 [kg m²]"),
+            ([1e300, 1e300, 1.0], "I1 [kg m²]"),
         ] {
             assert_eq!(Coin::from_cylinder(mass, radius, thickness).unwrap_err().field(), field);
+        }
+    }
+
+    #[test]
+    fn moments_are_taken_up_to_the_ends_of_their_ranges() {
+        for (i1, i3) in [(1.0, 2.0), (1.0, 0.0), (1.0, 1.0), (f64::MIN_POSITIVE, 0.0), (1e300, 2e300)] {
+            assert!(Coin::from_moments(i1, i3).is_ok(), "{i1}, {i3}");
+        }
+        for (i1, i3, message) in [
+            (0.0, 0.0, "I1 [kg m²] = 0.0 is outside"),
+            (-1.0, 1.0, "I1 [kg m²] = -1.0 is outside"),
+            (1.0, -1e-300, "I3 [kg m²] = -1e-300 is outside its valid range: 0 <= I3 <= 2 I1"),
+            (1.0, 2.000_000_000_000_001, "I3 [kg m²] = 2.000000000000001 is outside"),
+        ] {
+            let refused = Coin::from_moments(i1, i3).unwrap_err().to_string();
+            assert!(refused.starts_with(message), "{refused}");
         }
     }
 }

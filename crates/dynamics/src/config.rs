@@ -61,7 +61,7 @@ impl SolverConfig {
         self.with_control(StepControl::Step(step))
     }
 
-    pub(crate) fn with_control(self, control: StepControl) -> Result<Self, InputError> {
+    fn with_control(self, control: StepControl) -> Result<Self, InputError> {
         // Every scheme has the ranges of this one.
         Stepping::new(Stepping::DEFAULT.scheme(), Some(control))?;
         Ok(Self { control: Some(control), ..self })

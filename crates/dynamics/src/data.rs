@@ -1,4 +1,4 @@
-//! Reading and writing of coins, bodies, launches, states, settings and outcomes with serde, for configuration files and records.
+//! Reading and writing of coins, bodies, launches and choices of solvers with serde, for configuration files.
 //! Input is first read into plain structs and then converted by the constructors of these types, so that a file cannot make
 //! an invalid value. What was written is read back as the same value, to the bit.
 //!
@@ -19,15 +19,9 @@
 //!
 //! | type | as plain data |
 //! |---|---|
-//! | [`Settings`](crate::Settings) | `{ scheme = "dop853", tolerance = 1e-9, formulation = "momentum" }`, or `step` (s) |
-//! | [`Stepping`](crate::Stepping) | the same without `formulation` |
-//! | [`SolverConfig`](crate::SolverConfig) | the same with the `name` of a solver |
-//! | [`Scheme`](crate::Scheme), [`Formulation`](crate::Formulation), [`Outcome`](crate::Outcome) | the name |
-//! | [`Given`](crate::quantity::Given) | a text with a unit |
-//! | [`TimeOfFlight`] | `{ speed, gravity, drop }` or `{ time }`, as in a launch |
+//! | [`SolverConfig`](crate::SolverConfig) | `{ name = "quaternion", scheme = "dop853", tolerance = 1e-9, formulation = "momentum" }`, or `step` (s) |
+//! | [`Formulation`](crate::Formulation) | the name; so are outcomes written |
 //! | [`Attitude`](crate::Attitude) | `[w, x, y, z]`, `{ tilt = 0.3 }` or `{ unit_quaternion = [w, x, y, z] }` |
-//! | [`State`](crate::State) | `{ attitude, rate = [ωx, ωy, ωz] }` (BF, rad/s) |
-//! | [`EulerAngles`](crate::EulerAngles) | `{ alpha, beta, gamma }` (rad) |
 //!
 //! Drag and bounce are outside the model. They are fields of a launch nevertheless, so that they are refused with the
 //! reason instead of as an "unknown field".
@@ -35,7 +29,7 @@
 //! serde_json reads numbers to the last bit only with its feature `float_roundtrip`.
 
 #[cfg(feature = "serde")]
-pub(crate) mod attitude;
+mod attitude;
 #[cfg(feature = "serde")]
 mod coin;
 #[cfg(feature = "serde")]
@@ -46,8 +40,6 @@ mod number;
 pub(crate) mod settings;
 
 use crate::error::InputError;
-#[cfg(doc)]
-use crate::time_of_flight::TimeOfFlight;
 
 /// Why drag is refused.
 pub const NO_DRAG: InputError = InputError::OutsideModel {

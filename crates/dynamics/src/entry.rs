@@ -16,11 +16,6 @@ use crate::stepping::Stepping;
 
 /// The settings with which an entry makes its solver at run time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::settings::SettingsData", into = "crate::data::settings::SettingsData")
-)]
 pub struct Settings {
     /// How the solver steps; a closed form ignores it.
     pub stepping: Stepping,

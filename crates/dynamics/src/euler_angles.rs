@@ -17,11 +17,6 @@ use crate::attitude::Attitude;
 
 /// Euler angles z-x-z (rad). See the conventions of [this module](self).
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::attitude::AnglesData", into = "crate::data::attitude::AnglesData")
-)]
 pub struct EulerAngles {
     /// α, precession about the z axis of TF (transport frame).
     pub alpha: f64,

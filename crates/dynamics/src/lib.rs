@@ -46,7 +46,7 @@
 //!
 //! # Features
 //! Both are on by default. `integrators` has the Runge-Kutta driver ([`integrate`]). `serde` reads and writes coins, launches,
-//! states, settings and outcomes as plain data ([`data`]).
+//! choices of solvers and outcomes as plain data ([`data`]).
 
 pub mod adapter;
 pub mod attitude;

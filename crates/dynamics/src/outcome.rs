@@ -2,9 +2,6 @@
 //! normal and the vertical. A third value, undecided, is needed because the computed cos θ has an error.
 
 use std::fmt;
-use std::str::FromStr;
-
-use crate::error::{InputError, find_named};
 
 /// How the coin lands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,15 +48,6 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// Finds an outcome by its name.
-impl FromStr for Outcome {
-    type Err = InputError;
-
-    fn from_str(name: &str) -> Result<Self, InputError> {
-        find_named("outcome", name, &Self::ALL, |outcome| outcome.name()).copied()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,8 +65,6 @@ mod tests {
     #[test]
     fn outcomes_are_named() {
         assert_eq!(Outcome::ALL.map(Outcome::name), ["heads", "tails", "undecided"]);
-        assert_eq!(Outcome::ALL.map(|outcome| outcome.name().parse()), Outcome::ALL.map(Ok));
-        assert_eq!("edge".parse::<Outcome>().unwrap_err().field(), "outcome");
         assert_eq!(format!("{:>6}", Outcome::Tails), " tails");
     }
 }

@@ -5,6 +5,7 @@
 //! SI unit, or such a multiple of π.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use numerics::double_double::{DoubleDouble, two_sum};
 use numerics::scale::mantissa_and_exponent;
@@ -194,6 +195,13 @@ impl Given {
     }
 }
 
+/// Writes the number and its unit, as in `24.26mm`.
+impl fmt::Display for Given {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}{}", self.value, self.unit.name)
+    }
+}
+
 impl Dimension {
     fn row(self) -> Row {
         match self {
@@ -294,7 +302,6 @@ pub fn read_quantities(
     Ok(parsed.into_iter().map(|(given, _)| given).collect())
 }
 
-mod given;
 #[cfg(test)]
 mod tests;
 mod typed;

@@ -20,6 +20,7 @@ use crate::toss::Toss;
 
 /// The cost of a flight, as counts that are the same in every run and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Work {
     /// Evaluations of the right-hand side. For Taylor series, the number of coefficients of the state: one for each
     /// order of each step.

@@ -7,11 +7,6 @@ use crate::attitude::Attitude;
 
 /// Attitude and body rate at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::attitude::StateData", into = "crate::data::attitude::StateData")
-)]
 pub struct State {
     /// Attitude, from BF (body frame) to LF (laboratory frame).
     pub attitude: Attitude,

@@ -43,11 +43,6 @@ pub enum StepControl {
 
 /// A scheme and its step control. No constructor combines a scheme with a control that it does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::settings::SteppingData", into = "crate::data::settings::SteppingData")
-)]
 pub struct Stepping {
     scheme: Scheme,
     control: StepControl,

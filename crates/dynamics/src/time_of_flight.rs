@@ -20,11 +20,6 @@ const SMALLEST_PRODUCT: f64 = 1e-250;
 
 /// How long the coin flies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::launch::TimeData", into = "crate::data::launch::TimeData")
-)]
 pub enum TimeOfFlight {
     /// Thrown up at `speed` (m/s) under `gravity` (m/s²) and caught at the height of the launch: T = 2 v0/g.
     Ballistic {

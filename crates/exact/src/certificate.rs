@@ -3,10 +3,8 @@
 //! as a proven one.
 
 use std::fmt;
-use std::str::FromStr;
 
-use dynamics::error::find_named;
-use dynamics::{InputError, Outcome};
+use dynamics::Outcome;
 
 /// The stage of the proof that decided an outcome, from the cheapest to the most accurate; see
 /// [`certified`](crate::certified).
@@ -34,15 +32,6 @@ impl Stage {
 impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-/// Finds a stage by its name.
-impl FromStr for Stage {
-    type Err = InputError;
-
-    fn from_str(name: &str) -> Result<Self, InputError> {
-        find_named("stage", name, &Self::ALL, |stage| stage.name()).copied()
     }
 }
 

@@ -17,15 +17,11 @@
 //!
 //! Symbols and frames are those of the crate [`dynamics`]: BF is the body frame, LF the laboratory frame. The crates of
 //! the integrators do not depend on this crate.
-//!
-//! The feature `serde`, on by default, writes certificates, margins and sensitivities as plain data.
 
 pub mod batch;
 pub mod certificate;
 pub mod certified;
 pub mod compensated;
-#[cfg(feature = "serde")]
-mod data;
 mod given;
 pub mod heads;
 pub mod margin;

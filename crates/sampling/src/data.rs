@@ -1,5 +1,4 @@
-//! Plans and estimates as plain data, for configuration files and records. What is read is checked like what is
-//! computed, and what was proven is written as proven, but never read as such: a file proves nothing.
+//! Plans as plain data, for configuration files and records. What is read is checked like what a program makes.
 //!
 //! ```toml
 //! method = "sobol"        # or grid; random; exact-speed, which without points takes the grid of the other coordinates
@@ -7,19 +6,15 @@
 //! scrambles = 8           # this and the seed are the defaults
 //! seed = 1
 //! ```
-//! An enclosure has an `accuracy` instead of these numbers. The interval that it proves is written as proven and read as claimed.
+//! An enclosure has an `accuracy` instead of these numbers.
 
 use dynamics::InputError;
 use dynamics::error::require;
-use exact::ProvenCounts;
-use serde::de::{Error, IgnoredAny};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::coordinate::Coordinate;
-use crate::counts::Counts;
 use crate::enclosure::require_accuracy;
-use crate::estimate::{Estimate, Found, IntervalKind};
-use crate::interval::Interval;
 use crate::plan::{Method, Plan, Rest, SCRAMBLES, Scrambled};
 
 /// Seeds as plain data: a number or its digits as a text. A seed above 2^53 is written as a text, because many readers of JSON
@@ -165,113 +160,6 @@ impl From<Plan> for PlanData {
                 Self { points: Some(points), scrambles: Some(scrambles), seed: Some(seed), ..none }
             }
         }
-    }
-}
-
-/// An interval as it stands in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct IntervalData {
-    lo: f64,
-    hi: f64,
-}
-
-impl TryFrom<IntervalData> for Interval {
-    type Error = InputError;
-
-    fn try_from(IntervalData { lo, hi }: IntervalData) -> Result<Self, InputError> {
-        require("hi", hi, "from 0 to 1", (0.0..=1.0).contains(&hi))?;
-        require("lo", lo, "from 0 to hi", (0.0..=hi).contains(&lo))?;
-        Ok(Self { lo, hi })
-    }
-}
-
-impl From<Interval> for IntervalData {
-    fn from(Interval { lo, hi }: Interval) -> Self {
-        Self { lo, hi }
-    }
-}
-
-/// Numbers of launches by their outcome, as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct CountsData {
-    heads: u64,
-    tails: u64,
-    undecided: u64,
-    /// Written, and not believed when it is read.
-    #[serde(default, deserialize_with = "none", skip_serializing_if = "Option::is_none")]
-    proven: Option<ProvenCounts>,
-}
-
-fn none<'de, D: Deserializer<'de>>(from: D) -> Result<Option<ProvenCounts>, D::Error> {
-    IgnoredAny::deserialize(from).map(|_| None)
-}
-
-/// An estimate as it stands in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct EstimateData {
-    probability: f64,
-    points: u64,
-    interval_kind: IntervalKind,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    interval: Option<Interval>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rounding_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    counts: Option<CountsData>,
-}
-
-impl TryFrom<EstimateData> for Estimate {
-    type Error = InputError;
-
-    fn try_from(data: EstimateData) -> Result<Self, InputError> {
-        let EstimateData { probability, points, interval_kind, interval, rounding_error, counts } = data;
-        require("probability", probability, "from 0 to 1", (0.0..=1.0).contains(&probability))?;
-        let has_interval = !matches!(interval_kind, IntervalKind::Grid | IntervalKind::OneScramble);
-        if has_interval != interval.is_some() {
-            let expected = "an interval, unless the kind is grid or one-scramble";
-            return Err(InputError::Malformed { field: "interval", value: format!("{interval:?}"), expected });
-        }
-        let found = match (counts, rounding_error) {
-            (Some(counts), None) => Found::Counts(counted(&counts, points, probability)?),
-            (None, Some(rounding_error)) => {
-                require("rounding_error", rounding_error, "finite and >= 0", rounding_error >= 0.0)?;
-                Found::Shares { rounding_error }
-            }
-            _ => return Err(InputError::Missing { field: "counts", expected: "either counts or a rounding_error" }),
-        };
-        Ok(Self { probability, interval, interval_kind, points, found })
-    }
-}
-
-/// The counts, as estimated ones, if they belong to these `points` and this `probability`.
-fn counted(data: &CountsData, points: u64, probability: f64) -> Result<Counts, InputError> {
-    let counts = Counts::estimated(data.heads, data.tails, data.undecided);
-    let sum = [data.tails, data.undecided].into_iter().try_fold(data.heads, u64::checked_add);
-    if sum != Some(points) || points == 0 {
-        let expected = "the sum of heads, tails and undecided, at least 1";
-        return Err(InputError::Malformed { field: "points", value: points.to_string(), expected });
-    }
-    require("probability", probability, "heads/points", probability == counts.probability())?;
-    Ok(counts)
-}
-
-impl From<Estimate> for EstimateData {
-    fn from(Estimate { probability, points, interval, interval_kind, found }: Estimate) -> Self {
-        let (counts, rounding_error) = match found {
-            Found::Counts(counts) => (Some(counts.into()), None),
-            Found::Shares { rounding_error } => (None, Some(rounding_error)),
-        };
-        Self { probability, points, interval_kind, interval, rounding_error, counts }
-    }
-}
-
-impl From<Counts> for CountsData {
-    fn from(counts: Counts) -> Self {
-        let proven = Some(counts.proven()).filter(|proven| proven.total() > 0);
-        Self { heads: counts.heads(), tails: counts.tails(), undecided: counts.undecided(), proven }
     }
 }
 

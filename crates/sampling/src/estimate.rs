@@ -22,7 +22,6 @@ pub const LEVEL: f64 = 0.95;
 
 /// The meaning of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum IntervalKind {
     /// There is no interval, because the points are a grid.
     Grid,
@@ -41,11 +40,7 @@ pub enum IntervalKind {
     /// A bound on the rounding error, because nothing was sampled.
     Rounding,
     /// A proof: the probability lies between both ends.
-    #[cfg_attr(feature = "serde", serde(skip_deserializing))]
     Proven,
-    /// An interval that a file says was proven. A file proves nothing.
-    #[cfg_attr(feature = "serde", serde(alias = "proven"))]
-    Claimed,
 }
 
 impl fmt::Display for IntervalKind {
@@ -59,18 +54,12 @@ impl fmt::Display for IntervalKind {
             Self::Unanimous => f.write_str("clopper-pearson 95 %, all points agree"),
             Self::Rounding => f.write_str("rounding error"),
             Self::Proven => f.write_str("proven"),
-            Self::Claimed => f.write_str("proven, as a file says"),
         }
     }
 }
 
 /// An estimate of the probability of heads.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::EstimateData", into = "crate::data::EstimateData")
-)]
 pub struct Estimate {
     /// Estimated probability of heads, from 0 to 1.
     pub probability: f64,

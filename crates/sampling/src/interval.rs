@@ -36,11 +36,6 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// An interval of probabilities within [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "crate::data::IntervalData", into = "crate::data::IntervalData")
-)]
 pub struct Interval {
     /// Lower end.
     pub lo: f64,

@@ -12,8 +12,8 @@
 //!
 //! # Features
 //! Both are on by default. `rayon` solves launches on all threads of rayon's current pool; without it they are solved on one,
-//! with the same result. `serde` reads and writes plans, spaces, tallies and estimates as plain data, and has the spaces that come by
-//! name or from a TOML file.
+//! with the same result. `serde` reads and writes plans, spaces and tallies as plain data, and has the spaces that come by name or
+//! from a TOML file.
 
 pub mod axis;
 mod block;

@@ -125,6 +125,8 @@ mod tests {
                 && named.space.coin() == Some(Coin::PAPER)
                 && named_space(name) == Ok(named.space)
         }));
+        let unknown = named_space("moon").unwrap_err().to_string();
+        assert!(unknown.contains("known: paper-fig4, cheated, tails"), "{unknown}");
     }
 
     #[test]

@@ -9,10 +9,8 @@ use sampling::Estimate;
 
 use crate::trace::TracePoint;
 
-/// The answer to a [`Want`](crate::Want), of the same kind. It is written as plain data and not read, because it may hold a
-/// proof, and a file proves nothing.
+/// The answer to a [`Want`](crate::Want), of the same kind.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum Answer {
     /// Heads or tails, proven or estimated.
     Outcome(Verdict),
@@ -23,7 +21,6 @@ pub enum Answer {
     /// The flight at equally spaced times.
     Trace(Vec<TracePoint>),
     /// cos θ and the attitude at landing by an integration, with proven bounds of their errors.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::data::enclosed"))]
     Enclosed(Box<IntegratedCertificate>),
     /// The probability of heads.
     Probability(Box<Estimate>),

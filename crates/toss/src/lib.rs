@@ -214,15 +214,13 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `serde` | settings, tosses, plans and answers as plain data; spaces of launches by name or from a file |
+//! | `serde` | solver settings, tosses, scenes, spaces, plans and tallies as plain data; reports of answers; spaces of launches by name or from a file |
 //! | `rayon` | samples on all threads |
 //!
 //! The folder `examples` answers further questions, such as which launches are fair and how much people's coins wobble.
 
 mod answer;
 mod choice;
-#[cfg(feature = "serde")]
-mod data;
 mod integrators;
 mod model;
 mod plan;

@@ -274,11 +274,6 @@ impl Model {
         MODELS.iter().position(|other| other == self).unwrap_or(MODELS.len())
     }
 
-    /// Whether it is for bodies with I1 ≠ I2, and not for coins.
-    pub fn is_for_other_bodies(&self) -> bool {
-        self.of == Of::Others
-    }
-
     /// Whether it is a closed form, which takes no steps and no samples.
     pub fn is_closed_form(&self) -> bool {
         matches!(self.kind, Kind::ClosedForm { .. })

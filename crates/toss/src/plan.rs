@@ -80,20 +80,12 @@ impl Scene {
         self.by.as_ref().filter(|by| by.prove)
     }
 
-    /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of
-    /// [`Registry::standard`] are among them, whether the scene asks for one or not. All of them are flown.
-    ///
-    /// # Errors
-    /// As for [`Scene::plan`].
-    pub fn candidates(&self) -> Result<Vec<(Candidate, Offer)>, Error> {
-        self.candidates_with(Registry::standard())
-    }
-
-    /// The offers of all models to the scene, with the integrators of `registry`.
+    /// The offers of all models to the scene, in the order of [`MODELS`]. For a toss, all integrators of `registry` are
+    /// among them, whether the scene asks for one or not. All of them are flown.
     ///
     /// # Errors
     /// As for [`Scene::plan_with`].
-    pub fn candidates_with(&self, registry: &Registry) -> Result<Vec<(Candidate, Offer)>, Error> {
+    pub fn candidates(&self, registry: &Registry) -> Result<Vec<(Candidate, Offer)>, Error> {
         self.validate()?;
         let Some(toss) = self.want.toss() else { return Ok(samples(self)?) };
         let of = Of::body(&toss.body);
@@ -107,48 +99,28 @@ impl Scene {
     /// The [`Error`] of the plan or of the solver.
     #[inline]
     pub fn solve(&self) -> Result<Solution, Error> {
-        self.solve_with(Registry::standard())
-    }
-
-    /// Answers the scene by the model that [`Scene::plan_with`] chooses.
-    ///
-    /// # Errors
-    /// The [`Error`] of the plan or of the solver.
-    #[inline]
-    pub fn solve_with(&self, registry: &Registry) -> Result<Solution, Error> {
         match &self.want {
             // A shortcut: an outcome has one model, and planning would cost more than the answer.
             Want::Outcome(toss @ Toss { body: Body::Coin(_), .. }) if self.by.is_none() && self.accuracy > 0.0 => {
                 Ok(Solution { answer: Answer::Outcome(Verdict::Proven(certify(toss)?)), model: &MODELS[0] })
             }
-            _ => self.solve_as_planned(registry),
+            _ => self.solve_as_planned(),
         }
     }
 
     #[inline(never)]
-    fn solve_as_planned(&self, registry: &Registry) -> Result<Solution, Error> {
-        let (choice, answer) = self.choose_and_run(registry)?;
+    fn solve_as_planned(&self) -> Result<Solution, Error> {
+        let (choice, answer) = self.choose_and_run(Registry::standard(), &|_| {})?;
         Ok(Solution { answer, model: choice.model })
     }
 
     /// Answers the scene by the model that [`Scene::plan_with`] chooses, and returns that choice with the answer. A model
     /// that turns out not to reach the accuracy for a space, by its rule or because of rounding, gives way to the next.
+    /// `progress` is called as by [`sampling::Sampler::on_progress`] while launches are sampled.
     ///
     /// # Errors
     /// The [`Error`] of the plan or of the solver; [`Error::NotReached`] if no model reaches the accuracy.
-    pub fn choose_and_run(&self, registry: &Registry) -> Result<(Choice, Answer), Error> {
-        self.choose_and_run_reporting(registry, &|_| {})
-    }
-
-    /// As [`Scene::choose_and_run`]. `progress` is called as by [`sampling::Sampler::on_progress`] while launches are sampled.
-    ///
-    /// # Errors
-    /// As [`Scene::choose_and_run`].
-    pub fn choose_and_run_reporting(
-        &self,
-        registry: &Registry,
-        progress: Progress<'_>,
-    ) -> Result<(Choice, Answer), Error> {
+    pub fn choose_and_run(&self, registry: &Registry, progress: Progress<'_>) -> Result<(Choice, Answer), Error> {
         let mut choice = self.plan_with(registry)?.choice;
         let mut failed = Vec::new();
         loop {

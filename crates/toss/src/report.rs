@@ -2,16 +2,19 @@
 //! in the browser, and yours. A report only reads what was computed, and nothing is read back from it.
 
 use dynamics::{
-    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, TimeOfFlight, Toss,
-    Work,
+    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, StepControl,
+    TimeOfFlight, Toss, Work,
 };
 use exact::{ExactSolver, Sensitivity, Stage};
 use kinematics_quat::{IntegratedCounts, Integration, QuaternionSolver};
 use sampling::{Counts, Found, IntervalKind, LargestSpread, Plan, Rest, Scrambled, SufficientSpread};
 use serde::{Serialize, Serializer};
 
+use crate::choice::{Candidate, Choice, Decision, How};
+use crate::reason::Reason;
 use crate::registry::{Backend, Registry};
 use crate::rounding::Rounding;
+use crate::scene::{Scene, Want};
 
 /// The moments of a body (kg m²).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -77,18 +80,7 @@ pub struct Landing {
     /// The scheme of an integrator.
     pub scheme: Option<&'static str>,
     /// What it cost.
-    pub work: Steps,
-}
-
-/// The work of an integrator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Steps {
-    /// Evaluations of the right-hand side.
-    pub rhs_calls: u64,
-    /// Steps that were accepted.
-    pub accepted_steps: u64,
-    /// Steps that were rejected.
-    pub rejected_steps: u64,
+    pub work: Work,
 }
 
 /// The derivatives of cos θ at landing.
@@ -208,7 +200,6 @@ impl Landing {
         outcome: Outcome,
         with_margin: bool,
     ) -> Result<Self, SolveError> {
-        let Work { rhs_calls, accepted_steps, rejected_steps } = landed.work;
         let is_coin = toss.body.coin().is_some();
         Ok(Self {
             coin: Moments::from(&toss.body),
@@ -228,7 +219,7 @@ impl Landing {
             norm_error: landed.norm_error,
             solver: solver.name().to_owned(),
             scheme: solver.stepping().map(|stepping| stepping.scheme().name()),
-            work: Steps { rhs_calls, accepted_steps, rejected_steps },
+            work: landed.work,
         })
     }
 
@@ -347,8 +338,8 @@ pub fn candidates(
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Estimate {
     /// The counts of outcomes, if launches were counted.
-    #[serde(flatten)]
-    pub counts: Option<Outcomes>,
+    #[serde(flatten, serialize_with = "outcomes")]
+    pub counts: Option<Counts>,
     /// Number of launches.
     pub points: u64,
     /// The probability of heads.
@@ -377,15 +368,9 @@ pub struct Estimate {
     pub method: &'static str,
 }
 
-/// The counts of outcomes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Outcomes {
-    /// How many land heads.
-    pub heads: u64,
-    /// How many land tails.
-    pub tails: u64,
-    /// How many are undecided.
-    pub undecided: u64,
+fn outcomes<S: Serializer>(counts: &Option<Counts>, to: S) -> Result<S::Ok, S::Error> {
+    let named = |of: &Counts| [("heads", of.heads()), ("tails", of.tails()), ("undecided", of.undecided())];
+    to.collect_map(counts.iter().flat_map(named))
 }
 
 fn as_map<S: Serializer>(counts: &Option<Vec<(&'static str, u64)>>, to: S) -> Result<S::Ok, S::Error> {
@@ -411,10 +396,8 @@ impl Estimate {
         let names = ["f64", "double_double", "multiprecision"];
         let by_stage =
             proven.map(|proven| names.into_iter().zip(Stage::ALL.map(|stage| proven.by(stage))).collect::<Vec<_>>());
-        let outcomes =
-            |counts: Counts| Outcomes { heads: counts.heads(), tails: counts.tails(), undecided: counts.undecided() };
         Self {
-            counts: counts.map(outcomes),
+            counts,
             points: found.points,
             probability: found.probability,
             error_bound,
@@ -444,6 +427,69 @@ fn seed_of(plan: Plan) -> Option<u64> {
         Plan::Grid | Plan::ExactSpeed(Rest::Grid) | Plan::Enclosure { .. } => None,
         Plan::Random { seed, .. } => Some(seed),
         Plan::Sobol(Scrambled { seed, .. }) | Plan::ExactSpeed(Rest::Sobol(Scrambled { seed, .. })) => Some(seed),
+    }
+}
+
+/// The model that a plan takes, and the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Planned {
+    /// Name of the model.
+    pub model: &'static str,
+    /// Name of the solver.
+    pub solver: String,
+    /// The scheme of an integrator.
+    pub scheme: Option<&'static str>,
+    /// The method by which a sample chooses its launches.
+    pub method: Option<&'static str>,
+    /// The tolerance of an integrator.
+    pub tolerance: Option<f64>,
+    /// The number of launches of a sample. The cells of an enclosure are not numbered before.
+    pub points: Option<u64>,
+    /// The error to expect.
+    pub expected_error: f64,
+    /// Whether no error is larger than that.
+    pub certified: bool,
+    /// The cost to expect (ns).
+    pub expected_cost_ns: f64,
+    /// The other models.
+    pub passed_over: Vec<PassedOver>,
+}
+
+/// A model that a plan does not take.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PassedOver {
+    /// Name of the model, or `solver/scheme`.
+    pub model: String,
+    /// The reason in words.
+    pub why: String,
+}
+
+impl Planned {
+    /// The `decision` on the plan of `scene`.
+    pub fn new(scene: &Scene, decision: &Decision) -> Self {
+        let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
+        let (integrator, plan) = match how {
+            How::ClosedForm => (None, None),
+            How::Integrator(entry, stepping) => (Some((entry, *stepping)), None),
+            How::Sampling(plan) => (None, Some(*plan)),
+        };
+        let space = if let Want::Probability(space) = &scene.want { Some(space) } else { None };
+        let other = |(model, why): &(Candidate, Reason)| PassedOver { model: model.to_string(), why: why.to_string() };
+        Self {
+            model: model.name,
+            solver: integrator.map_or(ExactSolver::NAME, |(entry, _)| entry.name()).to_owned(),
+            scheme: integrator.map(|(_, stepping)| stepping.scheme().name()),
+            method: plan.map(|plan| plan.method().name()),
+            tolerance: integrator.and_then(|(_, stepping)| match stepping.control() {
+                StepControl::Tolerance(tolerance) => Some(tolerance),
+                StepControl::Step(_) => None,
+            }),
+            points: plan.zip(space).and_then(|(plan, space)| plan.points(space).ok()),
+            expected_error: *expected_error,
+            certified: scene.by.as_ref().is_some_and(|by| by.prove),
+            expected_cost_ns: *expected_cost_ns,
+            passed_over: decision.passed_over.iter().map(other).collect(),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use chart::{Axis, ChartError, Drawn, FAINT, GREY, Panel, TEXT, centred, frame, p
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use toss::catalogue::{BODIES, CATALOGUE};
+use toss::catalogue::entries;
 use toss::{Attitude, Body, CoinMotion, ExactMotion, Outcome, TimeOfFlight, Toss, TracePoint, Vector3};
 
 use crate::chart::solid::{EDGE, Seen, Solid, TAILS, draw_cuboid, end_of, project};
@@ -61,16 +61,16 @@ fn rounded(value: f64) -> f64 {
 
 /// The body's name in the catalogue, if it has one, and what decides its motion.
 pub(crate) fn named(body: &Body) -> String {
+    let entry = entries().find(|entry| entry.body().is_ok_and(|other| other == *body));
+    let name = |kind: &str| {
+        entry.map_or_else(|| format!("A {}", kind.to_lowercase()), |entry| format!("{kind} '{}'", entry.name))
+    };
     if let Some(coin) = body.coin() {
-        let named = CATALOGUE.iter().find(|entry| entry.coin().is_ok_and(|other| other == coin));
-        let name = named.map_or_else(|| "A coin".to_owned(), |entry| format!("Coin '{}'", entry.name));
-        return format!("{name} (k = {})", rounded(coin.inertia_ratio()));
+        return format!("{} (k = {})", name("Coin"), rounded(coin.inertia_ratio()));
     }
-    let named = BODIES.iter().find(|entry| entry.body().is_ok_and(|other| other == *body));
-    let name = named.map_or_else(|| "A body".to_owned(), |entry| format!("Body '{}'", entry.name));
     let moments = body.moments().unwrap_or_else(|| body.principal_moments());
     let [one, two, three] = moments.map(|moment| rounded(moment / body.principal_moments()[2]));
-    format!("{name} (moments {one} : {two} : {three})")
+    format!("{} (moments {one} : {two} : {three})", name("Body"))
 }
 
 fn draw_tilt(panel: &Panel<'_>, flight: &[TracePoint]) -> Drawn {

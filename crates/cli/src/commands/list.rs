@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use sampling::{Coordinate, DescribedSpace, named_spaces};
 use serde::Serialize;
-use toss::catalogue::{BODIES, Body, BodyEntry, CATALOGUE, CatalogueEntry, Shape};
+use toss::catalogue::{Entry, Shape, entries};
 use toss::planner::{MODELS, Model};
 use toss::report::Moments;
 use toss::{Registry, SolverEntry};
@@ -37,31 +37,19 @@ struct CoinLine {
 }
 
 impl CoinLine {
-    fn of(entry: &CatalogueEntry) -> Result<Self, Failure> {
-        let size = match entry.body {
-            Body::Cylinder { mass_g, diameter_mm, thickness_mm } => [mass_g, diameter_mm, thickness_mm].map(Some),
-            Body::Moments(_) => [None; 3],
-        };
-        Ok(Self::new((entry.name, entry.description, entry.source), size, entry.coin()?.into()))
-    }
-
-    fn of_body(entry: &BodyEntry) -> Result<Self, Failure> {
-        let size = match entry.shape {
-            Shape::Engraved { mass_g, diameter_mm, thickness_mm, .. } => [mass_g, diameter_mm, thickness_mm].map(Some),
+    fn of(entry: &Entry) -> Result<Self, Failure> {
+        let [mass_g, diameter_mm, thickness_mm] = match entry.shape {
+            Shape::Cylinder { mass_g, diameter_mm, thickness_mm }
+            | Shape::Engraved { mass_g, diameter_mm, thickness_mm, .. } => {
+                [mass_g, diameter_mm, thickness_mm].map(Some)
+            }
             Shape::Cuboid { mass_g, .. } => [Some(mass_g), None, None],
             Shape::Moments(_) => [None; 3],
         };
-        Ok(Self::new((entry.name, entry.description, entry.source), size, entry.body()?))
-    }
-
-    fn new(
-        (name, description, source): (&'static str, &'static str, &'static str),
-        [mass_g, diameter_mm, thickness_mm]: [Option<f64>; 3],
-        body: toss::Body,
-    ) -> Self {
-        let (Moments { i1, i2, i3, inertia }, inertia_ratio) =
-            (Moments::from(&body), body.coin().map(|coin| coin.inertia_ratio()));
-        Self { name, description, mass_g, diameter_mm, thickness_mm, i1, i2, i3, inertia, inertia_ratio, source }
+        let (body, &Entry { name, description, source, .. }) = (entry.body()?, entry);
+        let Moments { i1, i2, i3, inertia } = Moments::from(&body);
+        let inertia_ratio = body.coin().map(|coin| coin.inertia_ratio());
+        Ok(Self { name, description, mass_g, diameter_mm, thickness_mm, i1, i2, i3, inertia, inertia_ratio, source })
     }
 
     fn cells(&self) -> [String; 9] {
@@ -76,8 +64,7 @@ impl CoinLine {
 pub(crate) fn coins(args: &Args, input: &Input) -> Result<String, Failure> {
     const HEADING: [&str; 9] =
         ["name", "mass/g", "diameter/mm", "thickness/mm", "I1/(kg m²)", "I2/(kg m²)", "I3/(kg m²)", "k", "what"];
-    let lines = CATALOGUE.iter().map(CoinLine::of).chain(BODIES.iter().map(CoinLine::of_body));
-    let lines = lines.collect::<Result<Vec<_>, _>>()?;
+    let lines = entries().map(CoinLine::of).collect::<Result<Vec<_>, _>>()?;
     let mut sources: Vec<&str> = lines.iter().map(|line| line.source).collect();
     sources.dedup();
     let sources = format!("\n\nsources:\n  {}", sources.join("\n  "));

@@ -3,10 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-use toss::planner::{Candidate, Decision, How, Integrator, Nanoseconds, Reason, WantKind};
+use toss::planner::{Integrator, Nanoseconds, WantKind};
+use toss::report::Planned;
 use toss::trace::MOST_POINTS;
-use toss::{Error, ExactSolver, QuaternionSolver, Registry, Scene, StepControl, Want};
+use toss::{Error, QuaternionSolver, Registry, Scene, Want};
 
 use crate::failure::Failure;
 use crate::output::{self, FormatArgs, Input, row, table};
@@ -54,30 +54,6 @@ pub(crate) struct Args {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Chosen {
-    model: &'static str,
-    solver: String,
-    /// The scheme of an integrator.
-    scheme: Option<&'static str>,
-    /// The method that chooses the launches of a sample.
-    method: Option<&'static str>,
-    tolerance: Option<f64>,
-    /// The number of launches of a sample.
-    points: Option<u64>,
-    expected_error: f64,
-    /// Whether no error is larger than that.
-    certified: bool,
-    expected_cost_ns: f64,
-    passed_over: Vec<PassedOver>,
-}
-
-#[derive(Serialize)]
-struct PassedOver {
-    model: String,
-    why: String,
-}
-
 impl Args {
     pub(crate) fn run(&self, registry: &Registry, input: &Input) -> Result<String, Failure> {
         let scene = match &self.scene {
@@ -85,8 +61,8 @@ impl Args {
             None => self.scene()?,
         };
         let decision = scene.plan_with(registry)?;
-        let chosen = Chosen::new(&scene, &decision)?;
-        Ok(self.format.print(input, &chosen, || chosen.text(decision.choice.model.gives)))
+        let planned = Planned::new(&scene, &decision);
+        Ok(self.format.print(input, &planned, || text(&planned, decision.choice.model.gives)))
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -136,63 +112,25 @@ fn scene_file(path: &Path) -> Result<Scene, Failure> {
     scene.map_err(|source| Failure::Text { path: path.display().to_string(), source })
 }
 
-impl Chosen {
-    fn new(scene: &Scene, decision: &Decision) -> Result<Self, Failure> {
-        let choice = &decision.choice;
-        let other = |(model, why): &(Candidate, Reason)| PassedOver { model: model.to_string(), why: why.to_string() };
-        let mut answer = Self {
-            model: choice.model.name,
-            solver: ExactSolver::NAME.to_owned(),
-            scheme: None,
-            method: None,
-            tolerance: None,
-            points: None,
-            expected_error: choice.expected_error,
-            certified: scene.by.as_ref().is_some_and(|by| by.prove),
-            expected_cost_ns: choice.expected_cost_ns,
-            passed_over: decision.passed_over.iter().map(other).collect(),
-        };
-        match (&choice.how, &scene.want) {
-            (How::Integrator(entry, stepping), _) => {
-                answer.solver = entry.name().to_owned();
-                answer.scheme = Some(stepping.scheme().name());
-                answer.tolerance = match stepping.control() {
-                    StepControl::Tolerance(tolerance) => Some(tolerance),
-                    StepControl::Step(_) => None,
-                };
-            }
-            (How::Sampling(plan), Want::Probability(space)) => {
-                answer.method = Some(plan.method().name());
-                answer.points = match plan {
-                    sampling::Plan::Enclosure { .. } => None,
-                    plan => Some(plan.points(space)?),
-                };
-            }
-            _ => {}
-        }
-        Ok(answer)
-    }
-
-    fn text(&self, gives: &str) -> String {
-        let mut settings = self.solver.clone();
-        settings.extend(self.scheme.or(self.method).map(|name| format!(", {name}")));
-        settings.extend(self.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
-        settings.extend(self.points.map(|points| format!(", {points} launches")));
-        let error = match self.expected_error {
-            0.0 => "none".to_owned(),
-            error if self.certified => format!("at most {}, proven", rounded_up(error)),
-            error => format!("{error:.1e}"),
-        };
-        let mut rows = vec![
-            row(["model", self.model, gives]),
-            row(["solver", &settings, ""]),
-            row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(self.expected_cost_ns))]),
-        ];
-        let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
-        let others = self.passed_over.iter().zip(heading);
-        rows.extend(others.map(|(other, heading)| row([heading, &other.model, &other.why])));
-        table(&rows)
-    }
+fn text(planned: &Planned, gives: &str) -> String {
+    let mut settings = planned.solver.clone();
+    settings.extend(planned.scheme.or(planned.method).map(|name| format!(", {name}")));
+    settings.extend(planned.tolerance.map(|tolerance| format!(", tolerance {tolerance:.2e}")));
+    settings.extend(planned.points.map(|points| format!(", {points} launches")));
+    let error = match planned.expected_error {
+        0.0 => "none".to_owned(),
+        error if planned.certified => format!("at most {}, proven", rounded_up(error)),
+        error => format!("{error:.1e}"),
+    };
+    let mut rows = vec![
+        row(["model", planned.model, gives]),
+        row(["solver", &settings, ""]),
+        row(["expected", &format!("error {error}"), &format!("in {}", Nanoseconds(planned.expected_cost_ns))]),
+    ];
+    let heading = std::iter::once("passed over").chain(std::iter::repeat(""));
+    let others = planned.passed_over.iter().zip(heading);
+    rows.extend(others.map(|(other, heading)| row([heading, &other.model, &other.why])));
+    table(&rows)
 }
 
 /// A bound > 0 with two digits, of which the last is rounded up.

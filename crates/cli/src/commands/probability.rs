@@ -134,9 +134,9 @@ impl Args {
         self.plan.require_none()?;
         self.space.require_grid_where_points_are(space, |_| false)?;
         let scene = Scene::new(Want::Probability(*space), self.accuracy(space));
-        let (choice, answer) = self.threads.count("launches", |counter| {
-            scene.choose_and_run_reporting(Registry::standard(), &|more| counter.inc(more))
-        })??;
+        let (choice, answer) = self
+            .threads
+            .count("launches", |counter| scene.choose_and_run(Registry::standard(), &|more| counter.inc(more)))??;
         match (choice.how, answer) {
             (How::Sampling(plan), Answer::Probability(found)) => Ok((plan, *found)),
             _ => Err(no_sample()),

@@ -1,7 +1,7 @@
 //! `unfair-toss toss`: one toss, one answer.
 
-use toss::report::{Landing, Margin, Moments, Slopes, Steps};
-use toss::{Body, Registry};
+use toss::report::{Landing, Margin, Moments, Slopes};
+use toss::{Body, Registry, Work};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input, fixed};
@@ -59,7 +59,7 @@ fn text(landing: &Landing, body: &Body) -> String {
         lines.push(format!("norm error   {:.1e}, the loss of norm of the quaternion", landing.norm_error));
     }
     if landing.scheme.is_some() {
-        let Steps { rhs_calls, accepted_steps, rejected_steps } = landing.work;
+        let Work { rhs_calls, accepted_steps, rejected_steps } = landing.work;
         lines.push(format!(
             "work         {rhs_calls} right-hand sides, {accepted_steps} steps, {rejected_steps} rejected"
         ));

@@ -1,4 +1,4 @@
-//! Bodies with three different moments of inertia that can be chosen by name, in addition to the coins. They show what a coin
+//! The entries of the catalogue, and those with three different moments of inertia. The latter show what a coin
 //! cannot do: a racket that turns over on its own, and a coin whose relief makes it wobble unevenly.
 //!
 //! Where nobody has published the moments, the entry is a stated model, and its numbers stand here.
@@ -6,7 +6,8 @@
 use std::str::FromStr;
 
 use crate::body::Body;
-use crate::catalogue::{CATALOGUE, named_coin};
+use crate::catalogue::CATALOGUE;
+use crate::coin::{Coin, NO_COIN};
 use crate::error::{InputError, find_named};
 
 const RACKET: &str = "M. S. Ashbaugh, C. C. Chicone and R. H. Cushman, J. Dynam. Differ. Equ. 3 (1991), 67, footnote 4, \
@@ -21,6 +22,15 @@ const RELIEF: &str = "our model: the cylinder of us-quarter, of which 0.13 g is 
 pub enum Shape {
     /// The moments I1, I2, I3 about x, y and z = n (kg m²).
     Moments([f64; 3]),
+    /// A real coin, taken as a homogeneous cylinder, in the units in which mints publish it.
+    Cylinder {
+        /// Mass (g).
+        mass_g: f64,
+        /// Diameter (mm).
+        diameter_mm: f64,
+        /// Thickness (mm).
+        thickness_mm: f64,
+    },
     /// A homogeneous cuboid.
     Cuboid {
         /// Mass (g).
@@ -54,12 +64,12 @@ pub struct Relief {
     pub centre_mm: [f64; 2],
 }
 
-/// A body with a name.
+/// A coin or another body with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyEntry {
-    /// Its name, as `racket`.
+pub struct Entry {
+    /// Its name, as `us-quarter`.
     pub name: &'static str,
-    /// A short description, with the directions of x, y and z.
+    /// A short description; of a body that is no coin, with the directions of x, y and z.
     pub description: &'static str,
     /// What its moments follow from.
     pub shape: Shape,
@@ -67,14 +77,18 @@ pub struct BodyEntry {
     pub source: &'static str,
 }
 
-impl BodyEntry {
+impl Entry {
     /// The body of this entry.
     ///
     /// # Errors
-    /// As [`Body::from_tensor`]; none for the entries of [`BODIES`], as a test confirms.
+    /// As [`Coin::from_cylinder`] and [`Body::from_tensor`]; none for the entries of [`CATALOGUE`] and [`BODIES`], as tests
+    /// confirm.
     pub fn body(&self) -> Result<Body, InputError> {
         match self.shape {
             Shape::Moments(moments) => Body::from_moments(moments),
+            Shape::Cylinder { mass_g, diameter_mm, thickness_mm } => {
+                Coin::from_cylinder(mass_g / 1e3, diameter_mm / 2e3, thickness_mm / 1e3).map(Body::from)
+            }
             Shape::Cuboid { mass_g, edges_mm } => {
                 let [x, y, z] = edges_mm.map(|edge| edge / 1e3 * (edge / 1e3));
                 let twelfth = mass_g / 1e3 / 12.0;
@@ -85,6 +99,14 @@ impl BodyEntry {
                 Body::from_tensor(engraved(mass, radius, thickness, &relief))
             }
         }
+    }
+
+    /// The coin of this entry.
+    ///
+    /// # Errors
+    /// As [`Entry::body`]; [`InputError::OutsideModel`] for a body that is no coin.
+    pub fn coin(&self) -> Result<Coin, InputError> {
+        self.body()?.coin().ok_or(NO_COIN)
     }
 }
 
@@ -115,9 +137,9 @@ fn engraved(mass: f64, radius: f64, thickness: f64, relief: &Relief) -> [[f64; 3
     })
 }
 
-/// All bodies.
-pub const BODIES: &[BodyEntry] = &[
-    BodyEntry {
+/// All bodies that are no coins.
+pub const BODIES: &[Entry] = &[
+    Entry {
         name: "us-quarter-engraved",
         description: "25 US cents with a relief on the heads side",
         shape: Shape::Engraved {
@@ -128,19 +150,19 @@ pub const BODIES: &[BodyEntry] = &[
         },
         source: RELIEF,
     },
-    BodyEntry {
+    Entry {
         name: "racket",
         description: "a tennis racket, x along the handle, n out of its face",
         shape: Shape::Moments([0.00121, 0.01638, 0.01748]),
         source: RACKET,
     },
-    BodyEntry {
+    Entry {
         name: "book",
         description: "a closed book, x along its width, n out of its cover",
         shape: Shape::Cuboid { mass_g: 400.0, edges_mm: [148.0, 210.0, 20.0] },
         source: BOOK,
     },
-    BodyEntry {
+    Entry {
         name: "nasa-brick",
         description: "a brick, of which several simulators have been compared",
         shape: Shape::Moments([0.002_568_217_474_088_305_3, 0.008_421_011_037_627_346, 0.009_754_655_939_231_735]),
@@ -148,18 +170,17 @@ pub const BODIES: &[BodyEntry] = &[
     },
 ];
 
+/// All coins and bodies.
+pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    CATALOGUE.iter().chain(BODIES)
+}
+
 /// The body called `name`, of the coins and of [`BODIES`].
 ///
 /// # Errors
 /// [`InputError::UnknownName`] with the list of known names.
 pub fn named_body(name: &str) -> Result<Body, InputError> {
-    let coins = CATALOGUE.iter().map(|entry| entry.name);
-    let names: Vec<&str> = coins.chain(BODIES.iter().map(|entry| entry.name)).collect();
-    find_named("coin", name, &names, |name| name)?;
-    match BODIES.iter().find(|entry| entry.name == name) {
-        Some(entry) => entry.body(),
-        None => named_coin(name).map(Body::from),
-    }
+    find_named("coin", name, &entries().collect::<Vec<_>>(), |entry| entry.name)?.body()
 }
 
 /// Finds a coin or another body of the catalogue by its name.
@@ -195,7 +216,7 @@ mod tests {
     fn the_tensor_of_an_engraved_coin_is_that_of_its_mass() {
         let whole = Relief { mass_g: 1.0, half_axes_mm: [10.0, 10.0], height_mm: 0.5, centre_mm: [0.0, 0.0] };
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = engraved(0.005, 0.01, 0.002, &whole);
-        let thicker = crate::coin::Coin::from_cylinder(0.005, 0.01, 0.0025).unwrap();
+        let thicker = Coin::from_cylinder(0.005, 0.01, 0.0025).unwrap();
         for (found, expected) in [(xx, thicker.i1()), (yy, thicker.i1()), (zz, thicker.i3())] {
             approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-14);
         }

@@ -1,4 +1,4 @@
-//! Attitudes, states and Euler angles as plain data. An attitude is written by what it was made from, so that it is read
+//! Attitudes as plain data. An attitude is written by what it was made from, so that it is read
 //! back as the same one.
 
 use std::fmt;
@@ -8,12 +8,10 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::launch::tilt;
-use super::number::{Number, exactly, twice, vector};
+use super::number::{Number, exactly, twice};
 use crate::attitude::Attitude;
 use crate::error::{InputError, require};
-use crate::euler_angles::EulerAngles;
 use crate::quantity::Dimension;
-use crate::state::State;
 
 /// An attitude as it stands in a file, unless it is a list of components.
 #[derive(Default, Serialize, Deserialize)]
@@ -84,54 +82,5 @@ impl Serialize for Attitude {
         // Dividing by a norm that is 1 to rounding can change the last bits.
         let unit_quaternion = if tilt.is_some() { None } else { Some(self.components().to_vec()) };
         AttitudeData { tilt, unit_quaternion }.serialize(to)
-    }
-}
-
-/// A state as it stands in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct StateData {
-    rate: Vec<f64>,
-    attitude: Attitude,
-}
-
-impl TryFrom<StateData> for State {
-    type Error = InputError;
-
-    fn try_from(StateData { attitude, rate }: StateData) -> Result<Self, InputError> {
-        let fields = ["rate x [rad/s]", "rate y [rad/s]", "rate z [rad/s]"];
-        Ok(Self::new(attitude, vector(fields, "rate [rad/s]", rate)?))
-    }
-}
-
-impl From<State> for StateData {
-    fn from(State { attitude, rate }: State) -> Self {
-        Self { attitude, rate: rate.iter().copied().collect() }
-    }
-}
-
-/// Euler angles as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct AnglesData {
-    alpha: f64,
-    beta: f64,
-    gamma: f64,
-}
-
-impl TryFrom<AnglesData> for EulerAngles {
-    type Error = InputError;
-
-    fn try_from(AnglesData { alpha, beta, gamma }: AnglesData) -> Result<Self, InputError> {
-        for (field, angle) in [("alpha [rad]", alpha), ("beta [rad]", beta), ("gamma [rad]", gamma)] {
-            require(field, angle, "finite", true)?;
-        }
-        Ok(Self { alpha, beta, gamma })
-    }
-}
-
-impl From<EulerAngles> for AnglesData {
-    fn from(EulerAngles { alpha, beta, gamma }: EulerAngles) -> Self {
-        Self { alpha, beta, gamma }
     }
 }

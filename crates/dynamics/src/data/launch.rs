@@ -36,16 +36,10 @@ pub(crate) struct LaunchData {
 }
 
 /// The part of a launch that gives the time of flight.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TimeData {
-    #[serde(skip_serializing_if = "Option::is_none")]
+struct TimeData {
     speed: Option<Number>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     gravity: Option<Number>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     drop: Option<Number>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     time: Option<Number>,
 }
 
@@ -123,16 +117,6 @@ impl TimeData {
             (_, Some(time)) => Ok(TimeOfFlight::Given(time)),
             (Some(speed), None) => Ok(TimeOfFlight::thrown(speed, gravity.unwrap_or(DEFAULT_GRAVITY), drop)),
         }
-    }
-}
-
-impl TryFrom<TimeData> for TimeOfFlight {
-    type Error = InputError;
-
-    fn try_from(data: TimeData) -> Result<Self, InputError> {
-        let time = data.time_of_flight()?;
-        time.validated_seconds()?;
-        Ok(time)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 use numerics::{AngleUnit, Quantity};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{InputError, require};
+use crate::error::InputError;
 use crate::quantity::{Dimension, Given};
 
 /// A number as it stands in a file.
@@ -69,19 +69,6 @@ pub(super) fn exactly<T: fmt::Debug, const N: usize>(
 ) -> Result<[T; N], InputError> {
     let malformed = |items| InputError::Malformed { field, value: format!("{items:?}"), expected };
     items.try_into().map_err(malformed)
-}
-
-/// The components of a vector, if there are three of them and all are finite.
-pub(super) fn vector(
-    fields: [&'static str; 3],
-    whole: &'static str,
-    components: Vec<f64>,
-) -> Result<[f64; 3], InputError> {
-    let components: [f64; 3] = exactly(whole, components, "three numbers")?;
-    for (field, value) in fields.into_iter().zip(components) {
-        require(field, value, "finite", true)?;
-    }
-    Ok(components)
 }
 
 /// The error of a quantity that is given by two fields.

@@ -1,61 +1,32 @@
-//! Settings of solvers as plain data, and all values that are written as a text.
+//! The choice of a solver as plain data, and outcomes, which are written by their names.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::number::{Number, twice};
 use crate::config::SolverConfig;
-use crate::entry::Settings;
 use crate::error::InputError;
 use crate::formulation::Formulation;
 use crate::outcome::Outcome;
-use crate::quantity::{Dimension, Given};
-use crate::scheme::Scheme;
-use crate::stepping::{StepControl, Stepping};
+use crate::quantity::Dimension;
+use crate::stepping::StepControl;
 
-/// Reads and writes values as the text of their `FromStr` and `Display`.
-macro_rules! as_text {
-    ($($text:ty),*) => {$(
-        impl<'de> Deserialize<'de> for $text {
-            fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                String::deserialize(from)?.parse().map_err(D::Error::custom)
-            }
-        }
-
-        impl Serialize for $text {
-            fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-                to.collect_str(self)
-            }
-        }
-    )*};
+impl<'de> Deserialize<'de> for Formulation {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        String::deserialize(from)?.parse().map_err(D::Error::custom)
+    }
 }
 
-as_text!(Scheme, Formulation, Outcome, Given);
-
-/// A scheme and its step control as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SteppingData {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scheme: Option<Scheme>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tolerance: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<Number>,
+impl Serialize for Formulation {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
-/// Settings as they stand in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SettingsData {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scheme: Option<Scheme>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tolerance: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<Number>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    formulation: Option<Formulation>,
+impl Serialize for Outcome {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
 /// The choice of a solver as it stands in a file.
@@ -73,56 +44,6 @@ pub(crate) struct ConfigData {
     formulation: Option<Formulation>,
 }
 
-/// The step control that a tolerance or a step asks for.
-fn control(tolerance: Option<f64>, step: Option<Number>) -> Result<Option<StepControl>, InputError> {
-    match (tolerance, step) {
-        (None, None) => Ok(None),
-        (Some(tolerance), None) => Ok(Some(StepControl::Tolerance(tolerance))),
-        (None, Some(step)) => Ok(Some(StepControl::Step(step.si("step [s]", Dimension::Time)?))),
-        (Some(_), Some(_)) => Err(twice("step [s]", "either a tolerance or a step")),
-    }
-}
-
-/// The tolerance and the step of a step control, one of which is given.
-fn parts(control: Option<StepControl>) -> (Option<f64>, Option<Number>) {
-    match control {
-        None => (None, None),
-        Some(StepControl::Tolerance(tolerance)) => (Some(tolerance), None),
-        Some(StepControl::Step(step)) => (None, Some(Number::Si(step))),
-    }
-}
-
-impl TryFrom<SteppingData> for Stepping {
-    type Error = InputError;
-
-    fn try_from(SteppingData { scheme, tolerance, step }: SteppingData) -> Result<Self, InputError> {
-        Self::new(scheme.unwrap_or(Self::DEFAULT.scheme()), control(tolerance, step)?)
-    }
-}
-
-impl From<Stepping> for SteppingData {
-    fn from(stepping: Stepping) -> Self {
-        let (tolerance, step) = parts(Some(stepping.control()));
-        Self { scheme: Some(stepping.scheme()), tolerance, step }
-    }
-}
-
-impl TryFrom<SettingsData> for Settings {
-    type Error = InputError;
-
-    fn try_from(SettingsData { scheme, tolerance, step, formulation }: SettingsData) -> Result<Self, InputError> {
-        let stepping = SteppingData { scheme, tolerance, step }.try_into()?;
-        Ok(Self { stepping, formulation: formulation.unwrap_or_default() })
-    }
-}
-
-impl From<Settings> for SettingsData {
-    fn from(Settings { stepping, formulation }: Settings) -> Self {
-        let SteppingData { scheme, tolerance, step } = stepping.into();
-        Self { scheme, tolerance, step, formulation: Some(formulation) }
-    }
-}
-
 impl TryFrom<ConfigData> for SolverConfig {
     type Error = InputError;
 
@@ -130,13 +51,22 @@ impl TryFrom<ConfigData> for SolverConfig {
         let named = Self::new(data.name);
         let with_scheme = data.scheme.into_iter().fold(named, Self::with_scheme);
         let formulated = data.formulation.into_iter().fold(with_scheme, Self::with_formulation);
-        control(data.tolerance, data.step)?.map_or(Ok(formulated.clone()), |control| formulated.with_control(control))
+        match (data.tolerance, data.step) {
+            (None, None) => Ok(formulated),
+            (Some(tolerance), None) => formulated.with_tolerance(tolerance),
+            (None, Some(step)) => formulated.with_step(step.si("step [s]", Dimension::Time)?),
+            (Some(_), Some(_)) => Err(twice("step [s]", "either a tolerance or a step")),
+        }
     }
 }
 
 impl From<SolverConfig> for ConfigData {
     fn from(config: SolverConfig) -> Self {
-        let (tolerance, step) = parts(config.control());
+        let (tolerance, step) = match config.control() {
+            None => (None, None),
+            Some(StepControl::Tolerance(tolerance)) => (Some(tolerance), None),
+            Some(StepControl::Step(step)) => (None, Some(Number::Si(step))),
+        };
         let (name, scheme) = (config.name().to_owned(), config.scheme().map(str::to_owned));
         Self { name, scheme, tolerance, step, formulation: config.formulation() }
     }

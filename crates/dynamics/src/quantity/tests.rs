@@ -4,11 +4,19 @@ use Dimension::{Acceleration, Angle, Inertia, Length, Mass, Speed, Time, TurnRat
 
 use super::*;
 
-const ALL: [Dimension; 8] = [Angle, TurnRate, Speed, Time, Acceleration, Length, Mass, Inertia];
+#[test]
+fn a_quantity_is_written_and_read_back() {
+    for (dimension, unit) in Dimension::ALL.into_iter().flat_map(|of| of.units().iter().map(move |unit| (of, unit))) {
+        for value in [24.26, -1.0 / 3.0, 1e-300, 6e22, 0.0] {
+            let given = unit.times(value);
+            assert_eq!(dimension.given("quantity", &given.to_string()), Ok(given), "{given}");
+        }
+    }
+}
 
 #[test]
 fn what_is_expected_names_every_unit() {
-    for dimension in ALL {
+    for dimension in Dimension::ALL {
         let words = dimension.expected();
         for unit in dimension.units() {
             assert!(words.contains(unit.name()), "{words}: {}", unit.name());

@@ -1,9 +1,4 @@
-use dynamics::Coin;
-
 use super::*;
-use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
-use crate::sampler::Sampler;
-use crate::space::Space;
 
 fn read<T: for<'de> Deserialize<'de>>(text: &str) -> Result<T, String> {
     toml::from_str(text).map_err(|error| error.message().to_owned())
@@ -64,64 +59,4 @@ fn plans_that_no_sampler_carries_out_are_refused_with_the_field_at_fault() {
         let found = read::<Plan>(text).unwrap_err();
         assert!(found.starts_with(message), "{found} for {text}");
     }
-}
-
-fn estimates() -> Vec<Estimate> {
-    let texts = [(RateX, "1:60:9"), (RateY, "2"), (RateZ, "1:60:9"), (Speed, "3:5:9")];
-    let space = Space::parse(Coin::PAPER, &texts).unwrap();
-    let one = Scrambled { points: 64, scrambles: 1, seed: 1 };
-    let plans = [
-        Plan::Grid,
-        Plan::Random { points: 1000, seed: 1 },
-        Plan::Sobol(Scrambled::new(1024, 1)),
-        Plan::Sobol(one),
-        Plan::ExactSpeed(Rest::Grid),
-        Plan::ExactSpeed(Rest::Sobol(Scrambled::new(1024, 1))),
-    ];
-    plans.into_iter().map(|plan| Sampler::exact().estimate(&space, plan).unwrap()).collect()
-}
-
-/// A file proves nothing: what was proven is written so, and read as estimated.
-#[test]
-fn estimates_are_read_back_but_their_proofs_are_not() {
-    for estimate in estimates() {
-        let text = toml::to_string(&estimate).unwrap();
-        let back = read::<Estimate>(&text).unwrap();
-        assert_eq!(
-            (back.probability, back.interval, back.interval_kind, back.points),
-            (estimate.probability, estimate.interval, estimate.interval_kind, estimate.points)
-        );
-        match (back.found, estimate.found) {
-            (Found::Counts(back), Found::Counts(counts)) => {
-                assert_eq!((back.heads(), back.tails()), (counts.heads(), counts.tails()));
-                assert!(counts.are_certified() && !back.are_certified(), "{text}");
-                assert!(text.contains("[counts.proven]"), "{text}");
-            }
-            (back, found) => assert_eq!(back, found),
-        }
-    }
-}
-
-#[test]
-fn estimates_that_contradict_themselves_are_refused_with_the_field_at_fault() {
-    let valid = "probability = 0.25\npoints = 4\ninterval_kind = 'clopper-pearson'\ninterval = { lo = 0.1, hi = 0.6 }\n\
-                 counts = { heads = 1, tails = 2, undecided = 1 }";
-    assert!(read::<Estimate>(valid).is_ok());
-    for (from, to, message) in [
-        ("= 0.25", "= 0.5", "probability = 0.5 is outside its valid range: heads/points"),
-        ("= 0.25", "= nan", "probability = NaN"),
-        ("= 4", "= 5", "points = '5' can't be used: expected the sum"),
-        ("undecided = 1", "undecided = 9223372036854775807", "points = '4' can't be used"),
-        ("hi = 0.6", "hi = 1.5", "hi = 1.5 is outside its valid range: from 0 to 1"),
-        ("lo = 0.1", "lo = 0.7", "lo = 0.7 is outside its valid range: from 0 to hi"),
-        ("'clopper-pearson'", "'grid'", "interval = 'Some(Interval { lo: 0.1, hi: 0.6 })' can't be used"),
-        ("'clopper-pearson'", "'guess'", "unknown variant `guess`"),
-        ("points = 4", "points = 4\nrounding_error = 0.1", "counts is missing: expected either counts or"),
-        ("points = 4", "points = 4\nheads = 1", "unknown field `heads`"),
-    ] {
-        let found = read::<Estimate>(&valid.replace(from, to)).unwrap_err();
-        assert!(found.starts_with(message), "{found}");
-    }
-    let shares = "probability = 0.25\npoints = 4\ninterval_kind = 'grid'\nrounding_error = -1.0";
-    assert!(read::<Estimate>(shares).unwrap_err().starts_with("rounding_error = -1.0"));
 }

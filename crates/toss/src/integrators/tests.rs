@@ -50,6 +50,8 @@ fn planned_flights_of_any_body_keep_their_accuracy_at_the_coarsest_tolerance_tha
         };
         let (solver, scheme) =
             [("euler", "dop853"), ("quaternion", "dopri5"), ("quaternion", "taylor")][(3.0 * numbers.next()) as usize];
+        let is_for_gamma = solver == "euler" && toss.body.coin().is_some() && index % 2 == 0;
+        let solver = if is_for_gamma { "gamma" } else { solver };
         let scene = Scene::new(want, accuracy).by(solver, Some(scheme));
         let choice = match scene.plan() {
             Ok(decision) => decision.choice,
@@ -73,6 +75,20 @@ fn planned_flights_of_any_body_keep_their_accuracy_at_the_coarsest_tolerance_tha
         found += 1;
     }
     assert!(found > 450 && refused > 10, "{found} planned, {refused} refused");
+}
+
+/// A rod that spins fast, which is off by more than other flights at the same tolerance.
+#[test]
+fn a_plan_keeps_its_accuracy_on_a_rod_that_spins_fast() {
+    let rate = [-4.424932971149648e-05, 0.07856801065167007, 16.588784552774946];
+    let launch = Launch::new(rate, TimeOfFlight::Given(52.043897878112475)).unwrap();
+    let rod = Toss::new(Coin::from_moments(1.0, 0.0).unwrap(), launch);
+    for accuracy in [1e-5, 1e-7, 6.192153173781187e-9, 1e-9] {
+        let scene = Scene::new(Want::Attitude(rod), accuracy).by("quaternion", Some("dop853"));
+        let choice = scene.plan().unwrap().choice;
+        let off = error(&choice.run(&scene).unwrap(), &rod);
+        assert!(off <= choice.expected_error && choice.expected_error <= accuracy, "{off:e} {accuracy:e}");
+    }
 }
 
 /// The quaternion, turned about x by an angle too far. It claims to have no error, and refuses a toss about z.
@@ -119,7 +135,7 @@ fn an_integrator_from_elsewhere_is_planned_down_to_its_error_and_no_further() {
         assert!(tolerance(&choice) <= 1e-3 && choice.expected_error < 1e-2 && choice.expected_cost_ns > 0.0);
         let scene = Scene::new(want, 1e-6).by("off", None);
         assert_eq!(scene.plan_with(&registry).unwrap_err().field(), Some("accuracy"));
-        let offers = scene.candidates_with(&registry).unwrap();
+        let offers = scene.candidates(&registry).unwrap();
         let of_off = offers.iter().find(|(candidate, _)| candidate.to_string() == "off/dop853");
         // A trace turns it at each of its points.
         let Some((_, Err(Reason::TooRough { expected_error }))) = of_off else { panic!("{of_off:?}") };
@@ -133,7 +149,7 @@ fn what_an_integrator_does_not_solve_is_refused_with_its_own_error() {
     let refused = |scene: Scene| scene.plan_with(&registry(0.0)).unwrap_err();
     let about_z = Scene::new(Want::Tilt(thrown([0.0, 0.0, 5.0])), 1e-3);
     assert_eq!(refused(about_z.clone().by("off", None)), SolveError::NotFinite { time: 0.5 }.into());
-    let offers = about_z.candidates_with(&registry(0.0)).unwrap();
+    let offers = about_z.candidates(&registry(0.0)).unwrap();
     assert!(offers.iter().any(|(_, offer)| matches!(offer, Err(Reason::Fails(Error::Solve(_))))));
     let racket = Toss { body: "racket".parse().unwrap(), ..thrown([1.0, 12.0, 2.5]) };
     for solver in ["gamma", "off"] {

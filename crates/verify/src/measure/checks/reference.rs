@@ -7,7 +7,7 @@
 //! any flight at the paper's speeds of 3 to 5 m/s. As a disc the coin has ψ = 15.8°, below 45°, and shows heads
 //! forever.
 
-use dynamics::catalogue::{CATALOGUE, CatalogueEntry};
+use dynamics::catalogue::{CATALOGUE, Entry};
 use dynamics::integrate::{OdeSystem, integrate};
 use dynamics::time_of_flight::DEFAULT_GRAVITY;
 use nalgebra::SVector;
@@ -121,7 +121,7 @@ fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 }
 
 /// The larger of the relative deviations of I1 and I3; infinite for a coin without reference, or without moments.
-fn deviation_of_moments(context: &Context, entry: &CatalogueEntry) -> f64 {
+fn deviation_of_moments(context: &Context, entry: &Entry) -> f64 {
     let reference = context.coins.iter().find(|coin| coin.name == entry.name);
     let (Some(reference), Ok(coin)) = (reference, entry.coin()) else { return f64::INFINITY };
     let relative = |(found, expected): (f64, f64)| (found / expected - 1.0).abs();

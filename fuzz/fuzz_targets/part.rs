@@ -1,4 +1,0 @@
-//! libFuzzer over [`unfair_toss_fuzz::part::check`].
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|data: &[u8]| unfair_toss_fuzz::part::check(data));
