@@ -18,7 +18,7 @@
 use dynamics::{Launch, SolveError, Toss};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
-use numerics::{Ball, DoubleDouble, Dual, Elementary};
+use numerics::{Ball, DoubleDouble, Elementary, Jet};
 
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
@@ -144,17 +144,18 @@ fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
 
 /// The changes in one kind of number. `None` if it has too few digits.
 fn changes_in<N: Elementary>(toss: &Toss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
-    let vertical = vertical.clone().map(Dual::constant);
+    let vertical = vertical.clone().map(Jet::constant);
+    let inputs = [0, 1, 2].map(|input| Jet::<_, 4>::variable(rate[input].clone(), time.like(1.0), input));
+    let turn = Curve::new(&toss.body, &inputs)?.turn(&Jet::constant(time.clone()));
+    let slopes = cos_tilt(&turn, &vertical);
+    let values = turn.each_ref().map(|part| part.value().clone());
+    let size = norm_squared(&values);
     let change = |input: usize| {
-        let mut inputs = rate.clone().map(Dual::constant);
-        inputs[input].slope = time.like(1.0);
-        let turn = Curve::new(&toss.body, &inputs)?.turn(&Dual::constant(time.clone()));
-        let [values, rises] = [turn.clone().map(|part| part.value), turn.clone().map(|part| part.slope)];
-        let size = norm_squared(&values);
+        let rises = turn.each_ref().map(|part| part.slopes()[input].clone());
         let [_, x, y, z] = product(&conjugate(&values), &rises).map(|part| (part.clone() + part) / size.clone());
-        Some(([x, y, z], cos_tilt(&turn, &vertical).slope))
+        ([x, y, z], slopes.slopes()[input].clone())
     };
-    Some([change(0)?, change(1)?, change(2)?])
+    Some([0, 1, 2].map(change))
 }
 
 /// Whether the radii leave enough digits, where a change of cos θ below the part `none_above` of the turn
