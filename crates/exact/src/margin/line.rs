@@ -250,8 +250,12 @@ mod tests {
         launches.map(|launch| CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }).collect()
     }
 
-    fn lines(mut test: impl FnMut(&Line)) {
-        for toss in &tosses() {
+    fn lines(test: impl FnMut(&Line)) {
+        lines_of(&tosses(), test);
+    }
+
+    fn lines_of(tosses: &[CoinToss], mut test: impl FnMut(&Line)) {
+        for toss in tosses {
             let turn = turn(toss);
             (0..3).for_each(|axis| test(&Line::of_rate(toss, axis, turn)));
         }
@@ -359,7 +363,9 @@ mod tests {
             }
             exact
         };
-        lines(|line| {
+        let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.7)).unwrap().with_tilt(0.6).unwrap();
+        let at_rest = CoinToss { coin: Coin::PAPER, launch };
+        lines_of(&[tosses(), vec![at_rest]].concat(), |line| {
             let [mut flip, mut top] = [0.1; 2];
             for _ in 0..8 {
                 let Height { value, slope, .. } = check(line, flip);
