@@ -40,11 +40,7 @@ impl WithSimd for Bounded<'_> {
             let [x, y, z, speed] = self.1.columns(index..index + 1).map(|column| Real::splat(simd, column[0]));
             let begun = self.0.begin([x, y, z], speed, &mut Extent::new(simd));
             let Height { height, norm, bound } = self.0.height(begun);
-            self.2.push([height / norm, bound, norm].map(|number| {
-                let mut first = [0.0];
-                number.store_up_to(&mut first);
-                first[0]
-            }));
+            self.2.push([height / norm, bound, norm].map(Real::first));
         }
     }
 }
@@ -217,11 +213,7 @@ impl WithSimd for Along<'_> {
     type Output = [f64; 3];
 
     fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
-        self.0.along_principal_axes(self.1.map(|part| Real::splat(simd, part))).map(|part| {
-            let mut first = [0.0];
-            part.store_up_to(&mut first);
-            first[0]
-        })
+        self.0.along_principal_axes(self.1.map(|part| Real::splat(simd, part))).map(Real::first)
     }
 }
 

@@ -124,13 +124,8 @@ impl WithSimd for Products<'_> {
     type Output = Vec<[f64; 2]>;
 
     fn with_simd<S: Simd>(self, simd: S) -> Vec<[f64; 2]> {
-        let first = |value: Real<S>| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        };
         let splat = |value| Real::splat(simd, value);
-        self.1.iter().map(|other| splat(self.0).product(splat(*other)).map(first)).collect()
+        self.1.iter().map(|other| splat(self.0).product(splat(*other)).map(Real::first)).collect()
     }
 }
 
