@@ -17,7 +17,6 @@ mod flight;
 mod height;
 mod line;
 mod search;
-mod sine;
 mod time;
 
 use dynamics::phase::LARGEST_PHASE;

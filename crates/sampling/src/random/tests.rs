@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use dynamics::Coin;
 use rand::distr::Open01;
-use rand::{Rng, RngExt, TryRng};
+use rand::{RngExt, TryRng};
 
 use super::*;
 

@@ -67,20 +67,9 @@ fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
         "smaller" => a.min(b),
         "cosine" => a.clamp(-1.0, 1.0),
         "round" => (10.0 * a).round_ties_even(),
-        "less" => {
-            if a < b {
-                a
-            } else {
-                c
-            }
-        }
-        "at most" => {
-            if a <= b {
-                a
-            } else {
-                c
-            }
-        }
+        "less" if a < b => a,
+        "at most" if a <= b => a,
+        "less" | "at most" => c,
         _ => unreachable!("an operation of the list"),
     }
 }
