@@ -31,7 +31,6 @@ mod polar;
 pub mod rigid;
 pub mod sensitivity;
 pub mod solver;
-mod thrown;
 pub mod tilt_terms;
 
 pub use batch::{Batch, BodyFilter};

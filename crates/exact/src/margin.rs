@@ -17,12 +17,11 @@ mod flight;
 mod height;
 mod line;
 mod search;
-mod sine;
 mod time;
 
 use dynamics::phase::LARGEST_PHASE;
 use dynamics::time_of_flight::ExactTime;
-use dynamics::{CoinToss, Outcome, SolveError, TimeOfFlight};
+use dynamics::{CoinToss, Launch, Outcome, SolveError, TimeOfFlight};
 use numerics::DoubleDouble;
 
 pub(crate) use self::flight::speed_and_gravity;
@@ -64,7 +63,7 @@ pub struct Margin {
 const RATE_RANGE: f64 = 1000.0;
 
 /// Changes of the turn that are searched (rad), which bounds the work. Flips further away than some turns are rare.
-const TURN_RANGE: f64 = 2000.0;
+pub(crate) const TURN_RANGE: f64 = 2000.0;
 
 /// The margin of the toss of a coin.
 ///
@@ -74,7 +73,7 @@ pub(crate) fn margin_coin(toss: &CoinToss) -> Result<Margin, SolveError> {
     let outcome = match certify_coin(toss)?.outcome() {
         Outcome::Heads => 1.0,
         Outcome::Tails => -1.0,
-        Outcome::Undecided => return Ok(on_edge(toss)),
+        Outcome::Undecided => return Ok(Margin::on_edge(&toss.launch, rate_range(&toss.launch), f64::INFINITY)),
     };
     let turn = line::turn(toss);
     let [time, speed, gravity] = of_flight(toss, outcome)?;
@@ -85,22 +84,24 @@ pub(crate) fn margin_coin(toss: &CoinToss) -> Result<Margin, SolveError> {
 }
 
 /// The largest change of a rate that is searched (rad/s).
-fn rate_range(toss: &CoinToss) -> f64 {
-    (10.0 * toss.launch.rate().amax()).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX)
+pub(crate) fn rate_range(launch: &Launch) -> f64 {
+    (10.0 * launch.rate().amax()).max(RATE_RANGE).min(TURN_RANGE / launch.flight_time()).min(f64::MAX)
 }
 
-/// The margin of an undecided toss.
-fn on_edge(toss: &CoinToss) -> Margin {
-    let zero = Some(0.0);
-    let thrown = if matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { zero };
-    Margin {
-        time: zero,
-        speed: thrown,
-        gravity: thrown,
-        tilt: zero,
-        rate: [zero; 3],
-        rate_range: [rate_range(toss); 3],
-        time_range: [f64::INFINITY; 2],
+impl Margin {
+    /// The margin of an undecided toss, with these ranges.
+    pub(crate) fn on_edge(launch: &Launch, rate_range: f64, time_range: f64) -> Self {
+        let zero = Some(0.0);
+        let thrown = if matches!(launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { zero };
+        Self {
+            time: zero,
+            speed: thrown,
+            gravity: thrown,
+            tilt: zero,
+            rate: [zero; 3],
+            rate_range: [rate_range; 3],
+            time_range: [time_range; 2],
+        }
     }
 }
 
@@ -142,7 +143,7 @@ fn smaller(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 /// Of a rate, with the `turn` Φ of the landing; and the largest change that was searched.
 fn of_rate(toss: &CoinToss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
     let flight = toss.launch.time_of_flight();
-    let (time, range) = (ExactTime::from(flight), rate_range(toss));
+    let (time, range) = (ExactTime::from(flight), rate_range(&toss.launch));
     let k = toss.coin.exact_inertia_ratio();
     // Of Φz, by which the phase of the spin stays below its limit.
     let (ratio, spin_limit) = match axis {
@@ -205,6 +206,31 @@ pub fn level_speeds_of_heads(
         if still { phase } else { slowest + (phase - span[0]) / (span[1] - span[0]) * (speed - slowest) }
     };
     Ok(Some(heads.intervals(span[0], span[1]).map(move |interval| interval.map(speed_of))))
+}
+
+/// As [`level_speeds_of_heads`], for a landing at any height; `None` if the time of flight was given without a speed.
+///
+/// A landing at h below the launch has the time T = (v0 + √(v0² + 2 g h))/g, which a throw at u = g T/2 has without the
+/// drop; back from it, v0 = u - g h/(2 u).
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`].
+pub(crate) fn thrown_speeds_of_heads(toss: &CoinToss, slowest: f64) -> Result<Option<Vec<[f64; 2]>>, SolveError> {
+    let TimeOfFlight::BallisticTo { speed, gravity, drop } = toss.launch.time_of_flight() else {
+        return Ok(level_speeds_of_heads(toss, slowest)?.map(Iterator::collect));
+    };
+    let level = |speed: f64| 0.5 * gravity * TimeOfFlight::BallisticTo { speed, gravity, drop }.seconds();
+    let (from, to) = (level(slowest), level(speed));
+    let as_level = TimeOfFlight::Ballistic { speed: to, gravity };
+    // The time of flight is that of the valid launch to rounding, so that only the largest of all f64 can be too large.
+    let too_large = |_| SolveError::PhaseTooLarge { phase: f64::MAX };
+    let level_toss = CoinToss { launch: toss.launch.with_time_of_flight(as_level).map_err(too_large)?, ..*toss };
+    let speed_of = |level: f64| match level {
+        end if end <= from => slowest,
+        end if end >= to => speed,
+        level => (level - 0.5 * gravity * drop / level).clamp(slowest, speed),
+    };
+    Ok(level_speeds_of_heads(&level_toss, from)?.map(|heads| heads.map(|interval| interval.map(speed_of)).collect()))
 }
 
 #[cfg(test)]

@@ -3,8 +3,6 @@
 //! std's sine and cosine are right to some 2^-53. A proof that starts from an angle needs more of it: the vertical seen
 //! from a tilted coin is made of the sine and cosine of the tilt.
 
-use std::f64::consts::FRAC_2_PI;
-
 use crate::big::{Big, exactly};
 use crate::double_double::DoubleDouble;
 use crate::quantity::{Quantity, Unit};
@@ -71,7 +69,7 @@ const LARGEST: f64 = 1_048_576.0;
 
 /// Sine and cosine of 0, 1/16, 2/16, ... up to the first above π/4.
 #[rustfmt::skip]
-pub(crate) const SIXTEENTHS: [[[f64; 2]; 2]; 14] = [
+const SIXTEENTHS: [[[f64; 2]; 2]; 14] = [
     [[0.0, 0.0], [1.0, 0.0]],
     [[0.062_459_317_842_380_2, -2.040_259_504_585_711e-18], [0.998_047_510_700_099_1, 3.323_229_167_414_134_6e-17]],
     [[0.124_674_733_385_227_69, -2.925_947_496_057_858e-18], [0.992_197_667_229_329, 4.754_870_575_189_364e-17]],
@@ -152,7 +150,7 @@ impl Angle {
 }
 
 #[inline]
-pub(crate) fn double_double([hi, lo]: [f64; 2]) -> DoubleDouble {
+fn double_double([hi, lo]: [f64; 2]) -> DoubleDouble {
     DoubleDouble::exactly(hi) + lo.into()
 }
 
@@ -168,19 +166,28 @@ pub(crate) fn double_double([hi, lo]: [f64; 2]) -> DoubleDouble {
 /// The leading terms of sin d and cos d - 1 are taken in double-double, the others, of at most 5.1e-6, in f64.
 #[inline]
 fn sin_cos(angle: DoubleDouble) -> [DoubleDouble; 2] {
-    let quarters = (angle.hi() * FRAC_2_PI).round_ties_even();
-    let rest = QUARTER.iter().fold(angle, |rest, part| rest - DoubleDouble::product(quarters, *part));
+    let (rest, quarters) = angle.less_quarters();
+    sin_cos_of_parts(rest, quarters, |d| {
+        let square = d * d;
+        let s = square.hi();
+        let sin = d.hi() * s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362_880.0))));
+        let cos = s * s * (1.0 / 24.0 + s * (-1.0 / 720.0 + s * (1.0 / 40_320.0 - s / 3_628_800.0)));
+        [d + sin.into(), -square.half() + cos.into()]
+    })
+}
+
+/// Sine and cosine of `rest` and so many quarters of a turn, where `small` has sin d and cos d - 1 of an angle up to 1/32.
+#[inline]
+pub(crate) fn sin_cos_of_parts(
+    rest: DoubleDouble,
+    quarters: f64,
+    small: impl Fn(DoubleDouble) -> [DoubleDouble; 2],
+) -> [DoubleDouble; 2] {
     let sixteenths = (16.0 * rest.hi()).round_ties_even();
-    let d = rest - (0.0625 * sixteenths).into();
+    let [sin_d, cos_d_less_1] = small(rest - (0.0625 * sixteenths).into());
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 13")]
-    let [sin_a, cos_a] = SIXTEENTHS[sixteenths.abs() as usize].map(double_double);
+    let [sin_a, cos_a] = SIXTEENTHS[sixteenths.abs().min(13.0) as usize].map(double_double);
     let sin_a = if sixteenths < 0.0 { -sin_a } else { sin_a };
-    let square = d * d;
-    let s = square.hi();
-    let sin_d =
-        d + (d.hi() * s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362_880.0))))).into();
-    let cos_d_less_1 =
-        -square.half() + (s * s * (1.0 / 24.0 + s * (-1.0 / 720.0 + s * (1.0 / 40_320.0 - s / 3_628_800.0)))).into();
     let sin = sin_a + (sin_a * cos_d_less_1 + cos_a * sin_d);
     let cos = cos_a + (cos_a * cos_d_less_1 - sin_a * sin_d);
     match quarters.rem_euclid(4.0) {

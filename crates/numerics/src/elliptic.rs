@@ -3,8 +3,7 @@
 //!
 //! | what | symbol | function | source |
 //! |---|---|---|---|
-//! | arithmetic-geometric mean | AGM(a, b) | [`agm`] | DLMF 19.8.1 |
-//! | complete integral of the first kind | K(m) | [`complete_first`] | DLMF 19.8.5 |
+//! | complete integral of the first kind | K(m) = π/(2 AGM(1, k')) | [`incomplete_and_complete_first`] | DLMF 19.8.5 |
 //! | incomplete integral of the first kind | F(φ \| m) | [`incomplete_first`] | DLMF 19.2.4, 22.20(ii) |
 //! | complete integral of the third kind | cel(k', p, a, b) | [`complete_first_and_third`] | DLMF 19.2.11 |
 //! | nome | q = exp(-π K'/K) | [`nome`] | DLMF 22.2.1 |
@@ -39,9 +38,7 @@ mod first_kind;
 mod gaussian;
 mod theta;
 
-pub use first_kind::{
-    agm, complete_first, complete_first_and_third, incomplete_and_complete_first, incomplete_first, nome,
-};
+pub use first_kind::{complete_first_and_third, incomplete_and_complete_first, incomplete_first, nome};
 pub use gaussian::GaussianPair;
 pub use theta::ThetaPair;
 

@@ -28,12 +28,13 @@ pub type Exponents = [u8; MOST_VARIABLES];
 const fn shape(terms: usize) -> (usize, usize) {
     match terms {
         3 => (1, 2),
+        4 => (3, 1),
         5 => (1, 4),
         6 => (2, 2),
         15 => (2, 4),
         10 => (3, 2),
         35 => (3, 4),
-        _ => panic!("a series has one to three variables, and the order 2 or 4"),
+        _ => panic!("a series has one to three variables, and the order 2 or 4, or three and the order 1"),
     }
 }
 
@@ -93,7 +94,8 @@ const fn products(terms: usize) -> Products {
     found
 }
 
-/// A Taylor series with `TERMS` terms: 3, 6 or 10 of order 2 in one, two or three variables; 5, 15 or 35 of order 4.
+/// A Taylor series with `TERMS` terms: 3, 6 or 10 of order 2 in one, two or three variables; 5, 15 or 35 of order 4; 4 of
+/// order 1 in three variables.
 ///
 /// Decisions are made by the constant term: [`Elementary::to_f64`] and the like ignore the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -415,6 +417,7 @@ mod tests {
     fn a_series_is_that_of_the_formula_in_any_direction() {
         for at in [[0.3, -0.4, 0.7], [-1.1, 0.2, -0.5], [0.9, 0.8, 1.3]] {
             check::<3>(at);
+            check::<4>(at);
             check::<5>(at);
             check::<6>(at);
             check::<15>(at);
@@ -466,6 +469,8 @@ mod tests {
         let near = Jet::<_, 3>::variable(one, Ball::new(0.0, 0.5), 0);
         assert!(near.scaled(&two).slopes()[0].radius() >= 1.0 && (near * near).slopes()[0].radius() >= 1.0);
         assert_eq!(Jet::<_, 3>::variable(one, zero, 0).sqrt().slopes(), [zero]);
+        let root = Jet::<_, 4>::variable(one, Ball::new(0.0, 0.5), 2).sqrt();
+        assert!(root.slopes()[..2] == [zero; 2] && (0.25..0.26).contains(&root.slopes()[2].radius()), "{root:?}");
     }
 
     #[test]

@@ -9,7 +9,7 @@
 //! | numbers in exact units; angles, with sine and cosine to 2^-68 and beyond | [`quantity`], [`angle`] |
 //! | the trait of the numbers that also have roots, exponentials and angles | [`elementary`] |
 //! | numbers with a bound of their error, which grows with each operation | [`ball`] |
-//! | numbers with a derivative | [`dual`] |
+//! | Taylor series in up to three variables, whose terms are the derivatives of a formula | [`jet`] |
 //! | elliptic integrals of the first kind and theta functions | [`elliptic`] |
 //! | powers of two as units | [`scale`] |
 //! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
@@ -20,7 +20,6 @@ pub mod angle;
 pub mod ball;
 pub mod big;
 pub mod double_double;
-pub mod dual;
 pub mod elementary;
 pub mod elliptic;
 pub mod jet;
@@ -34,7 +33,6 @@ pub use angle::{Angle, AngleUnit};
 pub use ball::{Ball, WideBall};
 pub use big::Big;
 pub use double_double::DoubleDouble;
-pub use dual::Dual;
 pub use elementary::Elementary;
 pub use jet::Jet;
 pub use number::Number;

@@ -62,7 +62,7 @@ pub use fold::{Narrowed, Progress};
 pub use interval::{Interval, clopper_pearson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
-pub use map::{Map, Node, map_nodes};
+pub use map::{Map, map_nodes};
 pub use plan::{Method, Plan, Rest, Scrambled};
 pub use random::random_tosses;
 pub use sampler::Sampler;

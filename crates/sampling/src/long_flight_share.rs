@@ -96,7 +96,7 @@ mod tests {
     fn long_flights_have_the_documented_numbers_of_turns() {
         let precessions = [300.0, 600.0].map(|speed| {
             let space = long_flights(Coin::PAPER, 1.0).unwrap().with_axis(Coordinate::Speed, speed).unwrap();
-            let toss = space.coin_toss(&space.fixed_values()).unwrap();
+            let toss = space.toss(&space.fixed_values()).coin().unwrap();
             CoinMotion::new(&toss).precession_rate() * toss.launch.flight_time() / (2.0 * PI)
         });
         for (found, expected) in LONG_FLIGHT_TURNS.into_iter().zip(precessions) {

@@ -1,12 +1,7 @@
 //! This file maps the probability of heads over two coordinates of a space: P(heads | x, y) at the nodes (x, y) of a
-//! grid. It also gives, at each node, the least cos θ of the motion, so that the line can be drawn on which heads
-//! becomes certain.
-//!
-//! The least cos θ is cos(φ + ψ), with ψ the angle between the coin's normal n and its angular momentum S, and φ the
-//! angle between S and the vertical. The line is where it is 0; for launches from horizontal, φ = ψ, this is ψ = 45°.
+//! grid.
 
 use dynamics::{Error, InputError};
-use exact::CoinMotion;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -22,19 +17,8 @@ pub struct Map {
     pub across: (Coordinate, Vec<f64>),
     /// The coordinate that varies from row to row, and its values.
     pub up: (Coordinate, Vec<f64>),
-    /// The nodes, row by row.
-    pub nodes: Vec<Node>,
-}
-
-/// A node of a [`Map`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
-    /// P(heads), from 0 to 1.
-    pub probability: f64,
-    /// cos(φ + ψ), the least cos θ of the motion. If it is not negative, the coin shows heads at all times; from
-    /// horizontal this means ψ ≤ 45° or ψ ≥ 135°. `None` if a rate or the tilt varies within the node, or if the body is
-    /// no coin.
-    pub least_cos_tilt: Option<f64>,
+    /// P(heads) of the nodes, from 0 to 1, row by row.
+    pub nodes: Vec<f64>,
 }
 
 impl Sampler<'_> {
@@ -52,7 +36,7 @@ impl Sampler<'_> {
             let here = space.with_axis(across, column)?.with_axis(up, row)?;
             let probability = sampler.estimate(&here, plan)?.probability;
             (self.progress)(1);
-            Ok(Node { probability, least_cos_tilt: least_cos_tilt(&here) })
+            Ok(probability)
         };
         let indices = 0..columns.len() * rows.len();
         #[cfg(feature = "rayon")]
@@ -106,16 +90,10 @@ fn count(space: &Space, of: Coordinate) -> Result<u64, InputError> {
     }
 }
 
-/// cos(φ + ψ) of the launches of `space`; `None` if a rate or the tilt varies, or for a body that is not a coin.
-fn least_cos_tilt(space: &Space) -> Option<f64> {
-    let motion_varies = space.free().any(|of| of <= Coordinate::RateZ || of == Coordinate::Tilt);
-    let motion = CoinMotion::new(&space.coin_toss(&space.fixed_values())?);
-    (!motion_varies).then(|| (motion.momentum_tilt() + motion.cone_angle()).cos())
-}
-
 #[cfg(test)]
 mod tests {
     use dynamics::Coin;
+    use exact::CoinMotion;
 
     use super::*;
     use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
@@ -132,48 +110,27 @@ mod tests {
         let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "-10:30:5"), (Speed, "3:5")]);
         let map = Sampler::exact().map(&space, [RateX, RateZ], EXACT).unwrap();
         assert_eq!((map.across.1.len(), map.up.1.len(), map.nodes.len()), (21, 5, 105));
-        for (index, node) in map.nodes.iter().enumerate() {
+        for (index, probability) in map.nodes.iter().enumerate() {
             let (rate_x, rate_z) = (map.across.1[index % 21], map.up.1[index / 21]);
             let cone = rate_x.atan2(0.5 * rate_z);
-            let least = node.least_cos_tilt.unwrap();
-            assert!((least - (2.0 * cone).cos()).abs() < 1e-14);
-            assert!(node.probability > 1.0 - 1e-7 || least < 1e-15, "{rate_x}, {rate_z}: {node:?}");
+            let least_cos_tilt = (2.0 * cone).cos();
+            assert!(*probability > 1.0 - 1e-7 || least_cos_tilt < 1e-15, "{rate_x}, {rate_z}: {probability}");
             let speeds = (0..2000).map(|part| 3.0 + (f64::from(part) + 0.5) / 1000.0);
             let heads = speeds.filter(|speed| {
-                let toss = space.coin_toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]).unwrap();
+                let toss = space.toss(&[rate_x, 0.0, rate_z, *speed, 9.81, 0.0]).coin().unwrap();
                 CoinMotion::new(&toss).cos_tilt(toss.launch.flight_time()).unwrap() > 0.0
             });
-            assert!((node.probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {node:?}");
+            assert!((probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {probability}");
         }
-        assert!(map.nodes.iter().any(|node| node.probability < 0.6));
+        assert!(map.nodes.iter().any(|probability| *probability < 0.6));
     }
 
     #[test]
-    fn a_tied_rate_follows_its_partner_and_a_varying_rate_leaves_no_least_cos_tilt() {
+    fn a_tied_rate_follows_its_partner() {
         let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
         let map = Sampler::exact().map(&space(&texts), [RateX, Tilt], plan).unwrap();
-        assert!(map.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
-        assert_eq!(map.nodes[0].probability, 1.0, "no rate but spin");
-    }
-
-    #[test]
-    fn the_least_cos_tilt_is_the_minimum_over_the_motion() {
-        let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0.6")];
-        let tilted = Sampler::exact().map(&space(&texts), [RateX, RateZ], EXACT).unwrap();
-        for (index, node) in tilted.nodes.iter().enumerate() {
-            let rates = [tilted.across.1[index % 5], 7.0, tilted.up.1[index / 5]];
-            let motion =
-                CoinMotion::new(&space(&texts).coin_toss(&[rates[0], rates[1], rates[2], 4.0, 9.81, 0.6]).unwrap());
-            let turn = std::f64::consts::TAU / motion.precession_rate();
-            let heights = (0..10_000).map(|part| motion.cos_tilt(turn * f64::from(part) / 1e4).unwrap());
-            let least = heights.fold(1.0, f64::min);
-            assert!((node.least_cos_tilt.unwrap() - least).abs() < 1e-6, "{rates:?}: {node:?}, {least}");
-        }
-        let texts = [(RateX, "-20:20:5"), (RateY, "7"), (RateZ, "-30:30:5"), (Speed, "4"), (Tilt, "0:0.6")];
-        let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(8, 1)));
-        let blurred = Sampler::exact().map(&space(&texts), [RateX, RateZ], plan).unwrap();
-        assert!(blurred.nodes.iter().all(|node| node.least_cos_tilt.is_none()));
+        assert_eq!(map.nodes[0], 1.0, "no rate but spin");
     }
 
     #[test]

@@ -8,7 +8,7 @@
 use std::fmt;
 
 use dynamics::error::require;
-use dynamics::{Body, Coin, CoinToss, InputError, Launch, TimeOfFlight, Toss, Vector3};
+use dynamics::{Body, Coin, InputError, Launch, TimeOfFlight, Toss, Vector3};
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
@@ -165,11 +165,6 @@ impl Space {
     /// The toss of the body with these values. The value of a tied coordinate is taken from its partner.
     pub(crate) fn toss(&self, values: &Values) -> Toss {
         Toss { body: self.body, launch: self.launch(values) }
-    }
-
-    /// The toss of the coin with these values; `None` for a body with I1 ≠ I2.
-    pub(crate) fn coin_toss(&self, values: &Values) -> Option<CoinToss> {
-        self.coin().map(|coin| CoinToss { coin, launch: self.launch(values) })
     }
 
     /// The launch with these values. The value of a tied coordinate is taken from its partner.

@@ -31,7 +31,7 @@
 //! `cargo run --release -p toss --example map`
 
 use toss::catalogue::named_coin;
-use toss::sampling::{Axis, Coordinate, Node, Plan, Rest, Sampler, Space};
+use toss::sampling::{Axis, Coordinate, Plan, Rest, Sampler, Space};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let quarter = named_coin("us-quarter")?;
@@ -45,23 +45,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mapped = Sampler::exact().map(&space, across_and_up, Plan::ExactSpeed(Rest::Grid))?;
     let (rates, spins) = (&mapped.across.1, &mapped.up.1);
     for (spin, row) in spins.iter().zip(mapped.nodes.chunks(rates.len())).rev() {
-        let certain = row.iter().take_while(|node| shows_only_heads(node)).count();
+        let certain = rates.iter().filter(|rate| **rate <= quarter.inertia_ratio() * spin).count();
         let (left, right) = row.split_at(certain);
         println!("{spin:>3} {}/{}", text(left), text(right));
-
-        // The line is where ψ = 45°, and left of it the probability is 1.
-        assert_eq!(certain, rates.iter().filter(|rate| **rate <= quarter.inertia_ratio() * spin).count());
-        assert!(left.iter().all(|node| node.probability == 1.0));
+        assert!(left.iter().all(|probability| *probability == 1.0));
     }
     println!(" ωz over Ω, from 0 to 60 rad/s");
     Ok(())
 }
 
-fn shows_only_heads(node: &Node) -> bool {
-    node.least_cos_tilt.is_some_and(|least| least >= 0.0)
-}
-
-fn text(nodes: &[Node]) -> String {
-    let digit = |node: &Node| (0..10).rev().find(|tenth| node.probability >= 0.1 * f64::from(*tenth)).unwrap_or(0);
-    nodes.iter().map(|node| if node.probability == 1.0 { "#".to_owned() } else { digit(node).to_string() }).collect()
+fn text(probabilities: &[f64]) -> String {
+    let digit = |part: f64| (0..10).rev().find(|tenth| part >= 0.1 * f64::from(*tenth)).unwrap_or(0);
+    probabilities.iter().map(|part| if *part == 1.0 { "#".to_owned() } else { digit(*part).to_string() }).collect()
 }

@@ -53,11 +53,11 @@ fn draw_map(panel: &Panel<'_>, map: &Map, line: &[Piece]) -> Drawn {
     let mut chart = frame(panel, "", (&x_axis, &y_axis), 20)?;
     for (row, nodes) in map.nodes.chunks(columns.len()).enumerate() {
         let mut start = 0;
-        for run in nodes.chunk_by(|a, b| colour(a.probability) == colour(b.probability)) {
+        for run in nodes.chunk_by(|a, b| colour(*a) == colour(*b)) {
             // It reaches one cell too far, and the next ones are drawn over it: so no seams are seen.
             let end = (x[(start + run.len() + 1).min(columns.len())], y[(row + 2).min(rows.len())]);
             let corners = [(x[start], y[row]), end];
-            chart.draw_series([Rectangle::new(corners, colour(run[0].probability).filled())])?;
+            chart.draw_series([Rectangle::new(corners, colour(run[0]).filled())])?;
             start += run.len();
         }
     }

@@ -76,7 +76,7 @@ fn csv(map: &Map) -> String {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
     let heading = format!("{},{},probability\n", across.name(), up.name());
     let places = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
-    let lines = places.zip(&map.nodes).map(|((column, row), node)| format!("{column},{row},{}\n", node.probability));
+    let lines = places.zip(&map.nodes).map(|((column, row), probability)| format!("{column},{row},{probability}\n"));
     std::iter::once(heading).chain(lines).collect()
 }
 
@@ -93,13 +93,12 @@ struct Nodes<'a> {
 impl<'a> From<&'a Map> for Nodes<'a> {
     fn from(map: &'a Map) -> Self {
         let ((across, columns), (up, rows)) = (&map.across, &map.up);
-        let row = |nodes: &[sampling::Node]| nodes.iter().map(|node| node.probability).collect();
         Self {
             across: across.name(),
             up: up.name(),
             across_values: columns,
             up_values: rows,
-            probability: map.nodes.chunks(columns.len()).map(row).collect(),
+            probability: map.nodes.chunks(columns.len()).map(<[f64]>::to_vec).collect(),
         }
     }
 }

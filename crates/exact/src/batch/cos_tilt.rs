@@ -7,7 +7,7 @@
 //! cos θ = (A + B cos φ + C sin φ)/(|Q|² |L|²)         from any attitude
 //! ```
 
-use dynamics::{CoinToss, Error, SolveError};
+use dynamics::{Coin, Error, Tosses};
 use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
 
 use super::Batch;
@@ -39,8 +39,10 @@ impl Batch<'_> {
 struct Flat(Constants);
 
 impl Kernel<4, 1> for Flat {
-    fn constants(&self) -> &Constants {
-        &self.0
+    type Body = Coin;
+
+    fn limits(&self) -> Option<&Constants> {
+        Some(&self.0)
     }
 
     #[inline(always)]
@@ -56,8 +58,8 @@ impl Kernel<4, 1> for Flat {
         [((height + height) * half_inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
-        compensated_cos_tilt(toss).map(|cos| [cos])
+    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
+        tosses.solve_coin(index, compensated_cos_tilt).map(|cos| [cos])
     }
 }
 
@@ -72,8 +74,10 @@ impl Tilted {
 }
 
 impl Kernel<6, 1> for Tilted {
-    fn constants(&self) -> &Constants {
-        &self.0
+    type Body = Coin;
+
+    fn limits(&self) -> Option<&Constants> {
+        Some(&self.0)
     }
 
     #[inline(always)]
@@ -90,14 +94,14 @@ impl Kernel<6, 1> for Tilted {
         [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
-        compensated_cos_tilt(toss).map(|cos| [cos])
+    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
+        tosses.solve_coin(index, compensated_cos_tilt).map(|cos| [cos])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Coin, Tosses};
+    use dynamics::Attitude;
 
     use super::*;
 

@@ -35,7 +35,6 @@ use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::digits::height_in_digits;
 use super::height::{Height, Landing, functions_of_phase};
-use super::sine::sine_and_cosine;
 
 /// The turns Φ + u e of one input.
 pub(super) struct Line<'a> {
@@ -211,7 +210,7 @@ fn height_of(landing: Landing<f64>, phase: DoubleDouble) -> Height {
 
 /// f and f' in double-double at a landing with a `phase` (rad).
 fn fine_height_of(landing: Landing<DoubleDouble>, phase: DoubleDouble) -> Height {
-    let functions = functions_of_phase(&phase, sine_and_cosine(phase), DoubleDouble::from);
+    let functions = functions_of_phase(&phase, phase.exact_sin_cos(), DoubleDouble::from);
     let [value, slope] = landing.height_and_slope(functions).map(DoubleDouble::hi);
     let error = fine_error(phase.hi());
     let rounding = UNIT_ROUNDOFF;
@@ -224,7 +223,7 @@ fn error(phase: f64) -> f64 {
 }
 
 /// Bound of the error of f in double-double at a `phase` (rad): the same operations with 10 u² each, sine and cosine to
-/// (200 + 5 φ) u².
+/// 64 u².
 fn fine_error(phase: f64) -> f64 {
     (2000.0 + 100.0 * phase) * (UNIT_ROUNDOFF * UNIT_ROUNDOFF)
 }
@@ -250,8 +249,12 @@ mod tests {
         launches.map(|launch| CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }).collect()
     }
 
-    fn lines(mut test: impl FnMut(&Line)) {
-        for toss in &tosses() {
+    fn lines(test: impl FnMut(&Line)) {
+        lines_of(&tosses(), test);
+    }
+
+    fn lines_of(tosses: &[CoinToss], mut test: impl FnMut(&Line)) {
+        for toss in tosses {
             let turn = turn(toss);
             (0..3).for_each(|axis| test(&Line::of_rate(toss, axis, turn)));
         }
@@ -359,7 +362,9 @@ mod tests {
             }
             exact
         };
-        lines(|line| {
+        let launch = Launch::new([0.0; 3], TimeOfFlight::Given(0.7)).unwrap().with_tilt(0.6).unwrap();
+        let at_rest = CoinToss { coin: Coin::PAPER, launch };
+        lines_of(&[tosses(), vec![at_rest]].concat(), |line| {
             let [mut flip, mut top] = [0.1; 2];
             for _ in 0..8 {
                 let Height { value, slope, .. } = check(line, flip);

@@ -18,7 +18,6 @@ use dynamics::CoinToss;
 use numerics::big::Big;
 use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
-use super::sine::sine_and_cosine;
 use crate::motion::momentum_direction;
 use crate::multiprecision::{flight_time, momentum};
 use crate::tilt_terms::terms;
@@ -60,7 +59,7 @@ fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64;
     let direction = momentum_direction(toss);
     let [x, y, _] = direction;
     let [mean, cosine, sine] = terms(attitude.exact_vertical(), direction, x * x + y * y);
-    let (sin, cos) = sine_and_cosine(phase);
+    let (sin, cos) = phase.exact_sin_cos();
     let (f, slope) = (mean + cosine * cos + sine * sin, sine * cos - cosine * sin);
     let g = mean + mean - f;
     let discriminant = cosine * cosine + sine * sine - mean * mean;

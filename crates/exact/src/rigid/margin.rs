@@ -11,11 +11,7 @@ use numerics::DoubleDouble;
 
 use super::walk::{End, Input, Line, RESOLUTION, Walk};
 use super::{ExactMotion, RigidMotion, certify, cos_tilt};
-use crate::margin::{Margin, margin_coin, speed_and_gravity};
-
-/// Changes of a rate that are searched (rad/s), and of the turn (rad), as for coins.
-const RATE_RANGE: f64 = 1000.0;
-const TURN_RANGE: f64 = 2000.0;
+use crate::margin::{Margin, TURN_RANGE, margin_coin, rate_range, speed_and_gravity, thrown_speeds_of_heads};
 
 /// The margin of the toss of any body. That of a coin is by [`margin`].
 ///
@@ -30,26 +26,12 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     }
     let outcome = certify(toss)?.outcome();
     if outcome == Outcome::Undecided {
-        return Ok(on_edge(toss));
+        return Ok(Margin::on_edge(&toss.launch, 0.0, 0.0));
     }
     let (time, speed, gravity, time_range) = of_flight(toss, outcome);
     let rates = [0, 1, 2].map(|axis| of_rate(toss, axis, outcome));
     let (rate, rate_range) = (rates.map(|(change, _)| change), rates.map(|(_, range)| range));
     Ok(Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range, time_range })
-}
-
-/// The margin of an undecided toss: 0 of each input.
-fn on_edge(toss: &Toss) -> Margin {
-    let thrown = if matches!(toss.launch.time_of_flight(), TimeOfFlight::Given(_)) { None } else { Some(0.0) };
-    Margin {
-        time: Some(0.0),
-        speed: thrown,
-        gravity: thrown,
-        tilt: Some(0.0),
-        rate: [Some(0.0); 3],
-        rate_range: [0.0; 3],
-        time_range: [0.0; 2],
-    }
 }
 
 /// The first flip in the direction of `sense` up to `limit`, and how far the search went.
@@ -89,8 +71,7 @@ fn of_flight(toss: &Toss, outcome: Outcome) -> (Option<f64>, Option<f64>, Option
 /// Of a rate, and the largest change that was searched.
 fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
     let line = Line::new(toss, Input::Rate(axis));
-    let largest = toss.launch.rate().amax();
-    let range = (10.0 * largest).max(RATE_RANGE).min(TURN_RANGE / toss.launch.flight_time()).min(f64::MAX);
+    let range = rate_range(&toss.launch);
     let (up, up_range) = first(&line, outcome, 1.0, range);
     let (down, down_range) = first(&line, outcome, -1.0, up_range);
     match (up, down) {
@@ -123,7 +104,7 @@ pub fn speeds_of_heads(toss: &Toss, slowest: f64) -> Result<Option<Vec<[f64; 2]>
         TimeOfFlight::Given(_) => return Ok(None),
     };
     if let Some(toss) = toss.coin() {
-        return crate::thrown::thrown_speeds_of_heads(&toss, slowest);
+        return thrown_speeds_of_heads(&toss, slowest);
     }
     ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
     let to = toss.launch.flight_time();

@@ -2,14 +2,18 @@
 
 use dynamics::{Attitude, Coin, CoinToss, Launch, TimeOfFlight, Vector3};
 
-/// Tosses of rods, spheres, real coins and flat discs, from horizontal, from a tilt and from any attitude, caught at the same
+/// Tosses of rods, spheres, real coins and flat discs, some at rest and some about a diameter, from horizontal, from a tilt and from any attitude, caught at the same
 /// height, below and above, or flying for a given time; by Weyl's sequence.
 pub(crate) fn random_tosses() -> impl Iterator<Item = CoinToss> {
     (1..).map(|index| {
         let part = |root: f64| (f64::from(index) * root.sqrt()).fract();
         let signed = |root: f64| 2.0 * part(root) - 1.0;
         let most = [3.0, 30.0, 300.0][index as usize % 3];
-        let rate = Vector3::new(most * signed(2.0), most * signed(3.0), most * signed(5.0));
+        let rate = match index % 13 {
+            0 => Vector3::zeros(),
+            5 => Vector3::new(0.0, most * signed(3.0), 0.0),
+            _ => Vector3::new(most * signed(2.0), most * signed(3.0), most * signed(5.0)),
+        };
         let (speed, gravity) = (2.0 + 3.0 * part(7.0), 1.0 + 9.0 * part(13.0));
         let time_of_flight = match index % 7 {
             0 => TimeOfFlight::Given(part(7.0)),

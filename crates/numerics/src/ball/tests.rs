@@ -22,40 +22,6 @@ fn is_angle<N: Elementary>(ball: &Ball<N>, exact: &Big) -> bool {
     [exact + &turn, exact - &turn, exact.clone()].iter().any(|exact| contains(ball, exact))
 }
 
-/// Balls of many radii, each with a number in it that is near its edge.
-fn samples() -> Vec<(Ball<DoubleDouble>, Big)> {
-    let mut samples = Vec::new();
-    for index in 1..10 {
-        let part = 2.0 * (f64::from(index) * 3f64.sqrt()).fract() - 1.0;
-        for radius in [0.0, 1e-30, 1e-17, 1e-9, 0.01, 0.4] {
-            let midpoint = 3.0 * part;
-            let inside = big(midpoint) + big(0.999 * radius * if index % 2 == 0 { 1.0 } else { -1.0 });
-            samples.push((Ball::new(midpoint.into(), radius), inside));
-        }
-    }
-    samples
-}
-
-#[test]
-fn every_result_contains_that_of_every_number_in_its_balls() {
-    for (a, exact_a) in samples() {
-        assert!(contains(&a.exp(), &exact_a.exp()), "{a:?}");
-        let (sin, cos) = exact_a.sin_cos();
-        let found = a.sine_and_cosine();
-        assert!(contains(&found[0], &sin) && contains(&found[1], &cos), "{a:?}");
-        if exact_a > Big::ZERO {
-            assert!(contains(&a.sqrt(), &exact_a.sqrt()), "{a:?}");
-        }
-        for (b, exact_b) in samples() {
-            assert!(contains(&(a + b), &(&exact_a + &exact_b)), "{a:?} {b:?}");
-            assert!(contains(&(a - b), &(&exact_a - &exact_b)), "{a:?} {b:?}");
-            assert!(contains(&(a * b), &(&exact_a * &exact_b)), "{a:?} {b:?}");
-            assert!(contains(&(a / b), &(&exact_a / &exact_b)), "{a:?} {b:?}");
-            assert!(is_angle(&a.atan2(&b), &exact_a.atan2(&exact_b)), "{a:?} {b:?}");
-        }
-    }
-}
-
 /// Balls of every size that an f64 has, each with a number in it that is near its edge.
 fn extremes() -> Vec<(Ball<DoubleDouble>, Big)> {
     let mut samples = Vec::new();
@@ -156,13 +122,6 @@ fn balls_of_f64_contain_every_result_and_the_functions_are_right_to_half_of_thei
         let error = ((big(radius.exp_m1()) - &exact) / &exact).to_f64().value().abs();
         assert!(error <= 0.55 * 2f64.powi(-51), "{radius}: {error:e}");
     }
-    for (a, exact_a) in samples() {
-        for (b, exact_b) in samples() {
-            let [x, y] = [a, b].map(|ball| Ball::new(ball.midpoint.hi(), ball.radius));
-            assert!(contains(&(x + y), &(&exact_a + &exact_b)) && contains(&(x * y), &(&exact_a * &exact_b)));
-            assert!(contains(&(x / y), &(&exact_a / &exact_b)) && contains(&x.exp(), &exact_a.exp()));
-        }
-    }
 }
 
 /// The leading f64 of a number may be finite where the remainder is not: splitting a factor above 2^996 overflows.
@@ -175,21 +134,10 @@ fn of_a_midpoint_with_a_part_that_is_not_finite_nothing_is_known() {
         let one = ball.like(1.0);
         assert!(one.is_in_range() && !ball.is_in_range());
         let [sin, cos] = ball.sine_and_cosine();
+        #[rustfmt::skip]
         let results = [
-            ball,
-            -ball,
-            ball + one,
-            ball * one,
-            ball / one,
-            ball.exp(),
-            ball.sqrt(),
-            sin,
-            cos,
-            ball.atan2(&one),
-            ball.times_power_of_two(-3),
-            ball.widened(0.1),
-            ball.magnitude(),
-            one.like(midpoint.hi() * f64::INFINITY),
+            ball, -ball, ball + one, ball * one, ball / one, ball.exp(), ball.sqrt(), sin, cos, ball.atan2(&one),
+            ball.times_power_of_two(-3), ball.widened(0.1), ball.magnitude(), one.like(midpoint.hi() * f64::INFINITY),
         ];
         for (number, found) in results.into_iter().enumerate() {
             assert!(!found.radius().is_finite() && !found.has_sign(), "{number} of {midpoint:?}: {found:?}");

@@ -7,7 +7,7 @@
 //! angles 2^-100 of the angle.
 
 use super::DoubleDouble;
-use crate::angle::{QUARTER, SIXTEENTHS, double_double};
+use crate::angle::{QUARTER, sin_cos_of_parts};
 use crate::big::{Big, exactly};
 use crate::scale::mantissa_and_exponent;
 
@@ -64,19 +64,7 @@ impl DoubleDouble {
         // The first number of quarters is off by one where it has nearly all digits of f64.
         let (rest, quarters) = self.less_quarters();
         let (rest, more) = rest.less_quarters();
-        let sixteenths = (16.0 * rest.hi).round_ties_even();
-        let (sin_d, cos_d_less_1) = sin_cos_of_small(rest - (0.0625 * sixteenths).into());
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 13")]
-        let [sin_a, cos_a] = SIXTEENTHS[sixteenths.abs().min(13.0) as usize].map(double_double);
-        let sin_a = if sixteenths < 0.0 { -sin_a } else { sin_a };
-        let sin = sin_a + (sin_a * cos_d_less_1 + cos_a * sin_d);
-        let cos = cos_a + (cos_a * cos_d_less_1 - sin_a * sin_d);
-        match (quarters + more).rem_euclid(4.0) {
-            0.0 => (sin, cos),
-            1.0 => (cos, -sin),
-            2.0 => (-sin, -cos),
-            _ => (-cos, sin),
-        }
+        sin_cos_of_parts(rest, quarters + more, sin_cos_of_small).into()
     }
 
     /// Sine and cosine by as many digits as the largest f64 has before the point, and those of the result after it.
@@ -88,7 +76,8 @@ impl DoubleDouble {
     }
 
     /// The angle less a number of quarters of a turn, and that number.
-    fn less_quarters(self) -> (Self, f64) {
+    #[inline]
+    pub(crate) fn less_quarters(self) -> (Self, f64) {
         let quarters = (self.hi * std::f64::consts::FRAC_2_PI).round_ties_even();
         (QUARTER.iter().fold(self, |rest, part| rest - Self::product(quarters, *part)), quarters)
     }
@@ -126,10 +115,10 @@ impl DoubleDouble {
 }
 
 /// sin d and cos d - 1 of an angle up to 1/32.
-fn sin_cos_of_small(d: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+fn sin_cos_of_small(d: DoubleDouble) -> [DoubleDouble; 2] {
     let square = -(d * d);
     // Terms up to the sixteenth and seventeenth power, of at most 2^-125.
-    (d * series(square, (1..=17).rev().step_by(2), 9), square * series(square, (2..=16).rev().step_by(2), 10))
+    [d * series(square, (1..=17).rev().step_by(2), 9), square * series(square, (2..=16).rev().step_by(2), 10)]
 }
 
 /// The sum of the powers 0, 1, 2, ... of `at`, divided by the factorials of the numbers in `falling`, the last of which

@@ -37,16 +37,6 @@ fn distance_after_step<N: Elementary>(a: &N, b: &N) -> f64 {
     if is_small { distance * distance + 2f64.powi(-a.digits().min(1000)) } else { f64::INFINITY }
 }
 
-/// AGM(1, `b`), the common limit of arithmetic and geometric means that begin with 1 and `b` > 0.
-pub fn agm<N: Elementary>(b: N) -> N {
-    means(b.like(1.0), b, |_, _| ())
-}
-
-/// K(m) = π/(2 AGM(1, k')) for the complementary modulus 0 < k' ≤ 1.
-pub fn complete_first<N: Elementary>(complementary_modulus: N) -> N {
-    complementary_modulus.pi().halved() / agm(complementary_modulus)
-}
-
 /// The nome q = exp(-π K'/K), from K and K' = K(1 - m).
 pub fn nome<N: Elementary>(k: N, k_prime: N) -> N {
     (-(k.pi() * k_prime / k)).exp()
@@ -65,7 +55,7 @@ pub fn incomplete_first<N: Elementary>(sin: &N, cos: &N, complementary_modulus: 
     incomplete
 }
 
-/// F(φ | m) as [`incomplete_first`], and K(m), which is the same iteration.
+/// F(φ | m) as [`incomplete_first`], and K(m) = π/(2 AGM(1, k')), which is the same iteration.
 pub fn incomplete_and_complete_first<N: Elementary>(sin: &N, cos: &N, complementary_modulus: N) -> [N; 2] {
     let mut point = unit_sized([cos.clone(), sin.clone()]);
     // The turned angle (rad), right to some roundings: it tells the turns, which the point does not.
@@ -183,7 +173,8 @@ mod tests {
             assert!(found >= least * (1.0 - 1e-15) && found <= least * (1.0 + 1e-14), "{a:?} {b:?}: {found}");
         }
         // Means that never meet are known by nothing.
-        assert_eq!(agm(Ball::new(0.0, 0.0)).radius(), f64::INFINITY);
-        assert!(agm(Ball::new(1e-300, 0.0)).radius() < 1e-16);
+        let mean = |b: f64| means(Ball::new(1.0, 0.0), Ball::new(b, 0.0), |_, _| ());
+        assert_eq!(mean(0.0).radius(), f64::INFINITY);
+        assert!(mean(1e-300).radius() < 1e-16);
     }
 }

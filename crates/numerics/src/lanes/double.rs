@@ -104,17 +104,10 @@ mod tests {
             for a in doubles() {
                 for b in doubles() {
                     let [x, y] = [a, b].map(|number| number.map(|part| Real::splat(simd, part)));
-                    self.0(a, b, [times(x, y), sum(x, y)].map(|number| number.map(first)));
+                    self.0(a, b, [times(x, y), sum(x, y)].map(|number| number.map(Real::first)));
                 }
             }
         }
-    }
-
-    /// The number in the first lane.
-    fn first<S: Simd>(value: Real<S>) -> f64 {
-        let mut number = [0.0];
-        value.store_up_to(&mut number);
-        number[0]
     }
 
     fn double_double([high, low]: Double<f64>) -> DoubleDouble {
@@ -155,10 +148,10 @@ mod tests {
             let rough = |number: Complex<Double<Real<S>>>| number.map(|part| part[0]);
             let (modulus, direction) = polar(rough(a));
             StepParts {
-                product: complex_product(rough(a), rough(b)).map(first),
-                compensated: compensated_product(a, b).map(|part| part.map(first)),
-                modulus: first(modulus),
-                direction: direction.map(first),
+                product: complex_product(rough(a), rough(b)).map(Real::first),
+                compensated: compensated_product(a, b).map(|part| part.map(Real::first)),
+                modulus: modulus.first(),
+                direction: direction.map(Real::first),
             }
         }
     }

@@ -113,24 +113,4 @@ mod tests {
             }
         }
     }
-
-    /// A change of one bit of the counter or the key changes each bit of the block with probability ½.
-    #[test]
-    fn every_bit_of_counter_and_key_changes_half_of_the_block() {
-        const TRIALS: u64 = 400;
-        for bit in 0..192 {
-            let changed: u32 = (0..TRIALS)
-                .map(|trial| {
-                    let one = [trial, 7 * trial, 13 * trial];
-                    let mut other = one;
-                    other[bit / 64] ^= 1 << (bit % 64);
-                    let [one, other] = [one, other].map(|[a, b, key]| Philox::new(key).block([a, b]));
-                    (one[0] ^ other[0]).count_ones() + (one[1] ^ other[1]).count_ones()
-                })
-                .sum();
-            let bits = 128.0 * TRIALS as f64;
-            // Five standard deviations of a binomial count.
-            assert!((f64::from(changed) - 0.5 * bits).abs() < 2.5 * bits.sqrt(), "bit {bit}: {changed} of {bits}");
-        }
-    }
 }

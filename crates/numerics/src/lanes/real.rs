@@ -60,6 +60,14 @@ impl<S: Simd> Real<S> {
         self.simd.partial_store_f64s(slice, self.value);
     }
 
+    /// The number in the first lane.
+    #[inline(always)]
+    pub fn first(self) -> f64 {
+        let mut number = [0.0];
+        self.store_up_to(&mut number);
+        number[0]
+    }
+
     /// Sum of all lanes.
     #[inline(always)]
     pub fn total(self) -> f64 {
@@ -207,36 +215,23 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-impl<S: Simd> Add for Real<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self { value: self.simd.add_f64s(self.value, other.value), ..self }
-    }
+macro_rules! operators {
+    ($($operator:ident, $method:ident, $of_lanes:ident;)*) => {$(
+        impl<S: Simd> $operator for Real<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self { value: self.simd.$of_lanes(self.value, other.value), ..self }
+            }
+        }
+    )*};
 }
 
-impl<S: Simd> Sub for Real<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self { value: self.simd.sub_f64s(self.value, other.value), ..self }
-    }
-}
-
-impl<S: Simd> Mul for Real<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self { value: self.simd.mul_f64s(self.value, other.value), ..self }
-    }
-}
-
-impl<S: Simd> Div for Real<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self { value: self.simd.div_f64s(self.value, other.value), ..self }
-    }
+operators! {
+    Add, add, add_f64s;
+    Sub, sub, sub_f64s;
+    Mul, mul, mul_f64s;
+    Div, div, div_f64s;
 }
 
 impl<S: Simd> Neg for Real<S> {

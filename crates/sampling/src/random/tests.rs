@@ -1,10 +1,10 @@
-//! Tests of the random launches: which numbers they are made of, and that these are independent and uniform.
+//! Tests of the random launches: which numbers they are made of.
 
 use std::convert::Infallible;
 
 use dynamics::Coin;
 use rand::distr::Open01;
-use rand::{Rng, RngExt, TryRng};
+use rand::{RngExt, TryRng};
 
 use super::*;
 
@@ -95,72 +95,5 @@ fn launches_have_the_same_bits_at_every_level_and_length() {
         for (start, length) in [(0, 0), (0, 1), (3, 7), (9, 31), ((1 << 32) - 100, BLOCK)] {
             assert_eq!(values(level, start, length), values(SimdLevel::all()[0], start, length), "{}", level.name());
         }
-    }
-}
-
-/// Pairs of streams that must be independent: neighbouring launches of one coordinate, two coordinates (of one block and
-/// of two), and two seeds, also those that differ in one high bit.
-fn pairs_of_streams() -> Vec<(String, Stream, Stream)> {
-    let mut pairs = Vec::new();
-    for of in Coordinate::ALL {
-        for lag in [1, 2, 512, 1 << 32] {
-            pairs.push((format!("{of:?}, lag {lag}"), stream(1, of), Stream { launch: lag, ..stream(1, of) }));
-        }
-        for seed in [0, 2, 3, 1 << 32, 1 << 63] {
-            pairs.push((format!("{of:?}, seeds 1 and {seed}"), stream(1, of), stream(seed, of)));
-        }
-        for other in Coordinate::ALL.into_iter().filter(|other| *other != of) {
-            pairs.push((format!("{of:?} and {other:?}"), stream(1, of), stream(1, other)));
-        }
-    }
-    pairs
-}
-
-/// Two independent uniform numbers fall into each of 256 cells with equal probability. For 255 degrees of freedom a χ²
-/// above 400 has a probability below 1e-8, and one below 150 too.
-#[test]
-fn streams_are_independent_and_uniform() {
-    const NUMBERS: u32 = 1 << 14;
-    for (name, mut one, mut two) in pairs_of_streams() {
-        let mut cells = [0_u32; 256];
-        for _ in 0..NUMBERS {
-            cells[(one.next_u64() >> 60 << 4 | two.next_u64() >> 60) as usize] += 1;
-        }
-        let expected = f64::from(NUMBERS) / 256.0;
-        let chi_squared: f64 = cells.iter().map(|count| (f64::from(*count) - expected).powi(2) / expected).sum();
-        assert!((150.0..400.0).contains(&chi_squared), "{name}: {chi_squared}");
-    }
-}
-
-/// Among 2^18 different words of 64 bits, two equal ones have a probability of 2e-9.
-#[test]
-fn seeds_and_coordinates_share_no_numbers() {
-    let mut words = Vec::new();
-    for seed in 1..=8 {
-        for of in Coordinate::ALL {
-            let mut stream = stream(seed, of);
-            words.extend((0..5_000).map(|_| stream.next_u64()));
-        }
-    }
-    let number = words.len();
-    words.sort_unstable();
-    words.dedup();
-    assert_eq!(words.len(), number);
-}
-
-/// Over 20 000 seeds the first number of a coordinate is uniform, and independent of that of the next seed.
-#[test]
-fn the_first_numbers_of_many_seeds_are_independent() {
-    const SEEDS: u32 = 20_000;
-    let first = |seed: u64, of| between_0_and_1(stream(seed, of).next_u64()) - 0.5;
-    for of in Coordinate::ALL {
-        let numbers: Vec<f64> = (0..=u64::from(SEEDS)).map(|seed| first(seed, of)).collect();
-        let mean: f64 = numbers.iter().sum::<f64>() / f64::from(SEEDS);
-        let lagged: f64 = numbers.windows(2).map(|pair| 12.0 * pair[0] * pair[1]).sum::<f64>() / f64::from(SEEDS);
-        let deviation = f64::from(SEEDS).sqrt().recip();
-        assert!(
-            mean.abs() < 5.0 * deviation / 12.0_f64.sqrt() && lagged.abs() < 5.0 * deviation,
-            "{of:?}: {mean}, {lagged}"
-        );
     }
 }

@@ -126,33 +126,49 @@ fn a_coin_has_the_margin_that_it_had() {
     let launch = Launch::new([20.0, 3.0, 40.0], TimeOfFlight::Ballistic { speed: 2.0, gravity: 9.81 }).unwrap();
     let toss = dynamics::CoinToss { coin, launch };
     assert_eq!(margin(&toss.into()).unwrap(), margin_coin(&toss).unwrap());
-    let heads = crate::thrown::thrown_speeds_of_heads(&toss, 1.0);
+    let heads = crate::margin::thrown_speeds_of_heads(&toss, 1.0);
     assert_eq!(speeds_of_heads(&toss.into(), 1.0), heads);
+}
+
+/// Checks that a toss lands heads within the intervals of speeds and nowhere else, and returns their number.
+fn check_intervals(toss: &Toss, [slowest, fastest]: [f64; 2], drop: Option<f64>) -> usize {
+    let thrown = |speed| with_flight(toss, TimeOfFlight::thrown(speed, 9.81, drop));
+    let lands_heads = |speed| certify(&thrown(speed)).unwrap().outcome() == Outcome::Heads;
+    let intervals_from = |slowest| speeds_of_heads(&thrown(fastest), slowest).unwrap().unwrap();
+    let heads = intervals_from(slowest);
+    let speeds = (0..).map(|step| slowest + f64::from(step) * 1e-3);
+    for speed in speeds.clone().take_while(|speed| *speed <= fastest) {
+        let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
+        let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
+        assert!(lands_heads(speed) == expected || nearest < 1e-11, "{toss:?}, {drop:?}, {speed} m/s");
+    }
+    // The first interval begins with the range where that lands heads, wherever it begins.
+    for slowest in speeds.step_by(110).take(12) {
+        let begins = intervals_from(slowest).iter().any(|[slow, _]| *slow == slowest);
+        assert_eq!(begins, lands_heads(slowest), "{toss:?}, {drop:?}, {slowest} m/s");
+    }
+    heads.len()
 }
 
 #[test]
 fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
+    let toss = |moments, rate, tilt| toss(moments, rate, TimeOfFlight::Given(1.0), tilt);
+    let body = toss([1.0, 2.0, 2.5], [18.0, 9.0, 12.0], 0.4);
     for drop in [None, Some(0.4)] {
-        let flight = TimeOfFlight::thrown(3.0, 9.81, drop);
-        let toss = toss([1.0, 2.0, 2.5], [18.0, 9.0, 12.0], flight, 0.4);
-        let heads = speeds_of_heads(&toss, 1.0).unwrap().unwrap();
-        assert!(heads.len() > 1, "{heads:?}");
-        for speed in (0..=2000).map(|step| 1.0 + f64::from(step) * 1e-3) {
-            let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
-            let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
-            let thrown = with_flight(&toss, TimeOfFlight::thrown(speed, 9.81, drop));
-            let found = certify(&thrown).unwrap().outcome() == Outcome::Heads;
-            assert!(found == expected || nearest < 1e-11, "{drop:?}, {speed} m/s");
-        }
-        // The first interval begins with the range where that lands heads, wherever it begins.
-        for slowest in (0..12).map(|step| 1.0 + 0.11 * f64::from(step)) {
-            let begins = speeds_of_heads(&toss, slowest).unwrap().unwrap().iter().any(|[slow, _]| *slow == slowest);
-            let thrown = with_flight(&toss, TimeOfFlight::thrown(slowest, 9.81, drop));
-            assert_eq!(begins, certify(&thrown).unwrap().outcome() == Outcome::Heads, "{drop:?}, {slowest} m/s");
+        assert!(check_intervals(&body, [1.0, 3.0], drop) > 1);
+    }
+    let coin = toss([1.0, 1.0, 2.0], [20.0, 5.0, 3.0], 0.4);
+    for drop in [Some(1.3), Some(-0.4), Some(0.0), None] {
+        assert!(check_intervals(&coin, [3.0, 9.0], drop) > 2);
+    }
+    for rate in [[1.0, 1.0, 2.5], [20.0, -31.0, 7.0], [0.0, 9.0, 0.0], [-3.0, 4.0, -6.0], [2.0, 2.0, 0.5], [0.0; 3]] {
+        for tilt in [0.0, 0.6, 2.0, -1.1] {
+            check_intervals(&toss([1.0, 1.0, 1.3], rate, tilt), [1.0, 9.0], None);
         }
     }
-    let given = toss([1.0, 2.0, 2.5], [1.0; 3], TimeOfFlight::Given(1.0), 0.0);
-    assert_eq!(speeds_of_heads(&given, 0.0), Ok(None));
+    for toss in [body, coin] {
+        assert_eq!(speeds_of_heads(&toss, 0.0), Ok(None));
+    }
 }
 
 /// At the speed 0 the body is on edge, which is not a flip and does not end the search.

@@ -67,20 +67,9 @@ fn expected(name: &str, a: f64, b: f64, c: f64) -> f64 {
         "smaller" => a.min(b),
         "cosine" => a.clamp(-1.0, 1.0),
         "round" => (10.0 * a).round_ties_even(),
-        "less" => {
-            if a < b {
-                a
-            } else {
-                c
-            }
-        }
-        "at most" => {
-            if a <= b {
-                a
-            } else {
-                c
-            }
-        }
+        "less" if a < b => a,
+        "at most" if a <= b => a,
+        "less" | "at most" => c,
         _ => unreachable!("an operation of the list"),
     }
 }
@@ -124,13 +113,8 @@ impl WithSimd for Products<'_> {
     type Output = Vec<[f64; 2]>;
 
     fn with_simd<S: Simd>(self, simd: S) -> Vec<[f64; 2]> {
-        let first = |value: Real<S>| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        };
         let splat = |value| Real::splat(simd, value);
-        self.1.iter().map(|other| splat(self.0).product(splat(*other)).map(first)).collect()
+        self.1.iter().map(|other| splat(self.0).product(splat(*other)).map(Real::first)).collect()
     }
 }
 
