@@ -80,7 +80,7 @@ fn a_row_above_its_limit_ends_the_run_with_1_and_is_printed_with_a_command_that_
             && table.contains(&format!("FAIL: {} of {} rows pass", subjects() - 1, subjects())),
         "{table}"
     );
-    assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
+    assert!(table.contains("repeat with: cargo xtask verify --replay \"i1="), "{table}");
     let pattern = "Fails: exact, in one check (reference-cos-tilt). Passes: euler, gamma, quaternion.";
     assert!(table.contains(pattern), "{table}");
     for file in ["report.html", "report.json", "summary.md"] {

@@ -60,7 +60,7 @@ fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fai
         "{table}"
     );
     assert!(table.contains("Worse than the baseline: gamma, by dop853 alone, in one check ("), "{table}");
-    assert_eq!(table.matches("    repeat with: cargo run").count(), 1, "{table}");
+    assert_eq!(table.matches("    repeat with: cargo xtask verify --replay").count(), 1, "{table}");
     assert!(
         table.contains("better than the baseline; --bless takes it over: 1\n  reference-cos-tilt / quaternion/dop853")
     );
@@ -74,7 +74,7 @@ fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fai
     assert!(suite.contains("<testcase name=\"gamma/dop853: error\""), "{suite}");
     assert!(suite.contains("<property name=\"accepted\" value=\"1.5e-12\"/>"), "{suite}");
     assert!(suite.contains("message=\"worse than the baseline: error 1.500e-12 → "), "{suite}");
-    assert!(suite.contains("cargo run -q --release --bin unfair-toss -- toss --moments"), "{suite}");
+    assert!(suite.contains("cargo xtask verify --replay &quot;i1="), "{suite}");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn github_gets_annotations_after_the_text_and_a_summary_that_is_appended() {
     let table = ran.stdout();
     let last = table.lines().last().unwrap();
     assert!(last.starts_with("::warning title=reference-cos-tilt / gamma/dop853::Worse than the baseline"), "{table}");
-    assert!(last.contains("%0ARepeat with: cargo run -q --release --bin unfair-toss -- toss"), "{last}");
+    assert!(last.contains("%0ARepeat with: cargo xtask verify --replay \"i1="), "{last}");
     assert!(table.contains(&format!("PASS: {0} of {0} rows pass", subjects())), "{table}");
     let text = std::fs::read_to_string(&summary).unwrap();
     assert_eq!(text, format!("what another step wrote\n{}", ran.file("summary.md")));

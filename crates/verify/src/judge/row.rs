@@ -152,7 +152,7 @@ impl Row {
 
 /// Judges the measurements of `check` by `limits`, with the commands of this workspace for a run of standard effort.
 pub fn judge(check: &Check, measurements: Vec<Measurement>, limits: &Limits) -> Vec<Row> {
-    Judge { limits, commands: &Commands::Workspace, effort: Effort::Standard }.rows(check, measurements)
+    Judge { limits, commands: &Commands::of_this_workspace(), effort: Effort::Standard }.rows(check, measurements)
 }
 
 /// The value that was judged, what it was compared with, and the result.

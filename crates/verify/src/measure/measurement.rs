@@ -240,8 +240,8 @@ impl Worst {
 
     /// The toss, of which the library is measured.
     pub fn of_library(toss: &Toss, failure: Option<String>) -> Self {
-        let (input, settings) = (case::text(toss), String::new());
-        Self { input: input.clone(), failure, replay: Replay::Toss { input, settings, command: None, row: None } }
+        let input = case::text(toss);
+        Self { input: input.clone(), failure, replay: Replay::Toss { input, settings: String::new(), row: None } }
     }
 
     /// The same case with a remark behind it, which is no part of its text.

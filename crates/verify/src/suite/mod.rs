@@ -84,7 +84,8 @@ impl Suite {
 
     /// The suite of this workspace: its own solvers and its library, under all checks.
     pub fn standard() -> Self {
-        Self { commands: Commands::Workspace, ..Self::new(Registry::standard().clone()) }.with_library_checks()
+        Self { commands: Commands::of_this_workspace(), ..Self::new(Registry::standard().clone()) }
+            .with_library_checks()
     }
 
     /// The same suite with `limits` in place of those in its folder.
@@ -115,7 +116,7 @@ impl Suite {
     /// with it. Without it the place of the program's file tells.
     #[must_use]
     pub fn command(self, command: &str) -> Self {
-        Self { commands: Commands::Program(command.to_owned()), ..self }
+        Self { commands: Commands::of(command), ..self }
     }
 
     /// The same suite with the checks that judge this library: its exact motion, proofs, batches, sampling methods and

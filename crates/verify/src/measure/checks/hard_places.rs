@@ -17,7 +17,7 @@ use super::landings::part_of_estimate;
 use crate::measure::adversary::Findings;
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
-use crate::measure::case::is_horizontal;
+use crate::measure::case::{self, is_horizontal};
 use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
@@ -276,7 +276,8 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
     let over = judged.clone().filter(|(_, part)| *part > 1.0).count();
     let (Flight { toss, by }, measured) =
         judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
-    let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", by.options());
+    let settings = case::settings(by);
+    let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", settings.trim_start());
     let worst = Some(Worst::by(toss, by, None).remarking(&remark));
     let cases = landings.len() as u64;
     Ok(Measurement { subject: name, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(Some(1.0)))

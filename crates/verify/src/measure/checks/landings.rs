@@ -93,7 +93,6 @@ fn pair(
         Ok(both.0.zip(both.1).map(|(one, other)| one.attitude + other.attitude))
     };
     let found = Measurement::largest(other, &deviations, |index| survey.tosses[index], allowed);
-    let found = found.with_worst(|worst| Worst { replay: worst.replay.beside(one), ..worst });
     Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..found }
 }
 
