@@ -155,7 +155,7 @@ fn worst_cone(
     deviation: impl Fn(f64, f64) -> f64 + Sync,
 ) -> anyhow::Result<Vec<Measurement>> {
     let flights = &context.data.long_flights;
-    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
+    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability));
     let all: Vec<(f64, f64)> = each.map(|(cone, probability)| (deviation(cone, probability), cone)).collect();
     let worst = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     let (deviation, cone) = worst.context("no cone angle in the reference numbers")?;
@@ -202,11 +202,11 @@ pub(super) const FIGURES: Check = Check {
 fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
-        let found = Sampler::exact().estimate(&reference.space()?, Plan::ExactSpeed(Rest::Grid))?;
+        let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
         let Found::Shares { rounding_error } = found.found else {
             anyhow::bail!("exact-speed gave counts instead of a share")
         };
-        let measured = measure((found.probability - reference.probability.0).abs(), rounding_error);
+        let measured = measure((found.probability - reference.probability).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());
         }
