@@ -156,8 +156,7 @@ fn report() -> Value {
     let registry = [ExactSolver::entry(), stepper, SolverEntry::new("refuses", "", |_| Box::new(Refuses))];
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     assert!(context.atlas.get(&context).is_ok() && context.long_flights.get(&context).is_ok());
-    assert!(context.convergence.get(&context).is_ok() && context.trial.get(&context).is_ok());
-    assert!(context.sweep.get(&context).is_ok() && context.probabilities.get(&context).is_ok());
+    assert!(context.convergence.get(&context).is_ok() && context.sweep.get(&context).is_ok());
     assert!(context.fig4.get(&context).is_ok());
     let limits = Limits::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("limits");
     let of = |id: &str| -> Vec<Row> {

@@ -16,11 +16,11 @@ use crate::measure::atlas::expected::Expected;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
-use crate::measure::planner::{PlannerSummary, Trial};
+use crate::measure::planner::Trial;
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
-use crate::measure::tables::{Probability, fig4, probabilities};
+use crate::measure::tables::fig4;
 use crate::measure::tosses::{Case, long_bodies};
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
@@ -61,8 +61,6 @@ pub struct Context {
     pub convergence: Shared<Vec<Convergence>>,
     /// Random scenes, solved as planned.
     pub trial: Shared<Trial>,
-    /// P(heads) of every named space by every method.
-    pub probabilities: Shared<Vec<Probability>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
 }
@@ -117,7 +115,6 @@ impl Context {
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),
             trial: Shared::by(|context| Trial::new(context.effort)),
-            probabilities: Shared::by(|_| probabilities()),
             fig4: Shared::by(|_| fig4()),
         })
     }
@@ -129,8 +126,6 @@ impl Context {
             long_flights: self.long_flights.found.get(),
             sweep: self.sweep.found.get(),
             convergence: self.convergence.found.get(),
-            planner: self.trial.found.get().map(Trial::summary),
-            probabilities: self.probabilities.found.get(),
             fig4: self.fig4.found.get(),
         }
     }
@@ -145,12 +140,8 @@ pub struct Records<'a> {
     pub long_flights: Option<&'a LongFlights>,
     /// Error and work by tolerance or step.
     pub sweep: Option<&'a Sweep>,
-    /// Planner accuracy and cost.
-    pub planner: Option<PlannerSummary>,
     /// Error by fixed step.
     pub convergence: Option<&'a Vec<Convergence>>,
-    /// P(heads) of the named spaces.
-    pub probabilities: Option<&'a Vec<Probability>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Option<&'a Vec<RunningStep>>,
 }

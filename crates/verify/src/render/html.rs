@@ -10,9 +10,7 @@ use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
-use crate::measure::planner::Line;
 use crate::measure::run::Answer;
-use crate::measure::tables::Probability;
 use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
 use crate::render::report::{Cost, ENOUGH, Reached};
@@ -80,8 +78,6 @@ pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                 h2 { "Everything in full" }
                 @for family in Family::all(report.rows) { (in_full(&family, report)) }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
-                @if let Some(lines) = report.records.probabilities { (probabilities(lines)) }
-                @if let Some(summary) = &report.records.planner { (planner(&summary.lines)) }
                 (not_measured(report))
             }
         }
@@ -325,45 +321,6 @@ fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
                     figure {
                         a href=(chart.file) title="the chart by itself" { (PreEscaped(&chart.svg)) }
                         @if let Some(caption) = &chart.caption { figcaption { (caption) } }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn probabilities(lines: &[Probability]) -> Markup {
-    html! {
-        details id="probabilities" {
-            summary { b { "Probabilities" } span.faint { (lines.len()) " estimates" } }
-            p.faint { "P(heads) of the named spaces by every way of sampling: the space of the paper's 66 % (reconstructed), its cheated \
-                       toss and its toss that lands tails. A grid is no sample, so it has no interval." }
-            table {
-                tr { th { "space" } th { "method" } th.wide { "launches" } th { "P(heads)" } th { "95 % interval" } }
-                @for line in lines {
-                    tr {
-                        td { (line.space) } td { (line.method) } td.wide { (line.points) } td { (format!("{:.6}", line.probability)) }
-                        td { @if let Some([lo, hi]) = line.interval { (format!("{lo:.6} to {hi:.6}")) }
-                             " " span.faint { (line.interval_kind) } }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn planner(lines: &[Line]) -> Markup {
-    html! {
-        details id="planner" {
-            summary { b { "The planner" } span.faint { (lines.len()) " kinds of scenes" } }
-            p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy \
-                       asked for and by the error expected." }
-            table {
-                tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } }
-                @for line in lines {
-                    tr {
-                        td { (line.kind) } td { (line.scenes) } td { (line.refused) }
-                        td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
                     }
                 }
             }

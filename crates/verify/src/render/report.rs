@@ -16,7 +16,7 @@ use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 6;
+const SCHEMA: u32 = 7;
 
 /// Everything that a run found.
 #[derive(Debug, Serialize)]

@@ -40,11 +40,13 @@ pub(super) const EXPECTS: Check = Check {
 fn largest(context: &Context, check: &str, part: fn(&Solved) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let trial = context.trial.get(context)?;
     let row = |kind: &'static str| {
-        let outcomes = trial.outcomes.iter().filter(|outcome| outcome.kind == kind && outcome.model.is_some());
+        let of_kind = trial.outcomes.iter().filter(|outcome| outcome.kind == kind);
+        let outcomes = of_kind.clone().filter(|outcome| outcome.model.is_some());
         let larger = |a: &&Solved, b: &&Solved| part(a).partial_cmp(&part(b)).unwrap_or(Ordering::Greater);
         let number = outcomes.clone().count() as u64;
         let worst = outcomes.max_by(larger);
-        let input = worst.map_or_else(String::new, |outcome| outcome.input.clone());
+        let refused = of_kind.count() as u64 - number;
+        let input = worst.map_or_else(String::new, |outcome| format!("{}; {refused} refused", outcome.input));
         Measurement::figure(check, kind, worst.map_or(f64::INFINITY, part), number, input)
     };
     Ok(trial.kinds().into_iter().map(row).collect())

@@ -25,7 +25,7 @@ use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
 use crate::measure::planner;
 use crate::measure::subject::{Subject, usual};
-use crate::measure::tables::Probability;
+use crate::measure::tables::tables;
 
 pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
@@ -76,18 +76,19 @@ pub(super) const FIG4_SAME_COUNTS: Check = Check {
     ..Check::OF_SOLVERS
 };
 
-fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let measure = |found: &Probability| {
-        let expected = match found.space {
+fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |(space, method, found): (&str, &str, Estimate)| {
+        let expected = match space {
             "cheated" => 1.0,
             "tails" => 0.0,
             _ => 0.66,
         };
-        let subject = format!("{}/{}", found.space, found.method);
-        let input = format!("P = {}, {}", found.probability, found.interval_kind);
-        Measurement::figure(TABLES.id, &subject, (found.probability - expected).abs(), found.points, input)
+        let interval = found.interval.map_or(String::new(), |i| format!(", {:.6} to {:.6}", i.lo, i.hi));
+        let input = format!("P = {}{interval}, {}", found.probability, found.interval_kind);
+        let (subject, off) = (format!("{space}/{method}"), (found.probability - expected).abs());
+        Measurement::figure(TABLES.id, &subject, off, found.points, input)
     };
-    Ok(context.probabilities.get(context)?.iter().map(measure).collect())
+    Ok(tables()?.into_iter().map(measure).collect())
 }
 
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
