@@ -32,7 +32,7 @@ fn measure(build: fn(&Settings) -> Box<dyn Solver>) -> (Baseline, Vec<String>) {
         rows.extend(judge(check, check.measure(&context).expect("a measurement"), &limits));
     }
     let failing = rows.iter().filter(|row| !row.status.passes()).map(|row| format!("{} / {}", row.check, row.subject));
-    (Baseline::of(&rows, context.records().sweep), failing.collect())
+    (Baseline::of(&rows, context.sweep.found()), failing.collect())
 }
 
 /// What is worse with the solver that `build` makes than with the library's, and the rows that fail.

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
 use sampling::RunningStep;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use toss::SolverEntry;
 
 use crate::measure::adversary::{Findings, search};
@@ -25,41 +25,56 @@ use crate::measure::tosses::{Case, long_bodies};
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
 
-/// The subjects, the reference data and the shared results of a run.
+/// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
+/// behind some of its rows, each null if no check needed it.
+#[derive(Serialize)]
 pub struct Context {
     /// How many cases are tried.
+    #[serde(skip)]
     pub effort: Effort,
     /// The solvers under verification.
+    #[serde(skip)]
     pub registry: Vec<SolverEntry>,
     /// These solvers with each of their schemes at tight settings.
+    #[serde(skip)]
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
+    #[serde(skip)]
     pub(crate) data: ReferenceData,
     /// Reference probabilities from outside the workspace.
+    #[serde(skip)]
     pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
+    #[serde(skip)]
     pub(crate) coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
+    #[serde(skip)]
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
+    #[serde(skip)]
     pub(crate) expected: Expected,
     /// The landings of every subject from random launches.
+    #[serde(skip)]
     pub survey: Shared<Survey>,
     /// The landings of bodies by every subject.
+    #[serde(skip)]
     pub bodies: Shared<Survey>,
     /// Long flights of bodies, by family, with their references.
+    #[serde(skip)]
     pub(crate) long_bodies: Shared<Vec<Vec<Case>>>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
     /// The long flights.
     pub long_flights: Shared<LongFlights>,
     /// What the search by adversarial launches found.
+    #[serde(skip)]
     pub(crate) search: Shared<Vec<Findings>>,
     /// The sweep of tolerances and steps.
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     /// Random scenes, solved as planned.
+    #[serde(skip)]
     pub trial: Shared<Trial>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
@@ -76,6 +91,11 @@ impl<T> Shared<T> {
         Self { found: OnceLock::new(), make }
     }
 
+    /// The result, if a check has asked for it.
+    pub fn found(&self) -> Option<&T> {
+        self.found.get()
+    }
+
     /// The result for the run of `context`, of which it is a part.
     ///
     /// # Errors
@@ -86,6 +106,12 @@ impl<T> Shared<T> {
         }
         let made = (self.make)(context)?;
         Ok(self.found.get_or_init(|| made))
+    }
+}
+
+impl<T: Serialize> Serialize for Shared<T> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.found().serialize(to)
     }
 }
 
@@ -118,32 +144,6 @@ impl Context {
             fig4: Shared::by(|_| fig4()),
         })
     }
-
-    /// The shared results that have been computed so far, for the reports.
-    pub fn records(&self) -> Records<'_> {
-        Records {
-            atlas: self.atlas.found.get(),
-            long_flights: self.long_flights.found.get(),
-            sweep: self.sweep.found.get(),
-            convergence: self.convergence.found.get(),
-            fig4: self.fig4.found.get(),
-        }
-    }
-}
-
-/// The shared results of a run; `None` for those that no check needed.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Records<'a> {
-    /// The atlas of failures.
-    pub atlas: Option<&'a Atlas>,
-    /// Error and drift by time of flight.
-    pub long_flights: Option<&'a LongFlights>,
-    /// Error and work by tolerance or step.
-    pub sweep: Option<&'a Sweep>,
-    /// Error by fixed step.
-    pub convergence: Option<&'a Vec<Convergence>>,
-    /// The running shares of heads in Fig. 4's space.
-    pub fig4: Option<&'a Vec<RunningStep>>,
 }
 
 /// Checks that no two solvers share a name, because their rows could not be told apart.

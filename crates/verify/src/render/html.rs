@@ -55,7 +55,7 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
 ];
 
 /// Renders `report` with its `charts`.
-pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
+pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -73,10 +73,10 @@ pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                     (reached(report))
                     (overview(charts))
                 }
-                @if let Some(atlas) = report.records.atlas { (matrix(atlas)) }
+                @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
                 (families(report))
                 h2 { "Everything in full" }
-                @for family in Family::all(report.rows) { (in_full(&family, report)) }
+                @for family in Family::all(&report.rows) { (in_full(&family, report)) }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
                 (not_measured(report))
             }
@@ -86,7 +86,7 @@ pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
 }
 
 /// The verdict, and when, where and of what it was found.
-fn answer(report: &Report<'_>) -> Markup {
+fn answer(report: &Report) -> Markup {
     let (word, class) = match (report.passed, report.worse().is_empty()) {
         (true, true) => ("PASS", "pass"),
         (true, false) => ("WORSE", "fail"),
@@ -98,7 +98,7 @@ fn answer(report: &Report<'_>) -> Markup {
         @if !report.passed { p { (report.pattern) } }
         dl.facts {
             @for (name, value) in report.facts() { div { dt { (name) } dd { (value) } } }
-            div { dt { "baseline" } dd { (report.baseline.words(report.moves)) } }
+            div { dt { "baseline" } dd { (report.baseline.words(&report.moves)) } }
         }
     }
 }
@@ -125,7 +125,7 @@ fn failure(row: &Row) -> Markup {
     }
 }
 
-fn moves(report: &Report<'_>) -> Markup {
+fn moves(report: &Report) -> Markup {
     let is_shown = |moved: &&Move| matches!(moved.direction, Direction::Worse | Direction::Better);
     let mut shown: Vec<&Move> = report.moves.iter().filter(is_shown).collect();
     shown.sort_by_key(|moved| moved.direction != Direction::Worse);
@@ -135,7 +135,7 @@ fn moves(report: &Report<'_>) -> Markup {
                 summary { b { "What moved against the baseline" } span.faint { (shown.len()) " rows" } }
                 table {
                     tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } }
-                    @for moved in shown { (line_of_move(moved, report.rows)) }
+                    @for moved in shown { (line_of_move(moved, &report.rows)) }
                 }
             }
         }
@@ -155,7 +155,7 @@ fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
 }
 
 /// What each solver reaches, and at which cost.
-fn reached(report: &Report<'_>) -> Markup {
+fn reached(report: &Report) -> Markup {
     let (Some((problem, launches)), all) = (report.ordinary(), report.reached()) else { return html! {} };
     let cells = |cost: Option<Cost>| cost.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
     let line = |Reached { subject, finest, enough }: &Reached| {
@@ -228,12 +228,12 @@ fn matrix(atlas: &Atlas) -> Markup {
 }
 
 /// One line for each family.
-fn families(report: &Report<'_>) -> Markup {
+fn families(report: &Report) -> Markup {
     html! {
         h2 id="checks" { "Families of checks" }
         table.families {
             tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
-            @for family in Family::all(report.rows) {
+            @for family in Family::all(&report.rows) {
                 @let worst = family.worst();
                 tr {
                     th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
@@ -257,7 +257,7 @@ fn anchor(family: &str) -> String {
 }
 
 /// A family with all its checks and their rows.
-fn in_full(family: &Family<'_>, report: &Report<'_>) -> Markup {
+fn in_full(family: &Family<'_>, report: &Report) -> Markup {
     html! {
         details id=(anchor(family.name)) open[family.failing() > 0] {
             summary { b { (mark(family.failing(), family.judged())) (family.name) }
@@ -329,12 +329,12 @@ fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
 }
 
 /// The checks that gave no row. A run that passes should say what it does not speak of.
-fn not_measured(report: &Report<'_>) -> Markup {
+fn not_measured(report: &Report) -> Markup {
     html! {
         @if !report.left_out.is_empty() {
             details id="left-out" {
                 summary { b { "What was left out" } span.faint { (report.left_out.len()) " checks" } }
-                @for line in left_out(report.left_out).lines() { p.faint { (line) } }
+                @for line in left_out(&report.left_out).lines() { p.faint { (line) } }
             }
         }
     }

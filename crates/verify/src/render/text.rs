@@ -24,9 +24,9 @@ pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
 }
 
 /// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
-pub(crate) fn report(report: &Report<'_>, verbose: bool) -> String {
+pub(crate) fn report(report: &Report, verbose: bool) -> String {
     let mut out = format!("\n{}\n", report.pattern);
-    let blocks = Block::all(report.rows);
+    let blocks = Block::all(&report.rows);
     if !verbose {
         let _ = writeln!(out, "\n{:<width$}  rows  worst row", "check", width = width());
     }
