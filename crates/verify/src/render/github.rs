@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::report::{Cost, ENOUGH, Reached};
-use super::words::{Block, Family, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
@@ -73,7 +73,7 @@ pub(crate) fn summary(report: &Report) -> String {
     let facts: Vec<String> =
         report.facts().into_iter().map(|(name, value)| format!("{name} {}", cell(&value))).collect();
     let _ = writeln!(out, "{}. {}\n", facts.join(" · "), report.baseline.words(&report.moves));
-    let blocks = Block::all(&report.rows);
+    let blocks = Group::checks(&report.rows);
     out += &in_full("Fails", failing.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
     let moved =
         |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), words::change(moved));
@@ -110,10 +110,10 @@ fn reached(report: &Report) -> String {
 /// One line a family.
 fn families(report: &Report) -> String {
     let mut out = "### Families of checks\n\n| | family | rows | worst row | |\n|---|---|---|---|---|\n".to_owned();
-    for family in Family::all(&report.rows) {
+    for family in Group::families(&report.rows) {
         let (worst, sign) = (family.worst(), if family.failing() == 0 { "✅" } else { "❌" });
         let row = format!("{} / {}", cell(&worst.check), cell(&worst.subject));
-        let _ = writeln!(out, "| {sign} | {} | {} | {row} | {} |", family.name, family.rows(), reserve(worst));
+        let _ = writeln!(out, "| {sign} | {} | {} | {row} | {} |", family.name, family.rows.len(), reserve(worst));
     }
     out
 }

@@ -4,7 +4,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{Block, Family, comparison, left_out, number, replay, reserve, verdict};
+use super::words::{Group, comparison, left_out, number, replay, reserve, verdict};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -76,7 +76,7 @@ pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
                 @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
                 (families(report))
                 h2 { "Everything in full" }
-                @for family in Family::all(&report.rows) { (in_full(&family, report)) }
+                @for family in Group::families(&report.rows) { (in_full(&family, report)) }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
                 (not_measured(report))
             }
@@ -233,11 +233,11 @@ fn families(report: &Report) -> Markup {
         h2 id="checks" { "Families of checks" }
         table.families {
             tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
-            @for family in Family::all(&report.rows) {
+            @for family in Group::families(&report.rows) {
                 @let worst = family.worst();
                 tr {
                     th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
-                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows()) @if family.failing() > 0 { " fail" } }
+                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows.len()) @if family.failing() > 0 { " fail" } }
                     td { (reserve(worst).trim_start_matches("reserve ")) }
                     td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
                 }
@@ -257,19 +257,20 @@ fn anchor(family: &str) -> String {
 }
 
 /// A family with all its checks and their rows.
-fn in_full(family: &Family<'_>, report: &Report) -> Markup {
+fn in_full(family: &Group<'_>, report: &Report) -> Markup {
+    let checks = Group::checks(family.rows.iter().copied());
     html! {
         details id=(anchor(family.name)) open[family.failing() > 0] {
             summary { b { (mark(family.failing(), family.judged())) (family.name) }
-                      span.faint { (family.blocks.len()) " checks, " (family.rows()) " rows" } }
-            @for block in &family.blocks {
+                      span.faint { (checks.len()) " checks, " (family.rows.len()) " rows" } }
+            @for block in &checks {
                 (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
             }
         }
     }
 }
 
-fn check(block: &Block<'_>, timing: Option<&Timing>) -> Markup {
+fn check(block: &Group<'_>, timing: Option<&Timing>) -> Markup {
     let (worst, all) = (block.worst(), block.failing() == 0);
     html! {
         details.check open[!all] {

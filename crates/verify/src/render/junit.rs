@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
-use super::words::{Block, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
@@ -20,7 +20,7 @@ const WORSE: &str = "worse than the baseline";
 /// If the XML can't be written, which plain rows never cause.
 pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
-    for block in Block::all(&report.rows) {
+    for block in Group::checks(&report.rows) {
         let mut suite = TestSuite::new(block.worst().check.as_str());
         let timing = report.checks.iter().find(|timing| timing.check == block.worst().check);
         if let Some(time) = timing.and_then(|timing| Duration::try_from_secs_f64(timing.t_wall_s).ok()) {
