@@ -104,10 +104,9 @@ pub struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// The command that does `replay`.
-    pub fn command(self, replay: &Replay) -> String {
-        let effort = if matches!(replay, Replay::Check(_)) { self.effort.flag() } else { "" };
-        self.commands.line(replay) + effort
+    /// The command that does `replay` or, without one, the whole of `check`.
+    pub fn command(self, check: &Check, replay: Option<&Replay>) -> String {
+        replay.map_or_else(|| self.commands.check(check.id) + self.effort.flag(), |replay| self.commands.line(replay))
     }
 
     /// Judges the measurements of `check`.
@@ -213,7 +212,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         cases,
         worst_input: worst.as_ref().map(|worst| worst.input.clone()),
         failure: worst.as_ref().and_then(|worst| worst.failure.clone()),
-        replay: Some(judge.command(&worst.map_or_else(|| Replay::Check(check.id.to_owned()), |worst| worst.replay))),
+        replay: Some(judge.command(check, worst.and_then(|worst| worst.replay).as_ref())),
         largest,
         subject,
     }

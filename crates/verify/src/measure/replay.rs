@@ -7,35 +7,27 @@ use dynamics::Toss;
 use super::case;
 use super::subject::Subject;
 
-/// What repeats a worst case.
+/// What repeats the toss of a worst case.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Replay {
-    /// One toss.
-    Toss {
-        /// The toss as text, which the option `--replay` of a suite takes.
-        input: String,
-        /// The tolerance or the step of the solver, as a further field of that text; empty if it has none.
-        settings: String,
-        /// The row whose quantity is measured again, as `CHECK / SUBJECT`, if it is one of single tosses.
-        row: Option<String>,
-    },
-    /// The whole check of this id, for a number that belongs to no toss.
-    Check(String),
+pub struct Replay {
+    /// The toss as text, which the option `--replay` of a suite takes.
+    pub input: String,
+    /// The tolerance or the step of the solver, as a further field of that text; empty if it has none.
+    pub settings: String,
+    /// The row whose quantity is measured again, as `CHECK / SUBJECT`, if it is one of single tosses.
+    pub row: Option<String>,
 }
 
 impl Replay {
     /// Repeats `toss` by the solver of `subject`.
-    pub fn toss(toss: &Toss, subject: &Subject) -> Self {
-        Self::Toss { input: case::text(toss), settings: case::settings(subject), row: None }
+    pub fn new(toss: &Toss, subject: &Subject) -> Self {
+        Self { input: case::text(toss), settings: case::settings(subject), row: None }
     }
 
     /// The same, as the worst case of `row`, which gives the settings.
     #[must_use]
     pub fn in_row(self, row: String) -> Self {
-        match self {
-            Self::Toss { input, .. } => Self::Toss { input, settings: String::new(), row: Some(row) },
-            whole @ Self::Check(_) => whole,
-        }
+        Self { settings: String::new(), row: Some(row), ..self }
     }
 }
 
@@ -66,14 +58,14 @@ impl Commands {
     }
 
     /// The command that does `replay`.
-    pub fn line(&self, replay: &Replay) -> String {
-        match replay {
-            Replay::Toss { input, settings, row } => {
-                let row = row.as_ref().map(|row| format!(" --row \"{row}\"")).unwrap_or_default();
-                self.with(&format!("--replay \"{input}{settings}\"{row}"))
-            }
-            Replay::Check(check) => self.with(&format!("--only {check}")),
-        }
+    pub fn line(&self, Replay { input, settings, row }: &Replay) -> String {
+        let row = row.as_ref().map(|row| format!(" --row \"{row}\"")).unwrap_or_default();
+        self.with(&format!("--replay \"{input}{settings}\"{row}"))
+    }
+
+    /// The command that runs the whole check of this id.
+    pub fn check(&self, id: &str) -> String {
+        self.with(&format!("--only {id}"))
     }
 
     /// The command that runs the checks and accepts what is better or new.
@@ -119,11 +111,11 @@ mod tests {
         let toss = crate::measure::adversary::launch(3, 0);
         let input = case::text(&toss);
         let own = Commands::of("checks");
-        let by_exact = Replay::toss(&toss, &Subject::exact());
+        let by_exact = Replay::new(&toss, &Subject::exact());
         assert_eq!(own.line(&by_exact), format!("checks --replay \"{input}\""));
-        assert_eq!(own.line(&Replay::Check("c".to_owned())), "checks --only c");
+        assert_eq!(own.check("c"), "checks --only c");
         let settings = " tolerance=1e-6".to_owned();
-        let replay = Replay::Toss { input: input.clone(), settings, row: None };
+        let replay = Replay { input: input.clone(), settings, row: None };
         let with = Commands { options: " --claim 1".to_owned(), ..Commands::of_this_workspace() };
         let line = format!("cargo xtask verify --replay \"{input} tolerance=1e-6\" --claim 1");
         assert_eq!(with.line(&replay), line);

@@ -137,7 +137,7 @@ fn claims_of_class(
     name: &str,
     class: &[usize],
 ) -> Measurement {
-    let figure = |ratio, cases, input| Measurement::figure(CLAIMS.id, &subject.name, ratio, cases, input);
+    let figure = |ratio, cases, input| Measurement::figure(&subject.name, ratio, cases, input);
     let (mut claims, mut phases, mut largest) = (Vec::new(), Vec::new(), 0.0_f64);
     for &index in class {
         let toss = &survey.tosses[index];

@@ -97,7 +97,7 @@ fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, stepping)?;
         let error = (end - SVector::from(exact)).amax();
         let input = format!("y(0) = (0, 1, 1), t = {time}, {stepping}");
-        Ok(Measurement::figure(DETEST.id, stepping.scheme().name(), error, 1, input))
+        Ok(Measurement::figure(stepping.scheme().name(), error, 1, input))
     };
     steppings.iter().map(measure).collect()
 }
@@ -117,7 +117,7 @@ fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let unknown = unknown.map(|coin| (f64::INFINITY, coin.name.as_str()));
     let known = CATALOGUE.iter().map(|entry| (deviation_of_moments(context, entry), entry.name));
     let (largest, name) = known.chain(unknown).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, "none"));
-    Ok(vec![Measurement::figure(MOMENTS.id, "catalogue", largest, CATALOGUE.len() as u64, name.to_owned())])
+    Ok(vec![Measurement::figure("catalogue", largest, CATALOGUE.len() as u64, name.to_owned())])
 }
 
 /// The larger of the relative deviations of I1 and I3; infinite for a coin without reference, or without moments.
