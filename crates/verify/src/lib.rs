@@ -21,7 +21,6 @@
 mod bench;
 pub mod clock;
 mod commands;
-mod error;
 pub mod files;
 pub mod host;
 pub mod judge;
@@ -34,7 +33,6 @@ pub mod suite;
 pub mod watch;
 
 pub use commands::main;
-pub use error::Error;
 pub use judge::{LeftOut, Row, Status, judge};
 pub use measure::check::{Basis, Check, Judges, Measure};
 pub use measure::checks::CHECKS;

@@ -10,6 +10,7 @@ use toss::planner::Nanoseconds;
 use super::charts::{self, Chart};
 use super::words::{comparison, reserve, worst_first};
 use super::{github, html, junit, metrics, pattern};
+use crate::files;
 use crate::host::Host;
 use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
@@ -17,7 +18,6 @@ use crate::judge::{LeftOut, Row, proposal};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
-use crate::{Error, files};
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
 const SCHEMA: u32 = 7;
@@ -187,11 +187,7 @@ impl Report {
     ///
     /// # Errors
     /// If a file can't be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        Ok(self.written(folder)?)
-    }
-
-    fn written(&self, folder: &Path) -> anyhow::Result<()> {
+    pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
         let charts = charts::charts(self)?;
         for (file, text) in [
             ("report.json", self.json()?),

@@ -22,6 +22,7 @@ use std::sync::Arc;
 use anyhow::{Context as _, ensure};
 use toss::Registry;
 
+use crate::Row;
 use crate::files;
 use crate::judge::baseline::{self, Baseline};
 use crate::judge::limits::Limits;
@@ -33,7 +34,6 @@ use crate::measure::effort::Effort;
 use crate::measure::replay::Commands;
 use crate::render::report::{Compared, Report, Verdict};
 use crate::watch::{self, End};
-use crate::{Error, Row};
 
 pub(crate) use selection::named as check_named;
 
@@ -156,8 +156,8 @@ impl Suite {
     /// # Errors
     /// If a check of [`only`](Self::only) is unknown, the limits or the baseline can't be read, or no check measures
     /// anything. A solver that fails or panics, and a check that never ends, are no errors but rows that fail.
-    pub fn run(&self) -> Result<Report, Error> {
-        Ok(self.run_showing(&|_| {})?)
+    pub fn run(&self) -> anyhow::Result<Report> {
+        self.run_showing(&|_| {})
     }
 
     /// The same, and calls `show` as the run goes on.
@@ -220,11 +220,7 @@ impl Suite {
     ///
     /// # Errors
     /// If a file can't be written, a row fails, or only one check was run.
-    pub fn accept(&self, report: &mut Report) -> Result<(), Error> {
-        Ok(self.accepted(report)?)
-    }
-
-    fn accepted(&self, report: &mut Report) -> anyhow::Result<()> {
+    pub fn accept(&self, report: &mut Report) -> anyhow::Result<()> {
         ensure!(self.only.is_none(), "a run of one check is not accepted into the baseline");
         ensure!(report.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
         let path = self.baseline_path();
