@@ -49,7 +49,7 @@ const VALUES: [(&str, [f64; 2]); 16] = [
 ];
 
 fn in_unit(value: f64, of_one: u32) -> Quantity {
-    Quantity::new(value, Unit::ratio(1, of_one.into()).expect("a unit"))
+    Quantity::new(value, Unit::ratio(1, of_one).expect("a unit"))
 }
 
 const MOMENTS: CoinOf = |v| Coin::from_moments(v[7], v[8]);

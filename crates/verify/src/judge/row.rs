@@ -16,7 +16,7 @@ use crate::measure::replay::{Commands, Replay};
 const LOOSE: f64 = 10.0;
 
 /// The verdict on a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// Within its limit.
@@ -36,6 +36,7 @@ pub enum Status {
     /// It has no limit, and does not belong to a solver.
     NoLimit,
     /// There is a limit for it, but it was not measured.
+    #[default]
     NotMeasured,
 }
 
@@ -47,7 +48,7 @@ impl Status {
 }
 
 /// A judged measurement, with everything that a report shows of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Row {
     /// The id of the check.
     pub check: String,
@@ -121,19 +122,9 @@ impl Row {
         Self {
             check: check.to_owned(),
             claim: claim.to_owned(),
-            basis: None,
-            judges: None,
             subject: subject.to_owned(),
-            unit: String::new(),
-            measured: None,
-            limit: None,
-            reserve: None,
             status,
-            cases: 0,
-            worst_input: None,
-            failure: None,
-            replay: None,
-            largest: None,
+            ..Self::default()
         }
     }
 
