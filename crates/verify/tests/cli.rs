@@ -174,7 +174,7 @@ fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fai
         table.contains("WORSE than the baseline: 1\n  reference-cos-tilt / gamma/dop853: error 1.500e-12 → "),
         "{table}"
     );
-    assert!(table.contains("Worse than the baseline: gamma, by dop853 alone, in one check ("), "{table}");
+    assert!(table.contains("Worse than the baseline: gamma, by dop853, in one check ("), "{table}");
     assert_eq!(table.matches("    repeat with: cargo xtask verify --replay").count(), 1, "{table}");
     assert!(
         table.contains("better than the baseline; --bless takes it over: 1\n  reference-cos-tilt / quaternion/dop853")
