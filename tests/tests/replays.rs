@@ -1,15 +1,16 @@
-//! Every row of the verification prints a command that repeats its worst case. These tests give the command of every row
-//! of a quick run to the program that it names, which has to accept it and to run what the row measured.
+//! Every row of the verification prints a command that repeats its worst case. This test runs what the command of every row
+//! of a quick run asks for, which must be what the row measured.
 
 use toss::Registry;
 use verify::judge::Judge;
 use verify::judge::limits::Limits;
+use verify::measure::atlas::contestants_at;
 use verify::measure::case;
 use verify::measure::replay::Commands;
+use verify::measure::subject::Subject;
 use verify::{CHECKS, Context, Effort, Measure, Row};
 
-const TOSS: &str = "cargo run -q --release --bin unfair-toss -- toss ";
-const ALL: &str = "cargo xtask verify --replay ";
+const TOSS: &str = "cargo xtask verify --replay ";
 const CHECK: &str = "cargo xtask verify --only ";
 
 /// Checks that are left out because together they sample, plan or search for a minute; all their rows are repeated by the
@@ -28,14 +29,14 @@ const LONG: [&str; 8] = [
 /// What a replay command was seen to run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Replays {
-    Solver,
-    Library,
+    Toss,
+    Row,
     Check,
 }
 
 fn rows(context: &Context) -> Vec<Row> {
     let limits = Limits::of_this_workspace().expect("the data inside the crate");
-    let judge = Judge { limits: &limits, commands: &Commands::Workspace, effort: Effort::Quick };
+    let judge = Judge { limits: &limits, commands: &Commands::of_this_workspace(), effort: Effort::Quick };
     let short = CHECKS.iter().filter(|check| !LONG.contains(&check.id));
     short.flat_map(|check| judge.rows(check, check.measure(context).expect("a measurement"))).collect()
 }
@@ -43,48 +44,33 @@ fn rows(context: &Context) -> Vec<Row> {
 /// Runs the command of `row` in its program, and says what is wrong with it.
 fn replay(row: &Row, context: &Context) -> Result<Replays, String> {
     let command = row.replay.as_deref().ok_or("no command")?;
-    if command.starts_with(TOSS) {
-        return solved(row, command).map(|()| Replays::Solver);
-    }
-    if let Some(line) = command.strip_prefix(ALL) {
-        return measured_again(row, line, context).map(|()| Replays::Library);
+    if let Some(line) = command.strip_prefix(TOSS) {
+        return match line.split('"').collect::<Vec<_>>()[..] {
+            ["", text, ""] => is_flown(row, text, context).map(|()| Replays::Toss),
+            ["", text, " --row ", named, ""] => measured_again(row, text, named, context).map(|()| Replays::Row),
+            _ => Err(format!("neither a toss nor a toss and a row: {line}")),
+        };
     }
     let arguments = command.strip_prefix(CHECK).ok_or("an unknown program")?;
     let expected = format!("{} --quick", row.check);
     if arguments == expected { Ok(Replays::Check) } else { Err(format!("runs '{arguments}', not '{expected}'")) }
 }
 
-/// Whether the program accepts the commands, and solves the toss with the solvers, schemes and formulations of the row's
-/// subject. Of two solvers that are compared, the first is named without the scheme, which is that of the second.
-fn solved(row: &Row, command: &str) -> Result<(), String> {
-    let each = command.split(" && ").map(|one| subject_of(one.strip_prefix(TOSS).unwrap_or(one)));
-    let subjects = each.collect::<Result<Vec<String>, String>>()?;
-    let is_right = match (&subjects[..], row.subject.split_once(" ~ ")) {
-        ([only], None) => *only == row.subject,
-        ([first, second], Some((one, other))) => {
-            let scheme = other.split_once('/').map(|(_, scheme)| scheme);
-            let with_scheme = scheme.map(|scheme| format!("{one}/{scheme}"));
-            second == other && (first == one || Some(first) == with_scheme.as_ref())
-        }
-        _ => false,
-    };
-    if is_right { Ok(()) } else { Err(format!("solves with {}", subjects.join(" and "))) }
-}
-
-/// The solver, scheme and formulation of a command line of the program, which it accepts.
-fn subject_of(arguments: &str) -> Result<String, String> {
-    let arguments: Vec<&str> = arguments.split_whitespace().collect();
-    let line = ["unfair-toss", "toss"].iter().chain(&arguments);
-    unfair_toss::program().try_get_matches_from(line).map_err(|error| error.to_string())?;
-    let option = |name: &str| arguments.windows(2).find(|pair| pair[0] == name).map(|pair| pair[1]);
-    let parts = ["--solver", "--scheme", "--formulation"].into_iter().filter_map(option);
-    Ok(parts.collect::<Vec<_>>().join("/"))
+/// Whether the command reads the toss and flies it with the solvers of the row's subject, at the settings that the text
+/// names. Of two solvers that are compared, the first is named without the scheme, which is that of the second.
+fn is_flown(row: &Row, text: &str, context: &Context) -> Result<(), String> {
+    let (_, control) = case::read_with_settings(text).map_err(|error| error.to_string())?;
+    let flown = contestants_at(&context.registry, control).map_err(|error| error.to_string())?;
+    let is_at_settings = |one: &Subject| one.stepping.is_none_or(|stepping| Some(stepping.control()) == control);
+    let flies = |name: &str| flown.iter().any(|one| one.name == name && is_at_settings(one));
+    let scheme = row.subject.split_once('/').map(|(_, scheme)| format!("/{scheme}")).unwrap_or_default();
+    let mut solvers = row.subject.split(" ~ ");
+    let missing = solvers.find(|name| !flies(name) && !flies(&format!("{name}{scheme}")));
+    missing.map_or(Ok(()), |name| Err(format!("does not fly {name} at {control:?}")))
 }
 
 /// Whether the command measures the row again, with the deviation of the row.
-fn measured_again(row: &Row, line: &str, context: &Context) -> Result<(), String> {
-    let parts: Vec<&str> = line.split('"').collect();
-    let ["", text, " --row ", named, ""] = parts[..] else { return Err(format!("not a toss and a row: {line}")) };
+fn measured_again(row: &Row, text: &str, named: &str, context: &Context) -> Result<(), String> {
     if named != format!("{} / {}", row.check, row.subject) {
         return Err(format!("measures the row {named}"));
     }
@@ -121,7 +107,7 @@ fn the_command_of_every_row_runs_what_the_row_measured() {
     let wrong: String = wrong.collect();
     assert!(wrong.is_empty(), "{wrong}");
     let number = |of: Replays| replayed.iter().filter(|(_, found)| found == &Ok(of)).count();
-    assert!([Replays::Solver, Replays::Library, Replays::Check].into_iter().all(|of| number(of) > 20));
+    assert!([Replays::Toss, Replays::Row, Replays::Check].into_iter().all(|of| number(of) > 20));
     // Each quantity of the library on single tosses is one that a row repeats.
     for check in CHECKS.iter().filter(|check| matches!(check.measure, Measure::Tosses(..))) {
         assert!(rows.iter().any(|row| row.check == check.id), "{} has no row", check.id);

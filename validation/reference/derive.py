@@ -51,13 +51,18 @@ def show(number):
     return mp.nstr(number, 32, strip_zeros=False)
 
 
+def toss(i1, i3, rate, rest):
+    launch = f'rate = [{", ".join(str(c) for c in rate)}], {rest}'
+    return f"toss = {{ coin = {{ moments = [{i1}, {i3}] }}, launch = {{ {launch} }} }}"
+
+
 def flight(name, i1, i3, rate, t, tilt="0.0", time=None):
     q = attitude(i1, i3, rate, tilt, t)
     # The time as an expression where it is no decimal number.
     clock = time or f"time = {t}"
-    print(f'[[flight]]\nname = "{name}"\ni1 = {i1}\ni3 = {i3}\nrate = [{", ".join(rate)}]\n{clock}\ntilt = {tilt}')
+    print(f'[[flight]]\nname = "{name}"\n{toss(i1, i3, rate, f"{clock}, tilt = {tilt}")}')
     print(f'cos_tilt = "{show(tilt_of(q))}"')
-    print(f'attitude = [{", ".join(chr(34) + show(c) + chr(34) for c in q)}]\n')
+    print(f'attitude = [{", ".join(show(c) for c in q)}]\n')
 
 
 def thrown(name, i1, i3, rate, speed, gravity, drop=None, tilt="0.0"):
@@ -66,7 +71,7 @@ def thrown(name, i1, i3, rate, speed, gravity, drop=None, tilt="0.0"):
     t = (v + sqrt(v*v + 2*g*h))/g
     # The height at that time, by the parabola and not by the formula: the catch is on the way down.
     assert abs(v*t - g*t*t/2 + h) < mpf(10)**-45 and g*t >= v
-    clock = f"speed = {speed}\ngravity = {gravity}" + (f"\ndrop = {drop}" if drop else "")
+    clock = f"speed = {speed}, gravity = {gravity}" + (f", drop = {drop}" if drop else "")
     flight(name, i1, i3, rate, t, tilt=tilt, time=clock)
 
 
@@ -75,7 +80,7 @@ def flights():
         for speed in "345":
             t = 2*mpf(speed)/mpf("9.81")
             rate_list = [c if "." in c else c + ".0" for c in rate.split()]
-            flight(f"{name}, v0 = {speed} m/s", "5e-7", i3, rate_list, t, time=f"speed = {speed}.0\ngravity = 9.81")
+            flight(f"{name}, v0 = {speed} m/s", "5e-7", i3, rate_list, t, time=f"speed = {speed}.0, gravity = 9.81")
     flight("Kane's body at 1 s", "0.04", "0.02", ["2.0", "4.0", "6.0"], "1.0")
     flight("Kane's body at 10 s", "0.04", "0.02", ["2.0", "4.0", "6.0"], "10.0")
     flight("tilted, alpha' changes sign", "1.0", "0.5", ["0.25", "0.25", "5.0"], "5.0", tilt="1.0")
@@ -97,8 +102,8 @@ def flips():
         spin = mpf(i3)*z
         precession = sqrt(x*x + y*y + spin*spin)
         cot_squared = spin*spin/(x*x + y*y)
-        print(f'[[first_flip]]\nname = "{name}"\ni1 = 5e-7\ni3 = 2.5e-7\nrate = [{x}, {y}, {z}]')
-        print(f'time = "{show(acos(-cot_squared)/precession)}"\n')
+        time = f"time = {show(acos(-cot_squared)/precession)}"
+        print(f'[[first_flip]]\nname = "{name}"\n{toss("5e-7", "2.5e-7", [x, y, z], time)}\n')
 
 
 def long_flights():
@@ -107,7 +112,7 @@ def long_flights():
         # The integral of the indicator over the phase, not the closed form's arc sine: the edge by root finding.
         edge = mp.findroot(lambda phase: cos(angle)**2 + sin(angle)**2*cos(phase), pi*mpf(3)/4) if degrees > 45 else pi
         assert abs(edge/pi - (mpf(1)/2 + asin(cot(angle)**2)/pi)) < mpf(10)**-20
-        print(f'[[long_flight]]\ncone_deg = {degrees}.0\nprobability = "{show(mpf(1)/2 + asin(cot(angle)**2)/pi)}"\n')
+        print(f'[[long_flight]]\ncone_deg = {degrees}.0\nprobability = {show(mpf(1)/2 + asin(cot(angle)**2)/pi)}\n')
 
 
 def detest_b5():
@@ -115,7 +120,7 @@ def detest_b5():
     solution = odefun(lambda _, y: [y[1]*y[2], -y[0]*y[2], -mpf("0.51")*y[0]*y[1]], 0, [mpf(0), mpf(1), mpf(1)])(20)
     elliptic = [ellipfun(kind, 20, m=mpf("0.51")) for kind in ("sn", "cn", "dn")]
     assert max(abs(a - b) for a, b in zip(solution, elliptic)) < mpf(10)**-30
-    print(f'[detest_b5]\ntime = 20.0\nstate = [{", ".join(chr(34) + show(c) + chr(34) for c in elliptic)}]')
+    print(f'[detest_b5]\ntime = 20.0\nstate = [{", ".join(show(c) for c in elliptic)}]')
 
 
 if __name__ == "__main__":

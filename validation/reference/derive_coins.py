@@ -27,7 +27,7 @@ euro-2      8.50   25.75  2.20
 
 
 def show(name, i1, i3):
-    print(f'[[coin]]\nname = "{name}"\ni1 = "{i1:.20e}"\ni3 = "{i3:.20e}"\n')
+    print(f'[[coin]]\nname = "{name}"\ni1 = {i1:.20e}\ni3 = {i3:.20e}\n')
 
 
 # The paper's moments, and those of a disc without height of the same I1.

@@ -55,12 +55,13 @@ def shares():
     for name, i3, rate, tilt, speed in launches:
         rate, (lo, hi) = [mpf(c) for c in rate.split()], [mpf(c) for c in speed.split()]
         share = share_by_roots(mpf(1), mpf(i3), rate, mpf(tilt), lo, hi)
-        print(f'[[share]]\nname = "{name}"\ni1 = 1.0\ni3 = {mpf(i3)}\nrate = [{", ".join(str(c) for c in rate)}]')
-        print(f'tilt = {mpf(tilt)}\nspeed = [{lo}, {hi}]\nprobability = "{show(share)}"\n')
+        rates = ", ".join(f"rate_{axis} = {c}" for axis, c in zip("xyz", rate))
+        space = f'coin = {{ moments = [1.0, {mpf(i3)}] }}, {rates}, speed = "{lo}:{hi}", tilt = {mpf(tilt)}'
+        print(f'[[share]]\nname = "{name}"\nspace = {{ {space} }}\nprobability = {show(share)}\n')
 
 
 def figure(name, probability, digits=25):
-    print(f'[[figure]]\nname = "{name}"\nprobability = "{show(probability, digits)}"\n')
+    print(f'[[figure]]\nname = "{name}"\nprobability = {show(probability, digits)}\n')
 
 
 def long_flight(cone):

@@ -21,14 +21,13 @@ folder = Path(__file__).resolve().parents[3] / "crates" / "verify" / "data"
 problems = tomllib.loads((folder / "problems.toml").read_text(encoding="utf-8"))["problem"]
 
 
-def toss_of(problem):
-    """The toss of a problem, if it is a single one."""
-    launch = {name: problem[name] for name in ("speed", "time", "gravity", "drop", "tilt") if name in problem}
-    body = problem["coin"] if "coin" in problem else ut.Body.from_moments(problem["moments"])
-    return ut.Toss(problem["rate"], body=body, **launch)
+def toss_of(data):
+    """The toss in a file."""
+    body = data["coin"] if "coin" in data else ut.Body.from_moments(data["body"]["moments"])
+    return ut.Toss(body=body, **data["launch"])
 
 
-tosses = {problem["name"]: toss_of(problem) for problem in problems if "rate" in problem}
+tosses = {problem["name"]: toss_of(problem["toss"]) for problem in problems if "toss" in problem}
 for problem in problems:
     print(f"{problem['name']:10} {problem['stresses']}")
 

@@ -21,7 +21,6 @@
 mod bench;
 pub mod clock;
 mod commands;
-mod error;
 pub mod files;
 pub mod host;
 pub mod judge;
@@ -34,11 +33,11 @@ pub mod suite;
 pub mod watch;
 
 pub use commands::main;
-pub use error::Error;
 pub use judge::{LeftOut, Row, Status, judge};
 pub use measure::check::{Basis, Check, Judges, Measure};
 pub use measure::checks::CHECKS;
-pub use measure::context::{Context, Records};
+pub use measure::context::Context;
 pub use measure::effort::Effort;
 pub use measure::measurement::{Measurement, Worst};
-pub use suite::{Suite, Verdict, Verified};
+pub use render::report::{Report, Verdict};
+pub use suite::Suite;

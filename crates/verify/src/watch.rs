@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 
 use crate::judge::Judge;
 use crate::judge::time::{Timing, limit_s};
-use crate::measure::replay::Replay;
 use crate::{Check, Context, Measurement, Row};
 
 /// How often the watch looks at the time of the check that runs.
@@ -33,7 +32,7 @@ impl End {
     /// The rows of `check`, which took the time `timing`: one for each measurement and, if it took too long or failed, a
     /// failing one.
     pub fn rows(self, check: &Check, timing: &Timing, judge: Judge<'_>) -> Vec<Row> {
-        let again = Some(judge.command(&Replay::Check(check.id.to_owned())));
+        let again = Some(judge.command(check, None));
         let of_time = |row: Row| Row { replay: again.clone(), ..row };
         match self {
             Self::Measured(measured) => {

@@ -5,44 +5,30 @@
 use exact::compensated_cos_tilt;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
+use rayon::prelude::*;
 use toss::quantity::{Angle, AngleUnit, Quantity, Unit};
-use toss::{Attitude, Batch, Coin, CoinToss, Launch, Outcome, Solver, TimeOfFlight, Tosses, Vector3, certify};
+use toss::{
+    Attitude, Batch, Coin, CoinToss, InputError, Launch, Outcome, Solver, TimeOfFlight, Tosses, Vector3, certify,
+};
 use verify::measure::reference::Reference;
 
-/// The numbers of a toss, each of which can be moved.
-#[derive(Debug, Clone, Copy)]
+/// The numbers of a toss, each of which can be moved, and how the toss is made of them.
+#[derive(Clone, Copy)]
 struct Inputs {
     values: [f64; 16],
-    coin: CoinKind,
-    start: Start,
-    flight: Flight,
+    coin: CoinOf,
+    start: StartOf,
+    time: TimeOf,
     /// Of the rates.
     unit: AngleUnit,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum CoinKind {
-    Moments,
-    Cylinder,
-    Millimetres,
-}
+/// How the values make a coin, an attitude at launch and a time of flight.
+type CoinOf = fn(&[f64; 16]) -> Result<Coin, InputError>;
+type StartOf = fn(&[f64; 16]) -> Result<Attitude, InputError>;
+type TimeOf = fn(&[f64; 16]) -> TimeOfFlight;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Start {
-    Flat,
-    Radians,
-    Degrees,
-    Quaternion,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Flight {
-    Time,
-    Thrown,
-    Dropped,
-}
-
-/// The values of [`Inputs`], and what they are drawn from.
+/// The names of the values, and what they are drawn from.
 const VALUES: [(&str, [f64; 2]); 16] = [
     ("rate x", [-60.0, 60.0]),
     ("rate y", [-60.0, 60.0]),
@@ -62,17 +48,22 @@ const VALUES: [(&str, [f64; 2]); 16] = [
     ("z", [-1.0, 1.0]),
 ];
 
-const RATE: usize = 0;
-const TIME: usize = 3;
-const SPEED: usize = 4;
-const GRAVITY: usize = 5;
-const DROP: usize = 6;
-const I1: usize = 7;
-const I3: usize = 8;
-const RADIUS: usize = 9;
-const THICKNESS: usize = 10;
-const TILT: usize = 11;
-const COMPONENTS: usize = 12;
+fn in_unit(value: f64, of_one: u32) -> Quantity {
+    Quantity::new(value, Unit::ratio(1, of_one).expect("a unit"))
+}
+
+const MOMENTS: CoinOf = |v| Coin::from_moments(v[7], v[8]);
+const CYLINDER: CoinOf = |v| Coin::from_cylinder(0.005, v[9], v[10]);
+const MILLIMETRES: CoinOf = |v| Coin::from_cylinder(0.005, in_unit(1e3 * v[9], 1000), in_unit(1e3 * v[10], 1000));
+
+const FLAT: StartOf = |_| Ok(Attitude::IDENTITY);
+const RADIANS: StartOf = |v| Ok(Attitude::about_x(v[11]));
+const DEGREES: StartOf = |v| Ok(Attitude::about_x(Angle::Turns(in_unit(57.0 * v[11], 360))));
+const QUATERNION: StartOf = |v| Attitude::from_components([v[12], v[13], v[14], v[15]]);
+
+const GIVEN: TimeOf = |v| TimeOfFlight::Given(v[3]);
+const THROWN: TimeOf = |v| TimeOfFlight::Ballistic { speed: v[4], gravity: v[5] };
+const DROPPED: TimeOf = |v| TimeOfFlight::BallisticTo { speed: v[4], gravity: v[5], drop: v[6] };
 
 /// One of the choices, in turn.
 fn one<T: Copy>(turn: u64, choices: &[T]) -> T {
@@ -85,52 +76,34 @@ impl Inputs {
         let mut rng = ChaCha8Rng::seed_from_u64(moved as u64);
         rng.set_stream(index);
         let values = VALUES.map(|(_, [low, high])| rng.random_range(low..high));
-        let coin = match moved {
-            I1 | I3 => CoinKind::Moments,
-            RADIUS | THICKNESS => one(index, &[CoinKind::Cylinder, CoinKind::Millimetres]),
-            _ => one(index, &[CoinKind::Moments, CoinKind::Cylinder, CoinKind::Millimetres]),
+        let name = VALUES[moved].0;
+        let coin = match name {
+            "i1" | "i3" => MOMENTS,
+            "radius" | "thickness" => one(index, &[CYLINDER, MILLIMETRES]),
+            _ => one(index, &[MOMENTS, CYLINDER, MILLIMETRES]),
         };
-        let start = match moved {
-            TILT => one(index, &[Start::Radians, Start::Degrees]),
-            COMPONENTS.. => Start::Quaternion,
-            _ => one(index, &[Start::Flat, Start::Radians, Start::Degrees, Start::Quaternion]),
+        let start = match name {
+            "tilt" => one(index, &[RADIANS, DEGREES]),
+            "w" | "x" | "y" | "z" => QUATERNION,
+            _ => one(index, &[FLAT, RADIANS, DEGREES, QUATERNION]),
         };
-        let flight = match moved {
-            TIME => Flight::Time,
-            DROP => Flight::Dropped,
-            SPEED | GRAVITY => one(index, &[Flight::Thrown, Flight::Dropped]),
-            _ => one(index, &[Flight::Thrown, Flight::Time, Flight::Dropped, Flight::Thrown, Flight::Time]),
+        let time = match name {
+            "time" => GIVEN,
+            "drop" => DROPPED,
+            "speed" | "gravity" => one(index, &[THROWN, DROPPED]),
+            _ => one(index, &[THROWN, GIVEN, DROPPED, THROWN, GIVEN]),
         };
         let degree = Unit::ratio(1, 360).expect("a unit");
         let units = [AngleUnit::RADIAN, AngleUnit::Turns(degree), AngleUnit::RADIAN, AngleUnit::Turns(Unit::ONE)];
-        Self { values, coin, start, flight, unit: one(index / 5, &units) }
+        Self { values, coin, start, time, unit: one(index / 5, &units) }
     }
 
     /// The toss, if there is one.
     fn toss(&self) -> Option<CoinToss> {
-        let v = self.values;
-        let millimetres = |metres: f64| Quantity::new(1e3 * metres, Unit::ratio(1, 1000).expect("a unit"));
-        let coin = match self.coin {
-            CoinKind::Moments => Coin::from_moments(v[I1], v[I3]),
-            CoinKind::Cylinder => Coin::from_cylinder(0.005, v[RADIUS], v[THICKNESS]),
-            CoinKind::Millimetres => Coin::from_cylinder(0.005, millimetres(v[RADIUS]), millimetres(v[THICKNESS])),
-        };
-        let (speed, gravity) = (v[SPEED], v[GRAVITY]);
-        let time = match self.flight {
-            Flight::Time => TimeOfFlight::Given(v[TIME]),
-            Flight::Thrown => TimeOfFlight::Ballistic { speed, gravity },
-            Flight::Dropped => TimeOfFlight::BallisticTo { speed, gravity, drop: v[DROP] },
-        };
-        let rate = Vector3::new(v[RATE], v[RATE + 1], v[RATE + 2]) / self.unit.times(1.0).radians();
-        let launch = Launch::in_unit(rate, self.unit, time).ok()?;
-        let degrees = |radians: f64| Quantity::new(57.0 * radians, Unit::ratio(1, 360).expect("a unit"));
-        let attitude = match self.start {
-            Start::Flat => Attitude::IDENTITY,
-            Start::Radians => Attitude::about_x(v[TILT]),
-            Start::Degrees => Attitude::about_x(Angle::Turns(degrees(v[TILT]))),
-            Start::Quaternion => Attitude::from_components(std::array::from_fn(|at| v[COMPONENTS + at])).ok()?,
-        };
-        Some(CoinToss { coin: coin.ok()?, launch: launch.with_attitude(attitude) })
+        let v = &self.values;
+        let rate = Vector3::new(v[0], v[1], v[2]) / self.unit.times(1.0).radians();
+        let launch = Launch::in_unit(rate, self.unit, (self.time)(v)).ok()?;
+        Some(CoinToss { coin: (self.coin)(v).ok()?, launch: launch.with_attitude((self.start)(v).ok()?) })
     }
 
     fn with(self, moved: usize, value: f64) -> Self {
@@ -207,15 +180,8 @@ fn next_to_edges(moved: usize, tries: u64) -> [usize; 2] {
 
 /// The number of tosses for each input and of those that are wrong, in words.
 fn survey(tries: u64) -> (Vec<String>, [usize; 2]) {
-    let found: Vec<[usize; 2]> = std::thread::scope(|scope| {
-        let surveys = [0, 1].map(|part| {
-            scope.spawn(move || {
-                (part..VALUES.len()).step_by(2).map(|moved| next_to_edges(moved, tries)).collect::<Vec<_>>()
-            })
-        });
-        let [even, odd] = surveys.map(|survey| survey.join().expect("a survey"));
-        even.into_iter().zip(odd).flat_map(|(even, odd)| [even, odd]).collect()
-    });
+    let found: Vec<[usize; 2]> =
+        (0..VALUES.len()).into_par_iter().with_max_len(1).map(|moved| next_to_edges(moved, tries)).collect();
     let lines = VALUES.iter().zip(&found).map(|((name, _), [tosses, wrong])| format!("{name}: {wrong} of {tosses}"));
     let total = found.iter().fold([0, 0], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
     (lines.collect(), total)

@@ -1,5 +1,5 @@
-//! These tests start the suite's program and look at what a script or a user sees: exit codes, standard output and the
-//! files that it writes. The library's tests do not reach these.
+//! These tests start the suite's program and look at what a script, a user or continuous integration sees: exit codes,
+//! standard output and the files that it writes. The library's tests do not reach these.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -14,11 +14,46 @@ fn validation() -> PathBuf {
 }
 
 fn run(arguments: &[&str], validation: &Path, out: &Path) -> Output {
+    run_with_summary(arguments, validation, out, Path::new(""))
+}
+
+fn run_with_summary(arguments: &[&str], validation: &Path, out: &Path, summary: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_verify"))
         .args(arguments)
         .args([Path::new("--validation"), validation, Path::new("--out"), out])
+        .env("GITHUB_STEP_SUMMARY", summary)
         .output()
         .expect("the program starts")
+}
+
+/// What a run left behind.
+struct Ran {
+    code: Option<i32>,
+    stdout: String,
+    out: tempfile::TempDir,
+}
+
+impl Ran {
+    /// Runs the check in `format` with the lines of `baseline`, if any, as its baseline.
+    fn new(format: &str, baseline: Option<&[&str]>, summary: &Path) -> Self {
+        let (folder, out) = (empty_validation(), tempfile::tempdir().expect("a folder"));
+        if let Some(lines) = baseline {
+            let path = verify::judge::baseline::file(&folder.path().join("baseline"), verify::Effort::Standard);
+            std::fs::create_dir_all(path.parent().expect("it is there")).expect("it is there");
+            std::fs::write(path, ["check,subject,error,calls", &lines.join("\n")].join("\n")).expect("it is there");
+        }
+        let arguments = ["run", "--only", CHECK, "--format", format];
+        let output = run_with_summary(&arguments, folder.path(), out.path(), summary);
+        Self { code: output.status.code(), stdout: String::from_utf8(output.stdout).expect("text"), out }
+    }
+
+    fn file(&self, name: &str) -> String {
+        std::fs::read_to_string(self.out.path().join(name)).expect("it is there")
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.file(name)).expect("JSON")
+    }
 }
 
 /// A folder without limits, baseline or records, so that a test can add its own.
@@ -45,16 +80,13 @@ fn subjects() -> usize {
 }
 
 #[test]
-fn a_passing_run_ends_with_0_and_writes_both_reports() {
-    let out = tempfile::tempdir().unwrap();
-    let output = run(&["run", "--only", CHECK, "--format", "json"], &validation(), out.path());
-    assert_eq!(output.status.code(), Some(0));
-    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let written: Value =
-        serde_json::from_str(&std::fs::read_to_string(out.path().join("report.json")).unwrap()).unwrap();
-    assert_eq!(printed, written);
-    assert_eq!(printed["passed"], true);
-    let rows = printed["rows"].as_array().unwrap();
+fn a_passing_run_ends_with_0_writes_every_report_and_compares_nothing_without_a_baseline() {
+    let ran = Ran::new("json", None, Path::new(""));
+    assert_eq!(ran.code, Some(0));
+    let report: Value = serde_json::from_str(&ran.stdout).unwrap();
+    assert_eq!(report, ran.json("report.json"));
+    assert_eq!(report["passed"], true);
+    let rows = report["rows"].as_array().unwrap();
     assert_eq!(rows.len(), subjects());
     for row in rows {
         for field in ["claim", "basis", "measured", "limit", "reserve", "worst_input", "replay"] {
@@ -62,8 +94,26 @@ fn a_passing_run_ends_with_0_and_writes_both_reports() {
         }
         assert!(row["worst_input"].as_str().unwrap().contains("i1="), "{row}");
     }
-    let junit = std::fs::read_to_string(out.path().join("junit.xml")).unwrap();
-    assert!(junit.contains(&format!("tests=\"{}\"", subjects())) && junit.contains("failures=\"0\""));
+    assert_eq!((&report["moves"], &report["baseline"]["found"]), (&Value::Array(Vec::new()), &Value::Bool(false)));
+    let file = report["baseline"]["file"].as_str().unwrap();
+    assert!(file.ends_with(&format!("baseline/{}/standard.csv", std::env::consts::ARCH)), "{file}");
+    let junit = ran.file("junit.xml");
+    assert!(junit.contains("failures=\"0\"") && !junit.contains("Some("), "{junit}");
+    assert_eq!(junit.matches("<testcase ").count(), subjects());
+    for property in ["measured", "limit", "unit", "judges"] {
+        assert_eq!(junit.matches(&format!("<property name=\"{property}\"")).count(), subjects(), "{property}");
+    }
+    assert!(junit.lines().nth(2).is_some_and(|suite| suite.contains("time=\"")), "{junit}");
+    // The formats of Bencher and of github-action-benchmark.
+    let (bencher, list) = (ran.json("metrics.json"), ran.json("github-action-benchmark.json"));
+    let error = bencher["reference-cos-tilt/gamma/dop853"]["error"]["value"].as_f64().unwrap();
+    assert!(error > 0.0 && error < 1e-11);
+    let list = list.as_array().unwrap();
+    let entry = list.iter().find(|entry| entry["name"] == "reference-cos-tilt / gamma/dop853").expect("the row");
+    assert_eq!((entry["value"].as_f64(), entry["unit"].as_str()), (Some(error), Some("1")));
+    assert!(entry["extra"].as_str().unwrap().contains("reserve") && list.len() == subjects(), "{list:?}");
+    let ran = Ran::new("junit", None, Path::new(""));
+    assert_eq!(ran.stdout.trim_end(), ran.file("junit.xml").trim_end());
 }
 
 #[test]
@@ -80,7 +130,7 @@ fn a_row_above_its_limit_ends_the_run_with_1_and_is_printed_with_a_command_that_
             && table.contains(&format!("FAIL: {} of {} rows pass", subjects() - 1, subjects())),
         "{table}"
     );
-    assert!(table.contains("repeat with: cargo run -q --release --bin unfair-toss -- toss --moments"), "{table}");
+    assert!(table.contains("repeat with: cargo xtask verify --replay \"i1="), "{table}");
     let pattern = "Fails: exact, in one check (reference-cos-tilt). Passes: euler, gamma, quaternion.";
     assert!(table.contains(pattern), "{table}");
     for file in ["report.html", "report.json", "summary.md"] {
@@ -110,6 +160,71 @@ fn a_run_prints_one_line_per_check_and_with_verbose_one_per_row() {
         "to run is what it does without a command"
     );
     assert_eq!(lines(&["run", "--only", CHECK, "--verbose"], |line| line.contains(" cases ")), subjects());
+}
+
+/// A baseline as if the γ-ODE had been twice as accurate as it is, and the quaternion half as accurate.
+const MOVED: [&str; 2] = ["reference-cos-tilt,gamma/dop853,1.5e-12,", "reference-cos-tilt,quaternion/dop853,8e-12,"];
+
+#[test]
+fn a_run_that_became_worse_ends_with_3_names_the_row_and_writes_a_junit_that_fails() {
+    let ran = Ran::new("text", Some(&MOVED), Path::new(""));
+    let (table, junit) = (&ran.stdout, ran.file("junit.xml"));
+    assert_eq!(ran.code, Some(3), "{table}");
+    assert!(
+        table.contains("WORSE than the baseline: 1\n  reference-cos-tilt / gamma/dop853: error 1.500e-12 → "),
+        "{table}"
+    );
+    assert!(table.contains("Worse than the baseline: gamma, by dop853, in one check ("), "{table}");
+    assert_eq!(table.matches("    repeat with: cargo xtask verify --replay").count(), 1, "{table}");
+    assert!(
+        table.contains("better than the baseline; --bless takes it over: 1\n  reference-cos-tilt / quaternion/dop853")
+    );
+    assert!(table.contains(&format!("1 worse, 1 better, {} new, 0 gone.", subjects() - 2)), "{table}");
+    assert!(ran.file("report.html").contains("1 worse, 1 better"));
+    // The file is read as a consumer reads it: line by line is enough, since each element has a line of its own.
+    assert!(junit.lines().nth(1).is_some_and(|line| line.contains("failures=\"1\"")), "{junit}");
+    let suite = junit.split("<testsuite name=").find(|suite| suite.starts_with("\"worse than the baseline\""));
+    let suite = suite.expect("a suite of what became worse");
+    assert!(suite.contains("tests=\"1\"") && suite.contains("failures=\"1\""), "{suite}");
+    assert!(suite.contains("<testcase name=\"gamma/dop853: error\""), "{suite}");
+    assert!(suite.contains("<property name=\"accepted\" value=\"1.5e-12\"/>"), "{suite}");
+    assert!(suite.contains("message=\"worse than the baseline: error 1.500e-12 → "), "{suite}");
+    assert!(suite.contains("cargo xtask verify --replay &quot;i1="), "{suite}");
+}
+
+#[test]
+fn github_gets_annotations_after_the_text_and_a_summary_that_is_appended() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = folder.path().join("summary");
+    std::fs::write(&summary, "what another step wrote\n").unwrap();
+    let ran = Ran::new("github", Some(&MOVED), &summary);
+    let table = &ran.stdout;
+    let last = table.lines().last().unwrap();
+    assert!(last.starts_with("::warning title=reference-cos-tilt / gamma/dop853::Worse than the baseline"), "{table}");
+    assert!(last.contains("%0ARepeat with: cargo xtask verify --replay \"i1="), "{last}");
+    assert!(table.contains(&format!("PASS: {0} of {0} rows pass", subjects())), "{table}");
+    let text = std::fs::read_to_string(&summary).unwrap();
+    assert_eq!(text, format!("what another step wrote\n{}", ran.file("summary.md")));
+    assert!(text.contains("## ⚠️ WORSE than the baseline: ") && text.contains("### Worse than the baseline: 1"));
+    assert_eq!(text.matches("| ✅ | reference-cos-tilt | ").count(), 1, "{text}");
+    // Without the variable, there is a file all the same and no other one.
+    let ran = Ran::new("github", None, Path::new(""));
+    assert_eq!(ran.code, Some(0));
+    assert!(ran.file("summary.md").contains("There is no baseline yet"));
+    assert!(!ran.stdout.contains("::warning"), "nothing is worse than no baseline");
+}
+
+#[test]
+fn a_check_that_does_not_end_fails_the_run_and_every_report() {
+    let (folder, out) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let arguments = ["run", "--only", "long-flight-error", "--time-factor", "1e-6"];
+    let output = run(&arguments, folder.path(), out.path());
+    assert_eq!(output.status.code(), Some(1));
+    for file in ["report.json", "junit.xml", "report.html", "summary.md"] {
+        let text = std::fs::read_to_string(out.path().join(file)).unwrap();
+        assert!(text.contains("did not end within") && text.contains("the 0 checks after it were not run"), "{file}");
+    }
+    assert!(String::from_utf8(output.stdout).unwrap().contains("FAIL: 0 of 1 rows pass"));
 }
 
 #[test]

@@ -6,17 +6,16 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 use toss::{Coin, ExactSolver, Landing, QuaternionSolver, Scheme, SolveError, Solver, SolverEntry, Toss};
-use verify::host::Host;
 use verify::judge::baseline::Baseline;
 use verify::judge::limits::Limits;
 use verify::judge::time::Timing;
 use verify::judge::unused_limits;
-use verify::render::Report;
 use verify::render::report::Compared;
-use verify::{CHECKS, Check, Context, Effort, LeftOut, Row, judge};
+use verify::{CHECKS, Check, Context, Effort, LeftOut, Report, Row, judge};
 
 fn schema() -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/report.schema.json");
@@ -156,8 +155,7 @@ fn report() -> Value {
     let registry = [ExactSolver::entry(), stepper, SolverEntry::new("refuses", "", |_| Box::new(Refuses))];
     let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
     assert!(context.atlas.get(&context).is_ok() && context.long_flights.get(&context).is_ok());
-    assert!(context.convergence.get(&context).is_ok() && context.trial.get(&context).is_ok());
-    assert!(context.sweep.get(&context).is_ok() && context.probabilities.get(&context).is_ok());
+    assert!(context.convergence.get(&context).is_ok() && context.sweep.get(&context).is_ok());
     assert!(context.fig4.get(&context).is_ok());
     let limits = Limits::parse("[gone]\nreason = 'r'\nallowed = { s = 1.0 }").expect("limits");
     let of = |id: &str| -> Vec<Row> {
@@ -171,9 +169,9 @@ fn report() -> Value {
     let before = "check,subject,error,calls\nreference-cos-tilt,exact,0,\ngone,all,1.5,7\n";
     let moves = Baseline::parse(before).expect("a baseline").moves(&Baseline::of(&rows, None), true);
     let compared = Compared { file: "quick.csv".to_owned(), found: true, written: false };
-    let host = Host::here();
-    let (timings, left_out) = ([timing(Some(51.0)), timing(None)], [LeftOut { check: CHECKS[0].id, why: "a test" }]);
-    let report = Report::new(&host, Effort::Quick, &rows, &timings, compared, &moves, &left_out, context.records());
+    let (timings, left_out) =
+        (vec![timing(Some(51.0)), timing(None)], vec![LeftOut { check: CHECKS[0].id, why: "a test" }]);
+    let report = Report::new(Arc::new(context), rows, timings, compared, moves, left_out);
     serde_json::from_str(&report.json().expect("JSON")).expect("JSON")
 }
 

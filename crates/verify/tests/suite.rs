@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use toss::Registry;
 use verify::judge::baseline;
 use verify::judge::limits::Limits;
-use verify::{CHECKS, Effort, Judges, Row, Status, Suite, Verdict, Verified};
+use verify::{CHECKS, Effort, Judges, Report, Row, Status, Suite, Verdict};
 
 #[path = "../examples/own_solver.rs"]
 #[expect(dead_code, reason = "its main function is tested as a program")]
@@ -18,8 +18,8 @@ fn of_one_solver() -> Suite {
     Suite::new(registry).effort(Effort::Quick).command("cargo run --release --")
 }
 
-fn failing(verified: &Verified) -> Vec<&Row> {
-    verified.rows().iter().filter(|row| !row.status.passes()).collect()
+fn failing(verified: &Report) -> Vec<&Row> {
+    verified.rows.iter().filter(|row| !row.status.passes()).collect()
 }
 
 #[test]
@@ -29,28 +29,28 @@ fn a_solver_from_elsewhere_is_judged_alone_and_gets_limits_that_it_then_passes()
     let mut verified = suite.run().unwrap();
     assert_eq!(failing(&verified), Vec::<&Row>::new());
     assert_eq!((verified.verdict(), verified.exit_code()), (Verdict::Pass, 0));
-    for row in verified.rows() {
+    for row in &verified.rows {
         assert_eq!((row.subject.as_str(), row.judges), ("two-turns", Some(Judges::Solver)), "{row:?}");
         let replay = row.replay.as_deref();
         assert!(replay.is_none_or(|replay| replay.starts_with("cargo run --release -- ")), "{replay:?}");
     }
-    let run: Vec<&str> = verified.rows().iter().map(|row| row.check.as_str()).collect();
+    let run: Vec<&str> = verified.rows.iter().map(|row| row.check.as_str()).collect();
     for check in ["reference-attitude", "random-cos-tilt", "adversarial-silence", "atlas-answers", "fig4-same-counts"] {
         assert!(run.contains(&check), "{check}");
     }
-    let left_out = |check: &str| verified.left_out().iter().any(|left_out| left_out.check == check);
-    assert!(left_out("batch-cos-tilt") && left_out("cross-method-attitude"), "{:?}", verified.left_out());
+    let left_out = |check: &str| verified.left_out.iter().any(|left_out| left_out.check == check);
+    assert!(left_out("batch-cos-tilt") && left_out("cross-method-attitude"), "{:?}", verified.left_out);
     assert!(CHECKS.iter().all(|check| run.contains(&check.id) || left_out(check.id)));
 
     let proposed = verified.proposed_limits().expect("no row has a limit");
     let judged = of_one_solver().limits(Limits::parse(&proposed).unwrap()).run().unwrap();
     let by_limits = |row: &Row| matches!(row.status, Status::Pass | Status::PassLoose);
-    assert!(judged.rows().iter().all(by_limits), "{:#?}", judged.rows());
+    assert!(judged.rows.iter().all(by_limits), "{:#?}", judged.rows);
     assert_eq!(judged.proposed_limits(), None);
 
     suite.accept(&mut verified).unwrap();
     assert!(baseline::file(&folder.path().join("baseline"), Effort::Quick).exists());
-    assert!(suite.run().unwrap().moves().is_empty(), "a second run finds what the first one did");
+    assert!(suite.run().unwrap().moves.is_empty(), "a second run finds what the first one did");
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn a_part_of_our_registry_is_judged_by_our_limits_and_needs_no_rows_of_the_other
     let registry = Registry::standard().only(&["gamma"]).unwrap();
     let verified = Suite::new(registry).effort(Effort::Quick).folder("no/such/folder").run().unwrap();
     assert_eq!(failing(&verified), Vec::<&Row>::new());
-    assert!(verified.rows().iter().all(|row| row.subject.starts_with("gamma") && row.limit.is_some()));
+    assert!(verified.rows.iter().all(|row| row.subject.starts_with("gamma") && row.limit.is_some()));
     assert_eq!(verified.proposed_limits(), None);
 }
 

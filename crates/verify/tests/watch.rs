@@ -18,7 +18,7 @@ const QUICK: Check = Check {
     judges: Judges::Library,
     ceiling: 10.0,
     unit: "1",
-    measure: Measure::Own(|_| Ok(vec![Measurement::figure("quick", "all", 0.0, 1, String::new())])),
+    measure: Measure::Own(|_| Ok(vec![Measurement::figure("all", 0.0, 1, String::new())])),
 };
 
 static FINE: Check = QUICK;
@@ -78,8 +78,9 @@ fn a_check_that_never_ends_ends_the_run_with_a_row_that_says_so() {
 #[test]
 fn a_check_that_took_too_long_keeps_its_rows_and_gets_a_failing_one() {
     let limits = Limits::parse("[quick]\nreason = 'r'\nallowed = { all = 0.0 }").expect("limits");
-    let judge = Judge { limits: &limits, commands: &Commands::Workspace, effort: Effort::Quick };
-    let end = || End::Measured(vec![Measurement::figure("quick", "all", 0.0, 1, String::new())]);
+    let commands = Commands::of_this_workspace();
+    let judge = Judge { limits: &limits, commands: &commands, effort: Effort::Quick };
+    let end = || End::Measured(vec![Measurement::figure("all", 0.0, 1, String::new())]);
     let timing = |took| Timing { check: "quick".to_owned(), t_wall_s: 1.0, t_processor_s: Some(took), limit_s: 50.0 };
     let names = |rows: Vec<Row>| -> Vec<(String, bool)> {
         rows.into_iter().map(|row| (row.subject, row.status.passes())).collect()

@@ -58,7 +58,7 @@ enum Command {
 /// though within its limits; 4, the command could not run.
 #[must_use]
 pub fn main(suite: Suite) -> ExitCode {
-    let arguments = Program::command().bin_name(suite.commands().program()).try_get_matches();
+    let arguments = Program::command().bin_name(suite.commands().program.clone()).try_get_matches();
     let ended = match arguments.and_then(|arguments| Program::from_arg_matches(&arguments)) {
         Ok(program) => program.run(suite),
         Err(asked) if !asked.use_stderr() => files::printed(whole_file::unless_closed(asked.print())).map(|()| 0),

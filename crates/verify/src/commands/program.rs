@@ -44,9 +44,10 @@ impl Foreign {
     /// `suite` has another one than the standard suite.
     pub(super) fn in_place_of(&self, suite: Suite, out: &Path) -> Result<Suite, InputError> {
         let Some(entry) = self.entry()? else { return Ok(suite) };
-        let is_standard = *suite.commands() == Commands::Workspace && suite.data() == Suite::standard().data();
+        let is_standard =
+            *suite.commands() == Commands::of_this_workspace() && suite.data() == Suite::standard().data();
         let folder = if is_standard { out.join(NAME) } else { suite.data().to_owned() };
-        let commands = Commands::With(Box::new(suite.commands().clone()), self.options());
+        let commands = Commands { options: self.options(), ..suite.commands().clone() };
         Ok(Suite::new(Registry::empty().with(entry)?).folder(folder).repeated_by(commands))
     }
 

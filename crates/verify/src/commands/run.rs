@@ -15,8 +15,9 @@ use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
 use crate::measure::reference::ExactLanding;
 use crate::measure::run::{Answer, Run};
-use crate::render::{Report, github, junit, text, words};
-use crate::suite::{PROPOSAL, Progress, Suite, Verdict, Verified, check_named};
+use crate::render::report::{PROPOSAL, Report, Verdict};
+use crate::render::{github, junit, text, words};
+use crate::suite::{Progress, Suite, check_named};
 use crate::{CHECKS, Check, Context, Effort, Judges, files, judge};
 
 /// Run the checks: one line a check, and in full what fails
@@ -124,14 +125,14 @@ impl RunArgs {
             return files::print(&text).map(|()| u8::from(!passes));
         }
         let suite = self.asked_for(suite);
-        let mut verified = measure(&suite)?;
+        let mut report = measure(&suite)?;
         // The reports know the baseline that the run has written, and are written even if it could not be.
-        let is_accepted = self.bless && verified.verdict() != Verdict::Fail;
-        let accepted = if is_accepted { suite.accept(&mut verified) } else { Ok(()) };
-        verified.write(out)?;
-        self.print(&verified, out)?;
+        let is_accepted = self.bless && report.verdict() != Verdict::Fail;
+        let accepted = if is_accepted { suite.accept(&mut report) } else { Ok(()) };
+        report.write(out)?;
+        self.print(&report, out)?;
         accepted?;
-        Ok(verified.exit_code())
+        Ok(report.exit_code())
     }
 
     /// The suite with the effort and the check that the options ask for.
@@ -152,27 +153,26 @@ impl RunArgs {
     }
 
     /// Prints the report in the format that was asked for.
-    fn print(&self, verified: &Verified, out: &Path) -> anyhow::Result<()> {
-        let report = verified.report();
+    fn print(&self, report: &Report, out: &Path) -> anyhow::Result<()> {
         match self.format.unwrap_or(Format::Text) {
-            Format::Text => files::print(&self.text(verified, &report, out)),
+            Format::Text => files::print(&self.text(report, out)),
             Format::Json => files::print(&format!("{}\n", report.json()?)),
-            Format::Junit => files::print(&format!("{}\n", junit::xml(&report)?)),
+            Format::Junit => files::print(&format!("{}\n", junit::xml(report)?)),
             Format::Github => {
                 if let Some(path) = std::env::var_os(SUMMARY).filter(|path| !path.is_empty()) {
-                    files::append(Path::new(&path), &github::summary(&report))?;
+                    files::append(Path::new(&path), &github::summary(report))?;
                 }
-                files::print(&format!("{}{}", self.text(verified, &report, out), github::annotations(&report)))
+                files::print(&format!("{}{}", self.text(report, out), github::annotations(report)))
             }
         }
     }
 
-    fn text(&self, verified: &Verified, report: &Report<'_>, out: &Path) -> String {
-        let moved = words::moves(report.moves, report.rows);
-        let compared = report.baseline.words(report.moves);
-        let (table, verdict) = (text::report(report, self.verbose), text::passing(report.rows));
-        let left_out = words::left_out(report.left_out);
-        let written = written(verified, out);
+    fn text(&self, report: &Report, out: &Path) -> String {
+        let moved = words::moves(&report.moves, &report.rows);
+        let compared = report.baseline.words(&report.moves);
+        let (table, verdict) = (text::report(report, self.verbose), text::passing(&report.rows));
+        let left_out = words::left_out(&report.left_out);
+        let written = written(report, out);
         format!("{table}{moved}{verdict}{left_out}{compared}\n{written}")
     }
 }
@@ -223,11 +223,11 @@ fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -
 }
 
 /// Runs the checks of `suite`; what has ended is shown on standard error.
-fn measure(suite: &Suite) -> anyhow::Result<Verified> {
+fn measure(suite: &Suite) -> anyhow::Result<Report> {
     let style = ProgressStyle::with_template("{spinner} check {pos} of {len}: {msg} ({elapsed})")?;
     let progress = ProgressBar::new(0).with_style(style);
     progress.enable_steady_tick(std::time::Duration::from_millis(100));
-    let verified = suite.run_showing(&|now| match now {
+    let report = suite.run_showing(&|now| match now {
         Progress::Begins(check, number) => {
             progress.set_length(number as u64);
             progress.inc(1);
@@ -236,15 +236,15 @@ fn measure(suite: &Suite) -> anyhow::Result<Verified> {
         Progress::Ended(rows, timing) => progress.suspend(|| files::say(&text::ended(rows, timing))),
     })?;
     progress.finish_and_clear();
-    Ok(verified)
+    Ok(report)
 }
 
 /// The files that were written, for someone who reads the text.
-fn written(verified: &Verified, out: &Path) -> String {
+fn written(report: &Report, out: &Path) -> String {
     let line = |what: &str, file: &str| format!("{what}: {}\n", out.join(file).display());
-    let report = line("report", "report.html");
-    match verified.proposed_limits() {
-        Some(_) => report + &line("proposed limits", PROPOSAL),
-        None => report,
+    let page = line("report", "report.html");
+    match report.proposed_limits() {
+        Some(_) => page + &line("proposed limits", PROPOSAL),
+        None => page,
     }
 }

@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn rows_pass_by_the_limits_that_are_proposed_for_them_and_failing_rows_get_none() {
-        let figure = |subject: &str, measured| Measurement::figure("c", subject, measured, 1, String::new());
+        let figure = |subject: &str, measured| Measurement::figure(subject, measured, 1, String::new());
         let measured = || {
             vec![
                 figure("mine/rk \"4\"", 1.3e-9).claiming(Some(1.0)),

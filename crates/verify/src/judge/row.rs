@@ -16,7 +16,7 @@ use crate::measure::replay::{Commands, Replay};
 const LOOSE: f64 = 10.0;
 
 /// The verdict on a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// Within its limit.
@@ -36,6 +36,7 @@ pub enum Status {
     /// It has no limit, and does not belong to a solver.
     NoLimit,
     /// There is a limit for it, but it was not measured.
+    #[default]
     NotMeasured,
 }
 
@@ -47,7 +48,7 @@ impl Status {
 }
 
 /// A judged measurement, with everything that a report shows of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Row {
     /// The id of the check.
     pub check: String,
@@ -104,10 +105,9 @@ pub struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// The command that does `replay`.
-    pub fn command(self, replay: &Replay) -> String {
-        let effort = if matches!(replay, Replay::Check(_)) { self.effort.flag() } else { "" };
-        self.commands.line(replay) + effort
+    /// The command that does `replay` or, without one, the whole of `check`.
+    pub fn command(self, check: &Check, replay: Option<&Replay>) -> String {
+        replay.map_or_else(|| self.commands.check(check.id) + self.effort.flag(), |replay| self.commands.line(replay))
     }
 
     /// Judges the measurements of `check`.
@@ -122,19 +122,9 @@ impl Row {
         Self {
             check: check.to_owned(),
             claim: claim.to_owned(),
-            basis: None,
-            judges: None,
             subject: subject.to_owned(),
-            unit: String::new(),
-            measured: None,
-            limit: None,
-            reserve: None,
             status,
-            cases: 0,
-            worst_input: None,
-            failure: None,
-            replay: None,
-            largest: None,
+            ..Self::default()
         }
     }
 
@@ -152,7 +142,7 @@ impl Row {
 
 /// Judges the measurements of `check` by `limits`, with the commands of this workspace for a run of standard effort.
 pub fn judge(check: &Check, measurements: Vec<Measurement>, limits: &Limits) -> Vec<Row> {
-    Judge { limits, commands: &Commands::Workspace, effort: Effort::Standard }.rows(check, measurements)
+    Judge { limits, commands: &Commands::of_this_workspace(), effort: Effort::Standard }.rows(check, measurements)
 }
 
 /// The value that was judged, what it was compared with, and the result.
@@ -213,7 +203,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         cases,
         worst_input: worst.as_ref().map(|worst| worst.input.clone()),
         failure: worst.as_ref().and_then(|worst| worst.failure.clone()),
-        replay: Some(judge.command(&worst.map_or_else(|| Replay::Check(check.id.to_owned()), |worst| worst.replay))),
+        replay: Some(judge.command(check, worst.and_then(|worst| worst.replay).as_ref())),
         largest,
         subject,
     }

@@ -72,7 +72,7 @@ pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<
         let first = |answer: Answer| -> anyhow::Result<Option<Worst>> {
             let Some((index, runs)) = of(answer).next() else { return Ok(None) };
             let toss = launch(SEED, index);
-            let replay = Replay::toss(&toss, &subject(*by, &toss, index)?);
+            let replay = Some(Replay::new(&toss, &subject(*by, &toss, index)?));
             let run = &runs[column];
             let failure = run.failure.clone().unwrap_or_else(|| run.words());
             Ok(Some(Worst { input: case::text(&toss), failure: Some(failure), replay }))

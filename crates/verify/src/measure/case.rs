@@ -1,5 +1,5 @@
 //! The text of a toss, such as `i1=5e-7 i3=2.5e-7 rate=1.0,1.0,2.5 tilt=0.0 time=0.5`. The report writes down every worst
-//! case in this form, and the command `replay` reads it back to the same toss, because the shortest decimals of an f64 that
+//! case in this form, and the option `--replay` reads it back to the same toss, because the shortest decimals of an f64 that
 //! read back are exact.
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use anyhow::{Context, anyhow, ensure};
 use dynamics::{Body, Toss};
 use toss::quantity::{Angle, Quantity};
-use toss::{Attitude, Coin, Launch, Registry, StepControl, TimeOfFlight};
+use toss::{Attitude, Coin, Launch, StepControl, TimeOfFlight};
 
 use crate::measure::subject::Subject;
 
@@ -112,24 +112,6 @@ pub(crate) fn tilt(launch: &Launch) -> Option<f64> {
 /// Whether the launch is horizontal, with heads up.
 pub(crate) fn is_horizontal(launch: &Launch) -> bool {
     tilt(launch) == Some(0.0)
-}
-
-/// The command of `unfair-toss` that solves the toss with the solver and settings of `subject`; `None` for a solver that is
-/// none of this workspace.
-pub(crate) fn command(toss: &Toss, subject: &Subject) -> Option<String> {
-    Registry::standard().named(subject.entry.name()).ok()?;
-    let tilt = tilt(&toss.launch)?;
-    let body = match (toss.body.coin().map(|coin| (coin, coin.cylinder())), toss.body.moments()) {
-        (Some((_, Some(cylinder))), _) => format!("--cylinder {}", list(&cylinder.map(Quantity::to_f64))),
-        (Some((coin, None)), _) => format!("--moments {}", list(&[coin.i1(), coin.i3()])),
-        (None, Some(moments)) => format!("--moments {}", list(&moments)),
-        (None, None) => format!("--inertia {}", list(&toss.body.inertia())),
-    };
-    let rate: [f64; 3] = toss.launch.rate().into();
-    let flight: String = flight(&toss.launch).map(|(name, value)| format!(" --{name} {value:?}")).collect();
-    let (rate, by) = (list(&rate), subject.options());
-    let program = "cargo run -q --release --bin unfair-toss -- toss";
-    Some(format!("{program} {body} --rate {rate}{flight} --tilt {tilt:?} {by}"))
 }
 
 fn list(numbers: &[f64]) -> String {

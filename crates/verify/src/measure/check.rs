@@ -163,7 +163,7 @@ impl Set {
         Self::of_coins(subject, all, deviation)
     }
 
-    fn measured(&self, check: &str, fold: Fold, cases: &[Case]) -> Measurement {
+    fn measured(&self, fold: Fold, cases: &[Case]) -> Measurement {
         let name = &*self.subject;
         let deviation = |case: &Case| {
             let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).map(Arc::new));
@@ -174,7 +174,7 @@ impl Set {
         let found: Vec<Deviation> = cases.par_iter().map(deviation).collect();
         let worst = |index: usize, failure| Worst::of_library(&cases[index].toss, failure);
         let mut sizes: Vec<f64> = found.iter().map(|found| found.clone().unwrap_or(f64::INFINITY)).collect();
-        let figure = |measured: f64, input| Measurement::figure(check, name, measured, cases.len() as u64, input);
+        let figure = |measured: f64, input| Measurement::figure(name, measured, cases.len() as u64, input);
         let measured = match fold {
             Fold::Largest => Measurement::without_estimate(name, &found, worst),
             Fold::Count => Measurement::count(name, &found, worst),
@@ -277,7 +277,7 @@ impl Check {
                 return Ok([self.measured(*one, context)?, self.measured(*other, context)?].concat());
             }
             Measure::Tosses(sets, fold) => {
-                let row = |set: Set| anyhow::Ok(set.measured(self.id, fold, &(set.cases)(context)?));
+                let row = |set: Set| anyhow::Ok(set.measured(fold, &(set.cases)(context)?));
                 sets().into_iter().map(row).collect::<anyhow::Result<_>>()?
             }
             Measure::Landings { of, deviation, allowed } => {
@@ -292,7 +292,7 @@ impl Check {
     /// The same measurement, whose worst case is repeated by this check's measure.
     fn repeating(&self, measurement: Measurement) -> Measurement {
         let row = format!("{} / {}", self.id, measurement.subject);
-        measurement.with_worst(|worst| Worst { replay: worst.replay.in_row(row.clone()), ..worst })
+        measurement.with_worst(|worst| Worst { replay: worst.replay.map(|toss| toss.in_row(row.clone())), ..worst })
     }
 
     /// What the rows that `is_asked` for by their subjects measure on one toss. Rows that are no deviations of single tosses,
@@ -327,7 +327,7 @@ impl Check {
                 let takes = |set: &Set| is_solved && (!set.of_coins || toss.coin().is_some());
                 let sets = sets().into_iter().filter(|set| is_asked(&set.subject) && takes(set));
                 let case = Case { toss: *toss, reference: None };
-                sets.map(|set| self.repeating(set.measured(self.id, fold, std::slice::from_ref(&case)))).collect()
+                sets.map(|set| self.repeating(set.measured(fold, std::slice::from_ref(&case)))).collect()
             }
             Measure::Landings { deviation, allowed, .. } => {
                 let subjects = context.subjects.iter().filter(|subject| is_asked(&subject.name));

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use anyhow::{Context as _, ensure};
 use sampling::RunningStep;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use toss::SolverEntry;
 
 use crate::measure::adversary::{Findings, search};
@@ -16,53 +16,66 @@ use crate::measure::atlas::expected::Expected;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
-use crate::measure::planner::{PlannerSummary, Trial};
+use crate::measure::planner::Trial;
 use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, ReferenceProbabilities};
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
-use crate::measure::tables::{Probability, fig4, probabilities};
+use crate::measure::tables::fig4;
 use crate::measure::tosses::{Case, long_bodies};
 use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
 
-/// The subjects, the reference data and the shared results of a run.
+/// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
+/// behind some of its rows, each null if no check needed it.
+#[derive(Serialize)]
 pub struct Context {
     /// How many cases are tried.
+    #[serde(skip)]
     pub effort: Effort,
     /// The solvers under verification.
+    #[serde(skip)]
     pub registry: Vec<SolverEntry>,
     /// These solvers with each of their schemes at tight settings.
+    #[serde(skip)]
     pub subjects: Vec<Subject>,
     /// Reference motions from outside the workspace.
+    #[serde(skip)]
     pub(crate) data: ReferenceData,
     /// Reference probabilities from outside the workspace.
+    #[serde(skip)]
     pub(crate) reference_probabilities: ReferenceProbabilities,
     /// Moments of the catalogue's coins from outside the workspace.
+    #[serde(skip)]
     pub(crate) coins: Vec<ReferenceCoin>,
     /// The problems on which speed is compared with accuracy.
+    #[serde(skip)]
     pub problems: Vec<Problem>,
     /// What contestants are known to do near the places where methods fail.
+    #[serde(skip)]
     pub(crate) expected: Expected,
     /// The landings of every subject from random launches.
+    #[serde(skip)]
     pub survey: Shared<Survey>,
     /// The landings of bodies by every subject.
+    #[serde(skip)]
     pub bodies: Shared<Survey>,
     /// Long flights of bodies, by family, with their references.
+    #[serde(skip)]
     pub(crate) long_bodies: Shared<Vec<Vec<Case>>>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
     /// The long flights.
     pub long_flights: Shared<LongFlights>,
     /// What the search by adversarial launches found.
+    #[serde(skip)]
     pub(crate) search: Shared<Vec<Findings>>,
     /// The sweep of tolerances and steps.
     pub sweep: Shared<Sweep>,
     /// The errors by fixed step.
     pub convergence: Shared<Vec<Convergence>>,
     /// Random scenes, solved as planned.
+    #[serde(skip)]
     pub trial: Shared<Trial>,
-    /// P(heads) of every named space by every method.
-    pub probabilities: Shared<Vec<Probability>>,
     /// The running shares of heads in Fig. 4's space.
     pub fig4: Shared<Vec<RunningStep>>,
 }
@@ -78,6 +91,11 @@ impl<T> Shared<T> {
         Self { found: OnceLock::new(), make }
     }
 
+    /// The result, if a check has asked for it.
+    pub fn found(&self) -> Option<&T> {
+        self.found.get()
+    }
+
     /// The result for the run of `context`, of which it is a part.
     ///
     /// # Errors
@@ -88,6 +106,12 @@ impl<T> Shared<T> {
         }
         let made = (self.make)(context)?;
         Ok(self.found.get_or_init(|| made))
+    }
+}
+
+impl<T: Serialize> Serialize for Shared<T> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.found().serialize(to)
     }
 }
 
@@ -117,7 +141,6 @@ impl Context {
             sweep: Shared::by(|context| Ok(Sweep::new(&context.registry, &context.problems, context.effort)?)),
             convergence: Shared::by(|context| convergence(&context.registry)),
             trial: Shared::by(|context| Trial::new(context.effort)),
-            probabilities: Shared::by(|_| probabilities()),
             fig4: Shared::by(|_| fig4()),
         })
     }
@@ -126,38 +149,6 @@ impl Context {
     pub(crate) fn judges(&self, subject: &str) -> bool {
         self.registry.iter().any(|entry| subject.split('/').next() == Some(entry.name()))
     }
-
-    /// The shared results that have been computed so far, for the reports.
-    pub fn records(&self) -> Records<'_> {
-        Records {
-            atlas: self.atlas.found.get(),
-            long_flights: self.long_flights.found.get(),
-            sweep: self.sweep.found.get(),
-            convergence: self.convergence.found.get(),
-            planner: self.trial.found.get().map(Trial::summary),
-            probabilities: self.probabilities.found.get(),
-            fig4: self.fig4.found.get(),
-        }
-    }
-}
-
-/// The shared results of a run; `None` for those that no check needed.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Records<'a> {
-    /// The atlas of failures.
-    pub atlas: Option<&'a Atlas>,
-    /// Error and drift by time of flight.
-    pub long_flights: Option<&'a LongFlights>,
-    /// Error and work by tolerance or step.
-    pub sweep: Option<&'a Sweep>,
-    /// Planner accuracy and cost.
-    pub planner: Option<PlannerSummary>,
-    /// Error by fixed step.
-    pub convergence: Option<&'a Vec<Convergence>>,
-    /// P(heads) of the named spaces.
-    pub probabilities: Option<&'a Vec<Probability>>,
-    /// The running shares of heads in Fig. 4's space.
-    pub fig4: Option<&'a Vec<RunningStep>>,
 }
 
 /// Checks that no two solvers share a name, because their rows could not be told apart.

@@ -35,12 +35,8 @@ pub struct Drift {
     pub err_attitude: f64,
     /// The attitude error that the solver's error estimate allows (rad); `None` if it has no estimate.
     pub allowed: Option<f64>,
-    /// Drift of |S|, relative.
-    pub momentum: f64,
     /// Drift of the kinetic energy, relative.
     pub energy: f64,
-    /// Drift of n·S, relative to |S|.
-    pub normal_momentum: f64,
     /// Drift of S as a vector in the transport frame, relative.
     pub momentum_vector: f64,
     /// Norm error of an integrated quaternion.
@@ -86,9 +82,7 @@ impl Drift {
         Ok(Self {
             err_attitude: ExactLanding::new(toss)?.attitude_error(&landing.state.attitude),
             allowed: Allowance::new(subject, toss, landing.error).map(|allowance| allowance.attitude),
-            momentum: drift::momentum(toss, &landing.state),
             energy: drift::energy(toss, &landing.state),
-            normal_momentum: drift::normal_momentum(toss, &landing.state),
             momentum_vector: drift::momentum_vector(toss, &landing.state),
             norm_error: landing.norm_error,
         })

@@ -81,8 +81,8 @@ pub struct Worst {
     pub input: String,
     /// The error, if the subject failed.
     pub failure: Option<String>,
-    /// What repeats the case.
-    pub replay: Replay,
+    /// What repeats the case; `None` if only the whole check does.
+    pub replay: Option<Replay>,
 }
 
 /// A deviation, or why the solver failed.
@@ -124,11 +124,10 @@ impl Measurement {
         Self { measured: sum.unwrap_or(f64::INFINITY), ..Self::without_estimate(name, &each, worst) }
     }
 
-    /// A single number that belongs to no toss; the command that repeats it runs the whole check.
-    pub fn figure(check: &str, subject: &str, measured: f64, cases: u64, input: String) -> Self {
-        let replay = Replay::Check(check.to_owned());
+    /// A single number that belongs to no toss.
+    pub fn figure(subject: &str, measured: f64, cases: u64, input: String) -> Self {
         let measured = if measured.is_nan() { f64::INFINITY } else { measured };
-        let worst = Some(Worst { input, failure: None, replay });
+        let worst = Some(Worst { input, failure: None, replay: None });
         Self { subject: subject.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
     }
 
@@ -235,13 +234,14 @@ fn largest(deviations: &[Deviation]) -> Option<(usize, f64, Option<String>)> {
 impl Worst {
     /// The toss, which the solver of `subject` repeats.
     pub fn by(toss: &Toss, subject: &Subject, failure: Option<String>) -> Self {
-        Self { input: case::text(toss), failure, replay: Replay::toss(toss, subject) }
+        Self { input: case::text(toss), failure, replay: Some(Replay::new(toss, subject)) }
     }
 
     /// The toss, of which the library is measured.
     pub fn of_library(toss: &Toss, failure: Option<String>) -> Self {
-        let (input, settings) = (case::text(toss), String::new());
-        Self { input: input.clone(), failure, replay: Replay::Toss { input, settings, command: None, row: None } }
+        let input = case::text(toss);
+        let replay = Replay { input: input.clone(), settings: String::new(), row: None };
+        Self { input, failure, replay: Some(replay) }
     }
 
     /// The same case with a remark behind it, which is no part of its text.

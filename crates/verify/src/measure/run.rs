@@ -12,12 +12,13 @@ use super::subject::Subject;
 use super::{case, drift};
 
 /// How good an answer is, from the best to the worst.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Answer {
     /// Within the [allowance](Allowance), and no wrong outcome.
     Right,
     /// No answer, but an error that says why.
+    #[default]
     TypedError,
     /// An answer of a solver without a usable error estimate, and no wrong outcome.
     Unclaimed,
@@ -73,7 +74,7 @@ impl Allowance {
 }
 
 /// A solved toss, compared with the 256-bit reference.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Run {
     /// The subject's name.
     pub subject: String,
@@ -112,23 +113,7 @@ pub struct Run {
 impl Run {
     /// Solves `toss` with `subject` and compares the answer with the exact one.
     pub fn new(subject: &Subject, toss: &Toss, exact: &ExactLanding) -> Self {
-        let failed = Self {
-            subject: subject.name.clone(),
-            inputs: case::text(toss),
-            answer: Answer::TypedError,
-            failure: None,
-            is_for_coins: false,
-            err_cos_tilt: None,
-            err_attitude: None,
-            err_by_allowance: None,
-            part: None,
-            err_invariants: None,
-            outcome_ok: None,
-            norm_error: None,
-            rhs_calls: None,
-            accepted_steps: None,
-            rejected_steps: None,
-        };
+        let failed = Self { subject: subject.name.clone(), inputs: case::text(toss), ..Self::default() };
         match subject.solver.land(toss) {
             Ok(landing) => failed.answered(&landing, toss, exact, Allowance::new(subject, toss, landing.error)),
             Err(error) => {

@@ -74,20 +74,6 @@ impl Subject {
             Some(StepControl::Step(step)) => step * launch.turn_rate() <= 0.02,
         }
     }
-
-    /// The options of the command line that select the same solver and settings.
-    pub fn options(&self) -> String {
-        let Some(stepping) = self.stepping else { return format!("--solver {}", self.entry.name()) };
-        let control = match stepping.control() {
-            StepControl::Tolerance(tolerance) => format!("--tolerance {tolerance:?}"),
-            StepControl::Step(step) => format!("--step {step:?}"),
-        };
-        let formulation = match self.formulation {
-            Formulation::MOMENTUM => String::new(),
-            other => format!(" --formulation {}", other.name()),
-        };
-        format!("--solver {} --scheme {} {control}{formulation}", self.entry.name(), stepping.scheme().name())
-    }
 }
 
 /// Takes the place of a solver that cannot be made, and fails on every toss with the reason.

@@ -2,10 +2,9 @@
 //! so that a process that hangs, floods or dies is noticed within its limits. It is ended with its children when
 //! dropped.
 
-use std::fmt;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
@@ -17,41 +16,6 @@ const LONGEST_LINE: u64 = 4096;
 
 /// How often the memory of a process is looked at.
 const MEMORY_EVERY: Duration = Duration::from_millis(100);
-
-/// What a process did instead of answering.
-#[derive(Debug)]
-pub(super) enum Fault {
-    NotStarted(std::io::Error),
-    Ended { status: Option<ExitStatus>, said: String },
-    Silent(Duration),
-    TooLarge { used: u64, limit: u64 },
-    Nonsense { line: String, why: String },
-    Unasked(String),
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotStarted(error) => write!(f, "could not be started: {error}"),
-            Self::Ended { status: Some(status), said } if said.is_empty() => {
-                write!(f, "ended ({status}) without an answer")
-            }
-            Self::Ended { status: Some(status), said } => write!(f, "ended ({status}) without an answer: {said}"),
-            Self::Ended { status: None, .. } => write!(f, "closed its standard input or output without an answer"),
-            Self::Silent(limit) => {
-                let seconds = limit.as_secs_f64();
-                write!(f, "gave no answer within {seconds} s (it has to write out each line, without buffering)")
-            }
-            Self::TooLarge { used, limit } => {
-                write!(f, "used {} MB of memory, and {} MB are its limit", used >> 20, limit >> 20)
-            }
-            Self::Nonsense { line, why } => write!(f, "wrote {line:?} where an answer is expected: {why}"),
-            Self::Unasked(line) => {
-                write!(f, "wrote {line:?} without being asked (standard output is for answers alone)")
-            }
-        }
-    }
-}
 
 /// A running process.
 pub(super) struct Process {
@@ -66,11 +30,11 @@ pub(super) struct Process {
 
 impl Process {
     /// Starts `command` in the shell, and tells it the columns.
-    pub(super) fn start(command: &str) -> Result<Self, Fault> {
+    pub(super) fn start(command: &str) -> Result<Self, String> {
         let mut shell = if cfg!(windows) { Command::new("cmd") } else { Command::new("sh") };
         shell.arg(if cfg!(windows) { "/C" } else { "-c" }).arg(command);
         let piped = shell.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = piped.spawn().map_err(Fault::NotStarted)?;
+        let mut child = piped.spawn().map_err(|error| format!("could not be started: {error}"))?;
         // A process that writes without end is held up by the pipe behind these lines.
         let (line, lines) = sync_channel(2);
         let (words, last_words) = sync_channel(1);
@@ -85,55 +49,64 @@ impl Process {
     }
 
     /// The answer to `question`, to which this process gives a number. The first answer may take as long as `start`.
-    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Reply, Fault> {
+    pub(super) fn ask(&mut self, question: &str, start: Duration, limits: &Limits) -> Result<Reply, String> {
         if let Ok(line) = self.lines.try_recv() {
-            return Err(Fault::Unasked(beginning(&line)));
+            return Err(unasked(&line));
         }
         self.asked += 1;
         self.write(&format!("{},{question}", self.asked))?;
         let limit = if self.asked == 1 { start } else { limits.answer };
         let line = self.line(limit, limits.memory)?;
-        protocol::answer(&line, self.asked).map_err(|why| Fault::Nonsense { line: beginning(&line), why })
+        let nonsense = |why| format!("wrote {:?} where an answer is expected: {why}", beginning(&line));
+        protocol::answer(&line, self.asked).map_err(nonsense)
     }
 
-    fn write(&mut self, line: &str) -> Result<(), Fault> {
+    fn write(&mut self, line: &str) -> Result<(), String> {
         let written = self.stdin.as_mut().map(|stdin| writeln!(stdin, "{line}").and_then(|()| stdin.flush()));
         // What a process wrote before it stopped reading says more than that it did.
         if matches!(written, Some(Ok(()))) || self.asked == 0 { Ok(()) } else { Err(self.ended()) }
     }
 
     /// The next line of its standard output.
-    fn line(&mut self, limit: Duration, memory: u64) -> Result<String, Fault> {
+    fn line(&mut self, limit: Duration, memory: u64) -> Result<String, String> {
         let asked = Instant::now();
         loop {
             if self.looked.elapsed() > MEMORY_EVERY {
                 self.looked = Instant::now();
                 let used = resident_bytes(&family(self.child.id()));
                 if used > memory {
-                    return Err(Fault::TooLarge { used, limit: memory });
+                    return Err(format!("used {} MB of memory, and {} MB are its limit", used >> 20, memory >> 20));
                 }
             }
             match self.lines.recv_timeout(MEMORY_EVERY.min(limit)) {
                 Ok(line) => return Ok(line),
                 Err(RecvTimeoutError::Disconnected) => return Err(self.ended()),
-                Err(RecvTimeoutError::Timeout) if asked.elapsed() >= limit => return Err(Fault::Silent(limit)),
+                Err(RecvTimeoutError::Timeout) if asked.elapsed() >= limit => {
+                    let seconds = limit.as_secs_f64();
+                    return Err(format!(
+                        "gave no answer within {seconds} s (it has to write out each line, without buffering)"
+                    ));
+                }
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
     }
 
     /// Why the process no longer reads or writes. It may be about to end, so it is given a moment.
-    fn ended(&mut self) -> Fault {
+    fn ended(&mut self) -> String {
         if let Ok(line) = self.lines.try_recv() {
-            return Fault::Unasked(beginning(&line));
+            return unasked(&line);
         }
         let moment = Duration::from_millis(500);
         let said = self.last_words.recv_timeout(moment).unwrap_or_default();
         let closed = Instant::now();
         loop {
-            let status = self.child.try_wait().ok().flatten();
-            if status.is_some() || closed.elapsed() > moment {
-                return Fault::Ended { status, said };
+            if let Ok(Some(status)) = self.child.try_wait() {
+                let said = if said.is_empty() { said } else { format!(": {said}") };
+                return format!("ended ({status}) without an answer{said}");
+            }
+            if closed.elapsed() > moment {
+                return "closed its standard input or output without an answer".to_owned();
             }
             std::thread::sleep(Duration::from_millis(5));
         }
@@ -185,6 +158,10 @@ fn read_last_words(mut stderr: impl BufRead, words: &SyncSender<String>) {
         }
     }
     let _ = words.send(last);
+}
+
+fn unasked(line: &str) -> String {
+    format!("wrote {:?} without being asked (standard output is for answers alone)", beginning(line))
 }
 
 /// The first characters of a line.

@@ -21,7 +21,7 @@ use toss::{
 
 use pool::Pool;
 pub use protocol::HEADER;
-use protocol::{Landed, Reply};
+use protocol::Landed;
 
 /// The scheme of a program that takes a tolerance.
 pub const OWN: Scheme = Scheme::new("own", None).adaptive();
@@ -116,15 +116,11 @@ impl ByProgram {
                 return Err(SolveError::NotOffered { scheme: self.stepping.scheme().name() });
             }
         };
-        match self.pool.ask(&protocol::question(toss, &flight, tolerance)) {
-            Ok(Reply::Landing(landing)) => Ok(landing),
-            Ok(Reply::Failed(words)) => Err(self.failed(words)),
-            Err(fault) => Err(self.failed(fault)),
-        }
-    }
-
-    fn failed(&self, words: String) -> SolveError {
-        SolveError::Failed { solver: self.name.to_owned(), source: Reason::from(ForeignError::from(words)) }
+        let failed = |words| {
+            let source = Reason::from(ForeignError::from(words));
+            SolveError::Failed { solver: self.name.to_owned(), source }
+        };
+        self.pool.ask(&protocol::question(toss, &flight, tolerance)).map_err(failed)
     }
 
     fn misbehaved(&self, field: &'static str, value: f64) -> SolveError {

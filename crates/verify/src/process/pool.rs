@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::Limits;
-use super::child::{Fault, Process};
+use super::child::Process;
 use super::protocol::Reply;
 use crate::clock;
 
@@ -41,8 +41,8 @@ impl Pool {
     /// What the program answers to a question.
     ///
     /// # Errors
-    /// What the program did instead, in words; at once if it was given up.
-    pub(super) fn ask(&self, question: &str) -> Result<Reply, String> {
+    /// Why there is none, in words of the program or on what it did instead; at once if it was given up.
+    pub(super) fn ask(&self, question: &str) -> Reply {
         let (idle, start) = {
             let mut state = self.state();
             if let Some(why) = &state.given_up {
@@ -54,7 +54,7 @@ impl Pool {
         // which it hangs.
         let longest = LOSSES * self.limits.answer;
         let start = start.map_or(longest, |took| longest.min(self.limits.answer + 3 * took));
-        let (asked, took): (Result<_, Fault>, _) = clock::timed(|| {
+        let (asked, took): (Result<_, String>, _) = clock::timed(|| {
             let mut process = idle.map_or_else(|| Process::start(&self.command), Ok)?;
             let answer = process.ask(question, start, &self.limits)?;
             Ok((process, answer))
@@ -62,7 +62,7 @@ impl Pool {
         let mut state = self.state();
         match asked {
             Ok((process, answer)) => state.take(process, answer, took, &self.limits),
-            Err(fault) => Err(state.note(&fault, took, &self.limits)),
+            Err(fault) => Err(state.note(fault, took, &self.limits)),
         }
     }
 
@@ -73,8 +73,8 @@ impl Pool {
 
 impl State {
     /// Keeps a process for the next question, and returns its answer.
-    fn take(&mut self, process: Process, answer: Reply, took: Duration, limits: &Limits) -> Result<Reply, String> {
-        if let Reply::Landing(landing) = &answer {
+    fn take(&mut self, process: Process, answer: Reply, took: Duration, limits: &Limits) -> Reply {
+        if let Ok(landing) = &answer {
             let gives_error = landing.error.is_some();
             if *self.gives_errors.get_or_insert(gives_error) != gives_error {
                 return Err("gives an error with some of its answers and none with others".to_owned());
@@ -87,17 +87,16 @@ impl State {
         } else {
             self.idle.push(process);
         }
-        Ok(answer)
+        answer
     }
 
-    /// Notes that a process did not answer, and returns what it did in words.
-    fn note(&mut self, fault: &Fault, took: Duration, limits: &Limits) -> String {
+    /// Notes that a process did not answer, and returns what it did.
+    fn note(&mut self, fault: String, took: Duration, limits: &Limits) -> String {
         self.lost += took;
-        let words = fault.to_string();
         if self.answering == Duration::ZERO || self.lost > LOSSES * limits.answer {
-            self.give_up(&words);
+            self.give_up(&fault);
         }
-        words
+        fault
     }
 
     fn give_up(&mut self, why: &str) {

@@ -17,13 +17,8 @@ use toss::CoinToss;
 /// error.
 pub const HEADER: &str = "id,i1,i3,rate_x,rate_y,rate_z,w,x,y,z,time,tolerance";
 
-/// What a program answered.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Reply {
-    Landing(Landed),
-    /// It has no answer, in its own words.
-    Failed(String),
-}
+/// What a program answered: a landing, or that it has none, in its own words.
+pub(super) type Reply = Result<Landed, String>;
 
 /// An attitude at landing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +47,7 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
     let columns: Vec<&str> = line.trim().split(',').map(str::trim).collect();
     if let [number, "failed", ..] = columns[..] {
         require_id(number, id)?;
-        return Ok(Reply::Failed(columns[2..].join(", ")));
+        return Ok(Err(columns[2..].join(", ")));
     }
     let [number, w, x, y, z, ref fields @ ..] = columns[..] else {
         return Err(format!("{} columns where {id},w,x,y,z is expected", columns.len()));
@@ -71,7 +66,7 @@ pub(super) fn answer(line: &str, id: u64) -> Result<Reply, String> {
             _ => return Err(format!("'{field}' where error=NUMBER or calls=NUMBER is expected")),
         }
     }
-    Ok(Reply::Landing(landing))
+    Ok(Ok(landing))
 }
 
 fn require_id(text: &str, id: u64) -> Result<(), String> {
@@ -102,12 +97,12 @@ mod tests {
 
     #[test]
     fn an_answer_is_read_with_and_without_its_optional_fields() {
-        let landing = |error, calls| Reply::Landing(Landed { quaternion: [0.5, -0.5, 5e-1, -5e-1], error, calls });
+        let landing = |error, calls| Ok(Landed { quaternion: [0.5, -0.5, 5e-1, -5e-1], error, calls });
         assert_eq!(answer("7,0.5,-.5,5e-1,-5E-01\r", 7), Ok(landing(None, 0)));
         assert_eq!(answer("7, 0.5, -0.5, 0.5, -0.5, calls=12, error=1e-9", 7), Ok(landing(Some(1e-9), 12)));
-        assert_eq!(answer("7,failed,too fast, sorry", 7), Ok(Reply::Failed("too fast, sorry".to_owned())));
+        assert_eq!(answer("7,failed,too fast, sorry", 7), Ok(Err("too fast, sorry".to_owned())));
         // NaN is a number to the protocol; the solver refuses it.
-        assert!(matches!(answer("7,nan,0,0,inf", 7), Ok(Reply::Landing(_))));
+        assert!(matches!(answer("7,nan,0,0,inf", 7), Ok(Ok(_))));
     }
 
     #[test]

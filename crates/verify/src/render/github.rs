@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::report::{Cost, ENOUGH, Reached};
-use super::words::{Block, Family, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
@@ -19,7 +19,7 @@ const IN_FULL: usize = 100;
 
 /// One `::error` for each failing row and one `::warning` for each that became worse, the worst first, each with the
 /// command that repeats it.
-pub(crate) fn annotations(report: &Report<'_>) -> String {
+pub(crate) fn annotations(report: &Report) -> String {
     let failing = report.failing();
     let errors = failing.iter().map(|row| {
         let replay = row.replay.as_ref().map_or_else(String::new, |replay| format!("\nRepeat with: {replay}"));
@@ -28,7 +28,7 @@ pub(crate) fn annotations(report: &Report<'_>) -> String {
         (format!("{} / {}", row.check, row.subject), text)
     });
     let warnings = report.worse().into_iter().map(|moved| {
-        let replay = words::replay(moved, report.rows);
+        let replay = words::replay(moved, &report.rows);
         let text = format!("Worse than the baseline: {}\nRepeat with: {replay}", words::change(moved));
         (format!("{} / {}", moved.check, moved.subject), text)
     });
@@ -61,7 +61,7 @@ fn property(text: &str) -> String {
 
 /// The summary: the verdict, the pattern, what fails and what became worse with the commands that repeat it, what each
 /// solver reaches at which cost, one line a family, and folded one line a check.
-pub(crate) fn summary(report: &Report<'_>) -> String {
+pub(crate) fn summary(report: &Report) -> String {
     let failing = report.failing();
     let verdict = match (report.passed, report.worse().is_empty()) {
         (true, true) => "✅ PASS",
@@ -72,12 +72,12 @@ pub(crate) fn summary(report: &Report<'_>) -> String {
     let _ = writeln!(out, "{}\n", cell(&report.pattern));
     let facts: Vec<String> =
         report.facts().into_iter().map(|(name, value)| format!("{name} {}", cell(&value))).collect();
-    let _ = writeln!(out, "{}. {}\n", facts.join(" · "), report.baseline.words(report.moves));
-    let blocks = Block::all(report.rows);
+    let _ = writeln!(out, "{}. {}\n", facts.join(" · "), report.baseline.words(&report.moves));
+    let blocks = Group::checks(&report.rows);
     out += &in_full("Fails", failing.iter().map(|row| (failed(row), row.replay.clone().unwrap_or_default())));
     let moved =
         |moved: &Move| format!("**{} / {}**: {}", cell(&moved.check), cell(&moved.subject), words::change(moved));
-    let moved = |found: &&Move| (moved(found), words::replay(found, report.rows));
+    let moved = |found: &&Move| (moved(found), words::replay(found, &report.rows));
     out += &in_full("Worse than the baseline", report.worse().iter().map(moved));
     out += &reached(report);
     out += &families(report);
@@ -92,7 +92,7 @@ pub(crate) fn summary(report: &Report<'_>) -> String {
 }
 
 /// What each solver reaches, and at which cost; empty if that was not measured.
-fn reached(report: &Report<'_>) -> String {
+fn reached(report: &Report) -> String {
     let (all, Some((problem, launches))) = (report.reached(), report.ordinary()) else { return String::new() };
     let mut out = format!(
         "### What each solver reaches\n\n| solver | smallest error | calls | time | calls to {ENOUGH:e} rad | time |\n\
@@ -108,12 +108,12 @@ fn reached(report: &Report<'_>) -> String {
 }
 
 /// One line a family.
-fn families(report: &Report<'_>) -> String {
+fn families(report: &Report) -> String {
     let mut out = "### Families of checks\n\n| | family | rows | worst row | |\n|---|---|---|---|---|\n".to_owned();
-    for family in Family::all(report.rows) {
+    for family in Group::families(&report.rows) {
         let (worst, sign) = (family.worst(), if family.failing() == 0 { "✅" } else { "❌" });
         let row = format!("{} / {}", cell(&worst.check), cell(&worst.subject));
-        let _ = writeln!(out, "| {sign} | {} | {} | {row} | {} |", family.name, family.rows(), reserve(worst));
+        let _ = writeln!(out, "| {sign} | {} | {} | {row} | {} |", family.name, family.rows.len(), reserve(worst));
     }
     out
 }

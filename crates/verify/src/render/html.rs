@@ -4,15 +4,13 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{Block, Family, comparison, left_out, number, replay, reserve, verdict};
+use super::words::{Group, comparison, left_out, number, replay, reserve, verdict};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::hazards::HAZARDS;
-use crate::measure::planner::Line;
 use crate::measure::run::Answer;
-use crate::measure::tables::Probability;
 use crate::measure::work_precision::YARDSTICK;
 use crate::render::Report;
 use crate::render::charts::{Chart, OVERVIEW};
@@ -58,7 +56,7 @@ const CHAPTERS: [(&str, &str, &str); 5] = [
 ];
 
 /// Renders `report` with its `charts`.
-pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
+pub(crate) fn page(report: &Report, charts: &[Chart]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -76,13 +74,11 @@ pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
                     (reached(report))
                     (overview(charts))
                 }
-                @if let Some(atlas) = report.records.atlas { (matrix(atlas)) }
+                @if let Some(atlas) = report.context.atlas.found() { (matrix(atlas)) }
                 (families(report))
                 h2 { "Everything in full" }
-                @for family in Family::all(report.rows) { (in_full(&family, report)) }
+                @for family in Group::families(&report.rows) { (in_full(&family, report)) }
                 @for (id, title, caption) in CHAPTERS { (chapter(id, title, caption, charts)) }
-                @if let Some(lines) = report.records.probabilities { (probabilities(lines)) }
-                @if let Some(summary) = &report.records.planner { (planner(&summary.lines)) }
                 (not_measured(report))
             }
         }
@@ -91,7 +87,7 @@ pub(crate) fn page(report: &Report<'_>, charts: &[Chart]) -> String {
 }
 
 /// The verdict, and when, where and of what it was found.
-fn answer(report: &Report<'_>) -> Markup {
+fn answer(report: &Report) -> Markup {
     let (word, class) = match (report.passed, report.worse().is_empty()) {
         (true, true) => ("PASS", "pass"),
         (true, false) => ("WORSE", "fail"),
@@ -103,7 +99,7 @@ fn answer(report: &Report<'_>) -> Markup {
         @if !report.passed { p { (report.pattern) } }
         dl.facts {
             @for (name, value) in report.facts() { div { dt { (name) } dd { (value) } } }
-            div { dt { "baseline" } dd { (report.baseline.words(report.moves)) } }
+            div { dt { "baseline" } dd { (report.baseline.words(&report.moves)) } }
         }
     }
 }
@@ -130,7 +126,7 @@ fn failure(row: &Row) -> Markup {
     }
 }
 
-fn moves(report: &Report<'_>) -> Markup {
+fn moves(report: &Report) -> Markup {
     let is_shown = |moved: &&Move| matches!(moved.direction, Direction::Worse | Direction::Better);
     let mut shown: Vec<&Move> = report.moves.iter().filter(is_shown).collect();
     shown.sort_by_key(|moved| moved.direction != Direction::Worse);
@@ -140,7 +136,7 @@ fn moves(report: &Report<'_>) -> Markup {
                 summary { b { "What moved against the baseline" } span.faint { (shown.len()) " rows" } }
                 table {
                     tr { th { "check" } th { "subject" } th { "" } th { "accepted" } th { "now" } }
-                    @for moved in shown { (line_of_move(moved, report.rows)) }
+                    @for moved in shown { (line_of_move(moved, &report.rows)) }
                 }
             }
         }
@@ -160,7 +156,7 @@ fn line_of_move(moved: &Move, rows: &[Row]) -> Markup {
 }
 
 /// What each solver reaches, and at which cost.
-fn reached(report: &Report<'_>) -> Markup {
+fn reached(report: &Report) -> Markup {
     let (Some((problem, launches)), all) = (report.ordinary(), report.reached()) else { return html! {} };
     let cells = |cost: Option<Cost>| cost.map_or_else(|| ["–", "–", "–"].map(str::to_owned), Cost::words);
     let line = |Reached { subject, finest, enough }: &Reached| {
@@ -237,16 +233,16 @@ fn matrix(atlas: &Atlas) -> Markup {
 }
 
 /// One line for each family.
-fn families(report: &Report<'_>) -> Markup {
+fn families(report: &Report) -> Markup {
     html! {
         h2 id="checks" { "Families of checks" }
         table.families {
             tr { th { "family" } th { "rows" } th { "smallest reserve" } th { "at" } }
-            @for family in Family::all(report.rows) {
+            @for family in Group::families(&report.rows) {
                 @let worst = family.worst();
                 tr {
                     th scope="row" { a href={ "#" (anchor(family.name)) } { (mark(family.failing(), family.judged())) (family.name) } }
-                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows()) @if family.failing() > 0 { " fail" } }
+                    td { @if family.failing() > 0 { (family.failing()) " of " } (family.rows.len()) @if family.failing() > 0 { " fail" } }
                     td { (reserve(worst).trim_start_matches("reserve ")) }
                     td { @if worst.part() > 0.0 || family.failing() > 0 { (worst.subject) " " span.faint { (worst.check) } } }
                 }
@@ -266,19 +262,20 @@ fn anchor(family: &str) -> String {
 }
 
 /// A family with all its checks and their rows.
-fn in_full(family: &Family<'_>, report: &Report<'_>) -> Markup {
+fn in_full(family: &Group<'_>, report: &Report) -> Markup {
+    let checks = Group::checks(family.rows.iter().copied());
     html! {
         details id=(anchor(family.name)) open[family.failing() > 0] {
             summary { b { (mark(family.failing(), family.judged())) (family.name) }
-                      span.faint { (family.blocks.len()) " checks, " (family.rows()) " rows" } }
-            @for block in &family.blocks {
+                      span.faint { (checks.len()) " checks, " (family.rows.len()) " rows" } }
+            @for block in &checks {
                 (check(block, report.checks.iter().find(|timing| timing.check == block.worst().check)))
             }
         }
     }
 }
 
-fn check(block: &Block<'_>, timing: Option<&Timing>) -> Markup {
+fn check(block: &Group<'_>, timing: Option<&Timing>) -> Markup {
     let (worst, all) = (block.worst(), block.failing() == 0);
     html! {
         details.check open[!all] {
@@ -337,52 +334,13 @@ fn chapter(id: &str, title: &str, caption: &str, charts: &[Chart]) -> Markup {
     }
 }
 
-fn probabilities(lines: &[Probability]) -> Markup {
-    html! {
-        details id="probabilities" {
-            summary { b { "Probabilities" } span.faint { (lines.len()) " estimates" } }
-            p.faint { "P(heads) of the named spaces by every way of sampling: the space of the paper's 66 % (reconstructed), its cheated \
-                       toss and its toss that lands tails. A grid is no sample, so it has no interval." }
-            table {
-                tr { th { "space" } th { "method" } th.wide { "launches" } th { "P(heads)" } th { "95 % interval" } }
-                @for line in lines {
-                    tr {
-                        td { (line.space) } td { (line.method) } td.wide { (line.points) } td { (format!("{:.6}", line.probability)) }
-                        td { @if let Some([lo, hi]) = line.interval { (format!("{lo:.6} to {hi:.6}")) }
-                             " " span.faint { (line.interval_kind) } }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn planner(lines: &[Line]) -> Markup {
-    html! {
-        details id="planner" {
-            summary { b { "The planner" } span.faint { (lines.len()) " kinds of scenes" } }
-            p.faint { "Random scenes were solved as planned. error/asked and error/expected: the largest error, divided by the accuracy \
-                       asked for and by the error expected." }
-            table {
-                tr { th { "wanted" } th { "scenes" } th { "refused" } th { "error/asked" } th { "error/expected" } }
-                @for line in lines {
-                    tr {
-                        td { (line.kind) } td { (line.scenes) } td { (line.refused) }
-                        td { (number(Some(line.largest_error_by_accuracy))) } td { (number(Some(line.largest_error_by_expected))) }
-                    }
-                }
-            }
-        }
-    }
-}
-
 /// The checks that gave no row. A run that passes should say what it does not speak of.
-fn not_measured(report: &Report<'_>) -> Markup {
+fn not_measured(report: &Report) -> Markup {
     html! {
         @if !report.left_out.is_empty() {
             details id="left-out" {
                 summary { b { "What was left out" } span.faint { (report.left_out.len()) " checks" } }
-                @for line in left_out(report.left_out).lines() { p.faint { (line) } }
+                @for line in left_out(&report.left_out).lines() { p.faint { (line) } }
             }
         }
     }

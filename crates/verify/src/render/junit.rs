@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report as Junit, TestCase, TestCaseStatus, TestSuite};
 
-use super::words::{Block, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, verdict};
 use super::{Report, words};
 use crate::judge::Row;
 use crate::judge::baseline::Move;
@@ -18,9 +18,9 @@ const WORSE: &str = "worse than the baseline";
 ///
 /// # Errors
 /// If the XML can't be written, which plain rows never cause.
-pub(crate) fn xml(report: &Report<'_>) -> anyhow::Result<String> {
+pub(crate) fn xml(report: &Report) -> anyhow::Result<String> {
     let mut junit = Junit::new("unfair-toss");
-    for block in Block::all(report.rows) {
+    for block in Group::checks(&report.rows) {
         let mut suite = TestSuite::new(block.worst().check.as_str());
         let timing = report.checks.iter().find(|timing| timing.check == block.worst().check);
         if let Some(time) = timing.and_then(|timing| Duration::try_from_secs_f64(timing.t_wall_s).ok()) {
@@ -32,7 +32,7 @@ pub(crate) fn xml(report: &Report<'_>) -> anyhow::Result<String> {
     let worse = report.worse();
     if !worse.is_empty() {
         let mut suite = TestSuite::new(WORSE);
-        suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, report.rows)));
+        suite.add_test_cases(worse.into_iter().map(|moved| worse_case(moved, &report.rows)));
         junit.add_test_suite(suite);
     }
     Ok(junit.to_string()?)

@@ -12,7 +12,7 @@ use crate::judge::baseline::Entry;
 /// Errors and calls by check and subject, in Bencher's metric format:
 /// `{"check/subject": {"error": {"value": 1e-12}, "calls": {"value": 900}}}`. See
 /// <https://bencher.dev/docs/reference/bencher-metric-format>. A row that gave no number is left out.
-pub(crate) fn bencher(report: &Report<'_>) -> anyhow::Result<String> {
+pub(crate) fn bencher(report: &Report) -> anyhow::Result<String> {
     let mut metrics: BTreeMap<String, BTreeMap<&str, Metric>> = BTreeMap::new();
     for (check, subject, Entry { error, calls }) in report.metrics() {
         let entry = metrics.entry(format!("{check}/{subject}")).or_default();
@@ -29,7 +29,7 @@ struct Metric {
 
 /// The same as a list of `{"name", "unit", "value", "extra"}`, which github-action-benchmark reads by its tool
 /// `customSmallerIsBetter`. See <https://github.com/benchmark-action/github-action-benchmark>.
-pub(crate) fn smaller_is_better(report: &Report<'_>) -> anyhow::Result<String> {
+pub(crate) fn smaller_is_better(report: &Report) -> anyhow::Result<String> {
     let mut metrics = Vec::new();
     for (check, subject, Entry { error, calls }) in report.metrics() {
         let row = report.rows.iter().find(|row| row.check == check && row.subject == subject);

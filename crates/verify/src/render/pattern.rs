@@ -1,7 +1,7 @@
 //! Says in one paragraph what the failing rows have in common and what passes, because the pattern names the place of a
 //! fault sooner than any single row: all integrators, one scheme, one solver, or the library itself.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::words::family;
 use crate::judge::baseline::{Direction, Move};
@@ -70,8 +70,8 @@ impl<'a> Item<'a> {
     }
 
     /// The solver, `gamma` of `gamma/dop853/vertical`.
-    fn solver(&self) -> &'a str {
-        self.subject.split('/').next().unwrap_or(self.subject)
+    fn solver(&self) -> Option<&'a str> {
+        self.subject.split('/').next()
     }
 
     /// The scheme, `dop853` of `gamma/dop853/vertical`.
@@ -89,8 +89,8 @@ impl<'a> Item<'a> {
     }
 
     /// The part of the library that the row judges; the check itself if it belongs to none of the known ones.
-    fn family(&self) -> &'a str {
-        family(self.check)
+    fn family(&self) -> Option<&'a str> {
+        Some(family(self.check))
     }
 }
 
@@ -98,6 +98,8 @@ impl<'a> Item<'a> {
 struct SortedRows<'a> {
     /// Rows about one solver.
     solvers: Vec<&'a Item<'a>>,
+    /// Those of them that are bad.
+    bad: Vec<&'a Item<'a>>,
     /// Rows that compare two solvers. They say that one of the two is wrong, but not which.
     comparisons: Vec<&'a Item<'a>>,
     /// Rows about the library.
@@ -109,125 +111,77 @@ struct SortedRows<'a> {
 impl<'a> SortedRows<'a> {
     fn new(items: &'a [Item<'a>]) -> Self {
         let by = |judges: Option<Judges>| items.iter().filter(move |item| item.judges == judges);
-        let (comparisons, solvers) = by(Some(Judges::Solver)).partition(|item| item.is_comparison());
-        Self { solvers, comparisons, library: by(Some(Judges::Library)).collect(), suite: by(None).collect() }
+        let (comparisons, solvers): (_, Vec<_>) = by(Some(Judges::Solver)).partition(|item| item.is_comparison());
+        let (library, suite) = (by(Some(Judges::Library)).collect(), by(None).collect());
+        Self { bad: bad(&solvers), solvers, comparisons, library, suite }
     }
 
     /// What is bad: solvers, parts of the library, limits without a row.
     fn bad(&self) -> String {
         let mut parts = Vec::new();
-        if self.solvers.iter().any(|item| item.bad) {
+        let pairs = names(&bad(&self.comparisons), |item| Some(item.subject));
+        if !self.bad.is_empty() {
             parts.push(self.bad_solvers());
-        } else {
-            let pairs: BTreeSet<&str> = self.comparisons.iter().filter(|i| i.bad).map(|i| i.subject).collect();
-            parts.extend((!pairs.is_empty()).then(|| format!("comparisons alone ({})", list(&pairs))));
+        } else if !pairs.is_empty() {
+            parts.push(format!("comparisons alone ({})", list(&pairs)));
         }
-        for (family, items) in grouped(&self.library, |item| item.family()) {
-            let bad = items.iter().filter(|item| item.bad).count();
-            parts.extend((bad > 0).then(|| format!("the library's {family} ({bad} of {} rows)", items.len())));
+        let of_library = bad(&self.library);
+        for family in names(&of_library, Item::family) {
+            let number = |items: &[&Item<'_>]| items.iter().filter(|item| item.family() == Some(family)).count();
+            let (bad, all) = (number(&of_library), number(&self.library));
+            parts.push(format!("the library's {family} ({bad} of {all} rows)"));
         }
-        let suite: BTreeSet<&str> = self.suite.iter().filter(|item| item.bad).map(|item| item.check).collect();
+        let suite = names(&bad(&self.suite), |item| Some(item.check));
         parts.extend((!suite.is_empty()).then(|| format!("not measured in time or not at all: {}", list(&suite))));
         parts.join("; ")
     }
 
+    /// Which solvers, by which schemes, in which formulations, under which checks: those among the bad rows, or all.
+    fn bad_solvers(&self) -> String {
+        let sets = |key: Key<'a>| [names(&self.bad, key), names(&self.solvers, key)];
+        let which = |key: Key<'a>, words: &str| {
+            let [found, all] = sets(key);
+            if found == all && all.len() > 1 { words.to_owned() } else { list(&found) }
+        };
+        // Where there is one scheme, it need not be named.
+        let has_schemes = sets(Item::scheme)[1].len() > 1;
+        let schemes = if has_schemes { which(Item::scheme, "every scheme") } else { String::new() };
+        let is_by_default = self.bad.iter().any(|item| item.formulation().is_none());
+        let formulation = if is_by_default { String::new() } else { list(&names(&self.bad, Item::formulation)) };
+        let [found, all] = sets(|item| Some(item.check)).map(|checks| checks.len());
+        let checks = list(&names(&self.bad, |item| Some(item.check)));
+        let checks = match found {
+            _ if found == all && all > 1 => format!("in all {all} solver checks"),
+            1 => format!("in one check ({checks})"),
+            _ => format!("in {found} of {all} solver checks ({checks})"),
+        };
+        let after = |before: &str, words: String| if words.is_empty() { words } else { format!(", {before} {words}") };
+        let (schemes, formulation) = (after("by", schemes), after("in the formulation", formulation));
+        format!("{}{schemes}{formulation}, {checks}", which(Item::solver, "all solvers"))
+    }
+
     /// Solvers and parts of the library without a bad row.
     fn passing(&self) -> String {
-        let clean = |items: &[&'a Item<'a>], key: fn(&Item<'a>) -> &'a str| {
-            let groups = grouped(items, |item| key(item)).into_iter();
-            groups.filter(|(_, items)| !items.iter().any(|i| i.bad)).map(|(name, _)| name).collect::<BTreeSet<&str>>()
-        };
-        let mut names: Vec<&str> = clean(&self.solvers, Item::solver).into_iter().collect();
-        names.extend(clean(&self.library, Item::family));
-        names.join(", ")
+        let clean = |items: &[&'a Item<'a>], key: Key<'a>| &names(items, key) - &names(&bad(items), key);
+        let names = [clean(&self.solvers, Item::solver), clean(&self.library, Item::family)];
+        names.iter().flatten().copied().collect::<Vec<_>>().join(", ")
     }
 
     /// What was judged, in few words.
     fn whole(&self) -> String {
-        let solvers = self.names(|_| true);
-        let parts = grouped(&self.library, |item| item.family()).len();
+        let solvers = names(&self.solvers, Item::solver);
+        let parts = names(&self.library, Item::family).len();
         let parts =
             (parts > 0).then(|| format!("{parts} {} of the library", if parts == 1 { "part" } else { "parts" }));
         [(!solvers.is_empty()).then(|| list(&solvers)), parts].into_iter().flatten().collect::<Vec<_>>().join(" and ")
     }
 
-    fn bad_items(&self) -> Vec<&'a Item<'a>> {
-        self.solvers.iter().copied().filter(|item| item.bad).collect()
-    }
-
-    /// The names of solvers with a row that `which` selects.
-    fn names(&self, which: impl Fn(&Item<'_>) -> bool) -> BTreeSet<&'a str> {
-        self.solvers.iter().filter(|item| which(item)).map(|item| item.solver()).collect()
-    }
-
-    /// Which solvers, by which schemes, in which formulation, under which checks.
-    fn bad_solvers(&self) -> String {
-        let checks = self.bad_checks();
-        [self.which_solvers(), self.which_schemes(), self.which_formulation(), checks].concat()
-    }
-
-    fn which_solvers(&self) -> String {
-        let (bad, all) = (self.names(|item| item.bad), self.names(|_| true));
-        let integrators = self.names(|item| item.scheme().is_some());
-        if bad.len() > 1 && bad == all {
-            "all solvers".to_owned()
-        } else if bad.len() > 1 && bad == integrators {
-            "all integrators".to_owned()
-        } else {
-            list(&bad)
-        }
-    }
-
-    fn which_schemes(&self) -> String {
-        let bad = self.bad_items();
-        let schemes_of = |items: &[&Item<'a>]| items.iter().filter_map(|i| i.scheme()).collect::<BTreeSet<&str>>();
-        let of_bad_solvers: Vec<&Item<'a>> =
-            self.solvers.iter().copied().filter(|item| bad.iter().any(|b| b.solver() == item.solver())).collect();
-        let pairs = |items: &[&Item<'a>]| -> BTreeSet<(&str, &str)> {
-            items.iter().filter_map(|item| Some((item.solver(), item.scheme()?))).collect()
-        };
-        let (failing, existing) = (pairs(&bad), pairs(&of_bad_solvers));
-        let schemes = schemes_of(&bad);
-        let by_these: BTreeSet<(&str, &str)> =
-            existing.iter().copied().filter(|(_, scheme)| schemes.contains(scheme)).collect();
-        if failing.is_empty() {
-            String::new()
-        } else if failing == existing {
-            if existing.len() > 1 { ", every scheme".to_owned() } else { String::new() }
-        } else if failing == by_these {
-            format!(", by {} alone", list(&schemes))
-        } else {
-            let subjects: Vec<String> = failing.iter().map(|(solver, scheme)| format!("{solver}/{scheme}")).collect();
-            format!(", not by every scheme ({})", list(&subjects.iter().map(String::as_str).collect()))
-        }
-    }
-
-    fn which_formulation(&self) -> String {
-        let formulations: BTreeSet<Option<&str>> = self.bad_items().iter().map(|item| item.formulation()).collect();
-        match formulations.iter().collect::<Vec<_>>()[..] {
-            [Some(formulation)] => format!(", in the formulation {formulation} alone"),
-            _ => String::new(),
-        }
-    }
-
-    fn bad_checks(&self) -> String {
-        let bad: BTreeSet<&str> = self.bad_items().iter().map(|item| item.check).collect();
-        let all: BTreeSet<&str> = self.solvers.iter().map(|item| item.check).collect();
-        if bad.len() == all.len() && all.len() > 1 {
-            format!(", in all {} solver checks", all.len())
-        } else if bad.len() == 1 {
-            format!(", in one check ({})", list(&bad))
-        } else {
-            format!(", in {} of {} solver checks ({})", bad.len(), all.len(), list(&bad))
-        }
-    }
-
     /// Where the fault may be; empty if the pattern does not say.
     fn hint(&self) -> String {
-        let (bad, all) = (self.names(|item| item.bad), self.names(|_| true));
-        let integrators = self.names(|item| item.scheme().is_some());
-        let schemes: BTreeSet<Option<&str>> = self.bad_items().iter().map(|item| item.scheme()).collect();
-        let checks: BTreeSet<&str> = self.bad_items().iter().map(|item| item.check).collect();
+        let [bad, all] = [&self.bad, &self.solvers].map(|items| names(items, Item::solver));
+        let integrators = names(&self.solvers, |item| item.scheme().and(item.solver()));
+        let schemes: BTreeSet<Option<&str>> = self.bad.iter().map(|item| item.scheme()).collect();
+        let checks = names(&self.bad, |item| Some(item.check));
         let hint = if bad.len() > 1 && bad == all {
             "Solvers share the toss, its time of flight, and the suite that judges them."
         } else if bad.len() > 1 && bad == integrators && schemes.len() > 1 {
@@ -245,13 +199,17 @@ impl<'a> SortedRows<'a> {
     }
 }
 
-/// `items` by the name that `key` gives them, in the order in which the names appear.
-fn grouped<'a>(items: &[&'a Item<'a>], key: impl Fn(&Item<'a>) -> &'a str) -> BTreeMap<&'a str, Vec<&'a Item<'a>>> {
-    let mut groups: BTreeMap<&str, Vec<&Item<'_>>> = BTreeMap::new();
-    for item in items {
-        groups.entry(key(item)).or_default().push(item);
-    }
-    groups
+/// A name of an item, if it has one.
+type Key<'a> = fn(&Item<'a>) -> Option<&'a str>;
+
+/// The names that `key` gives to `items`.
+fn names<'a>(items: &[&Item<'a>], key: Key<'a>) -> BTreeSet<&'a str> {
+    items.iter().filter_map(|item| key(item)).collect()
+}
+
+/// Those of `items` that are bad.
+fn bad<'a>(items: &[&'a Item<'a>]) -> Vec<&'a Item<'a>> {
+    items.iter().copied().filter(|item| item.bad).collect()
 }
 
 /// The first of `names`, and how many more there are.

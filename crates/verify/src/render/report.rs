@@ -1,26 +1,44 @@
 //! The report of a run. It holds all that the renderings show, and answers first: in one sentence, and by what each
 //! solver reaches at which cost.
 
-use serde::Serialize;
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::{Serialize, Serializer};
 use toss::planner::Nanoseconds;
 
-use super::pattern;
+use super::charts::{self, Chart};
 use super::words::{comparison, reserve, worst_first};
+use super::{github, html, junit, metrics, pattern};
+use crate::files;
 use crate::host::Host;
-use crate::judge::LeftOut;
-use crate::judge::Row;
 use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
-use crate::measure::context::Records;
+use crate::judge::{LeftOut, Row, proposal};
+use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 6;
+const SCHEMA: u32 = 7;
+
+/// Name of the file with proposed limits, beside the reports.
+pub(crate) const PROPOSAL: &str = "limits.proposed.toml";
+
+/// The verdict on a whole run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every row passes, and none is worse than the baseline.
+    Pass,
+    /// Every row passes, but something is worse than the baseline.
+    Worse,
+    /// A row fails.
+    Fail,
+}
 
 /// Everything that a run found.
-#[derive(Debug, Serialize)]
-pub struct Report<'a> {
+#[derive(Serialize)]
+pub struct Report {
     /// Version of this layout.
     pub schema: u32,
     /// Whether every row passes.
@@ -28,23 +46,28 @@ pub struct Report<'a> {
     /// Version of the suite.
     pub version: &'static str,
     /// The day, the commit and the machine.
-    pub host: &'a Host,
+    pub host: Host,
     /// The effort of the run: how many cases were tried.
     pub effort: Effort,
     /// What the failing rows have in common, what passes, and what became worse, in words.
     pub pattern: String,
     /// The rows.
-    pub rows: &'a [Row],
+    pub rows: Vec<Row>,
     /// The time that each check took.
-    pub checks: &'a [Timing],
+    pub checks: Vec<Timing>,
     /// The baseline with which the run was compared.
     pub baseline: Compared,
     /// What moved against the baseline.
-    pub moves: &'a [Move],
-    /// The checks that gave no row.
-    pub left_out: &'a [LeftOut],
-    /// The runs behind some of the rows.
-    pub records: Records<'a>,
+    pub moves: Vec<Move>,
+    /// The checks that gave no row, with the reasons.
+    pub left_out: Vec<LeftOut>,
+    /// The solvers, and the runs behind some of the rows.
+    #[serde(rename = "records", serialize_with = "serialized")]
+    pub context: Arc<Context>,
+}
+
+fn serialized<S: Serializer>(context: &Arc<Context>, to: S) -> Result<S::Ok, S::Error> {
+    (**context).serialize(to)
 }
 
 /// The baseline with which a run was compared.
@@ -109,36 +132,85 @@ pub(super) const ENOUGH: f64 = 1e-9;
 /// The problem of which a report says what each solver reaches, if it was flown: launches like those of a hand.
 const ORDINARY: &str = "ensemble";
 
-impl<'a> Report<'a> {
-    /// The report of `rows`, whose checks took the times of `checks`.
-    #[expect(clippy::too_many_arguments, reason = "a report is made in one place")]
+impl Report {
+    /// The report of the `rows` of `context`, today on this machine, whose checks took the times of `checks`.
     pub fn new(
-        host: &'a Host,
-        effort: Effort,
-        rows: &'a [Row],
-        checks: &'a [Timing],
+        context: Arc<Context>,
+        rows: Vec<Row>,
+        checks: Vec<Timing>,
         baseline: Compared,
-        moves: &'a [Move],
-        left_out: &'a [LeftOut],
-        records: Records<'a>,
+        moves: Vec<Move>,
+        left_out: Vec<LeftOut>,
     ) -> Self {
-        let pattern = [pattern::of_rows(rows), pattern::of_moves(moves, rows)].join(" ").trim_end().to_owned();
-        let passed = rows.iter().all(|row| row.status.passes());
-        let version = env!("CARGO_PKG_VERSION");
         Self {
             schema: SCHEMA,
-            passed,
-            version,
-            host,
-            effort,
-            pattern,
+            passed: rows.iter().all(|row| row.status.passes()),
+            version: env!("CARGO_PKG_VERSION"),
+            host: Host::here(),
+            effort: context.effort,
+            pattern: [pattern::of_rows(&rows), pattern::of_moves(&moves, &rows)].join(" ").trim_end().to_owned(),
             rows,
             checks,
             baseline,
             moves,
             left_out,
-            records,
+            context,
         }
+    }
+
+    /// The verdict on the whole run.
+    pub fn verdict(&self) -> Verdict {
+        match (self.passed, self.worse().is_empty()) {
+            (true, true) => Verdict::Pass,
+            (true, false) => Verdict::Worse,
+            (false, _) => Verdict::Fail,
+        }
+    }
+
+    /// The exit code that tells a script the verdict: 0, 3 or 1.
+    pub fn exit_code(&self) -> u8 {
+        match self.verdict() {
+            Verdict::Pass => 0,
+            Verdict::Fail => 1,
+            Verdict::Worse => 3,
+        }
+    }
+
+    /// Limits for the rows that pass without one, as the text of a `limits.toml`: twice what was measured, rounded up to
+    /// one digit. `None` if every row that passes has a limit.
+    pub fn proposed_limits(&self) -> Option<String> {
+        proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
+    }
+
+    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
+    /// `folder`.
+    ///
+    /// # Errors
+    /// If a file can't be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
+        let charts = charts::charts(self)?;
+        for (file, text) in [
+            ("report.json", self.json()?),
+            ("junit.xml", junit::xml(self)?),
+            ("summary.md", github::summary(self)),
+            ("metrics.json", metrics::bencher(self)?),
+            ("github-action-benchmark.json", metrics::smaller_is_better(self)?),
+            ("report.html", html::page(self, &charts)),
+        ] {
+            files::write(&folder.join(file), &text)?;
+        }
+        for Chart { file, svg, .. } in &charts {
+            files::write(&folder.join(file), svg)?;
+        }
+        if let Some(proposal) = self.proposed_limits() {
+            files::write(&folder.join(PROPOSAL), &proposal)?;
+        }
+        Ok(())
+    }
+
+    /// What the baseline would be after this run.
+    pub(crate) fn found(&self) -> Baseline {
+        Baseline::of(&self.rows, self.context.sweep.found())
     }
 
     /// The report as JSON.
@@ -153,7 +225,7 @@ impl<'a> Report<'a> {
     pub(super) fn metrics(&self) -> impl Iterator<Item = (String, String, Entry)> {
         let of_row =
             |row: &Row| Some((row.check.clone(), row.subject.clone(), Entry { error: row.largest?, calls: None }));
-        self.rows.iter().filter_map(of_row).chain(Baseline::of(&[], self.records.sweep).into_entries())
+        self.rows.iter().filter_map(of_row).chain(Baseline::of(&[], self.context.sweep.found()).into_entries())
     }
 
     /// The verdict in one sentence: how many rows pass, or which of them fails by most.
@@ -176,20 +248,20 @@ impl<'a> Report<'a> {
     }
 
     /// The rows that fail, the worst first.
-    pub(super) fn failing(&self) -> Vec<&'a Row> {
+    pub(super) fn failing(&self) -> Vec<&Row> {
         let mut failing: Vec<&Row> = self.rows.iter().filter(|row| !row.status.passes()).collect();
         failing.sort_by(|a, b| worst_first(a, b));
         failing
     }
 
     /// What became worse than the baseline.
-    pub(super) fn worse(&self) -> Vec<&'a Move> {
+    pub(super) fn worse(&self) -> Vec<&Move> {
         self.moves.iter().filter(|moved| moved.direction == Direction::Worse).collect()
     }
 
     /// When, where, of what and how long, as names and values.
     pub(super) fn facts(&self) -> Vec<(&'static str, String)> {
-        let Host { date, commit, rustc, target, cpu, cores, .. } = self.host;
+        let Host { date, commit, rustc, target, cpu, cores, .. } = &self.host;
         let changed = if commit.ends_with('+') { " with changes" } else { "" };
         let seconds: f64 = self.checks.iter().map(|timing| timing.t_wall_s).sum();
         let rustc = rustc.split(" (").next().unwrap_or(rustc);
@@ -204,15 +276,17 @@ impl<'a> Report<'a> {
     }
 
     /// The problem, with its number of launches, of which [`reached`](Self::reached) speaks.
-    pub(super) fn ordinary(&self) -> Option<(&'a str, usize)> {
-        let problems = &self.records.sweep?.problems;
+    pub(super) fn ordinary(&self) -> Option<(&str, usize)> {
+        let problems = &self.context.sweep.found()?.problems;
         let found = problems.iter().find(|(name, ..)| name == ORDINARY).or(problems.first())?;
         Some((&found.0, found.2))
     }
 
     /// What each solver reaches at which cost, the most accurate first.
     pub(super) fn reached(&self) -> Vec<Reached> {
-        let (Some(sweep), Some((problem, launches))) = (self.records.sweep, self.ordinary()) else { return Vec::new() };
+        let (Some(sweep), Some((problem, launches))) = (self.context.sweep.found(), self.ordinary()) else {
+            return Vec::new();
+        };
         let launches = launches.max(1) as f64;
         let reached = |subject: String| {
             let cost = |sample: &Sample| {

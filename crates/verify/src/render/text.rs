@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::Report;
-use super::words::{Block, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, verdict};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -24,9 +24,9 @@ pub(crate) fn ended(rows: &[Row], timing: &Timing) -> String {
 }
 
 /// The report of a run: one line a check or, with `verbose`, one line a row below its claim.
-pub(crate) fn report(report: &Report<'_>, verbose: bool) -> String {
+pub(crate) fn report(report: &Report, verbose: bool) -> String {
     let mut out = format!("\n{}\n", report.pattern);
-    let blocks = Block::all(report.rows);
+    let blocks = Group::checks(&report.rows);
     if !verbose {
         let _ = writeln!(out, "\n{:<width$}  rows  worst row", "check", width = width());
     }
@@ -47,7 +47,7 @@ pub(crate) fn passing(rows: &[Row]) -> String {
 }
 
 /// How many rows a check has, and the one that is the furthest above its limit or the closest to it.
-fn summary(block: &Block<'_>) -> String {
+fn summary(block: &Group<'_>) -> String {
     let (worst, failing) = (block.worst(), block.failing());
     let status = if failing == 0 { String::new() } else { format!("  FAIL: {failing} of {}", block.rows.len()) };
     // Where nothing deviates, no subject is closer to its limit than another.
@@ -57,7 +57,7 @@ fn summary(block: &Block<'_>) -> String {
 }
 
 /// Every row of a check, below its claim.
-fn every_row(block: &Block<'_>) -> String {
+fn every_row(block: &Group<'_>) -> String {
     let width = block.rows.iter().map(|row| row.subject.chars().count()).max().unwrap_or(0);
     let first = block.worst();
     let basis = first.basis.map_or("", crate::measure::check::Basis::name);

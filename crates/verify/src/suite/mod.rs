@@ -8,14 +8,13 @@
 //! // Your own solver takes the place of this one.
 //! let mine = SolverEntry::new("mine", "the exact motion again", |_| Box::new(ExactSolver));
 //! let suite = Suite::new(Registry::standard().with(mine)?).effort(Effort::Quick);
-//! let verified = suite.run()?;
-//! verified.write("target/verify".as_ref())?;
-//! assert_eq!(verified.verdict(), Verdict::Pass, "{} rows", verified.rows().len());
+//! let report = suite.run()?;
+//! report.write("target/verify".as_ref())?;
+//! assert_eq!(report.verdict(), Verdict::Pass, "{} rows", report.rows.len());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod selection;
-mod verified;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,6 +22,7 @@ use std::sync::Arc;
 use anyhow::{Context as _, ensure};
 use toss::Registry;
 
+use crate::Row;
 use crate::files;
 use crate::judge::baseline::{self, Baseline};
 use crate::judge::limits::Limits;
@@ -32,12 +32,10 @@ use crate::measure::check::{Check, Judges};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::measure::replay::Commands;
+use crate::render::report::{Compared, Report, Verdict};
 use crate::watch::{self, End};
-use crate::{Error, Row};
 
 pub(crate) use selection::named as check_named;
-pub(crate) use verified::PROPOSAL;
-pub use verified::{Verdict, Verified};
 
 /// Where a suite reads its limits and its baseline, unless it says otherwise.
 const FOLDER: &str = "validation";
@@ -84,7 +82,8 @@ impl Suite {
 
     /// The suite of this workspace: its own solvers and its library, under all checks.
     pub fn standard() -> Self {
-        Self { commands: Commands::Workspace, ..Self::new(Registry::standard().clone()) }.with_library_checks()
+        Self { commands: Commands::of_this_workspace(), ..Self::new(Registry::standard().clone()) }
+            .with_library_checks()
     }
 
     /// The same suite with `limits` in place of those in its folder.
@@ -115,7 +114,7 @@ impl Suite {
     /// with it. Without it the place of the program's file tells.
     #[must_use]
     pub fn command(self, command: &str) -> Self {
-        Self { commands: Commands::Program(command.to_owned()), ..self }
+        Self { commands: Commands::of(command), ..self }
     }
 
     /// The same suite with the checks that judge this library: its exact motion, proofs, batches, sampling methods and
@@ -157,12 +156,12 @@ impl Suite {
     /// # Errors
     /// If a check of [`only`](Self::only) is unknown, the limits or the baseline can't be read, or no check measures
     /// anything. A solver that fails or panics, and a check that never ends, are no errors but rows that fail.
-    pub fn run(&self) -> Result<Verified, Error> {
-        Ok(self.run_showing(&|_| {})?)
+    pub fn run(&self) -> anyhow::Result<Report> {
+        self.run_showing(&|_| {})
     }
 
     /// The same, and calls `show` as the run goes on.
-    pub(crate) fn run_showing(&self, show: &dyn Fn(Progress<'_>)) -> anyhow::Result<Verified> {
+    pub(crate) fn run_showing(&self, show: &dyn Fn(Progress<'_>)) -> anyhow::Result<Report> {
         ensure!(
             self.time_factor.is_finite() && self.time_factor > 0.0,
             "time_factor = {}: must be finite and above 0",
@@ -188,7 +187,11 @@ impl Suite {
         rows.extend(unused);
         ensure!(!rows.is_empty(), "no check measured anything");
         require_distinct(&rows)?;
-        Verified::new(self, is_complete, rows, timings, context, left_out)
+        let path = self.baseline_path();
+        let (baseline, found) = (Baseline::read(&path)?, Baseline::of(&rows, context.sweep.found()));
+        let moves = baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.moves_to(&found, &rows, is_complete));
+        let compared = Compared { file: path.display().to_string(), found: baseline.is_some(), written: false };
+        Ok(Report::new(context, rows, timings, compared, moves, left_out))
     }
 
     fn measure(
@@ -217,20 +220,15 @@ impl Suite {
     ///
     /// # Errors
     /// If a file can't be written, a row fails, or only one check was run.
-    pub fn accept(&self, verified: &mut Verified) -> Result<(), Error> {
-        Ok(self.accepted(verified)?)
-    }
-
-    fn accepted(&self, verified: &mut Verified) -> anyhow::Result<()> {
+    pub fn accept(&self, report: &mut Report) -> anyhow::Result<()> {
         ensure!(self.only.is_none(), "a run of one check is not accepted into the baseline");
-        ensure!(verified.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
+        ensure!(report.verdict() != Verdict::Fail, "a run that fails is not accepted into the baseline");
         let path = self.baseline_path();
         let accepted = Baseline::read(&path)?.unwrap_or_default();
-        files::write(&path, &accepted.ratcheted(verified.found()).csv()?)?;
-        verified.note_that_the_baseline_was_written();
-        let sweep = verified.context().records().sweep;
-        if let Some(sweep) = sweep.filter(|_| self.effort == Effort::Standard) {
-            record::write(&self.folder.join("record"), verified.host(), verified.found(), sweep)?;
+        files::write(&path, &accepted.ratcheted(&report.found()).csv()?)?;
+        report.baseline.written = true;
+        if let Some(sweep) = report.context.sweep.found().filter(|_| self.effort == Effort::Standard) {
+            record::write(&self.folder.join("record"), &report.host, &report.found(), sweep)?;
         }
         Ok(())
     }

@@ -1,35 +1,91 @@
-//! These tests seed faults into a foreign solver, one each, and see every one of them caught by checks that name the
-//! place. The solver is the exact motion, so that a row that fails does so by the fault alone.
+//! These tests give the suite solvers that are not in its tables of limits. Faults are seeded into one, one each, and every
+//! one of them must be caught by checks that name the place; it is the exact motion, so that a row that fails does so by
+//! the fault alone. Others must be judged by their own error estimates (their claims), and none, however broken, may end
+//! the run.
 
 mod faults;
 
 use std::sync::LazyLock;
 
 use faults::{FAULTS, FLIPPED, Fault, Foreign, HONEST, SILENCE, fly, turned};
-use toss::{Attitude, SolverEntry};
+use toss::{
+    Attitude, Formulation, Landing, QuaternionSolver, Registry, Scheme, SolveError, Solver, SolverEntry, StepControl,
+    Stepping, Toss,
+};
 use verify::judge::limits::Limits;
-use verify::{CHECKS, Check, Context, Effort, Judges, Measurement, Row, judge};
+use verify::{CHECKS, Check, Context, Effort, Judges, Measurement, Row, Status, judge};
 
-/// What was measured of the faulty solvers and of two without a fault, by every check that judges solvers; a check of
-/// flights forever is left out, which takes long and adds nothing.
-static MEASURED: LazyLock<Vec<(&'static Check, Vec<Measurement>)>> = LazyLock::new(|| {
-    let honest: [Fault; 2] = [
-        ("honest", HONEST, |toss| fly(*toss), &[]),
-        ("rough", 2e-3, |toss| Ok(turned(fly(*toss)?, Attitude::about_x(9e-4))), &[]),
-    ];
-    let entry =
+/// Solvers without a fault, and such whose answers are none.
+const OTHERS: [Fault; 6] = [
+    ("honest", HONEST, |toss| fly(*toss), &[]),
+    ("rough", Some(2e-3), |toss| Ok(turned(fly(*toss)?, Attitude::about_x(9e-4))), &[]),
+    ("silent", None, |toss| fly(*toss), &[]),
+    ("nan", HONEST, |toss| fly(*toss).map(|landing| landing.with_cos_tilt(f64::NAN)), &[]),
+    ("claims-nan", Some(f64::NAN), |toss| fly(*toss), &[]),
+    ("panics", HONEST, |_| panic!("{PANIC}"), &[]),
+];
+
+/// The message of the panics that these tests cause.
+const PANIC: &str = "out of order";
+
+/// A quaternion solver with a scheme that no other solver has.
+struct Stepper(Stepping);
+
+/// The scheme of [`Stepper`].
+const OWN: Scheme = Scheme::new("own", None).adaptive();
+
+impl Solver for Stepper {
+    fn name(&self) -> &str {
+        "stepper"
+    }
+    fn stepping(&self) -> Option<Stepping> {
+        Some(self.0)
+    }
+    fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
+        let StepControl::Tolerance(tolerance) = self.0.control() else { panic!("it takes no steps of a given length") };
+        let stepping = Stepping::adaptive(Scheme::DOP853, tolerance).expect("a valid tolerance");
+        let toss = Toss::from(toss.of_coin(self.name(), "it is made for coins")?);
+        let landing = QuaternionSolver::new(stepping, Formulation::default()).land(&toss)?;
+        Ok(landing.with_error(self.0.error_estimate(&toss)?))
+    }
+}
+
+/// The solvers of the library that fly beside the foreign ones: without steps, and with them.
+const OURS: [&str; 2] = ["exact", "gamma"];
+
+fn registry() -> Vec<SolverEntry> {
+    let foreign =
         |&(name, claim, fly, _): &Fault| SolverEntry::new(name, "", move |_| Box::new(Foreign { name, claim, fly }));
-    let registry: Vec<SolverEntry> = FAULTS.iter().chain(&honest).map(entry).collect();
-    let context = Context::new(&registry, Effort::Quick).expect("the reference numbers");
-    let left_out = ["cheated-heads-forever", "cross-method-attitude"];
-    let checks = CHECKS.iter().filter(|check| check.judges == Judges::Solver && !left_out.contains(&check.id));
+    let mut all: Vec<SolverEntry> = FAULTS.iter().chain(&OTHERS).map(foreign).collect();
+    all.push(SolverEntry::new("stepper", "", |settings| Box::new(Stepper(settings.stepping))).with_schemes(&[OWN]));
+    all.push(SolverEntry::new("unmade", "", |_| panic!("{PANIC}")));
+    all.extend(Registry::standard().only(&OURS).expect("solvers of ours").entries().iter().cloned());
+    all
+}
+
+/// What was measured of all these solvers by every check that judges solvers; a check of flights forever is left out,
+/// which takes long and adds nothing.
+static MEASURED: LazyLock<Vec<(&'static Check, Vec<Measurement>)>> = LazyLock::new(|| {
+    let loud = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if info.payload().downcast_ref::<String>().is_none_or(|message| message != PANIC) {
+            loud(info);
+        }
+    }));
+    let context = Context::new(&registry(), Effort::Quick).expect("the reference numbers");
+    let checks = CHECKS.iter().filter(|check| check.judges == Judges::Solver && check.id != "cheated-heads-forever");
     checks.map(|check| (check, check.measure(&context).expect("rows, whatever happens"))).collect()
 });
 
-/// The rows of the solver called `name`, judged with `limits`.
-fn rows(name: &str, limits: &Limits) -> Vec<Row> {
+/// The rows of what `is_asked` for by its subject, judged with `limits`.
+fn judged(limits: &Limits, is_asked: impl Fn(&str) -> bool) -> Vec<Row> {
     let judged = MEASURED.iter().flat_map(|(check, measured)| judge(check, measured.clone(), limits));
-    judged.filter(|row| row.subject == name).collect()
+    judged.filter(|row| is_asked(&row.subject)).collect()
+}
+
+/// The rows of the solver called `name`, without its comparisons with others.
+fn rows(name: &str, limits: &Limits) -> Vec<Row> {
+    judged(limits, |subject| subject.split('/').next() == Some(name))
 }
 
 /// The ids of the checks that `name` fails, judged with `limits`.
@@ -54,9 +110,63 @@ fn each_seeded_fault_is_caught_by_the_checks_that_name_its_place() {
 
 #[test]
 fn solvers_without_a_fault_pass_by_their_claims() {
-    for name in ["honest", "rough"] {
-        assert!(rows(name, &no_limits()).len() >= 18, "{name}");
-        assert_eq!(failing(name, &no_limits()), [""; 0], "{name}");
+    for name in ["honest", "rough", "stepper"] {
+        let rows = rows(name, &no_limits());
+        assert!(rows.len() >= 18, "{name}: {} rows", rows.len());
+        for row in &rows {
+            assert!(matches!(row.status, Status::PassByClaim | Status::NotJudged), "{name}: {row:?}");
+        }
+        for check in ["random-cos-tilt", "random-attitude", "atlas-answers", SILENCE, "first-flip"] {
+            assert!(rows.iter().any(|row| row.check == check && row.status == Status::PassByClaim), "{name}: {check}");
+        }
+    }
+    let slopes = rows("stepper", &no_limits());
+    assert!(slopes.iter().any(|row| row.check == "tolerance-proportion" && row.status == Status::NotJudged));
+}
+
+#[test]
+fn the_librarys_solvers_pass_by_their_limits_beside_foreign_ones() {
+    for ours in OURS {
+        let rows = rows(ours, &Limits::of_this_workspace().expect("the limits"));
+        assert!(rows.iter().all(|row| matches!(row.status, Status::Pass | Status::PassLoose)), "{rows:#?}");
+    }
+}
+
+#[test]
+fn a_registry_with_two_solvers_of_one_name_is_refused() {
+    let registry = [registry(), vec![SolverEntry::new("gamma", "", |_| panic!("{PANIC}"))]].concat();
+    let error = Context::new(&registry, Effort::Quick).err().expect("an error").to_string();
+    assert!(error.contains("two solvers called 'gamma'"), "{error}");
+}
+
+#[test]
+fn a_solver_that_claims_no_error_fails_where_an_error_is_judged() {
+    // A refusal is no error, so that their number is judged without a claim.
+    let mut rows = rows("silent", &no_limits());
+    rows.retain(|row| row.check != "adversarial-refusals");
+    assert!(rows.iter().all(|row| matches!(row.status, Status::NoClaim | Status::NotJudged)), "{rows:#?}");
+    for check in ["random-cos-tilt", "fig4-same-counts"] {
+        assert!(rows.iter().any(|row| row.check == check && row.status == Status::NoClaim), "{check}");
+    }
+}
+
+#[test]
+fn panics_and_nan_become_failing_rows_that_say_why() {
+    for (name, why) in [
+        ("nan", "answered cos θ = NaN"),
+        ("claims-nan", "claims an error of NaN"),
+        ("panics", "panicked: out of order"),
+        ("unmade", "making it panicked"),
+    ] {
+        let mut rows = rows(name, &no_limits());
+        rows.extend(judged(&no_limits(), |subject| subject.ends_with(&format!(" ~ {name}"))));
+        let row = rows.iter().find(|row| row.check == "random-cos-tilt").expect("a row");
+        assert_eq!(row.status, Status::FailByClaim, "{name}");
+        assert!(row.failure.as_ref().is_some_and(|failure| failure.contains(why)), "{name}: {row:?}");
+        let passing: Vec<&str> = rows.iter().filter(|row| row.status.passes()).map(|row| row.check.as_str()).collect();
+        // These checks allow errors, because an error is not a wrong answer.
+        let without_an_answer = ["atlas-answers", SILENCE, "adversarial-refusals"];
+        assert!(passing.iter().all(|check| without_an_answer.contains(check)), "{name}: {passing:?}");
     }
 }
 

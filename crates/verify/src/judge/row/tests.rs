@@ -6,7 +6,7 @@ use crate::measure::replay::Replay;
 const CHECK: Check = Check { id: "c", ceiling: 1e-3, ..Check::OF_SOLVERS };
 
 fn figure(measured: f64) -> Measurement {
-    Measurement::figure("c", "s", measured, 1, String::new())
+    Measurement::figure("s", measured, 1, String::new())
 }
 
 fn status(measurement: Measurement, limits: &str) -> Status {
@@ -60,18 +60,18 @@ fn a_limit_takes_precedence_over_the_solvers_claim() {
 #[test]
 fn two_rows_of_one_name_are_refused_with_the_origin_of_both() {
     let limits = Limits::parse("").unwrap();
-    let named = |subject: &str, replay: &str| Measurement {
-        subject: subject.to_owned(),
-        worst: Some(Worst { input: String::new(), failure: None, replay: Replay::Check(replay.to_owned()) }),
-        ..figure(1.0)
+    let named = |subject: &str, toss: &str| {
+        let replay = Replay { input: toss.to_owned(), settings: String::new(), row: None };
+        let worst = Some(Worst { input: String::new(), failure: None, replay: Some(replay) });
+        Measurement { subject: subject.to_owned(), worst, ..figure(1.0) }
     };
-    let rows = judge(&CHECK, vec![named("a", "fly a"), named("b", "fly b"), named("a", "fly c")], &limits);
+    let rows = judge(&CHECK, vec![named("a", "1"), named("b", "2"), named("a", "3")], &limits);
     assert!(require_distinct(&rows[..2]).is_ok());
     let error = require_distinct(&rows).unwrap_err().to_string();
     assert_eq!(
         error,
-        "two rows are called 'c / a': one from `cargo xtask verify --only fly a`, the other from `cargo \
-                       xtask verify --only fly c`"
+        "two rows are called 'c / a': one from `cargo xtask verify --replay \"1\"`, the other from `cargo xtask verify \
+         --replay \"3\"`"
     );
 }
 

@@ -122,7 +122,7 @@ fn grid_launches() -> anyhow::Result<Measurement> {
             }
         }
     }
-    Ok(Measurement::figure(GRID_LAUNCHES.id, "grid", worst.0, launches, worst.1))
+    Ok(Measurement::figure("grid", worst.0, launches, worst.1))
 }
 
 fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -140,8 +140,7 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         launches += all;
         inputs.push(format!("{} of {} heads, expected {}", found.heads(), found.points(), expected[0]));
     }
-    let figure =
-        |subject, measured| Measurement::figure(GRID_COUNTS.id, subject, measured, launches, inputs.join("; "));
+    let figure = |subject, measured| Measurement::figure(subject, measured, launches, inputs.join("; "));
     Ok(vec![figure("grid", difference as f64), figure("running shares", running.round())])
 }
 
@@ -193,7 +192,7 @@ fn batches(sizes: &[u64]) -> anyhow::Result<Measurement> {
             launches += points;
         }
     }
-    Ok(Measurement::figure(ONE_BY_ONE.id, "batches", difference as f64, launches, inputs.join("; ")))
+    Ok(Measurement::figure("batches", difference as f64, launches, inputs.join("; ")))
 }
 
 fn by_solver(entry: &SolverEntry, scheme: Option<&Scheme>, sizes: &[u64]) -> anyhow::Result<Measurement> {
@@ -231,7 +230,7 @@ fn counted(
         }
     }
     let input = format!("first that differs: {first}");
-    Ok(Measurement::figure(ONE_BY_ONE.id, subject, difference, launches, input))
+    Ok(Measurement::figure(subject, difference, launches, input))
 }
 
 pub(super) fn counts(space: &Space, sampler: &Sampler<'_>, plan: Plan) -> anyhow::Result<Counts> {

@@ -275,7 +275,7 @@ fn coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let tries = cells.get("all").map_or(0, |cell| cell[0]);
         let least = cells.iter().min_by(|(_, one), (_, two)| share(**one).total_cmp(&share(**two)));
         let input = least.map(|(key, cell)| format!("{:.4} of {} intervals: {key}", share(*cell), cell[0]));
-        Ok(Measurement::figure(COVERAGE.id, name, measured, tries, input.unwrap_or_default()))
+        Ok(Measurement::figure(name, measured, tries, input.unwrap_or_default()))
     };
     Method::ALL.into_par_iter().map(of_method).collect()
 }

@@ -17,7 +17,7 @@ use super::landings::part_of_estimate;
 use crate::measure::adversary::Findings;
 use crate::measure::atlas::expected::Expectation;
 use crate::measure::atlas::hazards::HAZARDS;
-use crate::measure::case::is_horizontal;
+use crate::measure::case::{self, is_horizontal};
 use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
@@ -77,7 +77,7 @@ fn answers(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let cases = HAZARDS.iter().map(|hazard| hazard.distances.len() as u64).sum();
         let input =
             if unexpected.is_empty() { "as expected at every hazard".to_owned() } else { unexpected.join("; ") };
-        let found = Measurement::figure(ANSWERS.id, subject, unexpected.len() as f64, cases, input);
+        let found = Measurement::figure(subject, unexpected.len() as f64, cases, input);
         found.claiming((!is_unclaimed).then_some(0.0))
     };
     Ok(atlas.subjects().into_iter().map(row).collect())
@@ -103,7 +103,7 @@ fn tilt_work(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             Some((fewest, most)) => format!("{fewest} to {most} calls for tilts from 1 rad to 0"),
             None => "a flight failed".to_owned(),
         };
-        Measurement::figure(TILT_WORK.id, &subject.name, spread, calls.len() as u64, input).without_claim()
+        Measurement::figure(&subject.name, spread, calls.len() as u64, input).without_claim()
     };
     Ok(context.subjects.iter().filter(|subject| subject.stepping.is_some()).map(row).collect())
 }
@@ -198,7 +198,7 @@ pub(super) const LONG_ERROR: Check = Check {
     ceiling: 1.0,
     measure: Measure::Own(|context| {
         let part = |drift: &Drift| drift.err_attitude / drift.allowed.unwrap_or(0.0);
-        over_long_flights(context, LONG_ERROR.id, part, |drift| drift.allowed.map(|_| 1.0))
+        over_long_flights(context, part, |drift| drift.allowed.map(|_| 1.0))
     }),
     ..Check::OF_SOLVERS
 };
@@ -209,9 +209,7 @@ pub(super) const LONG_DRIFT: Check = Check {
             at launch by at most the limit, relative to |S|.",
     basis: Basis::Invariant,
     ceiling: ceiling::COS_TILT,
-    measure: Measure::Own(|context| {
-        over_long_flights(context, LONG_DRIFT.id, |drift| drift.momentum_vector, |drift| drift.allowed)
-    }),
+    measure: Measure::Own(|context| over_long_flights(context, |drift| drift.momentum_vector, |drift| drift.allowed)),
     ..Check::OF_SOLVERS
 };
 
@@ -219,7 +217,6 @@ pub(super) const LONG_DRIFT: Check = Check {
 /// part.
 fn over_long_flights(
     context: &Context,
-    check: &str,
     part: fn(&Drift) -> f64,
     allowed: fn(&Drift) -> Option<f64>,
 ) -> anyhow::Result<Vec<Measurement>> {
@@ -230,7 +227,7 @@ fn over_long_flights(
         let refused = flights.of(subject).count() - solved.len();
         let figure = |time: f64, measured: f64| {
             let input = format!("ω = (1, 1, 2.5) rad/s for {time} s; {refused} longer flights refused");
-            Measurement::figure(check, subject, measured, solved.len() as u64, input)
+            Measurement::figure(subject, measured, solved.len() as u64, input)
         };
         let all = solved.iter().map(|(time, drift)| figure(*time, part(drift)).claiming(allowed(drift))).collect();
         Measurement::worst_of(all).unwrap_or_else(|| figure(0.0, f64::NAN).claiming(Some(0.0)))
@@ -276,7 +273,8 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
     let over = judged.clone().filter(|(_, part)| *part > 1.0).count();
     let (Flight { toss, by }, measured) =
         judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
-    let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", by.options());
+    let settings = case::settings(by);
+    let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", settings.trim_start());
     let worst = Some(Worst::by(toss, by, None).remarking(&remark));
     let cases = landings.len() as u64;
     Ok(Measurement { subject: name, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(Some(1.0)))

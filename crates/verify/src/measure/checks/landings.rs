@@ -93,7 +93,6 @@ fn pair(
         Ok(both.0.zip(both.1).map(|(one, other)| one.attitude + other.attitude))
     };
     let found = Measurement::largest(other, &deviations, |index| survey.tosses[index], allowed);
-    let found = found.with_worst(|worst| Worst { replay: worst.replay.beside(one), ..worst });
     Measurement { subject: format!("{} ~ {}", one.entry.name(), other.name), ..found }
 }
 
@@ -138,7 +137,7 @@ fn claims_of_class(
     name: &str,
     class: &[usize],
 ) -> Measurement {
-    let figure = |ratio, cases, input| Measurement::figure(CLAIMS.id, &subject.name, ratio, cases, input);
+    let figure = |ratio, cases, input| Measurement::figure(&subject.name, ratio, cases, input);
     let (mut claims, mut phases, mut largest) = (Vec::new(), Vec::new(), 0.0_f64);
     for &index in class {
         let toss = &survey.tosses[index];

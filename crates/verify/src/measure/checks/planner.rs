@@ -22,7 +22,7 @@ pub(super) const DELIVERS: Check = Check {
     claim: "The error of every scene that is solved as planned is at most the accuracy asked for. Measured: the \
             largest error divided by that accuracy; it fails above the limit.",
     ceiling: 1.0,
-    measure: Measure::Own(|context| largest(context, DELIVERS.id, Solved::error_by_accuracy)),
+    measure: Measure::Own(|context| largest(context, Solved::error_by_accuracy)),
     ..Check::OF_LIBRARY
 };
 
@@ -32,20 +32,22 @@ pub(super) const EXPECTS: Check = Check {
             the largest error on the scene's toss and, where a small error may be luck, on similar ones, divided by \
             the expected error; it fails above the limit.",
     ceiling: 1.0,
-    measure: Measure::Own(|context| largest(context, EXPECTS.id, Solved::error_by_expected)),
+    measure: Measure::Own(|context| largest(context, Solved::error_by_expected)),
     ..Check::OF_LIBRARY
 };
 
 /// The largest `part` over the solved scenes of each kind.
-fn largest(context: &Context, check: &str, part: fn(&Solved) -> f64) -> anyhow::Result<Vec<Measurement>> {
+fn largest(context: &Context, part: fn(&Solved) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let trial = context.trial.get(context)?;
     let row = |kind: &'static str| {
-        let outcomes = trial.outcomes.iter().filter(|outcome| outcome.kind == kind && outcome.model.is_some());
+        let of_kind = trial.outcomes.iter().filter(|outcome| outcome.kind == kind);
+        let outcomes = of_kind.clone().filter(|outcome| outcome.model.is_some());
         let larger = |a: &&Solved, b: &&Solved| part(a).partial_cmp(&part(b)).unwrap_or(Ordering::Greater);
         let number = outcomes.clone().count() as u64;
         let worst = outcomes.max_by(larger);
-        let input = worst.map_or_else(String::new, |outcome| outcome.input.clone());
-        Measurement::figure(check, kind, worst.map_or(f64::INFINITY, part), number, input)
+        let refused = of_kind.count() as u64 - number;
+        let input = worst.map_or_else(String::new, |outcome| format!("{}; {refused} refused", outcome.input));
+        Measurement::figure(kind, worst.map_or(f64::INFINITY, part), number, input)
     };
     Ok(trial.kinds().into_iter().map(row).collect())
 }
@@ -70,7 +72,7 @@ pub(super) const PLANS: Check = Check {
             let (over, cases) = (answered.clone().filter(|(part, _)| *part > 1.0).count(), answered.clone().count());
             let worst = answered.max_by(|a, b| a.0.total_cmp(&b.0)).context("every plan was refused")?;
             let input = format!("{}; {over} above; {} refused", worst.1, of_kind.len() - cases);
-            Ok(Measurement::figure(PLANS.id, kind, worst.0, cases as u64, input))
+            Ok(Measurement::figure(kind, worst.0, cases as u64, input))
         };
         KINDS.into_iter().chain([BODIES]).map(row).collect()
     }),

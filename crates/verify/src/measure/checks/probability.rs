@@ -25,7 +25,7 @@ use crate::measure::effort::Effort;
 use crate::measure::measurement::Measurement;
 use crate::measure::planner;
 use crate::measure::subject::{Subject, usual};
-use crate::measure::tables::Probability;
+use crate::measure::tables::tables;
 
 pub(super) const LONG_FLIGHT: Check = Check {
     id: "long-flight-probability",
@@ -76,18 +76,19 @@ pub(super) const FIG4_SAME_COUNTS: Check = Check {
     ..Check::OF_SOLVERS
 };
 
-fn published(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let measure = |found: &Probability| {
-        let expected = match found.space {
+fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
+    let measure = |(space, method, found): (&str, &str, Estimate)| {
+        let expected = match space {
             "cheated" => 1.0,
             "tails" => 0.0,
             _ => 0.66,
         };
-        let subject = format!("{}/{}", found.space, found.method);
-        let input = format!("P = {}, {}", found.probability, found.interval_kind);
-        Measurement::figure(TABLES.id, &subject, (found.probability - expected).abs(), found.points, input)
+        let interval = found.interval.map_or(String::new(), |i| format!(", {:.6} to {:.6}", i.lo, i.hi));
+        let input = format!("P = {}{interval}, {}", found.probability, found.interval_kind);
+        let (subject, off) = (format!("{space}/{method}"), (found.probability - expected).abs());
+        Measurement::figure(&subject, off, found.points, input)
     };
-    Ok(context.probabilities.get(context)?.iter().map(measure).collect())
+    Ok(tables()?.into_iter().map(measure).collect())
 }
 
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -97,7 +98,7 @@ fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);
     let input = format!("A: {grid}; B: {:.6} to {:.6}", interval.lo, interval.hi);
-    Ok(vec![Measurement::figure(FIG4_GRID_IN_RANDOM.id, "exact", outside, launches, input)])
+    Ok(vec![Measurement::figure("exact", outside, launches, input)])
 }
 
 fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
@@ -119,7 +120,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             Err(error) => (f64::INFINITY, 0.0, error.to_string()),
         };
         let is_unclaimed = subject.solver.tilt(&one).is_ok_and(|tilt| tilt.error.is_none());
-        let found = Measurement::figure(FIG4_SAME_COUNTS.id, entry.name(), difference, exact.points(), input);
+        let found = Measurement::figure(entry.name(), difference, exact.points(), input);
         // A solver's error estimate may leave launches undecided, which then are neither heads nor tails.
         Ok(found.claiming((!is_unclaimed).then_some(undecided)))
     };
@@ -128,7 +129,7 @@ fn same_counts(context: &Context) -> anyhow::Result<Vec<Measurement>> {
 
 fn long_flight(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let deviation = |cone: f64, probability: f64| (long_flight_probability(cone, cone) - probability).abs();
-    worst_cone(LONG_FLIGHT.id, context, 1, deviation)
+    worst_cone(context, 1, deviation)
 }
 
 /// Counts heads at the midpoints of a million equal parts of one turn, for horizontal launches with each cone angle ψ.
@@ -145,22 +146,21 @@ fn long_flight_share(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             .count();
         (heads as f64 / f64::from(PHASES) - long_flight_probability(cone, cone)).abs()
     };
-    worst_cone(LONG_FLIGHT_SHARE.id, context, u64::from(PHASES), deviation)
+    worst_cone(context, u64::from(PHASES), deviation)
 }
 
 fn worst_cone(
-    check: &str,
     context: &Context,
     cases_each: u64,
     deviation: impl Fn(f64, f64) -> f64 + Sync,
 ) -> anyhow::Result<Vec<Measurement>> {
     let flights = &context.data.long_flights;
-    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability.0));
+    let each = flights.par_iter().map(|one| (one.cone_deg.to_radians(), one.probability));
     let all: Vec<(f64, f64)> = each.map(|(cone, probability)| (deviation(cone, probability), cone)).collect();
     let worst = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     let (deviation, cone) = worst.context("no cone angle in the reference numbers")?;
     let input = format!("ψ = {}°", cone.to_degrees());
-    Ok(vec![Measurement::figure(check, "exact", deviation, cases_each * flights.len() as u64, input)])
+    Ok(vec![Measurement::figure("exact", deviation, cases_each * flights.len() as u64, input)])
 }
 
 pub(super) const SHARES: Check = Check {
@@ -168,7 +168,7 @@ pub(super) const SHARES: Check = Check {
     claim: "With all inputs but the speed fixed, P(heads) by exact-speed differs from the reference numbers by at \
             most the limit.",
     ceiling: 1e-9,
-    measure: Measure::Own(|context| worst_share(context, SHARES.id, |error, _| error)),
+    measure: Measure::Own(|context| worst_share(context, |error, _| error)),
     ..Check::OF_LIBRARY
 };
 
@@ -178,7 +178,7 @@ pub(super) const SHARE_BOUNDS: Check = Check {
             the method states. Measured: the largest error divided by that error bound; it fails above the limit of \
             this check.",
     ceiling: 1.0,
-    measure: Measure::Own(|context| worst_share(context, SHARE_BOUNDS.id, |error, bound| error / bound)),
+    measure: Measure::Own(|context| worst_share(context, |error, bound| error / bound)),
     ..Check::OF_LIBRARY
 };
 
@@ -199,20 +199,20 @@ pub(super) const FIGURES: Check = Check {
     ..Check::OF_LIBRARY
 };
 
-fn worst_share(context: &Context, check: &str, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
+fn worst_share(context: &Context, measure: fn(f64, f64) -> f64) -> anyhow::Result<Vec<Measurement>> {
     let mut worst = (f64::NEG_INFINITY, String::new());
     for reference in &context.reference_probabilities.shares {
-        let found = Sampler::exact().estimate(&reference.space()?, Plan::ExactSpeed(Rest::Grid))?;
+        let found = Sampler::exact().estimate(&reference.space, Plan::ExactSpeed(Rest::Grid))?;
         let Found::Shares { rounding_error } = found.found else {
             anyhow::bail!("exact-speed gave counts instead of a share")
         };
-        let measured = measure((found.probability - reference.probability.0).abs(), rounding_error);
+        let measured = measure((found.probability - reference.probability).abs(), rounding_error);
         if measured > worst.0 {
             worst = (measured, reference.name.clone());
         }
     }
     let cases = context.reference_probabilities.shares.len() as u64;
-    Ok(vec![Measurement::figure(check, "exact", worst.0, cases, worst.1)])
+    Ok(vec![Measurement::figure("exact", worst.0, cases, worst.1)])
 }
 
 /// Compares means of p(ψ) over isotropic directions with the reference, by the midpoint rule. Directions that are
@@ -239,7 +239,7 @@ fn isotropic(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     .map(|(name, k)| {
         let (found, figure) = (mean(k), context.reference_probabilities.figure(name)?);
         let input = format!("{found:.9} for {figure:.9}");
-        Ok(Measurement::figure(ISOTROPIC.id, name, (found - figure).abs(), u64::from(PARTS), input))
+        Ok(Measurement::figure(name, (found - figure).abs(), u64::from(PARTS), input))
     })
     .collect()
 }
@@ -296,7 +296,7 @@ fn figures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let figure = context.reference_probabilities.figure(name)?;
             let interval = found.interval.map_or(String::new(), |i| format!(", {:.8} to {:.8}", i.lo, i.hi));
             let input = format!("{:.8} for {figure:.8}{interval}", found.probability);
-            Ok(Measurement::figure(FIGURES.id, name, (found.probability - figure).abs(), points, input))
+            Ok(Measurement::figure(name, (found.probability - figure).abs(), points, input))
         })
         .collect()
 }
@@ -348,7 +348,7 @@ fn enclosures(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let input = format!("{middle:.12} ± {half_width:.1e} for {figure:.12}");
         // A reference number that is rounded to f64 is off by 1e-16.
         let ratio = ((middle - figure).abs() - f64::EPSILON).max(0.0) / half_width;
-        measurements.push(Measurement::figure(ENCLOSURES.id, name, ratio, 1, input));
+        measurements.push(Measurement::figure(name, ratio, 1, input));
     }
     Ok(measurements)
 }
@@ -382,7 +382,7 @@ fn overlap(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         }
     }
     let all = names.into_iter().zip(worst).zip(cases).filter(|(_, cases)| *cases > 0);
-    Ok(all.map(|((name, (ratio, input)), cases)| Measurement::figure(OVERLAP.id, name, ratio, cases, input)).collect())
+    Ok(all.map(|((name, (ratio, input)), cases)| Measurement::figure(name, ratio, cases, input)).collect())
 }
 
 pub(super) const ERRORS: Check = Check {
@@ -426,7 +426,7 @@ fn errors(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let subject = format!("{}/2^{exponent}", estimator.name);
             let input = format!("{} replicates", estimates.len());
             let error = rms_error(&estimates, probability);
-            measurements.push(Measurement::figure(ERRORS.id, &subject, error, estimates.len() as u64, input));
+            measurements.push(Measurement::figure(&subject, error, estimates.len() as u64, input));
         }
     }
     Ok(measurements)
@@ -463,5 +463,5 @@ fn exact_coverage(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     })? as f64
         / REPLICATES as f64;
     let input = format!("{share} of the intervals from 1000 launches");
-    Ok(vec![Measurement::figure(EXACT_COVERAGE.id, "random", (0.95 - share).max(0.0), REPLICATES, input)])
+    Ok(vec![Measurement::figure("random", (0.95 - share).max(0.0), REPLICATES, input)])
 }

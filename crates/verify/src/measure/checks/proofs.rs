@@ -14,7 +14,6 @@ use crate::measure::check::{Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
-use crate::measure::replay::Replay;
 use crate::measure::subject::taylor;
 use crate::measure::tosses::{FAMILIES, FLOWN, Family, adversarial, corners, few_turns, launches, random, tries};
 
@@ -138,7 +137,7 @@ fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) 
         let (index, toss, _) = &bounded[at];
         let remark = format!("{remark}; tolerance {:e}", TOLERANCES[index % TOLERANCES.len()]);
         // The text of a toss has no tolerance, so that the whole check repeats it.
-        Worst { replay: Replay::Check(BOUNDS.id.to_owned()), ..Worst::of_library(toss, failure).remarking(&remark) }
+        Worst { replay: None, ..Worst::of_library(toss, failure).remarking(&remark) }
     };
     Measurement::without_estimate(&format!("bodies: {}", family.name), &shares, worst)
 }

@@ -17,7 +17,7 @@ use toss::{Coin, Landing, Launch, Outcome, Scheme, Sensitivity, SolveError, Solv
 use crate::measure::check::{Basis, Check, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
-use crate::measure::reference::outside::{Decimal, FirstFlip, ReferenceBody, ReferenceFlight};
+use crate::measure::reference::outside::{Detest, FirstFlip, ReferenceBody, ReferenceFlight};
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 
@@ -41,7 +41,7 @@ pub(super) const ATTITUDE: Check = Check {
 
 fn cos_tilt(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let error = |solver: &dyn Solver, flight: &ReferenceFlight| {
-        Ok((solver.tilt(&flight.toss)?.cos_tilt - flight.cos_tilt).abs())
+        Ok((solver.tilt(&flight.toss)?.cos_tilt - flight.cos_tilt()).abs())
     };
     Ok(over_flights(context, error, |allowance| allowance.cos_tilt))
 }
@@ -87,7 +87,7 @@ impl OdeSystem<3> for AsymmetricBody {
 }
 
 fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
-    let (time, exact) = (context.data.detest_b5.time, context.data.detest_b5.state.map(|Decimal(part)| part));
+    let Detest { time, state: exact } = context.data.detest_b5;
     let steppings = [
         Stepping::adaptive(Scheme::DOP853, 1e-12)?,
         Stepping::adaptive(Scheme::DOPRI5, 1e-12)?,
@@ -97,7 +97,7 @@ fn detest(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let (end, _) = integrate(&AsymmetricBody, SVector::from([0.0, 1.0, 1.0]), time, 1.0, stepping)?;
         let error = (end - SVector::from(exact)).amax();
         let input = format!("y(0) = (0, 1, 1), t = {time}, {stepping}");
-        Ok(Measurement::figure(DETEST.id, stepping.scheme().name(), error, 1, input))
+        Ok(Measurement::figure(stepping.scheme().name(), error, 1, input))
     };
     steppings.iter().map(measure).collect()
 }
@@ -117,7 +117,7 @@ fn moments(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let unknown = unknown.map(|coin| (f64::INFINITY, coin.name.as_str()));
     let known = CATALOGUE.iter().map(|entry| (deviation_of_moments(context, entry), entry.name));
     let (largest, name) = known.chain(unknown).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, "none"));
-    Ok(vec![Measurement::figure(MOMENTS.id, "catalogue", largest, CATALOGUE.len() as u64, name.to_owned())])
+    Ok(vec![Measurement::figure("catalogue", largest, CATALOGUE.len() as u64, name.to_owned())])
 }
 
 /// The larger of the relative deviations of I1 and I3; infinite for a coin without reference, or without moments.
@@ -125,7 +125,7 @@ fn deviation_of_moments(context: &Context, entry: &Entry) -> f64 {
     let reference = context.coins.iter().find(|coin| coin.name == entry.name);
     let (Some(reference), Ok(coin)) = (reference, entry.coin()) else { return f64::INFINITY };
     let relative = |(found, expected): (f64, f64)| (found / expected - 1.0).abs();
-    [coin.i1(), coin.i3()].into_iter().zip([reference.i1.0, reference.i3.0]).map(relative).fold(0.0, f64::max)
+    [coin.i1(), coin.i3()].into_iter().zip([reference.i1, reference.i3]).map(relative).fold(0.0, f64::max)
 }
 
 pub(super) const PUBLISHED: Check = Check {
@@ -240,12 +240,14 @@ fn misses(subject: &Subject, tosses: &[Toss], expected: Outcome) -> Measurement 
 
 fn first_flip(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let flips = &context.data.first_flips;
-    let tosses: Vec<Toss> = flips.iter().map(|flip| flip.toss(flip.time.0)).collect::<anyhow::Result<_>>()?;
     let measure = |subject: &Subject| {
-        let off =
-            |flip: &FirstFlip| Ok(flip_time(subject.solver.as_ref(), flip)?.map(|time| (time - flip.time.0).abs()));
+        let off = |flip: &FirstFlip| {
+            let found = flip_time(subject.solver.as_ref(), flip)?;
+            Ok(found.map(|time| (time - flip.toss.launch.flight_time()).abs()))
+        };
         let off: Vec<Deviation> = flips.iter().map(off).collect::<anyhow::Result<_>>()?;
-        Ok(Measurement::largest(subject, &off, |index| tosses[index], |index| flip_allowance(subject, &tosses[index])))
+        let toss = |index: usize| flips[index].toss;
+        Ok(Measurement::largest(subject, &off, toss, |index| flip_allowance(subject, &toss(index))))
     };
     context.subjects.par_iter().map(measure).collect()
 }
@@ -260,10 +262,10 @@ fn flip_allowance(subject: &Subject, toss: &Toss) -> Result<Option<f64>, SolveEr
 
 /// The time (s) of the sign change of cos θ between launch and 1.5 times the expected time, by bisection.
 fn flip_time(solver: &dyn Solver, flip: &FirstFlip) -> anyhow::Result<Result<f64, SolveError>> {
-    let (mut heads, mut tails) = (0.0, 1.5 * flip.time.0);
+    let (mut heads, mut tails) = (0.0, 1.5 * flip.toss.launch.flight_time());
     for _ in 0..60 {
         let middle = 0.5 * (heads + tails);
-        match solver.tilt(&flip.toss(middle)?).map(|tilt| tilt.cos_tilt) {
+        match solver.tilt(&flip.until(middle)?).map(|tilt| tilt.cos_tilt) {
             Ok(cos_tilt) if cos_tilt > 0.0 => heads = middle,
             Ok(_) => tails = middle,
             Err(error) => return Ok(Err(error)),

@@ -41,7 +41,7 @@ fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         });
         let measured = worst.map_or(f64::INFINITY, |sample| part(sample));
         let is_claimed = samples.iter().all(|sample| sample.status != Answer::Unclaimed);
-        let found = Measurement::figure(WITHIN_ESTIMATE.id, subject, measured, samples.len() as u64, input);
+        let found = Measurement::figure(subject, measured, samples.len() as u64, input);
         found.claiming(is_claimed.then_some(1.0))
     };
     Ok(sweep.subjects().iter().filter(|subject| context.judges(subject)).map(row).collect())
@@ -61,7 +61,7 @@ fn order(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let observed = found.observed.unwrap_or(f64::NAN);
         let input = format!("observed order {observed:.3} over {:.1} halvings of the step", found.halvings);
         let distance = (observed - f64::from(found.order)).abs();
-        Measurement::figure(ORDER.id, &found.subject, distance, found.points.len() as u64, input).without_claim()
+        Measurement::figure(&found.subject, distance, found.points.len() as u64, input).without_claim()
     };
     Ok(context.convergence.get(context)?.iter().map(row).collect())
 }
@@ -106,7 +106,7 @@ fn proportion(context: &Context) -> anyhow::Result<Vec<Measurement>> {
             let input =
                 if slope.is_nan() { "too few flights for a slope".to_owned() } else { format!("slope {slope:.4}") };
             let (distance, cases) = ((slope - 1.0).abs(), points.len() as u64);
-            measurements.push(Measurement::figure(PROPORTION.id, &subject, distance, cases, input).without_claim());
+            measurements.push(Measurement::figure(&subject, distance, cases, input).without_claim());
         }
     }
     Ok(measurements)

@@ -302,7 +302,7 @@ mod tests {
         let mut exact_inputs = 0;
         for flight in ReferenceData::inside().unwrap().flights {
             let reference = Reference::of(&flight.toss).unwrap();
-            let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt_digits))).abs();
+            let error = to_f64(&(reference.cos_tilt() - decimal(&flight.cos_tilt))).abs();
             let time = flight.toss.launch.time_of_flight();
             let exact = is_horizontal(&flight.toss.launch)
                 && matches!(time, TimeOfFlight::Given(_) | TimeOfFlight::BallisticTo { gravity: 1.625, .. });

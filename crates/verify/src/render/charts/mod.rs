@@ -43,31 +43,31 @@ pub fn recorded(sweep: &Sweep, problem: &str, date: &str, registry: &[SolverEntr
     work::work_precision(sweep, (problem, launches), &title, &Palette::new(registry))
 }
 
-/// Draws the charts of all records that the `report` has. Solvers have the colours of `registry`.
+/// Draws the charts of all records that the `report` has.
 ///
 /// # Errors
 /// [`ChartError`] if one can't be drawn.
-pub fn charts(report: &Report<'_>, registry: &[SolverEntry]) -> Result<Vec<Chart>, ChartError> {
-    let records = &report.records;
-    let palette = Palette::new(registry);
+pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
+    let records = &report.context;
+    let palette = Palette::new(&records.registry);
     let mut charts = Vec::new();
-    if let Some(all) = records.atlas {
+    if let Some(all) = records.atlas.found() {
         let worst = |subject: &str, hazard: &str| all.worst(hazard, subject).map(Expectation::Answer);
         charts.push(chart("atlas-matrix.svg", matrix(&all.subjects(), worst)?));
         charts.push(chart("atlas-error.svg", atlas::errors(all, &palette)?));
         charts.push(chart("atlas-work.svg", atlas::work(all, &palette)?));
     }
-    if let Some(flights) = records.long_flights {
+    if let Some(flights) = records.long_flights.found() {
         charts.push(chart("long-flights.svg", errors::long_flights(flights, &palette)?));
     }
-    if let Some(steps) = records.fig4 {
+    if let Some(steps) = records.fig4.found() {
         let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
         charts.push(chart("fig4.svg", chart::running("", &columns)?));
     }
-    if let Some(all) = records.convergence.filter(|all| !all.is_empty()) {
+    if let Some(all) = records.convergence.found().filter(|all| !all.is_empty()) {
         charts.push(chart("order.svg", errors::order(all, &palette)?));
     }
-    if let (Some(sweep), Some(problem)) = (records.sweep, report.ordinary()) {
+    if let (Some(sweep), Some(problem)) = (records.sweep.found(), report.ordinary()) {
         charts.push(chart(OVERVIEW, work::overview(sweep, problem, &palette)?));
         charts.push(chart("work-precision-all.svg", work::all_problems(sweep, &palette)?));
         for (problem, stresses, launches) in &sweep.problems {

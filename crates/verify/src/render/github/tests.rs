@@ -1,19 +1,21 @@
 //! What GitHub would read.
 
+use std::sync::Arc;
+
 use super::*;
-use crate::host::Host;
 use crate::judge::baseline::Baseline;
 use crate::judge::time::Timing;
-use crate::measure::context::Records;
+use crate::measure::context::Context;
 use crate::measure::effort::Effort;
 use crate::render::report::Compared;
 use crate::render::tests::row;
 
-fn with_report<T>(rows: &[Row], moves: &[Move], of: impl Fn(&Report<'_>) -> T) -> T {
-    let checks = [Timing { check: "random-attitude".to_owned(), t_wall_s: 1.0, t_processor_s: None, limit_s: 50.0 }];
+fn with_report<T>(rows: &[Row], moves: &[Move], of: impl Fn(&Report) -> T) -> T {
+    let context = Arc::new(Context::new(&[], Effort::Quick).unwrap());
+    let checks =
+        vec![Timing { check: "random-attitude".to_owned(), t_wall_s: 1.0, t_processor_s: None, limit_s: 50.0 }];
     let baseline = Compared { file: "baseline/x86_64/quick.csv".to_owned(), found: true, written: false };
-    let host = Host::here();
-    of(&Report::new(&host, Effort::Quick, rows, &checks, baseline, moves, &[], Records::default()))
+    of(&Report::new(context, rows.to_vec(), checks, baseline, moves.to_vec(), Vec::new()))
 }
 
 #[test]
