@@ -142,6 +142,9 @@ fn check_intervals(toss: &Toss, [slowest, fastest]: [f64; 2], drop: Option<f64>)
         let expected = heads.iter().any(|[slow, fast]| (*slow..=*fast).contains(&speed));
         assert!(lands_heads(speed) == expected || nearest < 1e-11, "{toss:?}, {drop:?}, {speed} m/s");
     }
+    for end in heads.iter().flatten().filter(|end| ![slowest, fastest].contains(*end)) {
+        assert_ne!(lands_heads(end - 1e-10), lands_heads(end + 1e-10), "{toss:?}, {drop:?}, {end} m/s");
+    }
     // The first interval begins with the range where that lands heads, wherever it begins.
     for slowest in speeds.step_by(110).take(12) {
         let begins = intervals_from(slowest).iter().any(|[slow, _]| *slow == slowest);
