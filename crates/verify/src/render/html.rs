@@ -207,7 +207,7 @@ fn matrix(atlas: &Atlas) -> Markup {
     let cell = |subject: &str, hazard: &str| {
         let (class, sign, word) = match atlas.worst(hazard, subject) {
             Some(Answer::Right) => ("right", "✓", "right"),
-            Some(Answer::TypedError) if atlas.is_for_coins_alone(hazard, subject) => ("", "–", "coins alone"),
+            Some(Answer::TypedError) if atlas.is_for_coins_alone(hazard, subject) => ("", "–", "coins"),
             Some(Answer::TypedError) => ("error", "!", "error"),
             Some(Answer::Unclaimed) => ("unclaimed", "?", "no claim"),
             Some(Answer::SilentlyWrong) => ("wrong", "✗", "WRONG"),
@@ -225,8 +225,8 @@ fn matrix(atlas: &Atlas) -> Markup {
         }
         p.faint {
             "The worst answer over all distances from each hazard: right ✓, an error that says why !, an answer without a usable \
-             claim ?, wrong without an error ✗, not asked –. An error is the only right answer at F6, whose phases go beyond \
-             2⁵³ rad. "
+             claim ?, wrong without an error ✗, not asked –, or \"coins\" where a solver takes these alone. An error is the only right \
+             answer at F6, whose phases go beyond 2⁵³ rad. "
             @for hazard in HAZARDS { b { (hazard.id) } " " (hazard.name) ". " }
         }
     }
