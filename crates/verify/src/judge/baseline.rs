@@ -113,7 +113,7 @@ impl Baseline {
             .collect();
         if let Some(sweep) = sweep {
             for (problem, ..) in &sweep.problems {
-                for subject in sweep.subjects() {
+                for subject in sweep.judged() {
                     let samples: Vec<&Sample> = sweep.series(problem, &subject).collect();
                     // Solvers for coins alone have none on other bodies.
                     if samples.is_empty() {

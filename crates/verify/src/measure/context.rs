@@ -22,8 +22,8 @@ use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
 use crate::measure::tables::fig4;
 use crate::measure::tosses::{Case, long_bodies};
-use crate::measure::work_precision::Sweep;
 use crate::measure::work_precision::problems::{self, Problem};
+use crate::measure::work_precision::{Sweep, YARDSTICK};
 
 /// The subjects, the reference data and the shared results of a run. As plain data it is the records of the run: the runs
 /// behind some of its rows, each null if no check needed it.
@@ -144,21 +144,17 @@ impl Context {
             fig4: Shared::by(|_| fig4()),
         })
     }
-
-    /// Whether the solver of `subject` (`solver` or `solver/scheme`) is under verification.
-    pub(crate) fn judges(&self, subject: &str) -> bool {
-        self.registry.iter().any(|entry| subject.split('/').next() == Some(entry.name()))
-    }
 }
 
 /// Checks that no two solvers share a name, because their rows could not be told apart.
 ///
 /// # Errors
-/// If two solvers have the same name.
+/// If two solvers have the same name, or one that of the [`YARDSTICK`].
 fn require_own_names(registry: &[SolverEntry]) -> anyhow::Result<()> {
     let mut names = BTreeSet::new();
     for entry in registry {
         ensure!(names.insert(entry.name()), "the registry has two solvers called '{}'", entry.name());
+        ensure!(entry.name() != YARDSTICK, "'{YARDSTICK}' is what charts call the library's quaternion");
     }
     Ok(())
 }

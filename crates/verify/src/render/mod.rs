@@ -2,6 +2,7 @@
 //! or judged here.
 
 pub mod charts;
+mod folder;
 pub(crate) mod github;
 pub(crate) mod html;
 pub(crate) mod junit;

@@ -1,16 +1,13 @@
 //! The report of a run. It holds all that the renderings show, and answers first: in one sentence, and by what each
 //! solver reaches at which cost.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 use toss::planner::Nanoseconds;
 
-use super::charts::{self, Chart};
+use super::pattern;
 use super::words::{comparison, reserve, worst_first};
-use super::{github, html, junit, metrics, pattern};
-use crate::files;
 use crate::host::Host;
 use crate::judge::baseline::{Baseline, Direction, Entry, Move};
 use crate::judge::time::Timing;
@@ -180,32 +177,6 @@ impl Report {
     /// one digit. `None` if every row that passes has a limit.
     pub fn proposed_limits(&self) -> Option<String> {
         proposal::text(&self.rows, &format!("a {} run on {}", self.effort.name(), self.host.date))
-    }
-
-    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
-    /// `folder`.
-    ///
-    /// # Errors
-    /// If a file can't be written.
-    pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
-        let charts = charts::charts(self)?;
-        for (file, text) in [
-            ("report.json", self.json()?),
-            ("junit.xml", junit::xml(self)?),
-            ("summary.md", github::summary(self)),
-            ("metrics.json", metrics::bencher(self)?),
-            ("github-action-benchmark.json", metrics::smaller_is_better(self)?),
-            ("report.html", html::page(self, &charts)),
-        ] {
-            files::write(&folder.join(file), &text)?;
-        }
-        for Chart { file, svg, .. } in &charts {
-            files::write(&folder.join(file), svg)?;
-        }
-        if let Some(proposal) = self.proposed_limits() {
-            files::write(&folder.join(PROPOSAL), &proposal)?;
-        }
-        Ok(())
     }
 
     /// What the baseline would be after this run.

@@ -133,10 +133,13 @@ fn the_librarys_solvers_pass_by_their_limits_beside_foreign_ones() {
 }
 
 #[test]
-fn a_registry_with_two_solvers_of_one_name_is_refused() {
-    let registry = [registry(), vec![SolverEntry::new("gamma", "", |_| panic!("{PANIC}"))]].concat();
-    let error = Context::new(&registry, Effort::Quick).err().expect("an error").to_string();
-    assert!(error.contains("two solvers called 'gamma'"), "{error}");
+fn a_registry_with_two_solvers_of_one_name_or_the_name_that_charts_use_is_refused() {
+    for (name, says) in [("gamma", "two solvers called 'gamma'"), ("unfair-toss", "'unfair-toss' is what charts call")]
+    {
+        let registry = [registry(), vec![SolverEntry::new(name, "", |_| panic!("{PANIC}"))]].concat();
+        let error = Context::new(&registry, Effort::Quick).err().expect("an error").to_string();
+        assert!(error.contains(says), "{error}");
+    }
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn within_estimate(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let found = Measurement::figure(subject, measured, samples.len() as u64, input);
         found.claiming(is_claimed.then_some(1.0))
     };
-    Ok(sweep.subjects().iter().filter(|subject| context.judges(subject)).map(row).collect())
+    Ok(sweep.judged().iter().map(row).collect())
 }
 
 pub(super) const ORDER: Check = Check {

@@ -129,6 +129,12 @@ impl Sweep {
         }
         subjects
     }
+
+    /// The names of the subjects that are judged: all but the [`YARDSTICK`].
+    pub fn judged(&self) -> Vec<String> {
+        let is_yardstick = |subject: &str| subject.split('/').next() == Some(YARDSTICK);
+        self.subjects().into_iter().filter(|subject| !is_yardstick(subject)).collect()
+    }
 }
 
 impl Sample {

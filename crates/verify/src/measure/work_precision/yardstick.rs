@@ -25,7 +25,7 @@ impl Solver for Yardstick {
 /// The solvers of `registry`, and the library's quaternion after them unless they have it.
 pub(super) fn beside(registry: &[SolverEntry]) -> Vec<SolverEntry> {
     let mut entries = registry.to_vec();
-    if registry.iter().all(|entry| ![QuaternionSolver::NAME, YARDSTICK].contains(&entry.name())) {
+    if registry.iter().all(|entry| entry.name() != QuaternionSolver::NAME) {
         let build = |settings: &Settings| -> Box<dyn Solver> {
             Box::new(Yardstick(QuaternionSolver::new(settings.stepping, settings.formulation)))
         };
@@ -37,9 +37,11 @@ pub(super) fn beside(registry: &[SolverEntry]) -> Vec<SolverEntry> {
 
 #[cfg(test)]
 mod tests {
-    use toss::Registry;
+    use toss::{Registry, Scheme};
 
     use super::*;
+    use crate::measure::effort::Effort;
+    use crate::measure::work_precision::{Sweep, problems};
 
     #[test]
     fn solvers_of_others_are_compared_with_the_librarys_quaternion_and_the_librarys_own_with_themselves() {
@@ -48,8 +50,10 @@ mod tests {
         assert_eq!(names(&beside(standard)), names(standard));
         let others: Vec<SolverEntry> =
             standard.iter().filter(|entry| entry.name() != QuaternionSolver::NAME).cloned().collect();
-        let beside = beside(&others);
-        assert_eq!(beside.last().map(SolverEntry::name), Some(YARDSTICK));
-        assert!(beside.last().is_some_and(|entry| entry.solver(&Settings::default()).is_ok()));
+        let problems = problems::all().unwrap();
+        let sweep = Sweep::new(&others, &problems[..1], Effort::Quick).unwrap();
+        let is_ours = |subject: &String| subject.starts_with(YARDSTICK);
+        assert_eq!(sweep.subjects().iter().filter(|subject| is_ours(subject)).count(), Scheme::ALL.len());
+        assert!(sweep.judged().iter().all(|subject| !is_ours(subject)) && sweep.judged().len() > 1);
     }
 }

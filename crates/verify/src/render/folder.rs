@@ -1,0 +1,36 @@
+//! Writes a report into a folder: the page with its charts for people, and the files for programs.
+
+use std::path::Path;
+
+use super::charts::{self, Chart};
+use super::report::{PROPOSAL, Report};
+use super::{github, html, junit, metrics};
+use crate::files;
+
+impl Report {
+    /// Writes report.html, report.json, junit.xml, summary.md, metrics, charts and, if there are any, proposed limits into
+    /// `folder`.
+    ///
+    /// # Errors
+    /// If a file can't be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
+        let charts = charts::charts(self)?;
+        for (file, text) in [
+            ("report.json", self.json()?),
+            ("junit.xml", junit::xml(self)?),
+            ("summary.md", github::summary(self)),
+            ("metrics.json", metrics::bencher(self)?),
+            ("github-action-benchmark.json", metrics::smaller_is_better(self)?),
+            ("report.html", html::page(self, &charts)),
+        ] {
+            files::write(&folder.join(file), &text)?;
+        }
+        for Chart { file, svg, .. } in &charts {
+            files::write(&folder.join(file), svg)?;
+        }
+        if let Some(proposal) = self.proposed_limits() {
+            files::write(&folder.join(PROPOSAL), &proposal)?;
+        }
+        Ok(())
+    }
+}
