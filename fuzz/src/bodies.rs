@@ -1,7 +1,7 @@
 //! Columns of tosses of any rigid body: a header of its three moments, the tilt and gravity, and rows of ωx, ωy, ωz and
 //! the speed.
 
-use toss::{Attitude, Batch, Body, Outcome, SimdLevel, Tosses, certify};
+use toss::{Attitude, Batch, Body, Certificate, Outcome, SimdLevel, Tosses, certify};
 
 /// The most tosses of an input. A proof of one of them may take a millisecond.
 const MOST: usize = 24;
@@ -25,7 +25,7 @@ pub fn check(data: &[u8]) {
         Err(error) => return crate::assert_said(&error),
     };
     let alone: Vec<Option<Outcome>> =
-        (0..tosses.len()).map(|index| tosses.solve(index, certify).ok().map(|proof| proof.outcome())).collect();
+        (0..tosses.len()).map(|index| tosses.solve(index, certify).ok().map(Certificate::outcome)).collect();
     let found: Vec<Option<Vec<Outcome>>> =
         SimdLevel::all().into_iter().map(|level| outcomes(&Batch::new(tosses).on(level), &alone)).collect();
     assert!(found.iter().all(|of_level| *of_level == found[0]), "{found:?}");

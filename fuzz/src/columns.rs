@@ -1,6 +1,6 @@
 //! Columns of tosses: a header of the moments, the tilt and gravity, and rows of ωx, ωy, ωz and the speed.
 
-use toss::{Attitude, Batch, Coin, ExactSolver, Outcome, SimdLevel, Solver, Toss, Tosses, certify};
+use toss::{Attitude, Batch, Certificate, Coin, ExactSolver, Outcome, SimdLevel, Solver, Toss, Tosses, certify};
 
 /// The most tosses of an input.
 const MOST: usize = 256;
@@ -62,6 +62,7 @@ fn solved(tosses: Tosses<'_>, level: SimdLevel) -> Solved {
 
 impl Solved {
     fn has_the_bits_of(&self, other: &Self) -> bool {
+        #[expect(clippy::ptr_arg, reason = "columns are mapped by it")]
         fn bits(column: &Vec<f64>) -> Vec<u64> {
             column.iter().map(|number| number.to_bits()).collect()
         }
@@ -78,7 +79,7 @@ fn check_alone(tosses: &Tosses<'_>, batch: &Solved) {
     let alone: Vec<Option<Toss>> = (0..tosses.len()).map(|index| tosses.toss(index).ok()).collect();
     let mut expected = [0_u64; 3];
     for (index, toss) in alone.iter().enumerate() {
-        let proven = toss.as_ref().and_then(|toss| certify(toss).ok()).map(|proof| proof.outcome());
+        let proven = toss.as_ref().and_then(|toss| certify(toss).ok()).map(Certificate::outcome);
         let Some(outcome) = proven else {
             let named = format!("launch {index}");
             for error in [batch.outcomes.as_ref().err(), batch.counted.as_ref().err(), batch.cos_tilts.as_ref().err()] {
