@@ -1,7 +1,7 @@
 //! This kernel computes the attitudes at landing, Q0 ⊗ exp(½ ωL T ŝ) ⊗ exp(-½ q T ẑ), of all tosses of a batch. ŝ is
 //! the direction of the angular momentum at launch and q = (k - 1) ωz the rate of the spin.
 
-use dynamics::{Coin, Error, Tosses};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, sin_cos_to_sign};
 
 use super::Batch;
@@ -35,10 +35,8 @@ struct Attitudes {
 }
 
 impl Kernel<7, 4> for Attitudes {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.constants)
+    fn constants(&self) -> &Constants {
+        &self.constants
     }
 
     #[inline(always)]
@@ -68,8 +66,8 @@ impl Kernel<7, 4> for Attitudes {
         }
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 4], Error> {
-        tosses.solve_coin(index, compensated_landing).map(|landing| landing.attitude.components())
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 4], SolveError> {
+        compensated_landing(toss).map(|landing| landing.attitude.components())
     }
 }
 

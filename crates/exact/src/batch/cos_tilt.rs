@@ -7,7 +7,7 @@
 //! cos θ = (A + B cos φ + C sin φ)/(|Q|² |L|²)         from any attitude
 //! ```
 
-use dynamics::{Coin, Error, Tosses};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::lanes::{Real, Simd, cosine_as_sine, sin_cos, sin_of_turns};
 
 use super::Batch;
@@ -39,10 +39,8 @@ impl Batch<'_> {
 struct Flat(Constants);
 
 impl Kernel<4, 1> for Flat {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.0)
+    fn constants(&self) -> &Constants {
+        &self.0
     }
 
     #[inline(always)]
@@ -58,8 +56,8 @@ impl Kernel<4, 1> for Flat {
         [((height + height) * half_inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
-        tosses.solve_coin(index, compensated_cos_tilt).map(|cos| [cos])
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
     }
 }
 
@@ -74,10 +72,8 @@ impl Tilted {
 }
 
 impl Kernel<6, 1> for Tilted {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.0)
+    fn constants(&self) -> &Constants {
+        &self.0
     }
 
     #[inline(always)]
@@ -94,14 +90,14 @@ impl Kernel<6, 1> for Tilted {
         [((mean + cosine.mul_add(cos, sine * sin)) * inverse).clamp_to_cosine()]
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
-        tosses.solve_coin(index, compensated_cos_tilt).map(|cos| [cos])
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; 1], SolveError> {
+        compensated_cos_tilt(toss).map(|cos| [cos])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::Attitude;
+    use dynamics::{Attitude, Coin, Tosses};
 
     use super::*;
 

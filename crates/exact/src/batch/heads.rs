@@ -9,7 +9,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use dynamics::{Coin, Error, Tosses};
+use dynamics::{CoinToss, Error, SolveError};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::{ATAN2_ERROR, Real, Simd, atan2};
 
@@ -64,10 +64,8 @@ impl Batch<'_> {
 struct Heads(Constants, TiltTerms);
 
 impl Kernel<4, 5> for Heads {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.0)
+    fn constants(&self) -> &Constants {
+        &self.0
     }
 
     #[inline(always)]
@@ -107,14 +105,14 @@ impl Kernel<4, 5> for Heads {
         ]
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 5], Error> {
-        tosses.solve(index, |_| Ok([0.0, 0.0, 0.0, UNSOLVED, 0.0]))
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 5], SolveError> {
+        Ok([0.0, 0.0, 0.0, UNSOLVED, 0.0])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, CoinToss};
+    use dynamics::{Attitude, Coin, Tosses};
     use numerics::DoubleDouble;
     use numerics::lanes::SimdLevel;
 

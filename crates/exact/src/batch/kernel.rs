@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use dynamics::{Body, Error, Tosses};
+use dynamics::{CoinToss, Error, SolveError, Tosses};
 use numerics::lanes::{Real, Simd, WithSimd};
 
 use super::momentum::{Constants, Extent};
@@ -18,11 +18,8 @@ struct Columns<const N: usize>([[f64; TILE]; N]);
 
 /// A computation that makes `OUT` columns of results by way of `MID` intermediate columns.
 pub(super) trait Kernel<const MID: usize, const OUT: usize> {
-    /// What is tossed.
-    type Body: Copy + Into<Body>;
-
-    /// The limits of ordinary tosses; `None` if the kernel solves every toss.
-    fn limits(&self) -> Option<&Constants>;
+    /// The constants that all tosses share.
+    fn constants(&self) -> &Constants;
 
     /// The body of the first loop: from rates (in the body frame, rad/s) and speeds v0 (m/s) to the intermediate
     /// columns. It adds the tosses to `extent`.
@@ -31,14 +28,14 @@ pub(super) trait Kernel<const MID: usize, const OUT: usize> {
     /// The body of the second loop: from the intermediate columns to the results.
     fn end<S: Simd>(&self, begun: [Real<S>; MID]) -> [Real<S>; OUT];
 
-    /// Solves toss `index`, which is not ordinary.
-    fn solve_one(&self, tosses: &Tosses<'_, Self::Body>, index: usize) -> Result<[f64; OUT], Error>;
+    /// Solves a single toss that is not ordinary.
+    fn solve_one(&self, toss: &CoinToss) -> Result<[f64; OUT], SolveError>;
 }
 
 /// A kernel, the tosses that it is run over, and the columns for its results.
-pub(super) struct BatchRun<'a, 'out, K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> {
+pub(super) struct BatchRun<'a, 'out, K, const MID: usize, const OUT: usize> {
     pub(super) kernel: &'a K,
-    pub(super) tosses: Tosses<'a, K::Body>,
+    pub(super) tosses: Tosses<'a>,
     pub(super) out: [&'out mut [f64]; OUT],
 }
 
@@ -70,10 +67,8 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> WithSimd for Batch
                     result.store_up_to(&mut out[start + at..tile.end]);
                 }
             }
-            if let Some(limits) = self.kernel.limits()
-                && !extent.is_ordinary(limits)
-            {
-                self.solve_others(tile, limits)?;
+            if !extent.is_ordinary(self.kernel.constants()) {
+                self.solve_others(tile)?;
             }
         }
         Ok(())
@@ -84,13 +79,13 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> BatchRun<'_, '_, K
     /// Solves the tosses of a tile that are not ordinary, one by one.
     #[cold]
     #[inline(never)]
-    fn solve_others(&mut self, tile: Range<usize>, limits: &Constants) -> Result<(), Error> {
+    fn solve_others(&mut self, tile: Range<usize>) -> Result<(), Error> {
         for index in tile {
             let launch = self.tosses.columns(index..index + 1).map(|column| column[0]);
-            if limits.is_ordinary(launch) {
+            if self.kernel.constants().is_ordinary(launch) {
                 continue;
             }
-            let results = self.kernel.solve_one(&self.tosses, index)?;
+            let results = self.tosses.solve_coin(index, |toss| self.kernel.solve_one(toss))?;
             for (out, result) in self.out.iter_mut().zip(results) {
                 out[index] = result;
             }
@@ -102,8 +97,8 @@ impl<K: Kernel<MID, OUT>, const MID: usize, const OUT: usize> BatchRun<'_, '_, K
 /// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
 /// to `room`, which holds ordinary tosses beyond them.
 #[inline(always)]
-fn whole_registers<'a, B: Copy + Into<Body>>(
-    tosses: &Tosses<'a, B>,
+fn whole_registers<'a>(
+    tosses: &Tosses<'a>,
     tile: Range<usize>,
     lanes: usize,
     room: &'a mut [[f64; TILE]; 4],

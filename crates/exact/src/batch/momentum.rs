@@ -202,7 +202,6 @@ pub(super) fn without_negligible<S: Simd>(rest: Real<S>) -> Real<S> {
 
 /// The factors of A, B and C of [`TiltTerms`](crate::TiltTerms) that all tosses of a batch share, by their attitude Q
 /// at launch.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct TiltTerms {
     /// The vertical in the body frame (BF) at launch, times |Q|².
     pub(super) vertical: [f64; 3],

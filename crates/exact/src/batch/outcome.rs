@@ -1,5 +1,5 @@
 //! This file proves the outcomes of all tosses of a batch. A filter in f64 decides nearly all of them in SIMD
-//! registers, and [`certify`](crate::certify) proves the few that the filter leaves undecided.
+//! registers, and [`certify`] proves the few that the filter leaves undecided.
 //!
 //! The filter evaluates G = A + B cos φ + C sin φ of [`TiltTerms`](crate::TiltTerms), which has the sign of cos θ. Let
 //! the phase be φ = 2πτ, x what is left of τ without its whole turns, |x| ≤ ½, s = sin πx and c = cos πx. Then
@@ -22,14 +22,18 @@
 //! [`THRESHOLD`] is more than twice the sum of all lines but that of φ, and [`THRESHOLD_OF_TURN`] is that of φ rounded
 //! up. Underflow loses less than 2^-1000, which is below [`SMALLEST`].
 
-use dynamics::{Coin, Error, Tosses};
+use std::ops::Range;
+
+use dynamics::{CoinToss, Error, Outcome, SolveError};
 use numerics::UNIT_ROUNDOFF;
-use numerics::lanes::{ROUGH_ERROR, Real, Simd, rough_cos_of_half, rough_sin_of_half};
+use numerics::lanes::{ROUGH_ERROR, Real, Simd, SimdLevel, rough_cos_of_half, rough_sin_of_half};
 
 use super::Batch;
 use super::kernel::{BatchRun, Kernel};
 use super::momentum::{Constants, Extent, PlainMotion, TiltTerms};
-use super::proving::Provable;
+use super::proving::{self, Proving};
+use crate::certificate::{Certificate, ProvenCounts};
+use crate::rigid::certify;
 
 /// |G|/size up to which the filter leaves a toss undecided, for a phase of 0.
 const THRESHOLD: f64 = 15.0 * ROUGH_ERROR;
@@ -40,28 +44,81 @@ const THRESHOLD_OF_TURN: f64 = 50.0 * UNIT_ROUNDOFF;
 /// |G| up to which the filter leaves a toss undecided whatever its size ((rad/s)²).
 const SMALLEST: f64 = 1e-200;
 
-/// The filter of a coin's outcomes: the constants of its kernel.
-#[derive(Debug, Clone, Copy)]
-pub struct CoinFilter {
-    constants: Constants,
-    /// `None` for launches from horizontal.
-    terms: Option<TiltTerms>,
-}
-
-impl Provable for Coin {
-    type Filter = CoinFilter;
-
-    fn filter(batch: &Batch<'_>) -> CoinFilter {
-        let terms = if batch.is_flat() { None } else { Some(TiltTerms::new(&batch.tosses)) };
-        CoinFilter { constants: Constants::new(&batch.tosses), terms }
+impl Batch<'_> {
+    /// Writes the proven outcome of each toss. It is undecided only for an exact tie.
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
+    ///
+    /// # Panics
+    /// If `out` does not have one entry per toss.
+    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
+        proving::outcomes(&Filtered(self, Filter::new(self)), out)
     }
 
-    /// The heights are by how much |G| exceeds its threshold, with the sign of G.
-    fn heights(filter: &CoinFilter, Batch { tosses, level }: Batch<'_>, heights: &mut [f64]) -> Result<(), Error> {
-        match filter.terms {
-            None => level.run(BatchRun { kernel: &Flat(filter.constants), tosses, out: [heights] }),
-            Some(terms) => level.run(BatchRun { kernel: &Tilted(filter.constants, terms), tosses, out: [heights] }),
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome.
+    pub fn count(&self) -> Result<ProvenCounts, Error> {
+        self.count_and(|_| ())
+    }
+
+    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`] did.
+    ///
+    /// # Errors
+    /// As [`Batch::count`].
+    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+        proving::count(&Filtered(self, Filter::new(self)), left)
+    }
+}
+
+/// A batch with its filter.
+struct Filtered<'a, 'b>(&'a Batch<'b>, Filter);
+
+impl Proving for Filtered<'_, '_> {
+    fn len(&self) -> usize {
+        self.0.tosses.len()
+    }
+
+    fn level(&self) -> SimdLevel {
+        self.0.level
+    }
+
+    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        self.1.run(self.0, range, heights)
+    }
+
+    fn certify(&self, index: usize) -> Result<Certificate, Error> {
+        self.0.tosses.solve(index, certify)
+    }
+}
+
+/// The filter's kernel for a batch, by the attitude at launch.
+enum Filter {
+    Flat(Flat),
+    Tilted(Tilted),
+}
+
+impl Filter {
+    fn new(batch: &Batch<'_>) -> Self {
+        let constants = Constants::new(&batch.tosses);
+        if batch.is_flat() {
+            Self::Flat(Flat(constants))
+        } else {
+            Self::Tilted(Tilted(constants, TiltTerms::new(&batch.tosses)))
         }
+    }
+
+    /// Writes by how much |G| exceeds its threshold, with the sign of G, for the tosses of `range`; 0 where it does
+    /// not. An error has the index of its toss in the whole batch.
+    fn run(&self, batch: &Batch<'_>, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        let (level, tosses) = (batch.level, batch.tosses.part(range.clone()));
+        let done = match self {
+            Self::Flat(kernel) => level.run(BatchRun { kernel, tosses, out: [heights] }),
+            Self::Tilted(kernel) => level.run(BatchRun { kernel, tosses, out: [heights] }),
+        };
+        done.map_err(|error| error.after(range.start as u64))
     }
 }
 
@@ -72,10 +129,8 @@ struct Flat(Constants);
 struct Tilted(Constants, TiltTerms);
 
 impl Kernel<4, 1> for Flat {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.0)
+    fn constants(&self) -> &Constants {
+        &self.0
     }
 
     #[inline(always)]
@@ -90,16 +145,14 @@ impl Kernel<4, 1> for Flat {
         [beyond(squared - twice_across_squared * (sin * sin), threshold)]
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
-        tosses.solve(index, |_| Ok([0.0]))
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
     }
 }
 
 impl Kernel<5, 1> for Tilted {
-    type Body = Coin;
-
-    fn limits(&self) -> Option<&Constants> {
-        Some(&self.0)
+    fn constants(&self) -> &Constants {
+        &self.0
     }
 
     #[inline(always)]
@@ -117,8 +170,8 @@ impl Kernel<5, 1> for Tilted {
         [beyond((mean + cosine) + (change + change), threshold)]
     }
 
-    fn solve_one(&self, tosses: &Tosses<'_>, index: usize) -> Result<[f64; 1], Error> {
-        tosses.solve(index, |_| Ok([0.0]))
+    fn solve_one(&self, _: &CoinToss) -> Result<[f64; 1], SolveError> {
+        Ok([0.0])
     }
 }
 
@@ -137,10 +190,11 @@ fn beyond<S: Simd>(height: Real<S>, threshold: Real<S>) -> Real<S> {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Outcome};
+    use dynamics::{Attitude, Coin, Tosses};
 
     use super::super::proving::BLOCK;
     use super::*;
+    use crate::certificate::Stage;
 
     const RATES: [[f64; 20]; 3] = [[3.0; 20], [4.0; 20], [5.0; 20]];
 
@@ -151,6 +205,24 @@ mod tests {
     fn tosses(speeds: &[f64]) -> Tosses<'_> {
         let columns = RATES.each_ref().map(|column| &column[..speeds.len()]);
         Tosses::new(Coin::PAPER, Attitude::about_x(0.7), 9.81, columns, speeds).unwrap()
+    }
+
+    #[test]
+    fn counts_match_the_outcomes_at_every_level_and_length() {
+        let speeds = speeds();
+        for (level, length) in
+            SimdLevel::all().into_iter().flat_map(|level| (0..=20).map(move |length| (level, length)))
+        {
+            let batch = Batch::new(tosses(&speeds[..length])).on(level);
+            let mut outcomes = vec![Outcome::Undecided; length];
+            batch.outcomes(&mut outcomes).unwrap();
+            let number = |of: Outcome| outcomes.iter().filter(|outcome| **outcome == of).count() as u64;
+            let counted = batch.count().unwrap();
+            let expected = (number(Outcome::Heads), number(Outcome::Tails), length as u64);
+            let found = (counted.heads(), counted.tails(), counted.by(Stage::F64));
+            assert_eq!(found, expected, "{length} at {}", level.name());
+            assert!(length < 20 || (counted.heads() > 3 && counted.tails() > 3), "{counted:?}");
+        }
     }
 
     #[test]
@@ -176,8 +248,8 @@ mod tests {
             let TiltTerms { vertical, norm } = TiltTerms::new(&tosses);
             let terms = TiltTerms { vertical: vertical.map(|part| factor * part), norm: factor * norm };
             let mut heights = [f64::NAN; 20];
-            let filter = CoinFilter { constants: Constants::new(&tosses), terms: Some(terms) };
-            Coin::heights(&filter, Batch::new(tosses), &mut heights).unwrap();
+            let filter = Filter::Tilted(Tilted(Constants::new(&tosses), terms));
+            filter.run(&Batch::new(tosses), 0..20, &mut heights).unwrap();
             heights
         };
         assert_eq!(heights(1024.0), heights(1.0).map(|height| 1024.0 * height));

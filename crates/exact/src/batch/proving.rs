@@ -3,108 +3,75 @@
 
 use std::ops::Range;
 
-use dynamics::{Body, Error, Outcome};
-use numerics::lanes::{Real, Simd, WithSimd};
+use dynamics::{Error, Outcome};
+use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
-use super::Batch;
 use crate::certificate::{Certificate, ProvenCounts, Stage};
-use crate::rigid::certify;
 
 /// Number of tosses that are filtered together, before the undecided ones among them are proven one by one.
 pub(super) const BLOCK: usize = 512;
 
-/// A coin or a body, whose outcomes a filter decides. Only this crate implements it.
-pub trait Provable: Copy + Into<Body> {
-    /// What the filter computes once for all tosses of a batch.
-    type Filter;
+/// A filter of tosses, and the proof of those that it leaves.
+pub(super) trait Proving {
+    /// Number of tosses.
+    fn len(&self) -> usize;
 
-    /// The filter of a batch.
-    fn filter(batch: &Batch<'_, Self>) -> Self::Filter;
+    /// The SIMD level of the filter.
+    fn level(&self) -> SimdLevel;
 
-    /// Writes numbers with the proven sign of cos θ for the tosses of a batch; 0 where the filter proves none.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss with an invalid launch, if the filter finds it.
-    fn heights(filter: &Self::Filter, batch: Batch<'_, Self>, heights: &mut [f64]) -> Result<(), Error>;
+    /// Writes numbers with the proven sign of cos θ for the tosses of `range`, at most [`BLOCK`]; 0 where the filter
+    /// proves none. An error has the index of its toss among all.
+    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error>;
+
+    /// The outcome of one toss.
+    fn certify(&self, index: usize) -> Result<Certificate, Error>;
 }
 
-impl<B: Provable> Batch<'_, B> {
-    /// Writes the proven outcome of each toss, that of [`certify`]. It is undecided only for an exact tie.
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
-    ///
-    /// # Panics
-    /// If `out` does not have one entry per toss.
-    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
-        assert_eq!(out.len(), self.tosses.len(), "`out` must have one entry per toss");
-        let filter = B::filter(self);
-        let mut heights = Column([0.0; BLOCK]);
-        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let start = block * BLOCK;
-            let heights = &mut heights.0[..out.len()];
-            self.heights(&filter, start..start + out.len(), heights)?;
-            for (index, (height, out)) in heights.iter().zip(out).enumerate() {
-                *out = of_sign(*height);
-                if *out == Outcome::Undecided {
-                    *out = self.tosses.solve(start + index, certify)?.outcome();
-                }
+/// Writes the outcome of each toss.
+pub(super) fn outcomes(proving: &impl Proving, out: &mut [Outcome]) -> Result<(), Error> {
+    assert_eq!(out.len(), proving.len(), "`out` must have one entry per toss");
+    let mut heights = Column([0.0; BLOCK]);
+    for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+        let start = block * BLOCK;
+        let heights = &mut heights.0[..out.len()];
+        heights_of(proving, start..start + out.len(), heights)?;
+        for (index, (height, out)) in heights.iter().zip(out).enumerate() {
+            *out = of_sign(*height);
+            if *out == Outcome::Undecided {
+                *out = proving.certify(start + index)?.outcome();
             }
         }
-        Ok(())
     }
+    Ok(())
+}
 
-    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
-    ///
-    /// # Errors
-    /// [`Error`] for the first toss that has no outcome.
-    pub fn count(&self) -> Result<ProvenCounts, Error> {
-        self.count_and(|_| ())
-    }
-
-    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`] did.
-    ///
-    /// # Errors
-    /// As [`Batch::count`].
-    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
-        self.count_with(&B::filter(self), left)
-    }
-
-    /// As [`Batch::count_and`], with this filter.
-    pub(super) fn count_with(
-        &self,
-        filter: &B::Filter,
-        mut left: impl FnMut(Certificate),
-    ) -> Result<ProvenCounts, Error> {
-        let mut heights = Column([0.0; BLOCK]);
-        let mut counts = ProvenCounts::default();
-        for start in (0..self.tosses.len()).step_by(BLOCK) {
-            let heights = &mut heights.0[..(self.tosses.len() - start).min(BLOCK)];
-            self.heights(filter, start..start + heights.len(), heights)?;
-            let decided = self.level.run(Signs(heights));
-            counts.add_many(decided.heads, decided.tails, Stage::F64);
-            if decided.heads + decided.tails < heights.len() as u64 {
-                for (index, _) in
-                    heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided)
-                {
-                    let certificate = self.tosses.solve(start + index, certify)?;
-                    left(certificate);
-                    counts.add(certificate);
-                }
+/// Counts the outcomes, and calls `left` with each that the filter did not decide.
+pub(super) fn count(proving: &impl Proving, mut left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+    let mut heights = Column([0.0; BLOCK]);
+    let mut counts = ProvenCounts::default();
+    for start in (0..proving.len()).step_by(BLOCK) {
+        let heights = &mut heights.0[..(proving.len() - start).min(BLOCK)];
+        heights_of(proving, start..start + heights.len(), heights)?;
+        let decided = proving.level().run(Signs(heights));
+        counts.add_many(decided.heads, decided.tails, Stage::F64);
+        if decided.heads + decided.tails < heights.len() as u64 {
+            for (index, _) in heights.iter().enumerate().filter(|(_, height)| of_sign(**height) == Outcome::Undecided) {
+                let certificate = proving.certify(start + index)?;
+                left(certificate);
+                counts.add(certificate);
             }
         }
-        Ok(counts)
     }
+    Ok(counts)
+}
 
-    /// The heights of the tosses of `range`. A filter finds invalid launches alone; a launch before them may be valid and
-    /// without an outcome, and its error comes first.
-    fn heights(&self, filter: &B::Filter, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
-        let block = Batch { tosses: self.tosses.part(range.clone()), level: self.level };
-        B::heights(filter, block, heights).map_err(|error| {
-            let mut proven = range.clone().map(|index| self.tosses.solve(index, certify));
-            proven.find_map(Result::err).unwrap_or_else(|| error.after(range.start as u64))
-        })
-    }
+/// The heights of a block. A filter finds invalid launches alone; a launch before them may be valid and without an outcome,
+/// and its error comes first.
+fn heights_of(proving: &impl Proving, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+    proving.heights(range.clone(), heights).map_err(|error| {
+        let mut proven = range.map(|index| proving.certify(index));
+        proven.find_map(Result::err).unwrap_or(error)
+    })
 }
 
 /// Numbers of outcomes that the filter decided.

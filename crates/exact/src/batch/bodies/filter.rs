@@ -21,12 +21,10 @@ impl BodyFilter {
         Self { body: *tosses.body(), attitude: tosses.attitude(), gravity: tosses.gravity(), constants }
     }
 
-    /// Whether it was made for such tosses.
-    pub(super) fn is_of(&self, tosses: &Tosses<'_, Body>) -> bool {
-        self.body == *tosses.body() && self.attitude == tosses.attitude() && self.gravity == tosses.gravity()
-    }
-
-    pub(super) fn constants(&self) -> Option<&Constants> {
-        self.constants.as_ref()
+    /// The constants of `tosses`: those of the filter if it was made for such tosses.
+    pub(super) fn constants_of(&self, tosses: &Tosses<'_, Body>) -> Option<Constants> {
+        let is_theirs =
+            self.body == *tosses.body() && self.attitude == tosses.attitude() && self.gravity == tosses.gravity();
+        if is_theirs { self.constants } else { Constants::new(tosses) }
     }
 }

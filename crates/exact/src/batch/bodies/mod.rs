@@ -1,5 +1,5 @@
 //! This module proves the outcomes of many tosses of one rigid body. A filter computes cos θ with a bound of its error in
-//! SIMD registers and decides nearly all of them; [`certify`](crate::certify) proves the few that it leaves.
+//! SIMD registers and decides nearly all of them; [`certify`] proves the few that it leaves.
 //!
 //! The formulas are those of [`rigid`](crate::rigid), in plain f64: the series of theta functions at all nomes, and no
 //! branch. Launches around the axis of the largest moment stand beside those around the smallest in a register. Outcomes
@@ -20,58 +20,142 @@ mod landing;
 mod means;
 mod start;
 
-use dynamics::{Body, Error, Tosses};
-use numerics::lanes::{Real, Simd};
+use std::ops::Range;
+
+use dynamics::{Body, Error, Outcome, Tosses};
+use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
 use super::Batch;
-use super::kernel::{BatchRun, Kernel};
-use super::momentum::{self, Extent};
-use super::proving::Provable;
-use crate::certificate::ProvenCounts;
+use super::proving::{self, Proving};
+use crate::certificate::{Certificate, ProvenCounts};
+use crate::rigid::certify;
 use constants::Constants;
 pub use filter::BodyFilter;
 use landing::{Begun, Height};
 
+/// Number of tosses in a tile, a multiple of the number of lanes of every SIMD level.
+const TILE: usize = 64;
+
 /// Number of columns between the two loops over a tile.
 const BETWEEN: usize = 18;
 
-impl Provable for Body {
-    type Filter = BodyFilter;
-
-    fn filter(batch: &Batch<'_, Body>) -> BodyFilter {
-        BodyFilter::new(&batch.tosses)
-    }
-
-    fn heights(filter: &BodyFilter, batch: Batch<'_, Body>, heights: &mut [f64]) -> Result<(), Error> {
-        let Some(kernel) = filter.constants() else {
-            heights.fill(0.0);
-            return Ok(());
-        };
-        batch.level.run(BatchRun { kernel, tosses: batch.tosses, out: [heights] })
-    }
-}
-
 impl Batch<'_, Body> {
+    /// Writes the proven outcome of each toss, that of [`certify`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome; the contents of `out` are then unspecified.
+    ///
+    /// # Panics
+    /// If `out` does not have one entry per toss.
+    pub fn outcomes(&self, out: &mut [Outcome]) -> Result<(), Error> {
+        proving::outcomes(&Filtered(self, Constants::new(&self.tosses)), out)
+    }
+
+    /// Counts the outcomes. All of them are proven: nearly all by the filter in f64, the others by [`certify`].
+    ///
+    /// # Errors
+    /// [`Error`] for the first toss that has no outcome.
+    pub fn count(&self) -> Result<ProvenCounts, Error> {
+        self.count_and(|_| ())
+    }
+
+    /// As [`Batch::count`], and calls `left` with each outcome that the filter could not decide and [`certify`]
+    /// did.
+    ///
+    /// # Errors
+    /// As [`Batch::count`].
+    pub fn count_and(&self, left: impl FnMut(Certificate)) -> Result<ProvenCounts, Error> {
+        proving::count(&Filtered(self, Constants::new(&self.tosses)), left)
+    }
+
     /// As [`Batch::count`], by a filter that other batches may share. The counts are the same for every filter; one that was
     /// made for another body, attitude or gravity saves no time.
     ///
     /// # Errors
     /// As [`Batch::count`].
     pub fn count_by(&self, filter: &BodyFilter) -> Result<ProvenCounts, Error> {
-        if filter.is_of(&self.tosses) { self.count_with(filter, |_| ()) } else { self.count() }
+        proving::count(&Filtered(self, filter.constants_of(&self.tosses)), |_| ())
     }
 }
 
-impl Kernel<BETWEEN, 1> for Constants {
-    type Body = Body;
+/// A batch with the constants of its filter, if it has one.
+struct Filtered<'a, 'b>(&'a Batch<'b, Body>, Option<Constants>);
 
-    fn limits(&self) -> Option<&momentum::Constants> {
-        None
+impl Proving for Filtered<'_, '_> {
+    fn len(&self) -> usize {
+        self.0.tosses.len()
     }
 
+    fn level(&self) -> SimdLevel {
+        self.0.level
+    }
+
+    fn heights(&self, range: Range<usize>, heights: &mut [f64]) -> Result<(), Error> {
+        match &self.1 {
+            Some(constants) => {
+                let tosses = self.0.tosses.part(range);
+                self.0.level.run(BatchRun { constants, tosses, out: heights });
+            }
+            None => heights.fill(0.0),
+        }
+        Ok(())
+    }
+
+    fn certify(&self, index: usize) -> Result<Certificate, Error> {
+        self.0.tosses.solve(index, certify)
+    }
+}
+
+/// Columns of a tile, aligned to whole cache lines for fast loads and stores.
+#[repr(align(64))]
+struct Columns<const N: usize>([[f64; TILE]; N]);
+
+/// The filter, run over tosses.
+struct BatchRun<'a, 'out> {
+    constants: &'a Constants,
+    tosses: Tosses<'a, Body>,
+    /// Receives a number with the proven sign of cos θ, and 0 where none is proven.
+    out: &'out mut [f64],
+}
+
+impl WithSimd for BatchRun<'_, '_> {
+    type Output = ();
+
+    /// Two short loops over a tile overlap the operations of more tosses than one long loop.
     #[inline(always)]
-    fn begin<S: Simd>(&self, rates: [Real<S>; 3], speed: Real<S>, _: &mut Extent<S>) -> [Real<S>; BETWEEN] {
-        let start = self.start(rates, speed);
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut between = Columns([[0.0; TILE]; BETWEEN]);
+        let mut padded = Columns([[1.0; TILE]; 4]);
+        for start in (0..self.tosses.len()).step_by(TILE) {
+            let tile = start..(start + TILE).min(self.tosses.len());
+            let columns = whole_registers(&self.tosses, tile.clone(), Real::<S>::LANES, &mut padded);
+            for at in (0..columns[0].len()).step_by(Real::<S>::LANES) {
+                let mut launch = [Real::splat(simd, 0.0); 4];
+                for (part, column) in launch.iter_mut().zip(&columns) {
+                    *part = Real::load(simd, &column[at..]);
+                }
+                let begun = self.constants.begin(launch);
+                for (part, column) in begun.iter().zip(&mut between.0) {
+                    part.store(&mut column[at..]);
+                }
+            }
+            for at in (0..columns[0].len()).step_by(Real::<S>::LANES) {
+                let mut begun = [Real::splat(simd, 0.0); BETWEEN];
+                for (part, column) in begun.iter_mut().zip(&between.0) {
+                    *part = Real::load(simd, &column[at..]);
+                }
+                let written = self.constants.end(begun).written();
+                written.store_up_to(&mut self.out[start + at..tile.end]);
+            }
+        }
+    }
+}
+
+impl Constants {
+    /// The body of the first loop.
+    #[inline(always)]
+    fn begin<S: Simd>(&self, [x, y, z, speed]: [Real<S>; 4]) -> [Real<S>; BETWEEN] {
+        let start = self.start([x, y, z], speed);
         let means = start.means();
         let [[a, b], [c, d], [e, f], [g, h]] = means.points;
         let ([cos, sin], [across, precession]) = (start.point, means.turns);
@@ -80,24 +164,33 @@ impl Kernel<BETWEEN, 1> for Constants {
         [cos, sin, is_c, side, upright, condition, across, precession, decay, nome, a, b, c, d, e, f, g, h]
     }
 
-    /// Numbers with the proven sign of cos θ, and 0 where none is proven.
+    /// The body of the second loop.
     #[inline(always)]
-    fn end<S: Simd>(&self, begun: [Real<S>; BETWEEN]) -> [Real<S>; 1] {
-        [self.height(begun).written()]
-    }
-
-    fn solve_one(&self, tosses: &Tosses<'_, Body>, index: usize) -> Result<[f64; 1], Error> {
-        tosses.solve(index, |_| Ok([0.0]))
-    }
-}
-
-impl Constants {
-    #[inline(always)]
-    fn height<S: Simd>(&self, begun: [Real<S>; BETWEEN]) -> Height<S> {
+    fn end<S: Simd>(&self, begun: [Real<S>; BETWEEN]) -> Height<S> {
         let [cos, sin, is_c, side, upright, condition, across, precession, decay, nome, a, b, c, d, e, f, g, h] = begun;
         let (point, turns, points) = ([cos, sin], [across, precession], [[a, b], [c, d], [e, f], [g, h]]);
         self.landing(&Begun { point, is_c, side, upright, condition, turns, decay, nome, points })
     }
+}
+
+/// The columns of a tile, as whole registers of `lanes` lanes. If the last register is not full, the columns are copied
+/// to `room`.
+#[inline(always)]
+fn whole_registers<'a>(
+    tosses: &Tosses<'a, Body>,
+    tile: Range<usize>,
+    lanes: usize,
+    room: &'a mut Columns<4>,
+) -> [&'a [f64]; 4] {
+    let columns = tosses.columns(tile);
+    let tosses = columns[0].len();
+    if tosses.is_multiple_of(lanes) {
+        return columns;
+    }
+    for (padded, column) in room.0.iter_mut().zip(columns) {
+        padded[..tosses].copy_from_slice(column);
+    }
+    room.0.each_ref().map(|column| &column[..tosses.next_multiple_of(lanes)])
 }
 
 #[cfg(test)]

@@ -1,10 +1,8 @@
 //! These tests hold the filter and the bound of its error against the motion in double-double.
 
-use std::ops::Range;
-
-use dynamics::Attitude;
+use dynamics::{Attitude, Body, Tosses};
 use numerics::DoubleDouble;
-use numerics::lanes::{SimdLevel, WithSimd};
+use numerics::lanes::SimdLevel;
 
 use super::*;
 use crate::rigid::ExactMotion;
@@ -37,9 +35,8 @@ impl WithSimd for Bounded<'_> {
 
     fn with_simd<S: Simd>(self, simd: S) {
         for index in 0..self.1.len() {
-            let [x, y, z, speed] = self.1.columns(index..index + 1).map(|column| Real::splat(simd, column[0]));
-            let begun = self.0.begin([x, y, z], speed, &mut Extent::new(simd));
-            let Height { height, norm, bound } = self.0.height(begun);
+            let launch = self.1.columns(index..index + 1).map(|column| Real::splat(simd, column[0]));
+            let Height { height, norm, bound } = self.0.end(self.0.begin(launch));
             self.2.push([height / norm, bound, norm].map(Real::first));
         }
     }
@@ -143,7 +140,7 @@ fn results_have_the_same_bits_at_every_level_and_length() {
         let constants = Constants::new(&tosses).unwrap();
         let found = |level: SimdLevel, range: Range<usize>| {
             let mut out = vec![f64::NAN; range.len()];
-            level.run(BatchRun { kernel: &constants, tosses: tosses.part(range), out: [&mut out] }).unwrap();
+            level.run(BatchRun { constants: &constants, tosses: tosses.part(range), out: &mut out });
             out.into_iter().map(f64::to_bits).collect::<Vec<_>>()
         };
         let plain = found(SimdLevel::all()[0], 0..300);
