@@ -194,8 +194,8 @@ fn overview(charts: &[Chart]) -> Markup {
                 h2 { "Work against error" }
                 figure {
                     (PreEscaped(&chart.svg))
-                    figcaption { "The same problem, by time: the further right, the more accurate; the lower, the cheaper. Grey: the \
-                                  front, which no integrator beats." }
+                    figcaption { "The same problem, by time: the further right, the more accurate; the lower, the cheaper. The wide \
+                                  grey line is the front, which no integrator beats." }
                 }
             }
         }
