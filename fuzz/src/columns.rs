@@ -62,12 +62,12 @@ fn solved(tosses: Tosses<'_>, level: SimdLevel) -> Solved {
 
 impl Solved {
     fn has_the_bits_of(&self, other: &Self) -> bool {
-        #[expect(clippy::ptr_arg, reason = "columns are mapped by it")]
-        fn bits(column: &Vec<f64>) -> Vec<u64> {
+        fn bits(column: &[f64]) -> Vec<u64> {
             column.iter().map(|number| number.to_bits()).collect()
         }
-        let of_attitudes = |solved: &Self| solved.attitudes.clone().map(|parts| parts.each_ref().map(bits));
-        self.cos_tilts.as_ref().map(bits) == other.cos_tilts.as_ref().map(bits)
+        let of_attitudes =
+            |solved: &Self| solved.attitudes.clone().map(|parts| parts.each_ref().map(|column| bits(column)));
+        self.cos_tilts.as_deref().map(bits) == other.cos_tilts.as_deref().map(bits)
             && of_attitudes(self) == of_attitudes(other)
             && self.outcomes == other.outcomes
             && self.counted == other.counted

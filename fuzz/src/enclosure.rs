@@ -8,7 +8,8 @@ const ACCURACY: f64 = 0.02;
 const LAUNCHES: u64 = 512;
 /// More cells, which take seconds, are a finding: halving has gone wrong.
 const MOST_CELLS: u64 = 1 << 19;
-/// Ranges of rates whose phases at landing (rad) span more than this together may need as many, and are left out.
+/// Each range of rates makes a range of phases at landing (rad). Spaces in which the product of these, each with 1 rad more,
+/// is larger are left out: they may need more cells though nothing is wrong.
 const MOST_PHASES: f64 = 5000.0;
 
 /// The proven interval holds the probability that it states, and it meets the interval of random launches with a confidence
