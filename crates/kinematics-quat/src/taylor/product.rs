@@ -23,13 +23,6 @@ mod tests {
 
     use super::*;
 
-    /// The value in the first lane.
-    fn first<S: Simd>(value: Real<S>) -> f64 {
-        let mut number = [0.0];
-        value.store_up_to(&mut number);
-        number[0]
-    }
-
     struct Turned([f64; 4], [Complex<f64>; 2]);
 
     impl WithSimd for Turned {
@@ -37,7 +30,7 @@ mod tests {
 
         fn with_simd<S: Simd>(self, simd: S) -> [f64; 4] {
             let splat = |value| Real::splat(simd, value);
-            turned(self.0.map(splat), self.1.map(|number| number.map(splat))).map(first)
+            turned(self.0.map(splat), self.1.map(|number| number.map(splat))).map(Real::first)
         }
     }
 

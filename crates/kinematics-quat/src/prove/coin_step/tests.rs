@@ -68,15 +68,10 @@ impl WithSimd for Step {
         let mut series = Series::new(simd);
         series.expand_eta(order, q);
         series.expand(order, modulus, half_z);
-        let first = |value: Real<S>| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        };
         let [[a, b], [c, d]] = series.turn(order, h);
         let [e, f] = series.turn_of_eta(order, h);
-        let each = |terms: &[Real<S>]| terms[..=order].iter().map(|term| first(*term)).collect();
-        ([each(&series.u), each(&series.w), each(&series.r)], [a, b, c, d, e, f].map(first))
+        let each = |terms: &[Real<S>]| terms[..=order].iter().copied().map(Real::first).collect();
+        ([each(&series.u), each(&series.w), each(&series.r)], [a, b, c, d, e, f].map(Real::first))
     }
 }
 
@@ -128,12 +123,8 @@ impl WithSimd for Bounds {
         series.expand_eta(order, q);
         series.expand(order, modulus, half_z);
         let terms = Terms::new(&series, order, [modulus, half_z, q, h], spread);
-        let first = |value: Real<S>| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        };
-        (first(terms.rounding), terms.change[..=order].iter().copied().map(first).collect(), first(terms.turn(spread)))
+        let change = terms.change[..=order].iter().copied().map(Real::first).collect();
+        (terms.rounding.first(), change, terms.turn(spread).first())
     }
 }
 

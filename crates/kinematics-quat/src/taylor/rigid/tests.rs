@@ -49,11 +49,7 @@ impl WithSimd for Step {
         let mut series = Bodies::series(simd);
         let splat = |value: f64| Real::splat(simd, value);
         series.expand(order, rates.map(|rate| splat(0.5 * rate)), couplings.map(|coupling| splat(2.0 * coupling)));
-        series.after(order, splat(h)).map(|value| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        })
+        series.after(order, splat(h)).map(Real::first)
     }
 }
 
@@ -121,11 +117,7 @@ impl WithSimd for Bounds {
         let twice = couplings.map(|coupling| splat(2.0 * coupling));
         series.expand(order, rates.map(|rate| splat(0.5 * rate)), twice);
         let defect = series.defect(order, splat(h), twice);
-        let [turn, rates, rounding] = [defect.turn, defect.rates, defect.rounding].map(|value| {
-            let mut number = [0.0];
-            value.store_up_to(&mut number);
-            number[0]
-        });
+        let [turn, rates, rounding] = [defect.turn, defect.rates, defect.rounding].map(Real::first);
         [turn - 8.0 * UNIT_ROUNDOFF, rates, rounding]
     }
 }
