@@ -150,6 +150,7 @@ mod tests {
         assert_eq!(part.launch(0), all.launch(1));
         assert_eq!(part.launch(1), all.launch(2));
         assert_ne!(all.launch(1), all.launch(2));
+        assert_eq!(part.gravity(), 9.81);
         assert_eq!(part.columns(1..2), [&[3.0][..], &[6.0], &[9.0], &[0.3]]);
     }
 }

@@ -199,6 +199,9 @@ mod tests {
         assert_eq!(fields(own().with_scheme("heun")), [Some("scheme of this solver"), Some("scheme")]);
         assert_eq!(fields(own().with_tolerance(1e-9).unwrap()), [None, Some("tolerance")]);
         assert_eq!(fields(own().with_step(0.1).unwrap()), [None, Some("step [s]")]);
+        let without = [entry(&[]), entry(&[Scheme::RK4]), entry(&Scheme::ALL)];
+        let Err(InputError::UnknownName { known, .. }) = own().with_scheme("heun").settings(&without) else { panic!() };
+        assert_eq!(known.matches("rk4").count(), 1, "{known}");
         let raw = own().with_formulation(Formulation::RAW);
         assert_eq!(fields(raw), [Some("formulation"), Some("formulation")]);
         let rk4_by_tolerance = own().with_scheme("rk4").with_tolerance(1e-9).unwrap();

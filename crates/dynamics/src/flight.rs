@@ -145,6 +145,7 @@ mod tests {
         let flight = flight([60.0, -8.0, 0.1], 0.5);
         assert_eq!((flight.rate.x, flight.span(), flight.in_seconds(8.0)), (60.0 / 32.0, 16.0, 0.25));
         assert_eq!(flight.rate_at(1.5, -0.5), Vector3::new(48.0, -16.0, 0.1));
+        assert_eq!(flight.in_rad_per_s(&Vector3::new(1.5, -0.5, 0.25)), Vector3::new(48.0, -16.0, 8.0));
         assert_eq!(flight.not_finite(), SolveError::NotFinite { time: 0.5 });
     }
 
@@ -192,6 +193,7 @@ mod tests {
             assert_eq!(flight.is_long(), time > 100.0);
             let start = SVector::from([1.0, 0.0]);
             let by = Stepping::adaptive(Scheme::DOPRI5, tightened).unwrap();
+            approx::assert_relative_eq!(flight.tightened(1e-6), tightened, max_relative = 1e-15);
             assert_eq!(flight.integrate(&Circle, start, &stepping), integrate(&Circle, start, time, 1.0, &by));
         }
     }

@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn the_derivative_is_half_the_product_with_the_rate_and_eulers_equations() {
         let system = FreeRotation::new(&toss([2.0, 1.0, 2.5], 1.0)).unwrap();
-        let [w, x, y, z, a, b, c] = [0.1, -0.7, 0.5, 0.3, 1.5, -0.25, 2.0];
+        let [w, x, y, z, a, b, c] = [0.1, -0.7, 0.5, 0.3, 1.5, -0.25, 2.5];
         let product = nalgebra::Quaternion::new(w, x, y, z) * nalgebra::Quaternion::new(0.0, a, b, c) * 0.5;
         let k = Coin::PAPER.inertia_ratio();
         let torque = Vector3::new(a, b, k * c).cross(&Vector3::new(a, b, c));

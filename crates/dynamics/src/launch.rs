@@ -146,3 +146,26 @@ impl Launch {
         self.flight_time
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use numerics::Unit;
+
+    use super::*;
+
+    /// The error is judged by the rate in twice the digits.
+    #[test]
+    fn the_rate_is_within_its_error_of_what_was_given() {
+        let unit = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let degrees = |rate: [f64; 3]| Launch::in_unit(rate, unit, TimeOfFlight::Given(1.0)).unwrap();
+        for size in [1e-190, 1.0, 12.3, 1e200] {
+            let launch = degrees([size, -0.7 * size, 0.31 * size]);
+            for (rounded, exact) in launch.rate().iter().zip(launch.exact_rate()) {
+                let off = (exact - (*rounded).into()).hi().abs() / rounded.abs();
+                assert!(off <= launch.rate_error() && launch.rate_error() < 2f64.powi(-52), "{off:e}");
+            }
+        }
+        assert_eq!(degrees([1e-310, 0.0, 0.0]).rate_error(), f64::INFINITY);
+        assert_eq!(Launch::new([1e-310, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap().rate_error(), 0.0);
+    }
+}

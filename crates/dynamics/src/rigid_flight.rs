@@ -89,6 +89,8 @@ mod tests {
             assert_eq!(sizes, order.map(|axis| [60.1, 8.3, 0.7][axis]));
             assert_eq!(flight.in_body(flight.rates), flight.timing().rate);
             assert_eq!(flight.rate_at([0.0; 3]), Vector3::zeros());
+            let along = flight.in_body([0.1, 0.2, 0.3]);
+            assert_eq!(flight.turn_in_body([0.9, 0.1, 0.2, 0.3]), [0.9, along.x, along.y, along.z]);
         }
     }
 

@@ -103,6 +103,24 @@ fn the_vertical_in_the_body_is_normalised_in_double_double() {
     }
 }
 
+/// A quarter of a turn about the lab's x axis makes the lab's y axis its vertical.
+#[test]
+fn the_quarter_turned_vertical_is_the_labs_y_axis_in_the_body() {
+    let given = [[0.3, -0.7, 0.5, 0.4], [3e200, 7e200, -5e200, 4e200]];
+    let attitudes = given.map(|components| Attitude::from_components(components).unwrap());
+    let made = [Attitude::about_x(2.5), Attitude::about_z(1.0) * Attitude::about_x(0.4)];
+    for attitude in attitudes.into_iter().chain(made) {
+        let vertical = attitude.exact_quarter_turned_vertical();
+        let rounded = Vector3::from(vertical.map(DoubleDouble::hi));
+        approx::assert_abs_diff_eq!(rounded, attitude.lab_to_body(&Vector3::y()), epsilon = 1e-15);
+        let (exact, norm) = attitude.quarter_turned_vertical_in_digits(100);
+        for (exact, found) in exact.iter().zip(vertical) {
+            let error = exact / norm.clone().with_precision(100).value() - exactly(found.hi()) - exactly(found.lo());
+            assert!(error.to_f64().value().abs() < 1e-20, "{attitude:?}");
+        }
+    }
+}
+
 /// What a product rounds is not what was given.
 #[test]
 fn an_attitude_keeps_what_it_was_made_from() {

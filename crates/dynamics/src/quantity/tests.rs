@@ -117,3 +117,14 @@ fn numbers_that_belong_together_have_units_all_or_none() {
     assert!(read("1,2,3rev/s").unwrap_err().contains("a unit after each of the numbers, or after none"));
     assert!(read("1m,2m,3m").unwrap_err().contains("expected rates"));
 }
+
+#[test]
+fn numbers_have_a_unit_in_common_unless_one_that_is_not_0_has_another() {
+    let common = |texts: &[&str]| {
+        let given: Vec<_> = texts.iter().map(|text| TurnRate.given("rate", text).unwrap()).collect();
+        common_unit(&given).map(|unit| unit.name)
+    };
+    assert_eq!(common(&["1rev/s", "0", "-2rev/s"]), Some("rev/s"));
+    assert_eq!(common(&["0rpm", "0rev/s"]), Some("rpm"));
+    assert_eq!([common(&["1rev/s", "1rpm"]), common(&[])], [None, None]);
+}

@@ -45,7 +45,9 @@ fn a_flight_to_another_height_lasts_until_its_later_crossing() {
         assert!(time.validated_seconds().is_ok());
         let [v, g, h] = [speed, gravity, drop].map(big);
         let exact = (&v + (&v * &v + big(2.0) * &g * h).sqrt()) / g;
-        let ExactTime { mantissa, exponent } = time.exact();
+        let digits = time.in_digits(700) - &exact;
+        assert!(digits.to_f64().value().abs() <= 1e-200 * exact.to_f64().value(), "{speed} {gravity} {drop}: {digits}");
+        let (mantissa, exponent) = (time.exact().mantissa(), time.exact().exponent());
         assert!(exact == big(0.0) || (0.5..=2.0).contains(&mantissa.hi()), "{mantissa:?}");
         let found = (big(mantissa.hi()) + big(mantissa.lo()))
             * (Big::ONE << 1100 >> (1100 - isize::try_from(exponent).unwrap()));
