@@ -2,9 +2,11 @@
 
 use dynamics::{AngleUnit, Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
 use nalgebra::Vector3;
+use numerics::big::exactly;
 
 use super::*;
 use crate::certificate::ProvenCounts;
+use crate::motion::COS_TILT_ERROR;
 use crate::multiprecision::cos_tilt as in_more_digits;
 
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> CoinToss {
@@ -270,6 +272,20 @@ fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
     let expected = (std::f64::consts::TAU * (rate * time).fract()).cos();
     assert!((given - expected).abs() < 1e-15, "{given}, not {expected}");
     assert!((rounded - expected).abs() > 1e-12);
+}
+
+/// In double-double, the error of a rate in turns grows with the phase to 3e-16 in the cosine.
+#[test]
+fn cos_tilt_of_rates_in_turns_keeps_its_error_at_the_largest_phases() {
+    for index in 1..=500 {
+        let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
+        let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));
+        let launch = |time| Launch::in_unit(rate, AngleUnit::Turns(Unit::ONE), TimeOfFlight::Given(time)).unwrap();
+        let toss = |time| CoinToss { coin: Coin::PAPER, launch: launch(time) };
+        let toss = toss(8.5e15 / CoinMotion::new(&toss(1.0)).phase(1.0).unwrap());
+        let off = (exactly(cos_tilt(&toss).unwrap()) - in_more_digits(&toss, 256).to_big()).to_f64().value().abs();
+        assert!(off <= COS_TILT_ERROR, "{toss:?}: {off:e}");
+    }
 }
 
 #[test]

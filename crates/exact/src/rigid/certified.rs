@@ -13,6 +13,7 @@ use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::{self, certify_coin};
 use crate::given::{in_digits, in_double_double, rounded, scaled};
 use crate::motion::COS_TILT_ERROR;
+use crate::multiprecision::has_digits_of_f64;
 use crate::rigid::curve::Curve;
 
 /// Digits of the stages after double-double. The last are for rates that differ by more than 1e135.
@@ -62,8 +63,7 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
     if cos_tilt.abs() > COS_TILT_ERROR {
         return Ok((cos_tilt, COS_TILT_ERROR));
     }
-    let is_right = |cos_tilt: &WideBall| cos_tilt.is_right_to(2f64.powi(-60));
-    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits).filter(is_right));
+    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits).filter(has_digits_of_f64));
     Ok(with_digits.map_or((0.0, COS_TILT_ERROR), |cos_tilt| rounded(cos_tilt.to_f64())))
 }
 
