@@ -6,7 +6,6 @@ use numerics::big::exactly;
 
 use super::*;
 use crate::certificate::ProvenCounts;
-use crate::motion::COS_TILT_ERROR;
 use crate::multiprecision::cos_tilt as in_more_digits;
 
 fn toss(k: f64, rate: [f64; 3], attitude: Attitude, time: f64) -> CoinToss {
@@ -274,17 +273,23 @@ fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
     assert!((rounded - expected).abs() > 1e-12);
 }
 
-/// In double-double, the error of a rate in turns grows with the phase to 3e-16 in the cosine.
+/// In double-double its error would be up to 3e-16 at the largest phases. Half a unit in the last place is 2^-54.
 #[test]
-fn cos_tilt_of_rates_in_turns_keeps_its_error_at_the_largest_phases() {
-    for index in 1..=500 {
-        let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
-        let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));
-        let launch = |time| Launch::in_unit(rate, AngleUnit::Turns(Unit::ONE), TimeOfFlight::Given(time)).unwrap();
-        let toss = |time| CoinToss { coin: Coin::PAPER, launch: launch(time) };
-        let toss = toss(8.5e15 / CoinMotion::new(&toss(1.0)).phase(1.0).unwrap());
-        let off = (exactly(cos_tilt(&toss).unwrap()) - in_more_digits(&toss, 256).to_big()).to_f64().value().abs();
-        assert!(off <= COS_TILT_ERROR, "{toss:?}: {off:e}");
+fn cos_tilt_is_the_nearest_f64_at_large_phases_and_of_rates_in_turns() {
+    let turn = AngleUnit::Turns(Unit::ONE);
+    for (unit, phase) in [(AngleUnit::RADIAN, 8.5e15), (AngleUnit::RADIAN, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
+        for index in 1..=100 {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
+            let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));
+            let toss = |time| {
+                let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time)).unwrap();
+                CoinToss { coin: Coin::DISC, launch: launch.with_tilt(0.3).unwrap() }
+            };
+            let toss = toss(phase / CoinMotion::new(&toss(1.0)).precession_rate());
+            let exact = in_more_digits(&toss, 256).to_big();
+            let off = (exactly(cos_tilt(&toss).unwrap()) - exact).to_f64().value().abs();
+            assert!(off <= 1.001 * 2f64.powi(-54), "{toss:?}: {off:e}");
+        }
     }
 }
 
