@@ -206,12 +206,12 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         let [mut before, mut last] = [zero, inverse.clone()];
         coefficients[1] = last.clone();
         // (1 + x²) k c_k = -2x (k - 1) c_{k-1} - (k - 2) c_{k-2}
-        for k in 2..=Self::ORDER {
+        for (k, coefficient) in (2..=Self::ORDER).zip(&mut coefficients[2..]) {
             #[expect(clippy::cast_precision_loss, reason = "at most 4")]
             let less = |by: usize| at.like((k - by) as f64);
             let sum = (at.clone() + at.clone()) * less(1) * last.clone() + less(2) * before;
             [before, last] = [last, -(sum * inverse.clone()) / less(0)];
-            coefficients[k] = last.clone();
+            *coefficient = last.clone();
         }
         self.composed(&coefficients)
     }
