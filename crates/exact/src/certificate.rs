@@ -172,9 +172,16 @@ mod tests {
         assert_eq!(Stage::ALL.map(|stage| counts.by(stage)), [8, 1, 1]);
         counts.add(Certificate::without_proof());
         assert_eq!((counts.ties(), counts.without_proof()), (2, 1));
-        let twice = counts + counts;
-        assert_eq!((twice.ties(), twice.without_proof()), (4, 2));
-        assert_eq!((twice.heads(), twice.tails()), (8, 10));
-        assert_eq!(Stage::ALL.map(|stage| twice.by(stage)), [16, 2, 4]);
+        let thrice = counts + counts + counts;
+        assert_eq!((thrice.ties(), thrice.without_proof()), (6, 3));
+        assert_eq!((thrice.heads(), thrice.tails()), (12, 15));
+        assert_eq!(Stage::ALL.map(|stage| thrice.by(stage)), [24, 3, 6]);
+    }
+
+    #[test]
+    fn stages_are_written_by_names_of_their_own() {
+        let names = Stage::ALL.map(Stage::name);
+        assert!(names[0] != names[1] && names[1] != names[2] && names[2] != names[0], "{names:?}");
+        assert_eq!(Stage::ALL.map(|stage| stage.to_string()), names);
     }
 }

@@ -50,7 +50,7 @@ use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 use crate::certificate::{Certificate, Stage};
 use crate::given::in_double_double;
-use crate::motion::CoinMotion;
+use crate::motion::{CoinMotion, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
 use crate::multiprecision::{by_multiprecision, rounded_cos_tilt};
 use crate::tilt_terms::{TiltTerms, cos_tilt_in};
 
@@ -67,15 +67,18 @@ pub(crate) fn certify_coin(toss: &CoinToss) -> Result<Certificate, SolveError> {
 }
 
 /// cos θ at landing to the error [`COS_TILT_ERROR`](crate::motion::COS_TILT_ERROR), and of the sign of the proven outcome:
-/// it is 0 for a tie alone. Near 0, where that error would take the leading digits, it is rounded from more digits.
+/// it is 0 for a tie alone. Near 0, where that error would take the leading digits, at large phases and for rates that are
+/// not in rad/s, it is rounded from more digits.
 ///
 /// # Errors
 /// As [`certify`](crate::certify).
 pub fn cos_tilt(toss: &CoinToss) -> Result<f64, SolveError> {
     // Above the error of double-double at any phase.
     const NEAR_0: f64 = 1e-9;
-    let cos_tilt = CoinMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
-    let is_right = cos_tilt.abs() > NEAR_0 && toss.launch.rate_error() == 0.0;
+    let (cos_tilt, phase) = CoinMotion::new(toss).cos_tilt_parts(toss.launch.time_of_flight())?;
+    let cos_tilt = cos_tilt.hi().clamp(-1.0, 1.0);
+    let is_short = phase.hi() <= LARGEST_PHASE_IN_DOUBLE_DOUBLE;
+    let is_right = is_short && cos_tilt.abs() > NEAR_0 && toss.launch.rate_error() == 0.0;
     Ok(if is_right { cos_tilt } else { rounded_cos_tilt(toss) })
 }
 

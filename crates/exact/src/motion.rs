@@ -18,8 +18,8 @@
 //! All rates are divided by a power of two near the largest of them, and times are multiplied by it. This is exact. It
 //! keeps squares from over- and underflow, and scaling ω by a power of two and t by its inverse changes no bit of the
 //! results. ωL and q, the phases ωL t and q t, and a, b, c are [`DoubleDouble`]. The remaining errors are the rounding
-//! of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for every phase up to the
-//! limit of 2^53 rad.
+//! of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for every phase up to 1e14 rad.
+//! Beyond it, double-double itself adds errors of cos θ of up to some 2e-16 at the limit of 2^53 rad.
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
@@ -32,8 +32,11 @@ use crate::heads::HeadsPhases;
 use crate::polar::{continuous_polar, flat, half_turns};
 use crate::tilt_terms::terms;
 
-/// Error of [`CoinMotion::cos_tilt`], provided that std's sine and cosine are right to 0.6 ulp.
+/// Error of [`CoinMotion::cos_tilt`] for phases up to 1e14 rad, provided that std's sine and cosine are right to 0.6 ulp.
 pub const COS_TILT_ERROR: f64 = 2.3e-16;
+
+/// Phase (rad) up to which the errors of double-double, some tens of u² of the phase, are small next to [`COS_TILT_ERROR`].
+pub(crate) const LARGEST_PHASE_IN_DOUBLE_DOUBLE: f64 = 1e14;
 
 /// The closed-form motion that follows a launch.
 #[derive(Debug, Clone, Copy, PartialEq)]

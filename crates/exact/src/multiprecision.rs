@@ -44,9 +44,14 @@ pub(crate) fn by_multiprecision(toss: &CoinToss) -> Outcome {
 /// cos θ at landing, rounded to f64 so that it keeps its sign. It is 0 for an exact tie alone.
 pub(crate) fn rounded_cos_tilt(toss: &CoinToss) -> f64 {
     const SMALLEST: f64 = f64::from_bits(1);
-    let Some(exact) = decided_cos_tilt(toss, |ball| ball.is_right_to(2f64.powi(-60))) else { return 0.0 };
+    let Some(exact) = decided_cos_tilt(toss, has_digits_of_f64) else { return 0.0 };
     let rounded = exact.to_f64();
     if rounded == 0.0 { exact.sign() * SMALLEST } else { rounded }
+}
+
+/// Whether a ball is right to 60 bits, so that its midpoint may be rounded to f64.
+pub(crate) fn has_digits_of_f64(ball: &WideBall) -> bool {
+    ball.is_right_to(2f64.powi(-60))
 }
 
 /// The first ball with cos θ at landing that has enough digits; `None` for an exact tie.

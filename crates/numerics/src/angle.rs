@@ -246,6 +246,17 @@ mod tests {
         }
     }
 
+    /// There the series of cos d counts alone, to its last term, which is 2^-71.8 at an angle of 1/32.
+    #[test]
+    fn cosines_of_small_angles_are_right_to_74_digits() {
+        for index in -64..=64 {
+            let angle = Angle::from(f64::from(index) / 2048.0);
+            let ([_, cos], [_, exact]) = (angle.sin_cos(), angle.sin_cos_in_digits(300));
+            let error = (exactly(cos.hi()) + exactly(cos.lo()) - exact).to_f64().value().abs();
+            assert!(error <= 2f64.powi(-74), "{angle:?} is off by 2^{}", error.log2());
+        }
+    }
+
     #[test]
     fn only_quarters_of_a_turn_have_a_sine_or_cosine_of_0() {
         let zero = exactly(0.0);
@@ -271,6 +282,8 @@ mod tests {
         assert_eq!(degrees(180.0).radians(), std::f64::consts::PI);
         assert_eq!(Angle::from(0.1).radians(), 0.1);
         assert_eq!(Angle::Turns(1e300.into()).radians(), 1e300 * std::f64::consts::TAU);
+        // Up to this size the second part is kept.
+        assert_ne!(Angle::Turns(1e290.into()).double_double().lo(), 0.0);
         assert_eq!(Angle::Turns(f64::MAX.into()).radians(), f64::INFINITY);
     }
 }

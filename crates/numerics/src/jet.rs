@@ -203,14 +203,15 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
         let (zero, one) = (at.like(0.0), at.like(1.0));
         let inverse = one.clone() / (one + at.clone() * at.clone());
         let mut coefficients = std::array::from_fn(|_| zero.clone());
-        coefficients[1] = inverse.clone();
+        let [mut before, mut last] = [zero, inverse.clone()];
+        coefficients[1] = last.clone();
         // (1 + x²) k c_k = -2x (k - 1) c_{k-1} - (k - 2) c_{k-2}
-        for k in 2..=Self::ORDER {
+        for (k, coefficient) in (2..=Self::ORDER).zip(&mut coefficients[2..]) {
             #[expect(clippy::cast_precision_loss, reason = "at most 4")]
-            let [k_f64, one_less, two_less] = [k, k - 1, k - 2].map(|k| at.like(k as f64));
-            let sum = (at.clone() + at.clone()) * one_less * coefficients[k - 1].clone()
-                + two_less * coefficients[k - 2].clone();
-            coefficients[k] = -(sum * inverse.clone()) / k_f64;
+            let less = |by: usize| at.like((k - by) as f64);
+            let sum = (at.clone() + at.clone()) * less(1) * last.clone() + less(2) * before;
+            [before, last] = [last, -(sum * inverse.clone()) / less(0)];
+            *coefficient = last.clone();
         }
         self.composed(&coefficients)
     }

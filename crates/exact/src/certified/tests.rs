@@ -2,6 +2,7 @@
 
 use dynamics::{AngleUnit, Attitude, Coin, Error, Launch, TimeOfFlight, Toss, Unit};
 use nalgebra::Vector3;
+use numerics::big::exactly;
 
 use super::*;
 use crate::certificate::ProvenCounts;
@@ -270,6 +271,26 @@ fn cos_tilt_is_that_of_rates_in_the_unit_they_were_given_in() {
     let expected = (std::f64::consts::TAU * (rate * time).fract()).cos();
     assert!((given - expected).abs() < 1e-15, "{given}, not {expected}");
     assert!((rounded - expected).abs() > 1e-12);
+}
+
+/// In double-double its error would be up to 3e-16 at the largest phases. Half a unit in the last place is 2^-54.
+#[test]
+fn cos_tilt_is_the_nearest_f64_at_large_phases_and_of_rates_in_turns() {
+    let turn = AngleUnit::Turns(Unit::ONE);
+    for (unit, phase) in [(AngleUnit::RADIAN, 8.5e15), (AngleUnit::RADIAN, 1.01e14), (turn, 8.5e15), (turn, 1e3)] {
+        for index in 1..=100 {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
+            let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));
+            let toss = |time| {
+                let launch = Launch::in_unit(rate, unit, TimeOfFlight::Given(time)).unwrap();
+                CoinToss { coin: Coin::DISC, launch: launch.with_tilt(0.3).unwrap() }
+            };
+            let toss = toss(phase / CoinMotion::new(&toss(1.0)).precession_rate());
+            let exact = in_more_digits(&toss, 256).to_big();
+            let off = (exactly(cos_tilt(&toss).unwrap()) - exact).to_f64().value().abs();
+            assert!(off <= 1.001 * 2f64.powi(-54), "{toss:?}: {off:e}");
+        }
+    }
 }
 
 #[test]

@@ -12,7 +12,8 @@ use super::{ExactMotion, cos_tilt};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::{self, certify_coin};
 use crate::given::{in_digits, in_double_double, rounded, scaled};
-use crate::motion::COS_TILT_ERROR;
+use crate::motion::{COS_TILT_ERROR, LARGEST_PHASE_IN_DOUBLE_DOUBLE};
+use crate::multiprecision::has_digits_of_f64;
 use crate::rigid::curve::Curve;
 
 /// Digits of the stages after double-double. The last are for rates that differ by more than 1e135.
@@ -20,6 +21,9 @@ const DIGITS: [usize; 3] = [256, 448, 960];
 
 /// Phases (rad) from which on f64 is not tried.
 const LARGEST_PHASE_IN_F64: f64 = 1e12;
+
+/// Error of cos θ in double-double at phases from [`LARGEST_PHASE_IN_DOUBLE_DOUBLE`] to 2^53 rad, 90 u² of the phase.
+const ERROR_AT_LARGE_PHASES: f64 = 1e-14;
 
 /// Proves the outcome of a toss.
 ///
@@ -58,13 +62,14 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
             false => rounded(cos_tilt),
         });
     }
-    let cos_tilt = ExactMotion::new(toss).cos_tilt(toss.launch.time_of_flight())?;
-    if cos_tilt.abs() > COS_TILT_ERROR {
-        return Ok((cos_tilt, COS_TILT_ERROR));
+    let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
+    let (cos_tilt, phase) = (motion.cos_tilt(time)?, motion.phase(time)?);
+    let error = if phase <= LARGEST_PHASE_IN_DOUBLE_DOUBLE { COS_TILT_ERROR } else { ERROR_AT_LARGE_PHASES };
+    if cos_tilt.abs() > error {
+        return Ok((cos_tilt, error));
     }
-    let is_right = |cos_tilt: &WideBall| cos_tilt.is_right_to(2f64.powi(-60));
-    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits).filter(is_right));
-    Ok(with_digits.map_or((0.0, COS_TILT_ERROR), |cos_tilt| rounded(cos_tilt.to_f64())))
+    let with_digits = DIGITS.iter().find_map(|digits| cos_tilt_in_digits(toss, *digits).filter(has_digits_of_f64));
+    Ok(with_digits.map_or((0.0, error), |cos_tilt| rounded(cos_tilt.to_f64())))
 }
 
 impl ProvenCounts {
@@ -129,6 +134,7 @@ fn cos_tilt_in_digits(toss: &Toss, digits: usize) -> Option<WideBall> {
 mod tests {
     use dynamics::{AngleUnit, Attitude, Body, Launch, TimeOfFlight};
     use numerics::DoubleDouble;
+    use numerics::big::exactly;
 
     use super::*;
 
@@ -220,6 +226,27 @@ mod tests {
             let farthest = DoubleDouble::from(fine.lo().abs()) + DoubleDouble::from(radius);
             assert!(*found.midpoint() == fine.hi() && (DoubleDouble::from(found.radius()) - farthest).hi() >= 0.0);
             assert!(found.radius() <= (1.0 + 4.0 * f64::EPSILON) * farthest.hi());
+        }
+    }
+
+    /// Some launches are off by up to 3e-16.
+    #[test]
+    fn cos_tilt_is_within_its_error_at_the_largest_phases() {
+        for index in 1..=60 {
+            let part = |square: f64| (f64::from(index) * square.sqrt()).fract() - 0.5;
+            let rate = [2.0, 3.0, 5.0].map(|square| 160.0 * part(square));
+            let toss = |time| {
+                let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap().with_tilt(0.3).unwrap();
+                Toss { body: Body::from_moments([1.0, 2.0, 3.0]).unwrap(), launch }
+            };
+            let turned = ExactMotion::new(&toss(1.0)).phase(1.0).unwrap();
+            for (phase, most) in [(0.99e14, COS_TILT_ERROR), (8.5e15, ERROR_AT_LARGE_PHASES)] {
+                let toss = toss(phase / turned);
+                let (cos_tilt, error) = cos_tilt_with_error(&toss).unwrap();
+                let exact = cos_tilt_in_digits(&toss, 256).unwrap().to_big();
+                let off = (exactly(cos_tilt) - exact).to_f64().value().abs();
+                assert!(off <= error && error == most, "{toss:?}: {off:e} {error:e}");
+            }
         }
     }
 

@@ -374,6 +374,27 @@ mod tests {
         assert_eq!(one.digits(), 200);
     }
 
+    #[test]
+    fn a_number_of_more_digits_is_right_to_its_rounding_and_one_of_as_many_is_exact() {
+        let (like, fine) = (WideBall::new(big(0.0, MANY), &part(0.0)), big(1.0, 900) / big(3.0, 900));
+        let found = like.like_big(&fine);
+        assert!(contains(&found, &fine) && found.error() < 2f64.powi(-190), "{found:?}");
+        assert_eq!(like.like_big(found.midpoint()).error(), 0.0);
+        assert_eq!(found.to_f64(), 1.0 / 3.0);
+    }
+
+    /// A radius has 64 digits, and f64 has 53: to the nearest, it would be below every other radius.
+    #[test]
+    fn the_error_in_f64_is_not_below_the_radius_and_hardly_above_it() {
+        for last in 1..40 {
+            let radius = part(1.0) + (part(f64::from(last)) >> 57);
+            let ball = WideBall::new(big(1.0, MANY), &radius);
+            let radius = ball.radius.as_ref().unwrap();
+            let error = exactly(ball.error());
+            assert!(*radius <= error && error <= radius * part(1.0 + 8.0 * f64::EPSILON), "{last}: {radius:?}");
+        }
+    }
+
     /// The size of the divisor is rounded to 64 digits, and a difference magnifies that.
     #[test]
     fn a_quotient_by_a_ball_that_nearly_holds_0_allows_for_the_rounding_of_its_size() {

@@ -49,6 +49,29 @@ fn bounded(constants: &Constants, tosses: Tosses<'_, Body>) -> Vec<[f64; 3]> {
     found
 }
 
+/// What is written for cos θ times the norm, the norm, and the bound of the error of cos θ.
+struct Written([f64; 3]);
+
+impl WithSimd for Written {
+    type Output = f64;
+
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let [height, norm, bound] = self.0.map(|part| Real::splat(simd, part));
+        Height { height, norm, bound }.written().first()
+    }
+}
+
+#[test]
+fn heights_are_written_where_cos_tilt_is_beyond_its_bound() {
+    for norm in [0.15, 4.0] {
+        for (cos_tilt, bound, is_written) in [(0.9, 0.8, true), (-0.8, 0.9, false), (-1e-12, 0.9e-12, true)] {
+            let height = cos_tilt * norm;
+            let written = SimdLevel::for_one_lane().run(Written([height, norm, bound]));
+            assert_eq!(written, if is_written { height } else { 0.0 }, "{cos_tilt} to {bound}, norm {norm}");
+        }
+    }
+}
+
 /// The largest ratio of an error to its bound, of the tosses whose bounds are in a range.
 fn largest_ratio(tosses: Tosses<'_, Body>, bounds: Range<f64>) -> (f64, usize) {
     let found = bounded(&Constants::new(&tosses).unwrap(), tosses);
@@ -168,7 +191,9 @@ fn counts_are_the_same_by_every_filter() {
         let batch = Batch::new(*tosses);
         let expected = batch.count().unwrap();
         for other in &all {
-            assert_eq!(batch.count_by(&BodyFilter::new(other)).unwrap(), expected);
+            let filter = BodyFilter::new(other);
+            assert!(filter.constants_of(tosses).is_some());
+            assert_eq!(batch.count_by(&filter).unwrap(), expected);
         }
     }
 }
