@@ -187,8 +187,11 @@ mod tests {
         let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
         assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
         assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));
-        // A solver that proves nothing has no outcome of a coarse flight either.
         let heads = Toss::new(Coin::DISC, Launch::new([0.5, 0.25, 9.0], TimeOfFlight::Given(1.0)).unwrap());
+        // A solver that is as coarse as a coarse flight needs no other one.
+        let decided = solver(COARSE).decide(&[heads], SimdLevel::widest()).remove(0).unwrap();
+        assert_eq!((decided.outcome, decided.integration), (Outcome::Heads, Integration::AsConfigured));
+        // A solver that proves nothing has no outcome of a coarse flight either.
         let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
         assert_eq!(solver(1e-9).prove_outcomes(&[heads], SimdLevel::widest()), [Ok(Outcome::Heads)]);
         for stepping in [Stepping::DEFAULT, taylor] {

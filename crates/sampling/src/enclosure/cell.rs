@@ -898,6 +898,11 @@ mod tests {
         let found = Function { middle, whole: slopes(exactly(0.5), exactly(0.25)) }.mean_of_positive_part(Power::One);
         let [lo, hi] = positive_part::mean(0.125, &[0.5, 0.25], 0.06, Power::One);
         assert!(found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo), "{found:?}");
+        for unknown in [Ball::new(0.5, f64::INFINITY), Ball::new(f64::INFINITY, 0.0)] {
+            let function = Function { middle: Jet::<_, 6>::constant(unknown), whole: Jet::constant(unknown) };
+            let found = function.mean_of_positive_part(Power::One);
+            assert_eq!((found.lo, found.hi), (0.0, f64::INFINITY), "{unknown:?}");
+        }
     }
 
     /// A function that is known to be within a ball about the middle, and its slopes, is within the sum.

@@ -347,6 +347,48 @@ fn a_sum_of_which_nothing_is_known_has_all_probabilities() {
     assert_eq!(ends(0.5, 0.25), Interval { lo: 0.25_f64.next_down(), hi: 0.75_f64.next_up() });
 }
 
+/// In units in the last place of ¾: the parts of the middle add to the radius.
+#[test]
+fn the_ends_of_a_sum_have_room_for_its_low_part() {
+    let unit = 0.5 * f64::EPSILON;
+    for low in [0.45, -0.45] {
+        let sum = Ball::new(DoubleDouble::from(0.75) + DoubleDouble::from(low * unit), 10.9 * unit);
+        let [lo, hi] = [ends(&sum).lo, ends(&sum).hi].map(|end| (end - 0.75) / unit);
+        assert!((-13.0..=low - 10.9).contains(&lo) && (low + 10.9..=13.0).contains(&hi), "{low}: {lo} {hi}");
+    }
+}
+
+/// A coin that turns by less than it is tilted shows one face. One that turns by more may show both.
+#[test]
+fn a_coin_that_hardly_turns_shows_one_face() {
+    let with = |tilt: f64| {
+        let space = Space::builder(Coin::PAPER).rate_x(1.25..=1.5).rate_y(0.0).rate_z(1.0).speed(2.0..=3.0);
+        space.tilt(tilt).build().unwrap()
+    };
+    for (tilt, share) in [(0.25, 1.0), (3.0, 0.0)] {
+        let space = with(tilt);
+        let (directions, _) = directions_of(&space);
+        let problem = Problem::new(&space, space.coin().unwrap(), false);
+        let found = bounds_in(&problem, &roots(&directions)[0], 1, 0.0);
+        assert_eq!((found.lo, found.hi), (share, share), "{tilt}");
+    }
+    let shares = [0.8, 0.9, 1.4].map(|tilt| {
+        assert_contains(&with(tilt), 1, 1e-12);
+        mean_of_shares(&with(tilt), &roots(&directions_of(&with(tilt)).0)[0], 64)
+    });
+    assert!(shares.iter().any(|share| (0.1..0.9).contains(share)), "{shares:?}");
+}
+
+/// The density of a cell adds to its width, which tells in what direction it is halved.
+#[test]
+fn one_speed_with_normal_rates_takes_few_cells() {
+    let normal = crate::Axis::normal;
+    let space = Space::builder(Coin::PAPER).rate_x(2.0).rate_y(normal(20.0, 1.0)).rate_z(normal(8.0, 0.5)).speed(3.0);
+    let space = space.build().unwrap();
+    let found = enclosed(SILENT, (&space, space.coin().unwrap()), 1e-2, 1 << 16);
+    assert!(found.interval.width() <= 2e-2 && found.cells.abs_diff(973) < 20, "{found:?}");
+}
+
 #[test]
 fn what_cannot_be_enclosed_is_refused_with_a_reason() {
     let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1.0..=2.0).rate_z(3.0).speed(3.0..=5.0);
