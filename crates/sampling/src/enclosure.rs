@@ -269,11 +269,11 @@ impl<'a> Work<'a> {
             Some(sum)
         };
         #[cfg(feature = "rayon")]
-        let sums: Vec<_> = waiting.par_iter().map(of_first).collect();
+        let sums: Option<Vec<_>> = waiting.par_iter().map(of_first).collect();
         #[cfg(not(feature = "rayon"))]
-        let sums: Vec<_> = waiting.iter().map(of_first).collect();
-        for part in sums {
-            sum = sum + part?;
+        let sums: Option<Vec<_>> = waiting.iter().map(of_first).collect();
+        for part in sums? {
+            sum = sum + part;
         }
         Some((sum, cells.into_inner()))
     }

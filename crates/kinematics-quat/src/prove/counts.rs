@@ -129,6 +129,7 @@ mod tests {
         let solver = QuaternionSolver::new(taylor, Formulation::default());
         for attitude in [Attitude::IDENTITY, edge] {
             let (proving, mut found) = (Proving::new(solver).unwrap(), [UNSET; 4]);
+            assert_eq!((proving.name(), proving.stepping()), (solver.name(), solver.stepping()));
             let tosses = Tosses::new(Coin::PAPER, attitude, 9.81, [&x, &y, &z], &speed).unwrap();
             let each = tosses.each().unwrap();
             proving.tilts(&each, &mut found).unwrap();

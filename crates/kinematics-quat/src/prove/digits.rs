@@ -52,18 +52,11 @@ type Pair<T> = [T; 2];
 /// [`SolveError::StepLimit`] for more than a million steps.
 fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveError> {
     let given = Given::new(toss, like);
-    let fastest = given.eta.to_f64() + given.half_z.to_f64().abs() + given.q.to_f64().abs();
-    // Steps in which the terms of the series fall like those of e^½.
-    let steps = (2.0 * fastest * (1.0 + 1e-9)).ceil().max(1.0);
-    if steps > f64::from(STEP_LIMIT) {
-        return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
-    }
-    let parts = like.like(steps);
+    let steps = steps(given.eta.to_f64() + given.half_z.to_f64().abs() + given.q.to_f64().abs())?;
+    let parts = like.like(f64::from(steps));
     let [eta, half_z, q] = [&given.eta, &given.half_z, &given.q].map(|turn| turn.clone() / parts.clone());
     let order = order(like.digits());
     let series = Series::new(&eta, &half_z, &q, order);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number up to the limit")]
-    let steps = steps as u32;
     let flown = Flown::new(&series, &given.direction, steps);
     let turn = flown.turn.map(|part| Ball::new(part, 0.0));
     let cos_tilt = cos_tilt(&given.vertical, &turn).widened(2.0 * flown.bound);
@@ -76,6 +69,16 @@ fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveE
     let cos_bound = (cos_tilt.radius() + 1.01 * UNIT_ROUNDOFF * rounded.abs() + f64::from_bits(1)).min(2.0);
     let turn = turn.map(|part| part.to_f64());
     Ok(Landing { outcome, turn, attitude_bound: flown.bound, cos_tilt: rounded, cos_bound, steps, order })
+}
+
+/// The number of steps for this sum of turns (rad), in which the terms of the series fall like those of e^½.
+fn steps(turns: f64) -> Result<u32, SolveError> {
+    let steps = (2.0 * turns * (1.0 + 1e-9)).ceil().max(1.0);
+    if steps > f64::from(STEP_LIMIT) {
+        return Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT });
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number up to the limit")]
+    Ok(steps as u32)
 }
 
 /// The smallest order with 4/(order + 1)! ≤ 2^-(digits + 8).
@@ -271,5 +274,12 @@ mod tests {
         let still = Launch::new([0.0; 3], TimeOfFlight::Given(1.0)).unwrap();
         let found = in_double_double(&CoinToss { coin: Coin::DISC, launch: still }).unwrap();
         assert_eq!((found.steps, found.outcome), (1, Outcome::Heads));
+    }
+
+    #[test]
+    fn a_flight_takes_up_to_a_million_steps() {
+        let half = 0.5 * f64::from(STEP_LIMIT);
+        assert_eq!(steps(half - 0.1), Ok(STEP_LIMIT));
+        assert_eq!(steps(half), Err(SolveError::StepLimit { time: 0.0, limit: STEP_LIMIT }), "with its margin");
     }
 }

@@ -117,7 +117,7 @@ fn coarse(tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveErr
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Attitude, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight};
+    use dynamics::{Attitude, Body, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight};
 
     use super::*;
 
@@ -167,6 +167,18 @@ mod tests {
         }
     }
 
+    /// A body that is as near to its edge as the last digit tells, whose certificate has a cos θ within its bound.
+    #[test]
+    fn an_undecided_body_has_no_cos_tilt() {
+        let nearly = Attitude::from_components([1.0, 1.0 + f64::EPSILON, 0.0, 0.0]).unwrap();
+        let launch = Launch::new([0.0, 7.0, 0.0], TimeOfFlight::Given(0.3)).unwrap().with_attitude(nearly);
+        let toss = Toss { body: Body::from_moments([1.0, 2.0, 2.5]).unwrap(), launch };
+        let certificate = solver(1e-9).certify(&toss).unwrap();
+        assert!(certificate.outcome() == Outcome::Undecided && certificate.cos_tilt() != 0.0, "{certificate:?}");
+        let decided = solver(1e-9).decide(&[toss], SimdLevel::for_one_lane()).remove(0).unwrap();
+        assert_eq!((decided.outcome, decided.cos_tilt, decided.bound), (Outcome::Undecided, 0.0, 2.0));
+    }
+
     #[test]
     fn ties_stay_undecided_and_errors_are_those_of_the_certificates() {
         let edge = Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap();
@@ -175,9 +187,19 @@ mod tests {
         let found = solver(1e-9).prove_outcomes(&tosses, SimdLevel::widest());
         assert_eq!(found[..2], [Ok(Outcome::Undecided), Ok(Outcome::Undecided)]);
         assert!(matches!(found[2], Err(SolveError::PhaseTooLarge { .. })));
-        let raw = QuaternionSolver::new(Stepping::DEFAULT, Formulation::RAW);
-        let refused = raw.prove_outcomes(&tosses[..1], SimdLevel::widest());
-        assert!(matches!(refused[0], Err(SolveError::NotProven { .. })));
+        let heads = Toss::new(Coin::DISC, Launch::new([0.5, 0.25, 9.0], TimeOfFlight::Given(1.0)).unwrap());
+        // A solver that is as coarse as a coarse flight needs no other one.
+        let decided = solver(COARSE).decide(&[heads], SimdLevel::widest()).remove(0).unwrap();
+        assert_eq!((decided.outcome, decided.integration), (Outcome::Heads, Integration::AsConfigured));
+        // A solver that proves nothing has no outcome of a coarse flight either.
+        let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
+        assert_eq!(solver(1e-9).prove_outcomes(&[heads], SimdLevel::widest()), [Ok(Outcome::Heads)]);
+        for stepping in [Stepping::DEFAULT, taylor] {
+            let raw = QuaternionSolver::new(stepping, Formulation::RAW);
+            for refused in raw.prove_outcomes(&[tosses[0], heads], SimdLevel::widest()) {
+                assert!(matches!(refused, Err(SolveError::NotProven { .. })), "{refused:?}");
+            }
+        }
         assert_eq!(solver(1e-2).prove_outcomes(&tosses[..1], SimdLevel::widest()), [Ok(Outcome::Undecided)]);
     }
 }

@@ -814,6 +814,11 @@ mod tests {
             for reach in [least, most] {
                 assert!(reach >= expected && reach < expected * (1.0 + 1e-12), "{exponents:?}: {found:?}");
             }
+            // Each direction adds to it as its exponent says.
+            for (by, exponent) in found.by.iter().zip(exponents) {
+                let part = expected * f64::from(exponent) / f64::from(exponents.iter().sum::<i32>());
+                assert!((by - part).abs() < 1e-12, "{exponents:?}: {found:?}");
+            }
             // A known one has a mean of its own.
             let known = mean(&Jet::<_, 6>::constant(exactly(0.0)), &monomial::<F>(exponents, exactly(1.0)));
             let own = if exponents.iter().all(|exponent| exponent % 2 == 0) { expected } else { 0.0 };
@@ -864,6 +869,39 @@ mod tests {
                 );
                 assert!(exact.mean_of_positive_part(power).width() < 1e-14);
             }
+        }
+    }
+
+    #[test]
+    fn balls_meet_unless_they_are_known_to_be_apart() {
+        for (one, other, expected) in [(0.25, 0.5, false), (0.5, 0.5, true), (1.0, 0.25, true), (f64::NAN, 0.0, true)] {
+            assert_eq!(meet(&Ball::new(-1.0, one), &Ball::new(0.0, other)), expected, "{one} {other}");
+            assert_eq!(meet(&Ball::new(0.0, other), &Ball::new(-1.0, one)), expected, "{one} {other}");
+        }
+    }
+
+    #[test]
+    fn sums_and_differences_of_bounds_contain_those_of_the_ends() {
+        let [one, other] = [[1.0, 2.0], [0.5, 0.75]].map(|[lo, hi]| Bounds { lo, hi, by: [1.0; MOST_DIRECTIONS] });
+        for (sign, [lo, hi]) in [(1.0, [1.5, 2.75]), (-1.0, [0.25, 1.5])] {
+            let found = one.plus(sign, other);
+            assert!(found.lo < lo && hi < found.hi && found.width() < hi - lo + 1e-14, "{sign}: {found:?}");
+            assert_eq!(found.by, [2.0; MOST_DIRECTIONS]);
+        }
+    }
+
+    /// Slopes that are known to be within balls add to what a function is off, and so does the value.
+    #[test]
+    fn a_positive_part_allows_for_unknown_slopes() {
+        let slopes = |one: Ball<f64>, other: Ball<f64>| monomial::<6>([1, 0], one) + monomial([0, 1], other);
+        let middle = slopes(Ball::new(0.5, 0.01), Ball::new(0.25, 0.02)) + Jet::constant(Ball::new(0.125, 0.03));
+        let found = Function { middle, whole: slopes(exactly(0.5), exactly(0.25)) }.mean_of_positive_part(Power::One);
+        let [lo, hi] = positive_part::mean(0.125, &[0.5, 0.25], 0.06, Power::One);
+        assert!(found.lo <= lo && found.hi >= hi && found.width() < 1.001 * (hi - lo), "{found:?}");
+        for unknown in [Ball::new(0.5, f64::INFINITY), Ball::new(f64::INFINITY, 0.0)] {
+            let function = Function { middle: Jet::<_, 6>::constant(unknown), whole: Jet::constant(unknown) };
+            let found = function.mean_of_positive_part(Power::One);
+            assert_eq!((found.lo, found.hi), (0.0, f64::INFINITY), "{unknown:?}");
         }
     }
 

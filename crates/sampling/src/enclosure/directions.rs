@@ -226,3 +226,64 @@ impl Rectangle {
         Some(Some(Arc { from, to, density }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::Coin;
+
+    use super::*;
+
+    const POINTS: u32 = 200;
+
+    /// The sums of the density, and of the density times the square of the value, over all parts of a coordinate.
+    fn sums(parts: &[Direction]) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for part in parts {
+            for point in 0..POINTS {
+                let s = (f64::from(point) + 0.5) / f64::from(POINTS);
+                let (value, density) = part.at(Jet::<_, 3>::constant(Ball::new(s, 0.0)));
+                let density = density.map_or(1.0, |density| density.to_f64()) / f64::from(POINTS);
+                sums[0] += density;
+                sums[1] += density * value.to_f64().powi(2);
+            }
+        }
+        sums
+    }
+
+    /// The mean of the square is that of the distribution.
+    fn mean_square(axis: Axis) -> f64 {
+        match axis.distribution() {
+            Distribution::Uniform { lo, hi } => (lo * lo + lo * hi + hi * hi) / 3.0,
+            Distribution::Normal { mean, sd } => mean * mean + sd * sd,
+        }
+    }
+
+    #[test]
+    fn densities_have_the_sum_1_and_the_mean_square_of_their_axes() {
+        let ranges = [1.0..=3.0, -3.0..=-1.0, -1.0..=2.0, -2.0..=2.0, 0.0..=1.5].map(Axis::from);
+        for x in ranges.into_iter().chain([Axis::normal(3.0, 0.25), Axis::normal(-1.0, 4.0)]) {
+            let [all, square] = sums(&[Direction::of_axis(RateX, x)]);
+            assert!((all - 1.0).abs() < 1e-9 && (square - mean_square(x)).abs() < 1e-4, "{x:?}: {all} {square}");
+            for y in ranges {
+                let Some(across) = Direction::across(x, y) else { continue };
+                let ([all, square], expected) = (sums(&across), mean_square(x) + mean_square(y));
+                assert!((all - 1.0).abs() < 1e-4 && (square - expected).abs() < 1e-3, "{x:?} {y:?}: {all} {square}");
+            }
+        }
+        assert!(Direction::across(ranges[0], Axis::normal(3.0, 0.25)).is_none());
+    }
+
+    /// Two ranges count as one coordinate unless their ends are rounded too roughly.
+    #[test]
+    fn one_coordinate_takes_the_place_of_two_wide_ranges() {
+        let found = |y: std::ops::RangeInclusive<f64>| {
+            let space = Space::builder(Coin::PAPER).rate_x(3.0..=4.0).rate_y(y).rate_z(2.0).speed(2.0..=3.0);
+            let (directions, roundings) = directions_of(&space.build().unwrap());
+            (directions.len(), roundings / f64::EPSILON)
+        };
+        // An end of (lo, hi) is off by u of its size, which is so many parts of the length: 7 of x, and 17 of y.
+        let (number, roundings) = found(1.0..=1.125);
+        assert!(number == 1 && (24.0..50.0).contains(&roundings), "{number} {roundings}");
+        assert_eq!(found(1.0..=1.000_001), (2, 0.0));
+    }
+}
