@@ -70,7 +70,7 @@ fn landing(backend: &Backend, toss: &Toss) -> Result<Landing, Failure> {
         Backend::Exact(_) => {
             let certificate = certify(toss)?;
             let stage = certificate.is_proven().then(|| certificate.stage().name());
-            (certificate.outcome(), stage, Some(COS_TILT_ERROR))
+            (certificate.outcome(), stage, landing.error.map(of_state))
         }
         Backend::Solver(_) => (landing.outcome(), None, landing.error),
     };
@@ -275,12 +275,20 @@ fn solved(
     stop: &Stop,
 ) -> Result<(Vec<State>, Work, Option<f64>), Failure> {
     match backend {
-        Backend::Exact(_) => Ok((exactly(toss, times, stop)?, Work::default(), Some(COS_TILT_ERROR))),
+        Backend::Exact(solver) => {
+            let estimate = solver.tilt(toss)?.error.map(of_state);
+            Ok((exactly(toss, times, stop)?, Work::default(), estimate))
+        }
         Backend::Solver(solver) => {
             let (states, work) = by_legs(solver, toss, times, stop)?;
             Ok((states, work, error_estimate(solver, toss)?))
         }
     }
+}
+
+/// The error of cos θ of a state of the exact motion, from the `error` of its cos θ alone, which near 0 is smaller.
+fn of_state(error: f64) -> f64 {
+    error.max(COS_TILT_ERROR)
 }
 
 /// The error estimate of a flight from launch to landing. Only that of Taylor series takes the flight itself.
