@@ -215,4 +215,18 @@ mod tests {
         assert_eq!((in_double_double(&toss(0.0), phase), in_digits(&toss(0.0))), (None, None));
         assert!(in_digits(&toss(-1e-15)).is_some());
     }
+
+    /// With L along (1, 0, 2) and the vertical along (-3, 12, 4), half a turn about L takes cos θ from 4/13 to exactly 0.
+    #[test]
+    fn a_flip_after_half_a_turn_is_one_in_many_digits() {
+        let attitude = dynamics::Attitude::from_components([17.0, 12.0, 3.0, 0.0]).unwrap();
+        let launch = Launch::new([1.0, 0.0, 2.0], TimeOfFlight::Given(0.0)).unwrap().with_attitude(attitude);
+        let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let phases = in_digits(&toss).unwrap().map(|half| (2.0 * half).rem_euclid(TAU));
+        assert!(phases[0] == PI && phases[1] != PI, "{phases:?}");
+        for phase in phases {
+            let cos_tilt = CoinMotion::new(&toss).cos_tilt(phase / 5f64.sqrt()).unwrap();
+            assert!(cos_tilt.abs() < 1e-15, "{phase}: {cos_tilt:e}");
+        }
+    }
 }
