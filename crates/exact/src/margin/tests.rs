@@ -109,6 +109,41 @@ fn a_flip_at_once_after_the_launch_is_one() {
     }
 }
 
+/// L along (1e-7, 1, 1) takes the normal from 6e-17 above the edge to below it and back within 3e-7 rad: cos θ is that less
+/// 7e-8 φ and more by φ²/4.
+#[test]
+fn a_dip_below_the_edge_between_launch_and_landing_is_two_flips() {
+    let toss = |time| {
+        let launch = Launch::new(Vector3::new(1e-7, 1.0, 1.0), TimeOfFlight::Given(time)).unwrap();
+        let launch = launch.with_tilt(std::f64::consts::FRAC_PI_2).unwrap();
+        CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch }
+    };
+    for time in [2.5e-7, 4e-7] {
+        let found = time_margin(&toss(time)).unwrap();
+        assert!((time + found - 2e-7).abs() < 1e-9, "{time:e}: {found:e}");
+    }
+}
+
+/// Of 10^13 turns a rate tells some thousandths.
+#[test]
+fn margins_of_large_phases_are_flips() {
+    for rate in [[1e12, 3.0, 5.0], [3.0, -1e12, 5.0], [1e12, -2e12, 2e12]] {
+        let toss = |rate: Vector3<f64>| {
+            let launch = Launch::new(rate, TimeOfFlight::Given(1.0)).unwrap().with_tilt(0.4).unwrap();
+            CoinToss { coin: Coin::from_moments(1.0, 1.3).unwrap(), launch }
+        };
+        let found = margin_coin(&toss(rate.into())).unwrap();
+        assert!(found.rate.iter().any(Option::is_some), "{rate:?}: {found:?}");
+        for (axis, change) in found.rate.into_iter().enumerate() {
+            let Some(change) = change else { continue };
+            let at = |part: f64| certify_coin(&toss(Vector3::from(rate) + Vector3::ith(axis, part * change))).unwrap();
+            let slack = 1e-12 + 5e-4 / change.abs();
+            assert_ne!(at(1.0 - slack).outcome(), at(1.0 + slack).outcome(), "{rate:?} {axis}: {change}");
+            assert!(slack < 0.1 || at(0.0).outcome() == at(1.0 - slack).outcome(), "{rate:?} {axis}: {change}");
+        }
+    }
+}
+
 /// Caught 1.5 m below, no flight is shorter than the fall from rest, 0.553 s: of the flips at 0.5 s and 1.5 s only the
 /// later one can be had.
 #[test]

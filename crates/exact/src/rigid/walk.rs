@@ -335,4 +335,19 @@ mod tests {
         }
         assert!(spent > 20, "{spent}");
     }
+
+    /// A rate below 10^-250 in another unit has fewer digits of its own, which are enough for a motion of such rates alone.
+    #[test]
+    fn tiny_rates_in_another_unit_have_the_outcome_of_the_scaled_motion() {
+        let thirds = dynamics::AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap());
+        let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+        for time in [0.3, 1.0, 1.7] {
+            let [found, expected] = [1e-260, 1.0].map(|scale: f64| {
+                let rate = [18.0, 9.0, 12.0].map(|part: f64| part * scale);
+                let launch = Launch::in_unit(rate, thirds, TimeOfFlight::Given(time / scale)).unwrap();
+                Line::new(&Toss { body, launch }, Input::Time).outcome_at(0.0)
+            });
+            assert!(found == expected && found != Outcome::Undecided, "{time}: {found:?} {expected:?}");
+        }
+    }
 }

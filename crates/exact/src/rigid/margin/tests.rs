@@ -267,6 +267,26 @@ fn ranges_next_to_a_flip_have_the_faces_of_their_ends() {
     }
 }
 
+/// Where all speeds land heads, that is one interval with the very ends of the range, and of no range there is none.
+#[test]
+fn the_ends_of_a_range_that_lands_heads_are_those_given() {
+    for moments in [[1.0, 1.0, 2.0], [1.0, 2.0, 2.5]] {
+        let steady = toss(moments, [0.1, 0.2, 30.0], TimeOfFlight::Given(1.0), 0.1);
+        for (drop, step) in
+            [None, Some(0.4), Some(-0.4)].into_iter().flat_map(|drop| (0..20).map(move |step| (drop, step)))
+        {
+            let [slow, fast] = [3.1 + 0.07 * f64::from(step), 5.3 + 0.11 * f64::from(step)];
+            let heads = |slowest, fastest| {
+                speeds_of_heads(&with_flight(&steady, TimeOfFlight::thrown(fastest, 9.81, drop)), slowest).unwrap()
+            };
+            assert_eq!(heads(slow, fast), Some(vec![[slow, fast]]), "{moments:?} {drop:?}");
+            if moments[1] != 1.0 {
+                assert_eq!([heads(fast, fast), heads(fast, slow)], [Some(vec![]), Some(vec![])], "{drop:?}");
+            }
+        }
+    }
+}
+
 /// At the speed 0 the body is on edge, which is not a flip and does not end the search.
 #[test]
 fn intervals_may_begin_on_edge() {
