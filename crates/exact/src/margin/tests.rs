@@ -144,6 +144,24 @@ fn margins_of_large_phases_are_flips() {
     }
 }
 
+/// cos θ = cos φ, with a phase that is `left` less than the largest one that has an outcome.
+#[test]
+fn no_margin_leads_to_a_phase_that_is_too_large() {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    let mut beyond = 0;
+    for left in (1..40).map(f64::from) {
+        let phase = LARGEST_PHASE - left;
+        let launch = Launch::new(Vector3::new(1.0, 0.0, 0.0), TimeOfFlight::Given(phase)).unwrap();
+        let found = margin_coin(&CoinToss { coin: Coin::DISC, launch }).unwrap();
+        let later = (FRAC_PI_2 - phase.sin().atan2(phase.cos())).rem_euclid(PI);
+        let expected = if later < left && later < PI - later { later } else { later - PI };
+        beyond += u32::from(later >= left && later < PI - later);
+        let changes = [found.time.unwrap(), found.rate[0].unwrap() * phase];
+        assert!(changes.iter().all(|change| (change - expected).abs() < 1e-12), "{left}: {changes:?} {expected}");
+    }
+    assert!(beyond > 0);
+}
+
 /// Caught 1.5 m below, no flight is shorter than the fall from rest, 0.553 s: of the flips at 0.5 s and 1.5 s only the
 /// later one can be had.
 #[test]

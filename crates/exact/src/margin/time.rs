@@ -77,7 +77,7 @@ fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64;
     let [by_g, by_q] = halves([&f, &slope, &g, &root]).map(|tangent| tangent.hi().atan());
     let off_g = (q_error * g_size + g_error * q_size) / (q_size * q_size + g_size * g_size);
     let off_q = error / f.hi().abs() + q_error / q_size;
-    let is_right = q_error < 0.1 * q_size && off_g < RESOLUTION * by_g.abs() && off_q < RESOLUTION;
+    let is_right = off_g < RESOLUTION * by_g.abs() && off_q < RESOLUTION;
     is_right.then_some(Some([by_g, by_q]))
 }
 
@@ -229,6 +229,16 @@ mod tests {
         for phase in phases {
             let cos_tilt = CoinMotion::new(&toss).cos_tilt(phase / 5f64.sqrt()).unwrap();
             assert!(cos_tilt.abs() < 1e-15, "{phase}: {cos_tilt:e}");
+        }
+    }
+
+    #[test]
+    fn the_nearer_flip_loses_no_digit_to_a_difference() {
+        for slope in [1.0, -1.0] {
+            let (f, g) = (1e-40, 0.5);
+            let [far, near] = halves([f, slope, g, 1.0].map(DoubleDouble::from).each_ref());
+            let [far, near] = [far, near].map(|tangent| tangent.hi() * slope);
+            assert!((far + 4.0).abs() < 1e-15 && (near + 0.5e-40).abs() < 1e-55, "{far:e} {near:e}");
         }
     }
 }
