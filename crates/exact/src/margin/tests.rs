@@ -50,6 +50,9 @@ fn margins_of_any_size_flip_the_outcome_and_none_smaller_does() {
             assert_ne!(outcome_of(1.0 + slack), outcome, "{axis} {from_edge}");
         }
         let tilt = tilt.unwrap();
+        let [height, turned] = digits::tilted_heights(&near);
+        let expected = -(height.value / turned.value).atan();
+        assert!((tilt - expected).abs() <= 1e-12 * expected.abs(), "{from_edge}: {tilt:e} {expected:e}");
         let tilted = |part: f64| toss(Vector3::new(2.0, 3.0, 1.0), 0.4 + part * tilt, edge - from_edge);
         let slack = 1e-12 + 1e-16 / tilt.abs();
         assert_eq!(certify_coin(&tilted((1.0 - slack).max(0.0))).unwrap().outcome(), outcome, "{from_edge}");
