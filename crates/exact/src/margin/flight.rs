@@ -25,11 +25,11 @@ pub(crate) fn speed_and_gravity(flight: TimeOfFlight, change: f64) -> [Option<f6
     let then = now + change.into();
     // No speed is lower than 0 or too low to get there, and no gravity so strong that the coin does not get there.
     let least_by_speed = (2.0 * drop.abs() / gravity).sqrt();
-    let least_by_gravity = if drop < 0.0 { 2.0 * -drop / speed } else { 0.0 };
+    let least_by_gravity = (2.0 * -drop / speed).max(0.0);
     let by_speed = change * sum(0.5 * gravity, drop, |fall| fall / now / then);
     let by_gravity = -2.0 * (change / now.hi()) / then.hi() * sum(speed, drop, |fall| fall / now + fall / then);
     let exists = |value: f64, exists: bool| Some(value).filter(|value| exists && value.is_finite());
-    [exists(by_speed, then.hi() >= least_by_speed), exists(by_gravity, now.hi() > 0.0 && then.hi() > least_by_gravity)]
+    [exists(by_speed, then.hi() >= least_by_speed), exists(by_gravity, then.hi() >= least_by_gravity)]
 }
 
 /// `constant` and what `fall` makes of the `drop`, in double-double: caught above the launch, they nearly cancel.

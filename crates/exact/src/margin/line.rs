@@ -142,9 +142,10 @@ impl<'a> Line<'a> {
         bound.min(1.0)
     }
 
-    /// The bound by the sizes of mz, a and b, between two values of Φ·e. It is convex, so that an end has the most.
+    /// The bound by the sizes of mz, a and b, between two values of Φ·e. It is convex, so that an end has the most, and
+    /// the same for both signs of Φ·e, because across it the line does not move.
     fn curvature_by_size(&self, ends: [f64; 2]) -> f64 {
-        let far = if ends[0].abs() > ends[1].abs() { ends[0] } else { ends[1] };
+        let far = ends[0].abs().max(ends[1].abs());
         let Landing { vertical, turn, direction, .. } = self.landing(far);
         let [[m_x, m_y, m_z], [x, y, z], [e_x, e_y, e_z]] =
             [vertical, turn, direction].map(|vector| vector.map(f64::abs));

@@ -160,3 +160,29 @@ fn free(here: &Height, curvature: f64) -> f64 {
     let root = (slope * slope + 2.0 * curvature * value).sqrt();
     (1.0 - 1e-15) * if slope > 0.0 { (slope + root) / curvature } else { 2.0 * value / (root - slope) }
 }
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Attitude, Coin, CoinToss, Launch, TimeOfFlight};
+
+    use super::*;
+
+    /// With m along x and Φ = (0.001, 0, z), |f''| is at most (4 + |z|)/12 of 0.001. A height of 1/2 that falls with 0.1 has
+    /// its flip within twice Newton's distance, where that is some 0.0012: between 4.86 and 5.16.
+    #[test]
+    fn a_flip_is_enclosed_if_the_curvature_up_to_it_and_both_errors_allow() {
+        let start = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
+        let launch = start.with_attitude(Attitude::from_components([1.0, 0.0, -1.0, 0.0]).unwrap());
+        let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let found = |width: f64, error: f64, slope_error: f64| {
+            let distance = width / RESOLUTION;
+            let line = Line::of_rate(&toss, 2, [1e-3, 0.0, -distance].map(Into::into));
+            let walk = Walk { distance, ..Walk::new(&line, 1.0, 1.0, f64::INFINITY, MOST_WORK) };
+            walk.enclosed(&Height { value: 0.5, slope: -0.1, error, slope_error })
+        };
+        assert!(found(0.4, 0.0, 0.0).is_some_and(|further| (further - 5.0).abs() < 0.02));
+        assert_eq!(found(0.2, 0.0, 0.0), None);
+        assert_eq!([found(0.4, 0.01, 0.0), found(0.4, 0.0, 0.002)], [None; 2]);
+        assert!(found(0.6, 0.01, 0.0).is_some() && found(0.6, 0.0, 0.002).is_some());
+    }
+}

@@ -148,4 +148,19 @@ mod tests {
             assert_eq!(start.regime, if x < 0.5 { Regime::AroundLargest } else { Regime::AroundSmallest });
         }
     }
+
+    /// Next to the spin about the middle axis, one of two forms of the phase at launch has no difference.
+    #[test]
+    fn a_launch_on_the_separatrix_keeps_its_digits_either_way_about_the_middle_axis() {
+        let body = Body::from_moments([1.0, 2.5, 3.0]).unwrap();
+        for middle in [1.0, 1e-9, -1e-9, -1.0] {
+            let rate = [1e-9, middle, 1e-9].map(|part| Ball::new(DoubleDouble::exactly(part), 0.0));
+            let start = Start::new(&body, &rate).unwrap();
+            let m: [_; 3] = [0, 1, 2].map(|axis: usize| start.moments[axis] * start.rate[axis]);
+            let (_, form) = separatrix::<_, Ball<DoubleDouble>>(&start, &m, &norm(&m), &Combinations::new(&start, &m));
+            let Form::Separatrix { launch, .. } = form else { panic!("{middle}: {:?}", start.regime) };
+            let lost = launch.radius() / launch.to_f64().abs();
+            assert!(lost < 2f64.powi(-90), "{middle}: {lost:e}");
+        }
+    }
 }

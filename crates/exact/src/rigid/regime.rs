@@ -178,3 +178,23 @@ fn excess<N: Elementary>(body: &Body, [first, second, third]: &[N; 3], [x, _, z]
 
 /// Digits above which a tensor whose E is below 2^-300 of its terms counts as one on the separatrix.
 const TENSOR_DIGITS: i32 = 400;
+
+#[cfg(test)]
+mod tests {
+    use numerics::{Ball, DoubleDouble};
+
+    use super::*;
+
+    /// ω = (0.75, 1, 1) of this body is on the separatrix, and a ball about it has motions of all three kinds.
+    #[test]
+    fn a_ball_of_rates_about_the_separatrix_has_no_regime() {
+        let body = Body::from_moments([1.0, 2.0, 2.25]).unwrap();
+        for (widened, radius) in (0..3).flat_map(|axis| [0.0, 1e-30, 1e-3].map(|radius| (axis, radius))) {
+            let mut rate = [0.75, 1.0, 1.0].map(|part| Ball::new(DoubleDouble::exactly(part), 0.0));
+            rate[widened] = rate[widened].widened(radius);
+            let regime = Start::new(&body, &rate).map(|start| start.regime);
+            let expected = if radius == 0.0 || widened == 1 { Some(Regime::Separatrix) } else { None };
+            assert_eq!(regime, expected, "{widened} {radius:e}");
+        }
+    }
+}

@@ -244,11 +244,16 @@ impl<'a> Walk<'a> {
         Self { origin, ..self }
     }
 
+    /// How far the walk has come, from the toss of the line.
+    fn reached(&self) -> f64 {
+        self.origin + self.distance
+    }
+
     /// Goes on to the next flip. The distances that it returns are from the toss of the line.
     pub(super) fn next_flip(&mut self) -> End {
         while self.distance < self.limit {
             if self.work > MOST_WORK || self.sign == 0.0 || self.step < f64::MIN_POSITIVE {
-                return End::Spent(self.origin + self.distance);
+                return End::Spent(self.reached());
             }
             let step = self.step.min(self.limit - self.distance);
             let middle = self.origin + self.sense * (self.distance + 0.5 * step);
@@ -264,13 +269,13 @@ impl<'a> Walk<'a> {
             }
             if step <= RESOLUTION * (self.offset + self.distance) {
                 let Some((passed, sign)) = self.decided_after(step) else {
-                    return End::Spent(self.origin + self.distance);
+                    return End::Spent(self.reached());
                 };
                 self.distance += passed;
                 self.step = step;
                 if sign == -self.sign {
                     self.sign = sign;
-                    return End::Flip(self.origin + self.distance);
+                    return End::Flip(self.reached());
                 }
             }
         }
@@ -297,9 +302,12 @@ mod tests {
 
     use super::*;
 
-    /// Of all inputs, in both directions, at and next to the separatrix, at rest, upright and on edge.
+    /// Of all inputs, in both directions, at and next to the separatrix, at rest, upright and on edge; with little of its
+    /// work left, which ends most of them.
     #[test]
     fn a_search_ends_within_its_work() {
+        const LEFT: u32 = 2000;
+        let mut spent = 0;
         let rates = [
             [5.276_195_533_573_627, 3.0, 3.046_212_911_605_835],
             [0.75, 1.0, 1.0],
@@ -316,12 +324,30 @@ mod tests {
                 let line = Line::new(&toss, input);
                 let outcome = line.outcome_at(0.0);
                 for sense in [-1.0, 1.0] {
-                    let mut walk = Walk::new(&line, outcome, sense, if sense < 0.0 { 0.8 } else { limit }, 0.0);
+                    let walk = Walk::new(&line, outcome, sense, if sense < 0.0 { 0.8 } else { limit }, 0.0);
+                    let mut walk = Walk { work: MOST_WORK - LEFT, ..walk };
                     let end = walk.next_flip();
                     let most = MOST_WORK + 6 * WORK.iter().sum::<u32>();
                     assert!(walk.work <= most, "{rate:?} {tilt} {input:?}: {end:?} by {}", walk.work);
+                    spent += u32::from(walk.work > MOST_WORK);
                 }
             }
+        }
+        assert!(spent > 20, "{spent}");
+    }
+
+    /// A rate below 10^-250 in another unit has fewer digits of its own, which are enough for a motion of such rates alone.
+    #[test]
+    fn tiny_rates_in_another_unit_have_the_outcome_of_the_scaled_motion() {
+        let thirds = dynamics::AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap());
+        let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+        for time in [0.3, 1.0, 1.7] {
+            let [found, expected] = [1e-260, 1.0].map(|scale: f64| {
+                let rate = [18.0, 9.0, 12.0].map(|part: f64| part * scale);
+                let launch = Launch::in_unit(rate, thirds, TimeOfFlight::Given(time / scale)).unwrap();
+                Line::new(&Toss { body, launch }, Input::Time).outcome_at(0.0)
+            });
+            assert!(found == expected && found != Outcome::Undecided, "{time}: {found:?} {expected:?}");
         }
     }
 }

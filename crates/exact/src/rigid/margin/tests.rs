@@ -55,25 +55,34 @@ fn changed(toss: &Toss, input: usize, change: f64) -> Toss {
     }
 }
 
+/// Checks that the outcome is the same up to a change of one input, and another one beyond it.
+fn check_flip(toss: &Toss, input: usize, change: f64) {
+    let outcome = certify(toss).unwrap().outcome();
+    let at = |factor: f64| certify(&changed(toss, input, factor * change)).unwrap().outcome();
+    assert_eq!(at(1.0 - 2e-12), outcome, "{input}: {change} {toss:?}");
+    assert_ne!(at(1.0 + 2e-12), outcome, "{input}: {change} {toss:?}");
+    for step in 0..400 {
+        let factor = f64::from(step - 200) / 200.5;
+        assert_eq!(at(factor), outcome, "{input}: {change} {factor} {toss:?}");
+    }
+}
+
 #[test]
-fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
+fn no_flip_in_time_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
     let mut flips = 0;
     for toss in tosses() {
-        let outcome = certify(&toss).unwrap().outcome();
-        let found = margin(&toss).unwrap();
-        let Margin { rate: [x, y, z], time, speed, gravity, .. } = found;
-        for (input, change) in [x, y, z, time, speed, gravity].into_iter().enumerate() {
+        let (time, speed, gravity, [earlier, later]) = of_flight(&toss, certify(&toss).unwrap().outcome());
+        for (input, change) in (3..).zip([time, speed, gravity]) {
             let Some(change) = change else { continue };
             flips += 1;
-            let at = |factor: f64| certify(&changed(&toss, input, factor * change)).unwrap().outcome();
-            assert_eq!(at(1.0 - 2e-12), outcome, "{input}: {change} {toss:?}");
-            assert_ne!(at(1.0 + 2e-12), outcome, "{input}: {change} {toss:?}");
-            for step in 0..400 {
-                let factor = f64::from(step - 200) / 200.5;
-                assert_eq!(at(factor), outcome, "{input}: {change} {factor} {toss:?}");
-            }
+            check_flip(&toss, input, change);
         }
-        let tilt = found.tilt.unwrap();
+        for step in 0..100 {
+            let at = |end: f64| f64::from(step) / 100.5 * time.map_or(end, |time| end.min(time.abs()));
+            let outcome = |change: f64| certify(&changed(&toss, 3, change)).unwrap().outcome();
+            assert_eq!(outcome(-at(earlier)), outcome(at(later)), "{step}: {time:?} {toss:?}");
+        }
+        let tilt = of_tilt(&toss).unwrap().unwrap();
         let cos_tilt = |further: f64| {
             let attitude = Attitude::about_x(further) * toss.launch.attitude();
             let launch = toss.launch.with_attitude(attitude);
@@ -81,23 +90,67 @@ fn no_flip_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
         };
         assert!(cos_tilt(tilt).abs() < 1e-15 && tilt.abs() <= std::f64::consts::FRAC_PI_2, "{tilt}");
     }
-    assert!(flips >= 30, "{flips}");
+    assert!(flips >= 12, "{flips}");
+}
+
+/// Of tosses whose flips are near, so that the search is short.
+#[test]
+fn no_flip_by_a_rate_is_nearer_than_the_margin_and_beyond_it_lands_the_other_face() {
+    for (index, axes) in [(0, 1..2), (1, 0..3), (4, 0..2), (6, 0..3)] {
+        let toss = tosses().nth(index).unwrap();
+        for axis in axes {
+            let (change, range) = of_rate(&toss, axis, certify(&toss).unwrap().outcome());
+            assert_eq!(range, 1000.0);
+            check_flip(&toss, axis, change.unwrap());
+        }
+    }
+}
+
+#[test]
+fn the_margin_has_the_changes_of_all_inputs() {
+    let toss = tosses().nth(6).unwrap();
+    let outcome = certify(&toss).unwrap().outcome();
+    let found = margin(&toss).unwrap();
+    assert_eq!((found.time, found.speed, found.gravity, found.time_range), of_flight(&toss, outcome));
+    assert_eq!(found.tilt, of_tilt(&toss).unwrap());
+    for axis in 0..3 {
+        assert_eq!((found.rate[axis], found.rate_range[axis]), of_rate(&toss, axis, outcome));
+    }
 }
 
 #[test]
 fn a_range_without_a_flip_has_none_and_the_separatrix_hides_no_flip() {
     // Next to the spin about the largest axis, the normal stays up for ever.
     let steady = toss([1.0, 2.0, 2.5], [0.1, 0.2, 30.0], TimeOfFlight::Given(0.5), 0.1);
-    let found = margin(&steady).unwrap();
-    assert_eq!((found.time, found.speed), (None, None));
-    assert!(found.time_range[0] >= 0.5 && found.time_range[1] > 10.0, "{found:?}");
+    let (time, speed, _, range) = of_flight(&steady, Outcome::Heads);
+    assert_eq!((time, speed), (None, None));
+    assert!(range[0] >= 0.5 && range[1] > 10.0, "{range:?}");
     // ω = (0.75, 1, 1) of this body is on the separatrix, and this rate is 0.01 above it.
     let near = toss([1.0, 2.0, 2.25], [0.76, 1.0, 1.0], TimeOfFlight::Given(0.3), 0.0);
     let outcome = |change: f64| certify(&changed(&near, 0, change)).unwrap().outcome();
-    let change = margin(&near).unwrap().rate[0].unwrap();
+    let change = of_rate(&near, 0, outcome(0.0)).0.unwrap();
     assert!(change.abs() > 1.0 && outcome(1.000_001 * change) != outcome(0.0), "{change}");
     for step in -99..=99 {
         assert_eq!(outcome(f64::from(step) * 1e-2 * change), outcome(0.0), "{step}");
+    }
+}
+
+/// The search of earlier times ends at the launch, where the body is on edge: beyond, before its launch, it would flip.
+#[test]
+fn a_launch_on_edge_is_no_flip() {
+    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    for time in [0.05, 0.1, 0.2] {
+        let upright = toss([1.0, 2.0, 3.0], [1.0, 5.0, 0.5], TimeOfFlight::Given(time), 0.0);
+        let toss = Toss { launch: upright.launch.with_tilt(quarter).unwrap(), ..upright };
+        let outcome = |change: f64| certify(&changed(&toss, 3, change)).unwrap().outcome();
+        let (found, _, _, range) = of_flight(&toss, outcome(0.0));
+        let found = found.unwrap();
+        assert!(range[0] == time && found > time, "{time}: {found} {range:?}");
+        assert_ne!(outcome(found * (1.0 - 2e-12)), outcome(found * (1.0 + 2e-12)));
+        for step in 0..100 {
+            let part = f64::from(step) / 100.5;
+            assert_eq!((outcome(-part * time), outcome(part * found)), (outcome(0.0), outcome(0.0)), "{time} {part}");
+        }
     }
 }
 
@@ -136,6 +189,7 @@ fn check_intervals(toss: &Toss, [slowest, fastest]: [f64; 2], drop: Option<f64>)
     let lands_heads = |speed| certify(&thrown(speed)).unwrap().outcome() == Outcome::Heads;
     let intervals_from = |slowest| speeds_of_heads(&thrown(fastest), slowest).unwrap().unwrap();
     let heads = intervals_from(slowest);
+    assert!(heads.iter().flatten().is_sorted_by(|slow, fast| slow < fast), "{toss:?}, {drop:?}: {heads:?}");
     let speeds = (0..).map(|step| slowest + f64::from(step) * 1e-3);
     for speed in speeds.clone().take_while(|speed| *speed <= fastest) {
         let nearest = heads.iter().flatten().map(|end| (end - speed).abs()).fold(f64::MAX, f64::min);
@@ -171,6 +225,65 @@ fn the_outcome_changes_at_the_ends_of_the_intervals_and_nowhere_else() {
     }
     for toss in [body, coin] {
         assert_eq!(speeds_of_heads(&toss, 0.0), Ok(None));
+    }
+}
+
+/// Two neighbouring speeds between which the outcome changes, next to `speed`.
+fn flip_next_to(speed: f64, lands_heads: impl Fn(f64) -> bool) -> [f64; 2] {
+    let [mut before, mut after] = [speed * (1.0 - 1e-11), speed * (1.0 + 1e-11)];
+    assert_ne!(lands_heads(before), lands_heads(after));
+    while before.next_up() < after {
+        let middle = f64::midpoint(before, after);
+        *(if lands_heads(middle) == lands_heads(before) { &mut before } else { &mut after }) = middle;
+    }
+    [before, after]
+}
+
+/// Also of a range of speeds that is shorter than the resolution of the search, and of flights of a millisecond.
+#[test]
+fn ranges_next_to_a_flip_have_the_faces_of_their_ends() {
+    for (scale, drop) in [(1.0, None), (300.0, None), (1.0, Some(0.4))] {
+        let body = toss([1.0, 2.0, 2.5], [18.0, 9.0, 12.0].map(|part| scale * part), TimeOfFlight::Given(1.0), 0.4);
+        let thrown = |speed| with_flight(&body, TimeOfFlight::thrown(speed, 9.81, drop));
+        let lands_heads = |speed| certify(&thrown(speed)).unwrap().outcome() == Outcome::Heads;
+        let heads = |slowest, fastest| speeds_of_heads(&thrown(fastest), slowest).unwrap().unwrap();
+        let (slowest, fastest) = (1.0 / scale, 3.0 / scale);
+        let ends = heads(slowest, fastest).into_iter().flatten().filter(|end| ![slowest, fastest].contains(end));
+        for end in ends {
+            let [before, after] = flip_next_to(end, lands_heads);
+            for (slower, faster) in [(1.5e-13, 0.5e-13), (8e-13, 2e-14)] {
+                let [slow, fast] = [before * (1.0 - slower), before * (1.0 - faster)];
+                let expected: &[_] = if lands_heads(before) { &[[slow, fast]] } else { &[] };
+                assert_eq!(heads(slow, fast), expected, "{scale} {drop:?} {end}");
+                let [slow, fast] = [after * (1.0 + faster), after * (1.0 + slower)];
+                let expected: &[_] = if lands_heads(after) { &[[slow, fast]] } else { &[] };
+                assert_eq!(heads(slow, fast), expected, "{scale} {drop:?} {end}");
+            }
+            let (slow, fast) = (before * (1.0 - 1e-11), after * 1.001);
+            let [[from, to]] = heads(slow, fast)[..] else { panic!("{scale} {drop:?} {end}") };
+            let (bound, flip) = if lands_heads(before) { (from == slow, to) } else { (to == fast, from) };
+            assert!(bound && (flip / before - 1.0).abs() < 1e-12, "{scale} {drop:?} {end}: {from} {to}");
+        }
+    }
+}
+
+/// Where all speeds land heads, that is one interval with the very ends of the range, and of no range there is none.
+#[test]
+fn the_ends_of_a_range_that_lands_heads_are_those_given() {
+    for moments in [[1.0, 1.0, 2.0], [1.0, 2.0, 2.5]] {
+        let steady = toss(moments, [0.1, 0.2, 30.0], TimeOfFlight::Given(1.0), 0.1);
+        for (drop, step) in
+            [None, Some(0.4), Some(-0.4)].into_iter().flat_map(|drop| (0..20).map(move |step| (drop, step)))
+        {
+            let [slow, fast] = [3.1 + 0.07 * f64::from(step), 5.3 + 0.11 * f64::from(step)];
+            let heads = |slowest, fastest| {
+                speeds_of_heads(&with_flight(&steady, TimeOfFlight::thrown(fastest, 9.81, drop)), slowest).unwrap()
+            };
+            assert_eq!(heads(slow, fast), Some(vec![[slow, fast]]), "{moments:?} {drop:?}");
+            if moments[1] != 1.0 {
+                assert_eq!([heads(fast, fast), heads(fast, slow)], [Some(vec![]), Some(vec![])], "{drop:?}");
+            }
+        }
     }
 }
 
