@@ -34,8 +34,11 @@ pub fn margin(toss: &Toss) -> Result<Margin, SolveError> {
     Ok(Margin { time, speed, gravity, tilt: of_tilt(toss)?, rate, rate_range, time_range })
 }
 
+/// A flip, if a search found one, and how far the search went.
+type Found = (Option<f64>, f64);
+
 /// The first flip in the direction of `sense` up to `limit`, and how far the search went.
-fn first(line: &Line<'_>, outcome: Outcome, sense: f64, limit: f64) -> (Option<f64>, f64) {
+fn first(line: &Line<'_>, outcome: Outcome, sense: f64, limit: f64) -> Found {
     let mut walk = Walk::new(line, outcome, sense, limit, 0.0);
     match walk.next_flip() {
         End::Flip(distance) => (Some(sense * distance), distance),
@@ -55,25 +58,32 @@ fn of_flight(toss: &Toss, outcome: Outcome) -> (Option<f64>, Option<f64>, Option
     let limits = [flight.seconds(), TURN_RANGE / turn_rate];
     let [earlier, later] =
         [(-1.0, limits[0]), (1.0, limits[1])].map(|(sense, limit)| first(&line, outcome, sense, limit));
-    let range = [earlier.1, later.1];
-    // The nearer one of both directions, unless the other one was not searched as far.
-    let nearest = |size: &dyn Fn(f64) -> Option<f64>| {
-        let changes = [earlier.0, later.0].map(|flip| flip.and_then(size));
-        let found = changes.into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-        let covers = |at: f64, is_all: bool| is_all || size(at).is_none_or(|end| end.abs() >= found.abs());
-        let all_earlier = earlier.0.is_none() && earlier.1 >= limits[0];
-        (covers(-earlier.1, all_earlier) && covers(later.1, false)).then_some(found)
-    };
     let thrown = |change: f64| speed_and_gravity(flight, change);
-    (nearest(&Some), nearest(&|change| thrown(change)[0]), nearest(&|change| thrown(change)[1]), range)
+    let by = |size: &dyn Fn(f64) -> Option<f64>| nearest([earlier, later], limits[0], size);
+    (by(&Some), by(&|change| thrown(change)[0]), by(&|change| thrown(change)[1]), [earlier.1, later.1])
+}
+
+/// The `size` of the nearer flip in time, unless a search ended before it could have found one as near. An earlier flip is at
+/// most `whole` earlier, the time of flight.
+fn nearest([earlier, later]: [Found; 2], whole: f64, size: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
+    let changes = [earlier.0, later.0].map(|flip| flip.and_then(size));
+    let found = changes.into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let covers = |at: f64| size(at).is_none_or(|end| end.abs() >= found.abs());
+    let has_all_earlier = earlier.0.is_none() && earlier.1 >= whole;
+    ((has_all_earlier || covers(-earlier.1)) && covers(later.1)).then_some(found)
 }
 
 /// Of a rate, and the largest change that was searched.
-fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> (Option<f64>, f64) {
+fn of_rate(toss: &Toss, axis: usize, outcome: Outcome) -> Found {
     let line = Line::new(toss, Input::Rate(axis));
     let range = rate_range(&toss.launch);
-    let (up, up_range) = first(&line, outcome, 1.0, range);
-    let (down, down_range) = first(&line, outcome, -1.0, up_range);
+    let up = first(&line, outcome, 1.0, range);
+    nearest_rate(up, first(&line, outcome, -1.0, up.1), range)
+}
+
+/// The nearer flip of a rate, and the largest change that was searched: the whole `range` if there is a flip. The search
+/// downwards goes no further than that upwards.
+fn nearest_rate((up, up_range): Found, (down, down_range): Found, range: f64) -> Found {
     match (up, down) {
         (_, Some(down)) => (Some(down), range),
         // The search downwards has to reach as far as the flip upwards.

@@ -340,3 +340,24 @@ fn rates_in_another_unit_have_the_margins_of_the_same_motion() {
         assert!(flips >= 2 && found.time.is_some(), "{moments:?}: {found:?}");
     }
 }
+
+/// A search that ran out of work may have missed a nearer flip.
+#[test]
+fn a_flip_is_the_nearest_one_only_if_both_searches_came_as_far() {
+    let in_time = |earlier, later| nearest([earlier, later], 1.0, &Some);
+    let (none, found) = (|end| (None, end), |flip: f64| (Some(flip), flip.abs()));
+    assert_eq!(in_time(found(-0.3), found(0.5)), Some(-0.3));
+    assert_eq!(in_time(found(-0.3), none(0.5)), Some(-0.3));
+    assert_eq!(in_time(found(-0.3), none(0.1)), None);
+    assert_eq!(in_time(none(0.2), found(0.5)), None);
+    assert_eq!(in_time(none(0.6), found(0.5)), Some(0.5));
+    // Nothing is earlier than the launch.
+    assert_eq!(in_time(none(1.0), found(5.0)), Some(5.0));
+    assert_eq!(in_time(none(0.9), found(5.0)), None);
+    assert_eq!(in_time(none(1.0), none(9.0)), None);
+    let of_rate = |up, down| nearest_rate(up, down, 10.0);
+    assert_eq!(of_rate(found(5.0), found(-2.0)), (Some(-2.0), 10.0));
+    assert_eq!(of_rate(found(5.0), none(5.0)), (Some(5.0), 10.0));
+    assert_eq!(of_rate(found(5.0), none(3.0)), (None, 3.0));
+    assert_eq!(of_rate(none(10.0), none(3.0)), (None, 3.0));
+}
