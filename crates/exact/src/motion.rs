@@ -19,7 +19,8 @@
 //! keeps squares from over- and underflow, and scaling ω by a power of two and t by its inverse changes no bit of the
 //! results. ωL and q, the phases ωL t and q t, and a, b, c are [`DoubleDouble`]. The remaining errors are the rounding
 //! of sine, cosine and the result: cos θ is right to 2.3e-16 and the attitude to 1e-15 rad for every phase up to 1e14 rad.
-//! Beyond it, double-double itself adds errors of cos θ of up to some 2e-16 at the limit of 2^53 rad.
+//! Beyond it, double-double adds an error of cos θ of up to 90 u² of the phase, 1e-14 at the limit of 2^53 rad; of some
+//! thousand launches there, none was off by more than 3.2e-16 in all.
 
 use dynamics::phase::require_phase;
 use dynamics::time_of_flight::ExactTime;
