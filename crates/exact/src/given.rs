@@ -26,9 +26,6 @@ pub(crate) fn scaled<N: Elementary>(rate: &Vector3<f64>, like: &N) -> [N; 3] {
 /// The time in the unit of [`scaled`] rates, and the vertical (BF) at launch; `None` for rates that are not in rad/s or
 /// differ too much.
 pub(crate) fn in_double_double(launch: &Launch) -> Option<(Ball<DoubleDouble>, [Ball<DoubleDouble>; 3])> {
-    // The time to 25 u² of itself, and the vertical to 2^-67.
-    const TIME: f64 = 6.310_887_241_768_095e-30; // 2^-97
-    const VERTICAL: f64 = 6.776_263_578_034_403e-21; // 2^-67
     let (rate, unit) = launch.given_rate();
     if !components_are_close(&rate) || unit != AngleUnit::RADIAN {
         return None;
@@ -36,8 +33,19 @@ pub(crate) fn in_double_double(launch: &Launch) -> Option<(Ball<DoubleDouble>, [
     let time = ExactTime::from(launch.time_of_flight());
     let scale = mantissa_and_exponent(power_of_two_scale(rate.amax())).1;
     let time = time.mantissa().times_power_of_two(time.exponent() + scale);
-    let vertical = launch.attitude().exact_vertical().map(|part: DoubleDouble| Ball::new(part, VERTICAL));
-    Some((Ball::new(time, TIME * time.hi()), vertical))
+    Some((right_to_25_u2(time), vertical_in_double_double(launch)))
+}
+
+/// A ball around a time, which is right to 25 u² of itself.
+pub(crate) fn right_to_25_u2(time: DoubleDouble) -> Ball<DoubleDouble> {
+    const ERROR: f64 = 6.310_887_241_768_095e-30; // 2^-97
+    Ball::new(time, ERROR * time.hi())
+}
+
+/// Balls with the vertical seen from the body at launch, which is right to 2^-67.
+pub(crate) fn vertical_in_double_double(launch: &Launch) -> [Ball<DoubleDouble>; 3] {
+    const ERROR: f64 = 6.776_263_578_034_403e-21; // 2^-67
+    launch.attitude().exact_vertical().map(|part| Ball::new(part, ERROR))
 }
 
 /// A ball of f64 that contains a ball of double-double.

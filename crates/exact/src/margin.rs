@@ -25,6 +25,7 @@ use dynamics::{CoinToss, Launch, Outcome, SolveError, TimeOfFlight};
 use numerics::DoubleDouble;
 
 pub(crate) use self::flight::speed_and_gravity;
+use self::height::Height;
 use self::line::Line;
 use self::search::{MOST_WORK, Walk};
 use crate::certified::certify_coin;
@@ -122,8 +123,9 @@ fn of_flight(toss: &CoinToss, outcome: f64) -> Result<[Option<f64>; 3], SolveErr
     let earlier = time_of(earlier).filter(|_| {
         // Next to the launch, the phase does not tell whether the flip is after it. It is if the face then was the other.
         let [.., at_launch] = toss.launch.attitude().exact_vertical();
-        let is_near = (earlier + phase.hi()).abs() <= 1e-12 * phase.hi();
-        if is_near { at_launch.hi() * outcome < 0.0 } else { -earlier < phase.hi() }
+        let from_launch = earlier + phase.hi();
+        let is_near = from_launch.abs() <= 1e-12 * phase.hi();
+        if is_near { at_launch.hi() * outcome < 0.0 } else { from_launch.is_sign_positive() }
     });
     let thrown =
         [later, earlier].map(|change| change.map_or([None; 2], |change| flight::speed_and_gravity(flight, change)));
@@ -144,24 +146,12 @@ fn smaller(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 fn of_rate(toss: &CoinToss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) -> (Option<f64>, f64) {
     let flight = toss.launch.time_of_flight();
     let (time, range) = (ExactTime::from(flight), rate_range(&toss.launch));
-    let k = toss.coin.exact_inertia_ratio();
-    // Of Φz, by which the phase of the spin stays below its limit.
-    let (ratio, spin_limit) = match axis {
-        2 => (k, LARGEST_PHASE * k.hi() / (k.hi() - 1.0).abs()),
-        _ => (1.0.into(), LARGEST_PHASE),
-    };
+    let ratio = ratio(toss, axis);
     if ratio.hi() == 0.0 || !flight.is_positive() {
         return (None, range);
     }
     let line = Line::of_rate(toss, axis, turn);
-    let across = line.across();
-    let phase_limit = ((LARGEST_PHASE - across) * (LARGEST_PHASE + across)).max(0.0).sqrt();
-    let farthest = phase_limit.min(spin_limit);
-    let reach = range * ratio.hi() * toss.launch.flight_time();
-    let walk = |sense: f64| {
-        let limit = reach.min(farthest - sense * line.along().hi());
-        Walk::new(&line, outcome, sense, limit, MOST_WORK)
-    };
+    let walk = |sense: f64| Walk::new(&line, outcome, sense, limit(toss, axis, &line, sense), MOST_WORK);
     let rate_of =
         |turn: f64| (DoubleDouble::from(turn) / time.mantissa() / ratio).times_power_of_two(-time.exponent()).hi();
     match Walk::nearer([walk(1.0), walk(-1.0)]) {
@@ -170,19 +160,39 @@ fn of_rate(toss: &CoinToss, axis: usize, turn: [DoubleDouble; 3], outcome: f64) 
     }
 }
 
+/// The change of Φ with a change of a rate, in units of the time of flight.
+fn ratio(toss: &CoinToss, axis: usize) -> DoubleDouble {
+    if axis == 2 { toss.coin.exact_inertia_ratio() } else { 1.0.into() }
+}
+
+/// The largest change of Φ (rad) that is searched along a rate: neither phase gets too large.
+fn limit(toss: &CoinToss, axis: usize, line: &Line<'_>, sense: f64) -> f64 {
+    let (ratio, across) = (ratio(toss, axis).hi(), line.across());
+    let phase_limit = ((LARGEST_PHASE - across) * (LARGEST_PHASE + across)).max(0.0).sqrt();
+    // Of Φz, by which the phase of the spin stays below its limit.
+    let spin_limit = if axis == 2 { LARGEST_PHASE * ratio / (ratio - 1.0).abs() } else { LARGEST_PHASE };
+    let reach = rate_range(&toss.launch) * ratio * toss.launch.flight_time();
+    reach.min(phase_limit.min(spin_limit) - sense * line.along().hi())
+}
+
 /// Of the tilt.
 fn of_tilt(toss: &CoinToss, turn: [DoubleDouble; 3]) -> Option<f64> {
-    let mut change = f64::NAN;
-    for stage in 0..3 {
-        let [height, turned] =
-            if stage < 2 { line::tilted_heights(toss, turn, stage) } else { digits::tilted_heights(toss) };
-        change = -(height.value / turned.value).atan();
-        let size = height.value.abs().max(turned.value.abs());
-        if height.error + turned.error < 4e-13 * size * change.abs() {
-            break;
-        }
-    }
+    let by_line = (0..2).map(|stage| line::tilted_heights(toss, turn, stage));
+    let change = by_line.filter_map(tilt_to_flip).next().unwrap_or_else(|| tilt_to_0(&digits::tilted_heights(toss)));
     Some(change).filter(|change| change.is_finite())
+}
+
+/// The change δ of the tilt for which cos θ = f cos δ + f(90°) sin δ is 0.
+fn tilt_to_0([height, turned]: &[Height; 2]) -> f64 {
+    -(height.value / turned.value).atan()
+}
+
+/// That change if the errors leave it right to a relative 4e-13.
+fn tilt_to_flip(heights: [Height; 2]) -> Option<f64> {
+    let change = tilt_to_0(&heights);
+    let [height, turned] = heights;
+    let size = height.value.abs().max(turned.value.abs());
+    (height.error + turned.error < 4e-13 * size * change.abs()).then_some(change)
 }
 
 /// The intervals of speeds (m/s) from `slowest` to that of `toss` that land heads, in order; `None` if it was not thrown

@@ -238,6 +238,19 @@ mod tests {
         }
     }
 
+    /// Of 60 000/7 rad the digits before the point are 14, of which the value has none.
+    #[test]
+    fn sines_of_a_quotient_have_the_digits_that_were_asked_for() {
+        for (value, digits) in [0.9, -1e-3, 5e4, 1e300].into_iter().flat_map(|value| [(value, 80_u16), (value, 200)]) {
+            let angle = Angle::Radians(Quantity::new(value, Unit::ratio(60_000, 7).unwrap()));
+            let exact = angle.sin_cos_in_digits(1500);
+            for (found, exact) in angle.sin_cos_in_digits(digits.into()).into_iter().zip(exact) {
+                let error = (found.with_precision(1600).value() - exact).to_f64().value().abs();
+                assert!(error <= 2f64.powi(2 - i32::from(digits)), "{angle:?} is off by 2^{}", error.log2());
+            }
+        }
+    }
+
     #[test]
     fn small_angles_are_their_sine_to_the_last_digit() {
         for angle in [1e-300, -1e-20, 3e-9] {

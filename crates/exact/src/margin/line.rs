@@ -115,9 +115,8 @@ impl<'a> Line<'a> {
         let part = |index: usize| self.across[index] + self.direction[index] * along;
         let turn = [part(0), part(1), part(2)];
         let height = fine_height_of(Landing { vertical: self.vertical, turn, direction: self.direction, along }, phase);
-        // The vertical seen from a tilted coin is right to 2^-67, and f' is of at most twice its size.
-        let of_vertical =
-            if self.toss.launch.attitude().tilt().is_some() { f64::EPSILON * 2f64.powi(-14) } else { 0.0 };
+        // f' is of at most twice the size of the vertical.
+        let of_vertical = error_of_vertical(self.toss);
         Height { error: height.error + of_vertical, slope_error: height.slope_error + 2.0 * of_vertical, ..height }
     }
 
@@ -225,8 +224,14 @@ fn error(phase: f64) -> f64 {
 
 /// Bound of the error of f in double-double at a `phase` (rad): the same operations with 10 u² each, sine and cosine to
 /// 64 u².
-fn fine_error(phase: f64) -> f64 {
+pub(super) fn fine_error(phase: f64) -> f64 {
     (2000.0 + 100.0 * phase) * (UNIT_ROUNDOFF * UNIT_ROUNDOFF)
+}
+
+/// What the vertical adds to the error of f in double-double: seen from a tilted coin, it is right to 2^-67.
+pub(super) fn error_of_vertical(toss: &CoinToss) -> f64 {
+    const ERROR: f64 = 1.355_252_715_606_880_5e-20; // 2^-66
+    if toss.launch.attitude().tilt().is_some() { ERROR } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -164,8 +164,47 @@ fn free(here: &Height, curvature: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use dynamics::{Attitude, Coin, CoinToss, Launch, TimeOfFlight};
+    use numerics::DoubleDouble;
 
     use super::*;
+
+    #[test]
+    fn a_length_without_a_flip_ends_at_the_root_of_the_parabola_before_it() {
+        let exactly = DoubleDouble::from;
+        for slope in [0.0, 1e-9, 0.3, 1e9, -1e-9, -0.3, -1e9] {
+            for (value, curvature) in [(0.5, 1.0), (1e-20, 1.0), (0.7, 1e-3), (1e-9, 0.3)] {
+                let free = |error: f64, slope_error: f64| free(&Height { value, slope, error, slope_error }, curvature);
+                let length = free(0.0, 0.0);
+                let left = |length: f64| {
+                    exactly(value) + exactly(slope) * exactly(length)
+                        - (exactly(curvature) * exactly(length) * exactly(length)).half()
+                };
+                let [before, after] = [left(length).hi(), left(length * (1.0 + 2e-15)).hi()];
+                assert!(before > 0.0 && after < 0.0, "{value} {slope} {curvature}: {length:e} {before:e} {after:e}");
+                assert!(free(0.5 * value, 0.0) <= length && free(0.0, 0.1) <= length && free(value, 0.0) == 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_walk_ends_at_its_limit_at_a_flip_or_when_no_work_is_left() {
+        let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
+        let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let line = Line::of_rate(&toss, 0, [1.0, 0.0, 0.0].map(Into::into));
+        let cases = [
+            (1.0, 2.0, State::Under, State::Under),
+            (0.0, 2.0, State::Under, State::Under),
+            (-1.0, 2.0, State::Under, State::Spent),
+            (-1.0, 2.0, State::Flip, State::Flip),
+            (-1.0, 3.0, State::Flip, State::Over),
+            (1.0, 3.0, State::Under, State::Over),
+        ];
+        for (work, further, state, expected) in cases {
+            let mut walk = Walk { distance: 1.0, ..Walk::new(&line, 1.0, 1.0, 4.0, work) };
+            walk.arrive(further, state);
+            assert_eq!((walk.state, walk.distance), (expected, 1.0 + further), "{work} {further}");
+        }
+    }
 
     /// With m along x and Φ = (0.001, 0, z), |f''| is at most (4 + |z|)/12 of 0.001. A height of 1/2 that falls with 0.1 has
     /// its flip within twice Newton's distance, where that is some 0.0012: between 4.86 and 5.16.
@@ -174,15 +213,25 @@ mod tests {
         let start = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
         let launch = start.with_attitude(Attitude::from_components([1.0, 0.0, -1.0, 0.0]).unwrap());
         let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+        let enclosed = |x: f64, distance: f64, sense: f64, here: &Height| {
+            let line = Line::of_rate(&toss, 2, [x, 0.0, -sense * distance].map(Into::into));
+            Walk { distance, ..Walk::new(&line, 1.0, sense, f64::INFINITY, MOST_WORK) }.enclosed(here)
+        };
         let found = |width: f64, error: f64, slope_error: f64| {
-            let distance = width / RESOLUTION;
-            let line = Line::of_rate(&toss, 2, [1e-3, 0.0, -distance].map(Into::into));
-            let walk = Walk { distance, ..Walk::new(&line, 1.0, 1.0, f64::INFINITY, MOST_WORK) };
-            walk.enclosed(&Height { value: 0.5, slope: -0.1, error, slope_error })
+            let here = Height { value: 0.5, slope: -0.1, error, slope_error };
+            let [up, down] = [1.0, -1.0].map(|sense| enclosed(1e-3, width / RESOLUTION, sense, &here));
+            assert_eq!(up, down);
+            up
         };
         assert!(found(0.4, 0.0, 0.0).is_some_and(|further| (further - 5.0).abs() < 0.02));
         assert_eq!(found(0.2, 0.0, 0.0), None);
         assert_eq!([found(0.4, 0.01, 0.0), found(0.4, 0.0, 0.002)], [None; 2]);
         assert!(found(0.6, 0.01, 0.0).is_some() && found(0.6, 0.0, 0.002).is_some());
+        // A flip at 3 seen from 1, on a line with next to no curvature: the error of the height makes the width.
+        let flip = |width: f64| {
+            enclosed(1e-30, 1.0, 1.0, &Height { value: 0.2, slope: -0.1, error: 0.05 * width, slope_error: 0.0 })
+        };
+        assert!(flip(2.9 * RESOLUTION).is_some_and(|further| (further - 2.0).abs() < 1e-12));
+        assert_eq!(flip(3.1 * RESOLUTION), None);
     }
 }

@@ -165,6 +165,67 @@ fn no_margin_leads_to_a_phase_that_is_too_large() {
     assert!(beyond > 0);
 }
 
+/// The phase may be 2^53 rad, of the precession and of the spin, and no more than the range is searched.
+#[test]
+fn rates_are_searched_up_to_their_range_and_to_the_largest_phase() {
+    let toss = |k: f64, rate: [f64; 3], time: f64| {
+        let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();
+        CoinToss { coin: Coin::from_moments(1.0, k).unwrap(), launch }
+    };
+    let limits = |toss: &CoinToss, axis: usize| {
+        let line = Line::of_rate(toss, axis, line::turn(toss));
+        let to_rate = if axis == 2 { toss.coin.inertia_ratio() } else { 1.0 } * toss.launch.flight_time();
+        [1.0, -1.0].map(|sense| limit(toss, axis, &line, sense) / to_rate)
+    };
+    for (axis, rate) in [0, 1, 2].into_iter().flat_map(|axis| [[3.0, 2.0, -4.0], [300.0, 2.0, 4.0]].map(|r| (axis, r)))
+    {
+        let toss = toss(1.3, rate, 0.7);
+        let range = rate_range(&toss.launch);
+        assert!(limits(&toss, axis).iter().all(|limit| (limit / range - 1.0).abs() < 1e-15), "{axis} {rate:?}");
+    }
+    // Up to its last rad.
+    let near = LARGEST_PHASE - 600.0;
+    for (k, axis, rate) in [
+        (1.0, 0, [near, 0.0, 0.0]),
+        (1.0, 1, [0.0, -near, 0.0]),
+        (2.0, 2, [0.0, 0.0, 0.5 * near]),
+        (1.0, 0, [0.8 * near, 0.6 * near, 0.0]),
+        (1.0, 2, [-0.6 * near, 0.0, -0.8 * near]),
+        (0.25, 2, [0.0, 0.0, near / 0.75]),
+        (0.25, 2, [0.1 * near, 0.0, -near / 0.75]),
+        (0.5, 2, [0.6 * near, 0.0, 1.6 * near]),
+    ] {
+        let start = toss(k, rate, 1.0);
+        let moved = |axis: usize, change: f64| {
+            let mut rate = rate;
+            rate[axis] += change;
+            CoinMotion::new(&toss(k, rate, 1.0)).phase(TimeOfFlight::Given(1.0)).is_ok()
+        };
+        let sense = f64::signum(rate[axis]);
+        let limits = limits(&start, axis);
+        let [outwards, inwards] = if sense > 0.0 { limits } else { [limits[1], limits[0]] };
+        assert!(outwards > 100.0 && outwards < 1900.0 && inwards > 1999.0, "{k} {rate:?}: {limits:?}");
+        assert!(moved(axis, sense * (outwards - 8.0)), "{k} {rate:?}: {outwards}");
+        assert!(!moved(axis, sense * (outwards + 8.0)), "{k} {rate:?}: {outwards}");
+    }
+}
+
+/// Of an angle δ = -atan(f/f(90°)), the errors of both move it by at most their sum over the larger one.
+#[test]
+fn a_change_of_the_tilt_is_taken_where_the_errors_leave_it_its_digits() {
+    let height = |value: f64, error: f64| Height { value, slope: 0.0, error, slope_error: 0.0 };
+    for (value, turned) in [(0.3, 0.9), (-0.9, 0.2), (1e-6, -0.5), (-0.8, -1e-3), (0.1, 0.1)] {
+        let change = -f64::atan(value / turned);
+        let allowed = 4e-13 * change.abs() * f64::max(f64::abs(value), f64::abs(turned));
+        for part in [0.0, 0.5, 1.0] {
+            let found = |size: f64| {
+                tilt_to_flip([height(value, part * size * allowed), height(turned, (1.0 - part) * size * allowed)])
+            };
+            assert_eq!((found(0.99), found(1.01)), (Some(change), None), "{value} {turned} {part}");
+        }
+    }
+}
+
 /// Caught 1.5 m below, no flight is shorter than the fall from rest, 0.553 s: of the flips at 0.5 s and 1.5 s only the
 /// later one can be had.
 #[test]

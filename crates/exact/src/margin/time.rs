@@ -16,8 +16,9 @@ use std::f64::consts::{PI, TAU};
 
 use dynamics::CoinToss;
 use numerics::big::Big;
-use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
+use numerics::{DoubleDouble, Elementary};
 
+use super::line::{error_of_vertical, fine_error};
 use crate::motion::momentum_direction;
 use crate::multiprecision::{flight_time, momentum};
 use crate::tilt_terms::terms;
@@ -51,20 +52,15 @@ fn halves<N: Elementary>([f, slope, g, root]: [&N; 4]) -> [N; 2] {
 
 /// h/2 of both flips, none if there are none; `None` if more digits are needed.
 fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64; 2]>> {
-    const SQUARED: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
-    let attitude = toss.launch.attitude();
-    // The vertical seen from a tilted coin is right to 2^-67.
-    let of_vertical = if attitude.tilt().is_some() { 2f64.powi(-66) } else { 0.0 };
-    let (term_error, error) = (200.0 * SQUARED + of_vertical, (2000.0 + 100.0 * phase.hi()) * SQUARED + of_vertical);
+    let [term_error, error, g_error] = errors_of_terms(phase.hi(), error_of_vertical(toss));
     let direction = momentum_direction(toss);
     let [x, y, _] = direction;
-    let [mean, cosine, sine] = terms(attitude.exact_vertical(), direction, x * x + y * y);
+    let [mean, cosine, sine] = terms(toss.launch.attitude().exact_vertical(), direction, x * x + y * y);
     let (sin, cos) = phase.exact_sin_cos();
     let (f, slope) = (mean + cosine * cos + sine * sin, sine * cos - cosine * sin);
     let g = mean + mean - f;
     let discriminant = cosine * cosine + sine * sine - mean * mean;
-    let size = [mean, cosine, sine].map(|term| term.hi().abs() + term_error).iter().sum::<f64>();
-    let d_error = 4.0 * size * term_error;
+    let d_error = error_of_discriminant([mean, cosine, sine].map(DoubleDouble::hi), term_error);
     if discriminant.hi() < -d_error {
         return Some(None);
     }
@@ -72,13 +68,32 @@ fn in_double_double(toss: &CoinToss, phase: DoubleDouble) -> Option<Option<[f64;
         return None;
     }
     let root = discriminant.sqrt();
-    let (q_size, q_error) = (slope.hi().abs() + root.hi(), error + d_error / root.hi());
-    let (g_size, g_error) = (g.hi().abs(), error + 2.0 * term_error);
     let [by_g, by_q] = halves([&f, &slope, &g, &root]).map(|tangent| tangent.hi().atan());
-    let off_g = (q_error * g_size + g_error * q_size) / (q_size * q_size + g_size * g_size);
-    let off_q = error / f.hi().abs() + q_error / q_size;
+    let values = [f, slope, g, root].map(DoubleDouble::hi);
+    let [off_g, off_q] = errors_of_halves(values, [error, g_error, d_error]);
     let is_right = off_g < RESOLUTION * by_g.abs() && off_q < RESOLUTION;
     is_right.then_some(Some([by_g, by_q]))
+}
+
+/// Bounds of the errors of A, B and C, of f and f', and of g at a `phase` (rad), with that `of_vertical`.
+fn errors_of_terms(phase: f64, of_vertical: f64) -> [f64; 3] {
+    const OF_TERMS: f64 = 2.465_190_328_815_662e-30; // 200 u²
+    let (of_terms, of_values) = (OF_TERMS + of_vertical, fine_error(phase) + of_vertical);
+    [of_terms, of_values, of_values + 2.0 * of_terms]
+}
+
+/// Bound of the error of D if A, B and C are off by `error`.
+fn error_of_discriminant(terms: [f64; 3], error: f64) -> f64 {
+    4.0 * terms.map(|term| term.abs() + error).iter().sum::<f64>() * error
+}
+
+/// Bounds of the error (rad) of the first of both [`halves`], and of the relative one of the second, if f and f' are off by
+/// `error`, g by `g_error` and D by `d_error` < D/4.
+fn errors_of_halves([f, slope, g, root]: [f64; 4], [error, g_error, d_error]: [f64; 3]) -> [f64; 2] {
+    let (q_size, q_error) = (slope.abs() + root, error + d_error / root);
+    let (f_size, g_size) = (f.abs(), g.abs());
+    let off_g = (q_error * g_size + g_error * q_size) / (q_size * q_size + g_size * g_size);
+    [off_g, error / f_size + q_error / q_size]
 }
 
 /// h/2 of both flips in as many digits as it takes.
@@ -229,6 +244,54 @@ mod tests {
         for phase in phases {
             let cos_tilt = CoinMotion::new(&toss).cos_tilt(phase / 5f64.sqrt()).unwrap();
             assert!(cos_tilt.abs() < 1e-15, "{phase}: {cos_tilt:e}");
+        }
+    }
+
+    #[test]
+    fn errors_of_the_terms_are_those_of_double_double_and_of_the_vertical() {
+        let unit = 2f64.powi(-106);
+        for (phase, vertical) in [(0.0, 0.0), (30.0, 0.0), (0.0, 5e4), (30.0, 1e3)] {
+            let found = errors_of_terms(phase, vertical * unit).map(|error| error / unit);
+            let of_values = 2000.0 + 100.0 * phase;
+            let expected = [200.0 + vertical, of_values + vertical, of_values + 400.0 + 3.0 * vertical];
+            assert!(found.iter().zip(expected).all(|(error, expected)| (error / expected - 1.0).abs() < 1e-15));
+        }
+    }
+
+    /// All errors at their worst, or one of them alone, change D and the flips by no more than the bounds and by a quarter.
+    #[test]
+    fn bounds_are_what_errors_of_the_terms_make_of_the_flips() {
+        let signs = || (0..16).map(|bits| [1, 2, 4, 8].map(|bit| if bits & bit == 0 { 1.0 } else { -1.0 }));
+        for (terms, error) in [([0.3, -0.5, 0.7], 1e-3), ([1e-3, 0.5, 1e-3], 0.01), ([0.2, 1e-4, 0.2], 0.1)] {
+            let change = |[a, b, c]: [f64; 3]| b * b + c * c - a * a;
+            let moved = signs().map(|s| change([0, 1, 2].map(|term: usize| terms[term] + s[term] * error)));
+            let [most, bound] = [
+                moved.fold(0.0, |most, d| f64::max(most, (d - change(terms)).abs())),
+                error_of_discriminant(terms, error),
+            ];
+            assert!(most <= bound && bound < 4.0 * most, "{terms:?}: {most:e} {bound:e}");
+        }
+        for values in [[0.1, 0.7, 0.4, 0.6], [-1e-4, -0.2, 0.9, 0.3], [0.6, 1e-3, -1e-2, 0.9], [0.1, 0.1, 0.3, 0.02]] {
+            let of = |[f, slope, g, discriminant]: [f64; 4]| {
+                halves([f, slope, g, discriminant.sqrt()].map(DoubleDouble::from).each_ref()).map(|t| t.hi().atan())
+            };
+            let [f, slope, g, root] = values;
+            let exact = of([f, slope, g, root * root]);
+            for errors in [[1e-9, 0.0, 0.0], [0.0, 1e-9, 0.0], [0.0, 0.0, 1e-9], [1e-9, 2e-9, 3e-10]] {
+                let [error, g_error, d_error] = errors;
+                let mut most = [0.0_f64; 2];
+                for [a, b, c, d] in signs() {
+                    let moved = [f + a * error, slope + b * error, g + c * g_error, root * root + d * d_error];
+                    for ((most, half), exact) in most.iter_mut().zip(of(moved)).zip(exact) {
+                        *most = most.max((half - exact).abs());
+                    }
+                }
+                let bounds = errors_of_halves(values, errors);
+                for (most, bound) in [most[0], most[1] / exact[1].abs()].into_iter().zip(bounds) {
+                    assert!(most <= bound * (1.0 + 1e-5) + 1e-15, "{values:?} {errors:?}: {most:e} {bound:e}");
+                    assert!(bound <= 4.0 * most + 1e-15, "{values:?} {errors:?}: {most:e} {bound:e}");
+                }
+            }
         }
     }
 

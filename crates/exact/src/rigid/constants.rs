@@ -149,6 +149,32 @@ mod tests {
         }
     }
 
+    /// Without a modulus, u0 is the polar angle. F of the amplitude itself has lost digits only where K is close.
+    #[test]
+    fn the_phase_at_launch_has_the_sine_and_cosine_and_all_its_digits_in_each_quadrant() {
+        let number = |value: f64| Ball::new(DoubleDouble::exactly(value), 0.0);
+        let ratios = [(1e-20, 1.0), (1e-20, 1e-10), (1e-3, 1e-4), (0.3, 0.8), (0.8, 0.3), (1.0, 1e-20), (1e-10, 1e-20)];
+        for ((sin, cos), complementary) in ratios.into_iter().flat_map(|ratio| [1.0, 0.5, 1e-3].map(|k| (ratio, k))) {
+            let [k, amplitude] =
+                [(1.0, 0.0), (sin, cos)].map(|(s, c)| incomplete_first(&number(s), &number(c), number(complementary)));
+            for (sin, cos) in [(sin, cos), (sin, -cos), (-sin, cos), (-sin, -cos)] {
+                let found = launch_phase(&number(sin), &number(cos), &number(complementary), &k);
+                let is_right = |expected: Ball<DoubleDouble>| {
+                    let off = (found - expected).to_f64().abs();
+                    off <= found.radius() + expected.radius() && found.radius() < 2f64.powi(-80) * found.to_f64().abs()
+                };
+                let half = if cos < 0.0 { k + k - amplitude } else { amplitude };
+                let expected = if sin < 0.0 { -half } else { half };
+                let turn = (k + k) + (k + k);
+                assert!(is_right(expected) || is_right(expected + turn), "{sin} {cos} {complementary}: {found:?}");
+                if complementary == 1.0 {
+                    let angle = number(sin).atan2(&number(cos));
+                    assert!(is_right(angle) || is_right(angle + turn), "{sin} {cos}: {found:?}");
+                }
+            }
+        }
+    }
+
     /// Next to the spin about the middle axis, one of two forms of the phase at launch has no difference.
     #[test]
     fn a_launch_on_the_separatrix_keeps_its_digits_either_way_about_the_middle_axis() {

@@ -181,6 +181,7 @@ const TENSOR_DIGITS: i32 = 400;
 
 #[cfg(test)]
 mod tests {
+    use numerics::big::exactly;
     use numerics::{Ball, DoubleDouble};
 
     use super::*;
@@ -196,5 +197,49 @@ mod tests {
             let expected = if radius == 0.0 || widened == 1 { Some(Regime::Separatrix) } else { None };
             assert_eq!(regime, expected, "{widened} {radius:e}");
         }
+    }
+
+    /// A component that is exactly 0 leaves a spin about the third axis, and one that may be 0 does not tell.
+    #[test]
+    fn a_ball_about_a_spin_has_no_regime() {
+        let body = Body::from_moments([1.0, 2.0, 2.25]).unwrap();
+        for (first, radius, expected) in [
+            (0.0, 0.0, Some(Regime::Uniform)),
+            (0.0, 1e-3, None),
+            (1e-4, 1e-3, Some(Regime::AroundLargest)),
+            (1e-2, 1e-3, Some(Regime::AroundLargest)),
+        ] {
+            let rate = [first, 0.0, 1.0].map(|part| Ball::new(DoubleDouble::exactly(part), 0.0));
+            let rate = [rate[0].widened(radius), rate[1], rate[2]];
+            assert_eq!(Start::new(&body, &rate).map(|start| start.regime), expected, "{first} {radius}");
+        }
+    }
+
+    /// E is (ω3/ω1)² (3/4)² - 1, in parts of a term. Of exact rates it is taken exactly, however little is left of it.
+    #[test]
+    fn a_launch_next_to_the_separatrix_has_the_regime_of_its_side() {
+        let body = Body::from_moments([1.0, 2.0, 2.25]).unwrap();
+        for (size, apart) in [1.0, 2f64.powi(-60)].into_iter().flat_map(|size| [1.0, -1.0].map(|side| (size, side))) {
+            let third = DoubleDouble::exactly(size) + (apart * size * 2f64.powi(-104)).into();
+            let rate = [DoubleDouble::exactly(0.75 * size), 1.0.into(), third].map(|part| Ball::new(part, 0.0));
+            let regime = Start::new(&body, &rate).map(|start| start.regime);
+            let expected = if apart > 0.0 { Regime::AroundLargest } else { Regime::AroundSmallest };
+            assert_eq!(regime, Some(expected), "{size} {apart}");
+        }
+    }
+
+    /// The same body and motion, turned about the third axis by the angle whose tangent is 4/3. The moments are roots of a
+    /// polynomial, so that E is never exactly 0.
+    #[test]
+    fn a_tensor_is_on_the_separatrix_only_by_many_digits() {
+        let body = Body::from_tensor([[41.0, -12.0, 0.0], [-12.0, 34.0, 0.0], [0.0, 0.0, 56.25]]).unwrap();
+        let regime = |z: f64, size: f64, digits: usize| {
+            let rate = [-7.0 * size, 24.0 * size, z].map(|part| exactly(part).with_precision(digits).value());
+            Start::new(&body, &rate).map(|start| start.regime)
+        };
+        assert_eq!([192, 384, 448].map(|digits| regime(20.0, 1.0, digits)), [None, None, Some(Regime::Separatrix)]);
+        let next_up = [128, 192, 448].map(|digits| regime(20f64.next_up(), 1.0, digits));
+        assert_eq!(next_up, [None, Some(Regime::AroundLargest), Some(Regime::AroundLargest)]);
+        assert_eq!(regime(0.0, 0.0, 192), Some(Regime::Uniform));
     }
 }

@@ -18,13 +18,13 @@
 use dynamics::{Launch, SolveError, Toss};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
 use numerics::big::exactly;
-use numerics::{Ball, DoubleDouble, Elementary, Jet};
+use numerics::{DoubleDouble, Elementary, Jet};
 
 use super::curve::Curve;
 use super::quaternion::{conjugate, norm_squared, product};
 use super::regime::{Regime, along};
 use super::{ExactMotion, MANY_DIGITS, cos_tilt};
-use crate::given::{components_are_close, in_digits, scaled};
+use crate::given::{components_are_close, in_digits, right_to_25_u2, scaled, vertical_in_double_double};
 use crate::sensitivity::Sensitivity;
 
 /// How far, in units of the largest component, a launch is moved off the separatrix, or off the axis of a tensor. Its
@@ -124,10 +124,8 @@ fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
         return without_bound(ASIDE);
     }
     let in_double_double = || {
-        // The time and the vertical are right to 2^-97 and 2^-67.
         let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
-        let time = Ball::new(time, 2f64.powi(-97) * time.hi());
-        let vertical = toss.launch.attitude().exact_vertical().map(|part| Ball::new(part, 2f64.powi(-67)));
+        let (time, vertical) = (right_to_25_u2(time), vertical_in_double_double(&toss.launch));
         let found = changes_in(toss, &scaled(&rate, &time), &time, &vertical)?;
         are_right(&found, 0.0).then(|| in_f64(&found))
     };

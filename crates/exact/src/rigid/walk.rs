@@ -13,7 +13,7 @@ use numerics::{Ball, DoubleDouble, Elementary, WideBall};
 
 use super::cos_tilt;
 use super::curve::Curve;
-use crate::given::{rounded, time_in_digits, vertical_in_digits};
+use crate::given::{right_to_25_u2, rounded, time_in_digits, vertical_in_digits, vertical_in_double_double};
 
 /// Width of the interval that a flip is known to lie in, in parts of its distance; also the shortest step.
 pub(super) const RESOLUTION: f64 = 2.5e-13;
@@ -59,12 +59,9 @@ struct Stage<B> {
 
 impl<'a> Line<'a> {
     pub(super) fn new(toss: &'a Toss, input: Input) -> Self {
-        // The vertical to 2^-67, and the time to 2^-97 of itself.
-        const VERTICAL: f64 = 6.776_263_578_034_403e-21;
-        const TIME: f64 = 6.310_887_241_768_095e-30;
-        let vertical = toss.launch.attitude().exact_vertical().map(|part| Ball::new(part, VERTICAL));
+        let vertical = vertical_in_double_double(&toss.launch);
         let time: dynamics::time_of_flight::ExactTime = toss.launch.time_of_flight().into();
-        let mantissa = Ball::new(time.mantissa(), TIME * time.mantissa().hi());
+        let mantissa = right_to_25_u2(time.mantissa());
         let rough_vertical = vertical.each_ref().map(rounded);
         let rough = Stage::new(toss, input, rough_vertical, rounded(&mantissa), time.exponent());
         let fine = Stage::new(toss, input, vertical, mantissa, time.exponent());
@@ -256,10 +253,8 @@ impl<'a> Walk<'a> {
                 return End::Spent(self.reached());
             }
             let step = self.step.min(self.limit - self.distance);
-            let middle = self.origin + self.sense * (self.distance + 0.5 * step);
-            // The middle is rounded, and so are both ends.
-            let radius = 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step);
-            match self.line.sign_around([middle, radius], self.stage, self.is_retry, &mut self.work) {
+            let interval = self.next(step);
+            match self.line.sign_around(interval, self.stage, self.is_retry, &mut self.work) {
                 Some((sign, stage)) if sign == self.sign => {
                     self.distance += step;
                     (self.step, self.stage, self.is_retry) = (1.5 * step, stage, false);
@@ -282,6 +277,14 @@ impl<'a> Walk<'a> {
         End::Limit
     }
 
+    /// The middle and the radius of an interval of changes that contains the next `step`.
+    fn next(&self, step: f64) -> [f64; 2] {
+        let middle = self.origin + self.sense * (self.distance + 0.5 * step);
+        // The middle is rounded, and so are both ends. From another origin a rounding of it may be left out, which is some
+        // thousandth of the resolution.
+        [middle, 0.5 * step + 2.0 * f64::EPSILON * (middle.abs() + step)]
+    }
+
     /// A step or two after which the outcome is decided, and its sign. One step may end on a tie. The limit needs no
     /// outcome: a flip there is none before it.
     fn decided_after(&mut self, step: f64) -> Option<(f64, f64)> {
@@ -299,6 +302,7 @@ impl<'a> Walk<'a> {
 #[cfg(test)]
 mod tests {
     use dynamics::{Body, Launch, TimeOfFlight};
+    use numerics::big::exactly;
 
     use super::*;
 
@@ -334,6 +338,53 @@ mod tests {
             }
         }
         assert!(spent > 20, "{spent}");
+    }
+
+    fn toss() -> Toss {
+        let launch = Launch::new([3.0, 2.0, 5.0], TimeOfFlight::Given(0.8)).unwrap();
+        Toss { body: Body::from_moments([1.0, 2.0, 2.25]).unwrap(), launch }
+    }
+
+    /// By exact arithmetic, and no wider than some roundings. The end of a step is rounded before the next one begins there.
+    #[test]
+    fn intervals_contain_their_steps() {
+        let (toss, exact) = (toss(), exactly);
+        let line = Line::new(&toss, Input::Time);
+        let numbers = [0.0, 1e-20, 0.1, 0.7, 1.0, 3.3, 1e5];
+        let origins = numbers.iter().flat_map(|origin| [-origin, *origin]);
+        let cases = origins.flat_map(|origin| numbers.map(|distance| (origin, distance)));
+        for ((origin, distance), step) in cases.flat_map(|case| [1e-13, 3e-9, 0.1, 7.0].map(|step| (case, step))) {
+            for sense in [1.0, -1.0] {
+                let start = Walk { distance, ..Walk::new(&line, Outcome::Heads, sense, 1e9, 0.0) }.starting_at(origin);
+                let [middle, radius] = start.next(step);
+                for further in [exact(distance), exact(distance) + exact(step), exact(distance + step)] {
+                    let from_middle = exact(origin) + exact(sense) * further - exact(middle);
+                    let radius = exact(radius) + exact(f64::EPSILON * origin.abs());
+                    assert!(from_middle.magnitude() <= radius, "{origin} {distance} {step}");
+                }
+                let size = middle.abs() + step;
+                assert!(radius <= 0.5 * step + 3.0 * f64::EPSILON * size, "{origin} {distance} {step}: {radius}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_search_goes_on_while_it_has_work_a_sign_and_a_step() {
+        let toss = toss();
+        let line = Line::new(&toss, Input::Time);
+        let sign = line.sign_at(0.0, &mut 0);
+        for (limit, step, sign, work, goes_on) in [
+            (1e-6, 1.0, sign, 0, true),
+            (1e-6, 1.0, sign, MOST_WORK, true),
+            (1e-6, 1.0, sign, MOST_WORK + 1, false),
+            (1e-6, 1.0, sign, MOST_WORK + 2, false),
+            (1e-6, 1.0, 0.0, 0, false),
+            (f64::MIN_POSITIVE, f64::MIN_POSITIVE, sign, 0, true),
+            (f64::MIN_POSITIVE, 0.5 * f64::MIN_POSITIVE, sign, 0, false),
+        ] {
+            let mut walk = Walk { step, sign, work, ..Walk::new(&line, Outcome::Heads, 1.0, limit, 0.0) };
+            assert_eq!(walk.next_flip(), if goes_on { End::Limit } else { End::Spent(0.0) }, "{limit} {sign} {work}");
+        }
     }
 
     /// A rate below 10^-250 in another unit has fewer digits of its own, which are enough for a motion of such rates alone.

@@ -73,9 +73,10 @@ impl Constants {
         let complementary_squared = (a13 * launch.excess) * inverse;
         let (momentum, root_13, root_p1) = (launch.squared.sqrt(), number(self.roots[2]), p1.sqrt());
         // c and v have the amplitudes √(α23/α12) and √(P1/P3).
-        let is_c = (p3 * a23).less_than(p1 * a12);
         let size = (p1 + p3).sqrt() + root_p1;
-        let decay = is_c.choose(launch.decay, p3 / (size * size));
+        let decay_of_v = p3 / (size * size);
+        let is_c = decay_of_v.less_than(launch.decay);
+        let decay = is_c.choose(launch.decay, decay_of_v);
         let flown = speed * number(self.turns);
         let turned = momentum * flown;
         let share = around_largest.choose(p3 / p1, one);
@@ -131,7 +132,7 @@ impl Constants {
         let number = |value: f64| rate[0].constant(value);
         match &self.axes {
             Axes::Along([first, second, third]) => {
-                [rate[first.0] * number(first.1), rate[second.0] * number(second.1), rate[third.0] * number(third.1)]
+                [first, second, third].map(|(part, sign)| rate[*part].times_sign_of(number(*sign)))
             }
             Axes::Turned([first, second, third]) => {
                 let [x, y, z] = [along(first, rate), along(second, rate), along(third, rate)];
