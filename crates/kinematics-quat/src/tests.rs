@@ -84,3 +84,20 @@ fn many_tosses_land_as_they_do_one_by_one_in_their_order() {
         assert_eq!((solver.name(), solver.stepping().map(|by| by.scheme())), ("quaternion", Some(scheme)));
     }
 }
+
+/// (tolerance + ε (1 + φ)) (1 + φ), twice as much for a body in a steady turn about its first axis, whose disturbances grow
+/// to the double, and nothing where that is 1 or more.
+#[test]
+fn estimates_of_series_are_those_of_their_formula() {
+    let launch = Launch::new([3.0, 0.0, 0.0], TimeOfFlight::Given(2.0)).unwrap();
+    let body = Body::from_moments([1.0, 2.0, 2.5]).unwrap();
+    for tolerance in [0.1, 1e-3, 1e-10, f64::EPSILON] {
+        let solver = QuaternionSolver::new(Stepping::adaptive(TAYLOR, tolerance).unwrap(), Formulation::default());
+        let estimate = |toss: Toss| solver.land(&toss).unwrap().error;
+        let expected = |phase: f64| (tolerance + f64::EPSILON * (1.0 + phase)) * (1.0 + phase);
+        let close = |found: Option<f64>, expected: f64| found.is_some_and(|it| (it / expected - 1.0).abs() < 1e-14);
+        assert!(close(estimate(Toss::new(Coin::DISC, launch)), expected(6.0)), "{tolerance:e}");
+        let (found, expected) = (estimate(Toss { body, launch }), 2.0 * expected(72.0_f64.sqrt()));
+        assert!(if tolerance == 0.1 { found.is_none() } else { close(found, expected) }, "{tolerance:e}: {found:?}");
+    }
+}

@@ -10,6 +10,8 @@ use dynamics::{CoinToss, Outcome, SolveError};
 use numerics::big::exactly;
 use numerics::{Ball, Big, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
+use crate::prove::flight::whole;
+
 /// Digits of the inputs beyond those of the flight.
 const GUARD: usize = 64;
 
@@ -66,7 +68,7 @@ fn fly<N: Elementary>(toss: &CoinToss, like: &Ball<N>) -> Result<Landing, SolveE
         (true, true) => Outcome::Heads,
         (true, false) => Outcome::Tails,
     };
-    let cos_bound = (cos_tilt.radius() + 1.01 * UNIT_ROUNDOFF * rounded.abs() + f64::from_bits(1)).min(2.0);
+    let cos_bound = (cos_tilt.radius() + 1.01 * UNIT_ROUNDOFF * rounded.abs()).min(2.0);
     let turn = turn.map(|part| part.to_f64());
     Ok(Landing { outcome, turn, attitude_bound: flown.bound, cos_tilt: rounded, cos_bound, steps, order })
 }
@@ -112,7 +114,7 @@ impl<N: Elementary> Given<N> {
         let round = |value: Big| value.with_precision(digits).value();
         // Each number is right to some thirty roundings in the digits of the inputs.
         let ball = |value: Big| {
-            let size = value.to_f64().value().abs() + f64::MIN_POSITIVE;
+            let size = value.to_f64().value().abs();
             like.like_big(&value).widened(size * 2f64.powi(-like.digits() - 40))
         };
         let (rate, unit) = toss.launch.given_rate();
@@ -208,8 +210,7 @@ impl<N: Elementary> Flown<N> {
         let steps = f64::from(steps);
         // The error of η is one of its direction, which counts once, and one of its size, which counts in each later step.
         let sum = steps * (of_turn + of_eta) + (steps + 1.0) * (steps * of_eta + radius(direction));
-        let bound = sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9);
-        Self { turn, bound: if bound < 1e-3 { bound } else { f64::INFINITY } }
+        Self { turn, bound: whole(sum) }
     }
 }
 
@@ -242,7 +243,7 @@ fn cos_tilt<N: Elementary>([a, b, c]: &[N; 3], [w, x, y, z]: &[N; 4]) -> N {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Coin, Launch, TimeOfFlight};
+    use dynamics::{AngleUnit, Coin, Launch, TimeOfFlight, Unit};
 
     use super::*;
 
@@ -274,6 +275,61 @@ mod tests {
         let still = Launch::new([0.0; 3], TimeOfFlight::Given(1.0)).unwrap();
         let found = in_double_double(&CoinToss { coin: Coin::DISC, launch: still }).unwrap();
         assert_eq!((found.steps, found.outcome), (1, Outcome::Heads));
+    }
+
+    fn of_given<N>(given: &Given<N>) -> Vec<&Ball<N>> {
+        let turns = [&given.eta, &given.half_z, &given.q];
+        turns.into_iter().chain(&given.direction).chain(&given.vertical).collect()
+    }
+
+    fn of_series<N>(series: &Series<N>) -> Vec<&Ball<N>> {
+        series.u.iter().chain(&series.v).chain(&series.eta).collect()
+    }
+
+    /// The numbers in more digits are within the radii, which are those of few roundings.
+    fn assert_encloses(balls: Vec<&Ball<DoubleDouble>>, exact: Vec<&Ball<Big>>, bits: i32) {
+        for (ball, exact) in balls.into_iter().zip(exact) {
+            let off = (ball.to_big().with_precision(400).value() - exact.to_big()).to_f64().value().abs();
+            let most = 2f64.powi(-bits) * (exact.to_f64().abs() + 1e-200);
+            assert!(off <= ball.radius() && ball.radius() <= most, "{off:e} {ball:?}, {most:e}");
+        }
+    }
+
+    #[test]
+    fn balls_of_a_toss_and_of_its_step_hold_what_more_digits_find() {
+        let (double, more) =
+            (Ball::new(DoubleDouble::ZERO, 0.0), Ball::new(Big::ZERO.with_precision(384).value(), 0.0));
+        let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
+        let time = TimeOfFlight::Ballistic { speed: 3.3, gravity: 9.81 };
+        let launch = Launch::in_unit([100.0, 30.0, 77.0], degree, time).unwrap().with_tilt(0.3).unwrap();
+        let toss = CoinToss { coin: Coin::from_moments(3.0, 1.0).unwrap(), launch };
+        assert_encloses(of_given(&Given::new(&toss, &double)), of_given(&Given::new(&toss, &more)), 97);
+        let turns = [0.3, -0.1, 0.07];
+        let ([a, b, c], [d, e, f]) = (turns.map(|turn| double.like(turn)), turns.map(|turn| more.like(turn)));
+        let (series, exact) = (Series::new(&a, &b, &c, order(106)), Series::new(&d, &e, &f, order(384)));
+        assert_encloses(of_series(&series), of_series(&exact), 88);
+        // Without a turn there is nothing but the remainder.
+        let zero = double.like(0.0);
+        let still = Series::new(&zero, &zero, &zero, order(106));
+        for part in [&still.u[1], &still.v[0], &still.v[1], &still.eta[1]] {
+            assert!((1.0..1.001).contains(&(part.radius() * 2f64.powi(114))), "{part:?}");
+        }
+    }
+
+    /// What one step adds counts in each, that of η in each later one too, and the direction at launch in all.
+    #[test]
+    fn errors_of_steps_add_up() {
+        let flown = |size: f64| {
+            let ball = |value: f64, radius: f64| Ball::new(DoubleDouble::from(value), size * radius);
+            let pair = |value: f64, [a, b]: [f64; 2]| [ball(value, a), ball(0.0, b)];
+            let series = Series { u: pair(1.0, [1.0, 2.0]), v: pair(0.0, [3.0, 4.0]), eta: pair(1.0, [5.0, 7.0]) };
+            Flown::new(&series, &pair(1.0, [10.0, 30.0]), 3).bound
+        };
+        let expected = whole(1e-9 * (3.0 * (10.0 + 12.0) + 4.0 * (3.0 * 12.0 + 40.0)));
+        approx::assert_relative_eq!(flown(1e-9), expected, epsilon = 0.0, max_relative = 1e-12);
+        let rounding = 64.0 * 2f64.powi(8 - 106);
+        approx::assert_relative_eq!(flown(0.0), whole(18.0 * rounding), epsilon = 0.0, max_relative = 1e-12);
+        assert_eq!(flown(1.0), f64::INFINITY);
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub(crate) fn attitude_bound(toss: &CoinToss, flight: &Flight, record: &Record, 
 
 /// The bound of an attitude from the sum of all errors; infinite where the theorem does not apply. The steps multiply
 /// quaternions whose norm is 1 to within the error itself, and the last factor covers the rounding of the sum.
-fn whole(sum: f64) -> f64 {
+pub(super) fn whole(sum: f64) -> f64 {
     let bound = sum * (1.0 + 4.0 * sum) * (1.0 + 1e-9);
     if bound < LARGEST { bound } else { f64::INFINITY }
 }

@@ -158,7 +158,7 @@ fn couplings(moments: &[Ball<DoubleDouble>; 3], flight: &RigidFlight) -> Option<
         let rounded = Ball::new(DoubleDouble::exactly(rounded.abs()), 0.0);
         above(&(*exact - rounded))
     });
-    let told = off.fold(0.0, f64::max) <= 1.01 * UNIT_ROUNDOFF * above(&b) && b.radius() < 1e-12 * b.to_f64();
+    let told = off.fold(0.0, f64::max) <= 1.01 * UNIT_ROUNDOFF * above(&b);
     let thin = first.to_f64() != 0.0 && first.to_f64() < SMALLEST;
     (told && !thin).then_some(exact)
 }
@@ -224,7 +224,8 @@ fn distance(ideal: &[Ball<DoubleDouble>; 3], computed: [f64; 3]) -> f64 {
 /// A bound of the error of a turn that is taken from principal axes to those of the body with rounded axes.
 fn axes_error(axes: &[[Ball<DoubleDouble>; 3]; 3]) -> f64 {
     // `f64::max` would pass over a NaN.
-    let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, |most, one| if one <= most { most } else { one });
+    let larger = |most: f64, one: f64| if one > most || one.is_nan() { one } else { most };
+    let radius = axes.iter().flatten().map(Ball::radius).fold(0.0, larger);
     if are_exact(axes) { 0.0 } else { 12.0 * UNIT_ROUNDOFF + 6.0 * radius }
 }
 

@@ -71,9 +71,9 @@ impl Motion for Enclosed {
 }
 
 impl Enclosed {
-    /// Adds a step of `lane`. An idle lane has steps of no length.
+    /// Adds a step of `lane`. The errors of an idle lane, which has steps of no length, are read no more.
     fn add(&mut self, lane: usize, [h, turn, rates, rounding]: [f64; 4]) {
-        if let Some(errors) = self.errors[lane].as_mut().filter(|_| h > 0.0) {
+        if let Some(errors) = self.errors[lane].as_mut() {
             let after = self.bodies.rates(lane);
             errors.add(&Step { h, turn, rates, rounding, after });
         }

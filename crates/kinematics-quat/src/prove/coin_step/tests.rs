@@ -108,23 +108,26 @@ fn roundings_are_within_their_bounds_and_not_far_below() {
     }
 }
 
-/// (6) in units of u, each Δₙ of (9), and (6) + (7) + (8), of steps whose |η| differs by this part of itself.
+/// (6) in units of u, each Δₙ of (9), (6) + (7) + (8), and what (7) has of differences alone, of steps whose |η| differs by
+/// this part of itself.
 struct Bounds(Inputs, usize, f64);
 
 impl WithSimd for Bounds {
-    type Output = (f64, Vec<f64>, f64);
+    type Output = (f64, Vec<f64>, [f64; 2]);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> (f64, Vec<f64>, f64) {
+    fn with_simd<S: Simd>(self, simd: S) -> (f64, Vec<f64>, [f64; 2]) {
         let Self(inputs, order, spread) = self;
         let [modulus, half_z, q, h] = inputs.map(|value| Real::splat(simd, value));
         let spread = modulus.constant(spread);
         let mut series = Series::new(simd);
         series.expand_eta(order, q);
         series.expand(order, modulus, half_z);
-        let terms = Terms::new(&series, order, [modulus, half_z, q, h], spread);
+        let mut terms = Terms::new(&series, order, [modulus, half_z, q, h], spread);
         let change = terms.change[..=order].iter().copied().map(Real::first).collect();
-        (terms.rounding.first(), change, terms.turn(spread).first())
+        let turn = terms.turn(spread).first();
+        (terms.u, terms.w) = ([spread.constant(0.0); LARGEST_ORDER + 1], [spread.constant(0.0); LARGEST_ORDER + 1]);
+        (terms.rounding.first(), change, [turn, terms.dropped(spread).first()])
     }
 }
 
@@ -186,8 +189,8 @@ fn the_bounds_of_eta_are_those_of_the_theorem() {
     }
 }
 
-/// (6), each Δₙ of (9), and (6) + (7) + (8), written out as in the proof.
-fn written_out(inputs: Inputs, order: usize, spread: f64) -> (f64, Vec<f64>, f64) {
+/// (6), each Δₙ of (9), (6) + (7) + (8) and the differences in (7), written out as in the proof.
+fn written_out(inputs: Inputs, order: usize, spread: f64) -> (f64, Vec<f64>, [f64; 2]) {
     let [modulus, half_z, q, h] = inputs;
     let [eta, c, q_h] = [modulus * h, half_z * h, q.abs() * h];
     let [u, w, r] = exactly(inputs, order, inverse).map(|terms| {
@@ -217,11 +220,11 @@ fn written_out(inputs: Inputs, order: usize, spread: f64) -> (f64, Vec<f64>, f64
         let of_u = eta * products(&w, &r, n) + of_c * u[order];
         let of_w = -eta * products(&u, &r, n) + of_c * w[order];
         let differs = eta * products(&with_roundings, &b, n) + of_c.abs() * with_roundings[order];
-        (of_u.abs() + of_w.abs() + differs) / number(n + 1)
+        [of_u.abs() + of_w.abs() + differs, differs].map(|sum| sum / number(n + 1))
     });
+    let [dropped, differences] = dropped.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
     let evaluated: f64 = a.iter().enumerate().map(|(n, a)| number(n + 1) * a).sum();
-    let turn = dropped.sum::<f64>() + UNIT_ROUNDOFF * (rounding + evaluated + 16.0);
-    (rounding, change, turn)
+    (rounding, change, [dropped + UNIT_ROUNDOFF * (rounding + evaluated + 16.0), differences])
 }
 
 #[test]
@@ -232,7 +235,9 @@ fn the_bounds_of_turns_are_those_of_the_theorem() {
             let exact = written_out(inputs, order, spread);
             let close = |found: f64, exact: f64| (found - exact).abs() <= 1e-10 * exact;
             assert!(close(rounding, exact.0), "(6), {order} {spread} {inputs:?}: {rounding:e} {:e}", exact.0);
-            assert!(close(turn, exact.2), "(6) + (7) + (8), {order} {spread} {inputs:?}: {turn:e} {:e}", exact.2);
+            for (turn, exact) in turn.into_iter().zip(exact.2) {
+                assert!(close(turn, exact), "(6) + (7) + (8), {order} {spread} {inputs:?}: {turn:e} {exact:e}");
+            }
             for (n, (found, exact)) in change.into_iter().zip(exact.1).enumerate() {
                 assert!(close(found, exact), "(9), {n} of {order} {spread} {inputs:?}: {found:e} {exact:e}");
             }

@@ -1,6 +1,6 @@
 //! Tests of proofs by integration.
 
-use dynamics::{AngleUnit, Body, Coin, Formulation, Launch, Scheme, Stepping, TimeOfFlight, Unit};
+use dynamics::{Angle, AngleUnit, Body, Coin, Formulation, Launch, Quantity, Scheme, Stepping, TimeOfFlight, Unit};
 use exact::{CoinMotion, certify};
 use nalgebra::Vector3;
 
@@ -58,6 +58,17 @@ fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic(
             (finest.cos_tilt, finest.cos_bound),
         ] {
             assert!((found - exact).abs() <= bound + 4.0 * UNIT_ROUNDOFF && bound < 1e-6, "{toss:?}: {found} {exact}");
+        }
+        // One rounding of cos θ is most of the bound in more digits, and those of the launch are of the attitude's.
+        for landing in [fine, finest] {
+            let stated = by_digits(&coin, landing, Integration::MoreDigits).unwrap();
+            assert!(
+                (1.0..1.02).contains(&(landing.cos_bound / (UNIT_ROUNDOFF * landing.cos_tilt.abs()))),
+                "{landing:?}"
+            );
+            assert!((1.0..1.01).contains(&(stated.attitude_error_bound() / OF_ATTITUDE)), "{stated:?}");
+            let calls = u64::from(landing.steps) * landing.order as u64;
+            assert_eq!((stated.work().rhs_calls, stated.work().accepted_steps), (calls, u64::from(landing.steps)));
         }
         let turn = [0; 4].map(|_| numbers.between(-3.0, 3.0));
         let turned = Attitude::from_components(turn).unwrap().body_to_lab(&Vector3::z());
@@ -128,6 +139,21 @@ fn bounds_of_the_toss_cover_what_rounding_it_changes() {
     let in_radians = Toss { launch: Launch::new(toss.launch.rate(), time).unwrap(), ..toss };
     let of_unit = found - solver.enclose(&in_radians).unwrap().attitude_error_bound();
     assert!(of_unit > UNIT_ROUNDOFF * 0.5 * toss.launch.turn_rate() * time.seconds(), "{of_unit:e}");
+}
+
+#[test]
+fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
+    let quarter = Angle::Turns(Quantity::new(0.25, Unit::ratio(1, 1).unwrap()));
+    let launch = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(0.0)).unwrap();
+    let [right, three] = [launch.with_tilt(quarter).unwrap(), launch.with_tilt(-3.0).unwrap()];
+    for (launch, tilt) in [(launch, 0.0), (right, 0.5 * std::f64::consts::PI), (three, 3.0)] {
+        for body in [Coin::PAPER.into(), Body::from_moments([1.0, 2.0, 2.5]).unwrap()] {
+            let found = solver(1e-9).enclose(&Toss { body, launch }).unwrap();
+            let bounds = [found.error_bound(), found.attitude_error_bound()].map(|bound| bound / UNIT_ROUNDOFF);
+            approx::assert_relative_eq!(bounds[0], 20.0, max_relative = 1e-12);
+            approx::assert_relative_eq!(bounds[1], 24.0 + tilt, max_relative = 1e-12);
+        }
+    }
 }
 
 /// A toss whose cos θ at landing is about `margin`, after ten turns and a quarter.

@@ -101,6 +101,21 @@ fn the_constants_are_upper_bounds_along_the_whole_flight() {
                 assert!(share <= 1.0 + 1e-12, "{shares:?}, {toss:?}");
                 *closest = closest.max(share);
             }
+            let ([a, b, c], [x, y, z]) = (moments, [rate.x, rate.y, rate.z].map(|part| part * part));
+            let [p, q, r] = [(c - b) / a, (c - a) / b, (b - a) / c];
+            let [of_a, of_b] = [x + p / q * y, z + r / q * y];
+            let fastest = (x + y + z + p * r * y).sqrt();
+            let most_across = (c * q * (of_a * of_b).sqrt() / momentum.norm()).min(fastest);
+            for (found, expected) in [
+                (polhode.fastest, fastest),
+                (polhode.coupling, q),
+                (polhode.growth, (p + r) * fastest * INVERSE_ROOT_3),
+                (polhode.across, most_across),
+                (polhode.invariants[0].to_f64(), of_a),
+                (polhode.invariants[1].to_f64(), of_b),
+            ] {
+                approx::assert_relative_eq!(found, expected, max_relative = 1e-9, epsilon = 0.0);
+            }
             let speed = polhode.speed(rate.into()) * polhode.coupling;
             approx::assert_relative_eq!(speed, f.norm(), max_relative = 1e-9, epsilon = 1e-15);
         }
@@ -136,19 +151,79 @@ fn errors_of_the_constants_count_by_their_formulas() {
         let plain = polhode(&toss);
         let kappas = [(0, 1e-4), (1, 3e-4)].map(|(index, radius): (usize, f64)| plain.kappas[index].widened(radius));
         let wide = Polhode { kappas, ..plain };
-        let (rates, [r, s]) = (RATES[0], kappas.map(|kappa| kappa.radius()));
+        let (rates, [r, s]) = (toss.launch.rate().into(), kappas.map(|kappa| kappa.radius()));
         let ([x, y, z], [k, l]) = (rates, kappas.map(|kappa| kappa.to_f64()));
         let speed = (k * y * z).hypot(x * z).hypot(l * x * y);
         let expected = speed - 2.0 * (r + s) * wide.fastest * wide.fastest;
         approx::assert_relative_eq!(wide.speed(rates), expected, epsilon = 1e-15, max_relative = 1e-12);
-        let (error, ideal, [of_a, of_b]) = (1e-5, 0.1, wide.residuals(rates));
+        let (error, ideal, [of_a, of_b]) = (1e-2, 0.5, wide.residuals(rates));
         let off = wide.widest * error;
         let across_a = x.hypot(k * y) + off + r * wide.fastest;
         let across_b = z.hypot(l * y) + off + s * wide.fastest;
         let expected = 0.5 * (across_a * of_b + across_b * of_a) / (ideal - 0.5 * off * (across_a + across_b));
         let found = wide.across(rates, error, ideal);
-        approx::assert_relative_eq!(found, expected.min(error), epsilon = 0.0, max_relative = 1e-12);
+        approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-12);
+        assert!(expected < error && wide.across(rates, 1e-12, ideal) == 1e-12);
         assert!(of_a >= r * y * y && of_b >= s * y * y && r >= 1e-4 && s >= 3e-4, "{moments:?}");
+    }
+}
+
+/// A and B are off by how far the rates are from the curve, by their own errors and by roundings of double-double alone.
+#[test]
+fn what_the_invariants_are_off_adds_up() {
+    let of_dd = 20.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+    let plain = polhode(&toss(MOMENTS[0], RATES[0]));
+    let off = |[r, s, far]: [f64; 3], rates: [f64; 3]| {
+        let ball = |value: f64, radius: f64| Ball::new(DoubleDouble::exactly(value), radius);
+        let [a, b] = [rates[0], rates[2]].map(|part| part * part);
+        let of = |square: f64, kappa: f64| ball(square + kappa * rates[1] * rates[1] + far, s);
+        Polhode { kappas: [ball(0.5, r), ball(0.25, r)], invariants: [of(a, 0.5), of(b, 0.25)], ..plain }
+            .residuals(rates)
+    };
+    for (parts, expected) in [
+        ([0.0; 3], [of_dd * 2.0 * 0.6875, of_dd * 2.0 * 1.625]),
+        ([1e-9, 0.0, 0.0], [0.25e-9; 2]),
+        ([0.0, 1e-9, 0.0], [1e-9; 2]),
+        ([0.0, 0.0, 0.0625], [0.0625; 2]),
+        ([0.0, 0.0, -0.0625], [0.0625; 2]),
+    ] {
+        for (found, expected) in off(parts, [0.75, -0.5, 1.25]).into_iter().zip(expected) {
+            approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-12);
+        }
+    }
+    assert_eq!(off([0.0; 3], [0.0; 3]), [TINY * TINY; 2], "underflow");
+}
+
+/// Each bound of a number that is known to a radius is strictly above what the radius allows, by a few roundings.
+#[test]
+fn bounds_of_numbers_have_room_for_their_rounding_and_no_more() {
+    let ball = |value: f64, radius: f64| Ball::new(DoubleDouble::exactly(value), radius);
+    let slightly_above = |found: f64, least: f64| assert!(found > least && found < least * (1.0 + 4e-15), "{found:e}");
+    slightly_above(above(&ball(3.0, 0.5)), 3.5);
+    slightly_above(above(&ball(-3.0, 0.5)), 3.5);
+    let ideal = [ball(1.0, 0.25), ball(2.0, 0.5), ball(-1.0, 0.0)];
+    slightly_above(distance(&ideal, [1.5, 2.25, -1.5]), 2.0);
+    slightly_above(distance(&ideal.map(|ball| Ball::new(*ball.midpoint(), 0.0)), [1.5, 2.25, -1.5]), 1.25);
+    // The angular momentum is (3, 4, 0).
+    let (moments, rates) = ([1.0, 2.0, 2.5].map(|moment| ball(moment, 0.0)), [3.0, 2.0, 0.0]);
+    slightly_above(across(&moments, &rates.map(|rate| ball(rate, 0.0)), 0.5), 0.25);
+    let wide = across(&moments, &rates.map(|rate| ball(rate, 0.01)), 0.5);
+    assert!(wide > 0.5 * 2.5 / (5.0 - 0.022) && wide < 0.5 * 2.5 / 4.9, "{wide}");
+    assert_eq!(across(&moments, &rates.map(|rate| ball(rate, 10.0)), 0.5), f64::INFINITY);
+    let frame = |radii: [f64; 3]| {
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| {
+            let mut parts = axis.into_iter().zip(radii).map(|(part, radius)| ball(part, radius));
+            [0; 3].map(|_| parts.next().unwrap())
+        })
+    };
+    approx::assert_relative_eq!(
+        axes_error(&frame([1e-9, 3e-9, 2e-9])),
+        18e-9 + 12.0 * UNIT_ROUNDOFF,
+        max_relative = 1e-12
+    );
+    assert_eq!(axes_error(&[[ball(0.8, 0.0); 3]; 3]), 12.0 * UNIT_ROUNDOFF);
+    for radii in [[f64::NAN, 0.0, 0.0], [0.0, f64::NAN, 1e-9], [0.0, 1e-9, f64::NAN]] {
+        assert!(!(axes_error(&frame(radii)) < 1.0), "{radii:?}");
     }
 }
 
@@ -162,6 +237,9 @@ fn an_error_grows_by_its_formula() {
             let square = exp_above(2.0 * 0.5774 * polhode.widest * polhode.coupling * first * h);
             let expected = if square <= 2.0 { first * square } else { f64::INFINITY };
             approx::assert_relative_eq!(polhode.grown(start, h), expected, epsilon = 0.0, max_relative = 1e-12);
+            let off = start * polhode.widest * (1.4143 * polhode.fastest + 0.5774 * start);
+            let expected = polhode.speed(RATES[0]) - off;
+            approx::assert_relative_eq!(polhode.speed_near(RATES[0], start), expected, max_relative = 1e-12);
         }
     }
 }
@@ -237,10 +315,10 @@ fn without_its_conditions_there_is_no_shift() {
 /// The shift is bounded by (17) exactly where the conditions (18) hold, and underflow counts unless no product can have it.
 #[test]
 fn a_shift_is_bounded_where_its_conditions_hold() {
-    let start = [1e-3, 1.5, 1e-3];
-    let polhode = polhode(&toss(MOMENTS[0], start));
     let (mut bounded, mut refused) = (0, 0);
-    for (power, h) in (0..24).flat_map(|power| [0.01, 0.1, 0.5, 1.0].map(|h| (power, h))) {
+    let steps = |launch| (0..24).flat_map(move |power| [0.01, 0.1, 0.5, 1.0].map(|h| (launch, power, h)));
+    for ((moments, start), power, h) in steps((MOMENTS[0], [1e-3, 1.5, 1e-3])).chain(steps((THIN, RATES[0]))) {
+        let polhode = polhode(&toss(moments, start));
         let error = 1e-6 * 1.5_f64.powi(power);
         let mut errors = Errors::at_launch(polhode, start);
         errors.add(&Step { h, turn: 0.0, rates: error, rounding: 0.5 * error, after: start });
@@ -261,13 +339,20 @@ fn a_shift_is_bounded_where_its_conditions_hold() {
         } else {
             bounded += 1;
             let speed = least.max((first * end).sqrt() / exp_above(0.5 * polhode.growth * h)) * (1.0 - slowed);
-            approx::assert_relative_eq!(errors.along.shift, time(speed), epsilon = 0.0, max_relative = 1e-10);
+            let share = errors.along.shift / time(speed);
+            assert!((1.0 + 5e-12..1.0 + 2e-11).contains(&share), "{share} of the formula, with room for its roundings");
         }
     }
     assert!(bounded > 20 && refused > 20, "{bounded} {refused}");
-    let mut errors = Errors::at_launch(polhode, start);
-    errors.add(&Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: 0.0, after: start });
-    assert!(errors.growing.error >= 1e-150);
+    let (start, still) =
+        ([1e-3, 1.5, 1e-3], Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: 0.0, after: [0.0, 1.5, 0.0] });
+    let mut errors = Errors::at_launch(polhode(&toss(MOMENTS[0], start)), start);
+    errors.add(&Step { after: start, ..still });
+    assert!(errors.growing.error >= 1e-150 && errors.along.shift < 1e-140);
+    // A step to the middle axis, and a launch about it.
+    errors.add(&Step { rounding: 1e-6, ..still });
+    let launched = Errors::at_launch(polhode(&toss(MOMENTS[0], still.after)), still.after);
+    assert_eq!([errors.along.shift, launched.along.shift], [f64::INFINITY; 2]);
 }
 
 /// Rates in another unit whose product with it may leave the range of f64, or lose digits below it.
@@ -280,6 +365,24 @@ fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
         let toss = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
         assert_eq!(Polhode::new(&toss, &RigidFlight::new(&toss).unwrap()).is_some(), is_told, "{size:e}");
     }
+}
+
+/// Moments that can't be told from equal ones, or whose smallest may underflow, have no bound.
+#[test]
+fn bodies_without_a_curve_are_refused() {
+    let is_told = |body: Body| {
+        let toss = Toss { body, ..toss(MOMENTS[0], RATES[0]) };
+        Polhode::new(&toss, &RigidFlight::new(&toss).unwrap()).is_some()
+    };
+    for (smallest, expected) in [(0.0, true), (SMALLEST, true), (0.9 * SMALLEST, false)] {
+        assert_eq!(is_told(Body::from_moments([smallest, 1.0, 1.0]).unwrap()), expected, "{smallest:e}");
+    }
+    for (off, expected) in [(1e-10, true), (1e-20, false)] {
+        let body = Body::from_tensor([[1.0, off, 0.0], [off, 1.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
+        assert_eq!(is_told(body), expected, "{off:e}");
+    }
+    assert!(!is_told(Body::from_moments([1.0; 3]).unwrap()));
+    assert!(!is_told(Body::from_tensor([[5.0, 1.0, 1.0], [1.0, 5.0, 1.0], [1.0, 1.0, 5.0]]).unwrap()));
 }
 
 /// Rates in degrees and the axes of a tensor are rounded, and no more.
@@ -316,16 +419,25 @@ fn axes_that_are_known_but_for_a_rounding_are_not_exact() {
 /// The smallest parts of a rate lose digits below the smallest f64 in the unit of the flight.
 #[test]
 fn what_underflow_takes_from_a_rate_is_within_its_bound() {
-    for smallest in [3.0, 5.0, 7.0].map(|digits: f64| digits * f64::from_bits(1)) {
-        let toss = toss(MOMENTS[0], [4.5, smallest, -1.0]);
-        let flight = RigidFlight::new(&toss).unwrap();
-        let axes = [0, 1, 2].map(|axis| {
-            let part = |place| Ball::new(DoubleDouble::exactly(f64::from(u8::from(place == axis))), 0.0);
+    let axes = |radius: f64| {
+        [0, 1, 2].map(|axis| {
+            let part = |place| Ball::new(DoubleDouble::exactly(f64::from(u8::from(place == axis))), radius);
             [0, 1, 2].map(part)
-        });
-        let scale = numerics::scale::power_of_two_scale(4.5);
-        let found = ideal_rates(&toss, &axes, &flight).unwrap()[1];
+        })
+    };
+    let least = f64::from_bits(1);
+    for (largest, smallest) in [(4.5, 3.0 * least), (4.5, 5.0 * least), (4.5, 7.0 * least), (1e250, 1e-100)] {
+        let launch = Launch::new([largest, smallest, -1.0], TimeOfFlight::Given(1.0 / largest)).unwrap();
+        let toss = Toss { launch, ..toss(MOMENTS[0], RATES[0]) };
+        let flight = RigidFlight::new(&toss).unwrap();
+        let scale = numerics::scale::power_of_two_scale(largest);
+        let found = ideal_rates(&toss, &axes(0.0), &flight).unwrap()[1];
         let lost = (found.midpoint().to_f64() * scale - smallest).abs() / scale;
-        assert!(found.radius() >= lost && found.radius() > 0.0, "{smallest:e}: {found:?}");
+        assert!(found.radius() >= lost && (1e-300..1.01e-300).contains(&found.radius()), "{smallest:e}: {found:?}");
     }
+    let least = toss(MOMENTS[0], [1.0, TINY, -1.0]);
+    assert_eq!(ideal_rates(&least, &axes(0.0), &RigidFlight::new(&least).unwrap()).unwrap()[1].radius(), 0.0);
+    let at_rest = toss(MOMENTS[0], [0.0; 3]);
+    let found = ideal_rates(&at_rest, &axes(1e-30), &RigidFlight::new(&at_rest).unwrap()).unwrap()[1];
+    assert!((TINY..1.01 * TINY).contains(&found.radius()), "{found:?}");
 }

@@ -81,8 +81,8 @@ fn the_local_error_of_order_n_falls_with_power_n_plus_1_of_the_step() {
     }
 }
 
-/// The coefficients of a step at any order, in double-double, evaluated at its end.
-fn in_double_double(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) -> [DoubleDouble; 7] {
+/// The coefficients of a step at any order, in double-double.
+fn coefficients(rates: [f64; 3], couplings: [f64; 3], order: usize) -> Vec<[DoubleDouble; 7]> {
     let like = |value: f64| DoubleDouble::from(value);
     let [p, q, r] = couplings.map(|coupling| like(2.0 * coupling));
     let mut terms = vec![[1.0, 0.0, 0.0, 0.0, 0.5 * rates[0], 0.5 * rates[1], 0.5 * rates[2]].map(like)];
@@ -97,9 +97,14 @@ fn in_double_double(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) 
         }
         terms.push(sum.map(|part| part / like((k + 1) as f64)));
     }
+    terms
+}
+
+/// [`coefficients`], evaluated at the end of the step.
+fn in_double_double(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) -> [DoubleDouble; 7] {
     let mut sum = [DoubleDouble::ZERO; 7];
-    for term in terms.iter().rev() {
-        sum.iter_mut().zip(term).for_each(|(sum, part)| *sum = *sum * like(h) + *part);
+    for term in coefficients(rates, couplings, order).iter().rev() {
+        sum.iter_mut().zip(term).for_each(|(sum, part)| *sum = *sum * DoubleDouble::from(h) + *part);
     }
     sum
 }
@@ -165,6 +170,57 @@ fn roundings_are_within_their_bounds() {
     for h in [0.03, 0.3, 1.0] {
         for share in shares_of_steps(LARGEST_ORDER, h) {
             assert!((0.15..=1.0).contains(&share), "{h}: {share} of the bound");
+        }
+    }
+}
+
+/// (13), (14) and (15), written out as in the proof.
+fn written_out(rates: [f64; 3], couplings: [f64; 3], order: usize, h: f64) -> [f64; 3] {
+    let mut terms: Vec<[f64; 7]> = Vec::new();
+    for (n, term) in coefficients(rates, couplings, order).into_iter().enumerate() {
+        terms.push(term.map(|part| part.hi() * h.powi(n as i32)));
+    }
+    let size = |n: usize| terms[n][..4].iter().map(|part| part.abs()).sum::<f64>();
+    let of_turn = |weight: fn(f64) -> f64| (0..=order).map(|n| weight(n as f64 + 1.0) * size(n)).sum::<f64>();
+    let later = |axis: usize, weight: fn(f64) -> f64| -> f64 {
+        (1..=order).map(|n| weight(n as f64 + 1.0) * terms[n][4 + axis].abs()).sum()
+    };
+    let [a, b, c] = [0, 1, 2].map(|axis: usize| terms[0][4 + axis].abs() + later(axis, |_| 1.0));
+    let (mut turn_dropped, mut rates_dropped) = (0.0, 0.0);
+    for n in order..=2 * order {
+        let product = |one: usize, other: usize| -> f64 {
+            (n - order..=order).map(|i| terms[i][one] * terms[n - i][other]).sum::<f64>() * h / (n as f64 + 1.0)
+        };
+        let turn = [
+            product(1, 4) + product(2, 5) + product(3, 6),
+            product(0, 4) + product(2, 6) - product(3, 5),
+            product(0, 5) + product(3, 4) - product(1, 6),
+            product(0, 6) + product(1, 5) - product(2, 4),
+        ];
+        turn_dropped += turn.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let of_rates = [product(5, 6), product(6, 4), product(4, 5)].into_iter().zip(couplings);
+        rates_dropped += of_rates.map(|(product, coupling)| (4.0 * coupling * product).abs()).sum::<f64>();
+    }
+    let coupling = couplings.into_iter().fold(0.0_f64, |most, one| most.max(one.abs()));
+    let last = |axis: usize| terms[0][4 + axis].abs().min(later(axis, |_| 1.0) / UNIT_ROUNDOFF);
+    [
+        turn_dropped + UNIT_ROUNDOFF * (6.0 * h * of_turn(|_| 1.0) * (a + b + c) + of_turn(|n| n)),
+        rates_dropped + 20.2 * UNIT_ROUNDOFF * coupling * h * (a * b + b * c + c * a),
+        2.0 * UNIT_ROUNDOFF * (0..3).map(|axis| later(axis, |n| n) + last(axis)).sum::<f64>(),
+    ]
+}
+
+/// Of low orders too, at which what the series leave out is the larger part, and of a rate that hardly changes.
+#[test]
+fn the_bounds_of_a_step_are_those_of_the_theorem() {
+    for (order, h) in [(2, 0.1), (2, 1.3), (6, 0.7), (LARGEST_ORDER, 0.1), (LARGEST_ORDER, 1.3)] {
+        for rates in [[0.9, -0.5, 0.7], [-0.2, 1.7, 0.4], [1.1, 1e-9, 1e-9]] {
+            for couplings in [[-0.25, 0.75, -0.6], [-1.0, 0.5, 0.125]] {
+                let found = SimdLevel::widest().run(Bounds(rates, couplings, order, h));
+                for (found, exact) in found.into_iter().zip(written_out(rates, couplings, order, h)) {
+                    assert!((found / exact - 1.0).abs() < 1e-9, "{order} {h} {rates:?}: {found:e}, not {exact:e}");
+                }
+            }
         }
     }
 }
