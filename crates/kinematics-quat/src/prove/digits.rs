@@ -308,6 +308,7 @@ mod tests {
         let ([a, b, c], [d, e, f]) = (turns.map(|turn| double.like(turn)), turns.map(|turn| more.like(turn)));
         let (series, exact) = (Series::new(&a, &b, &c, order(106)), Series::new(&d, &e, &f, order(384)));
         assert_encloses(of_series(&series), of_series(&exact), 88);
+        assert_eq!(cos_tilt(&[0.6, 0.0, 0.8], &[2.0, 0.0, 0.0, 0.0]), 0.8, "any norm");
         // Without a turn there is nothing but the remainder.
         let zero = double.like(0.0);
         let still = Series::new(&zero, &zero, &zero, order(106));

@@ -210,20 +210,12 @@ fn bounds_of_numbers_have_room_for_their_rounding_and_no_more() {
     let wide = across(&moments, &rates.map(|rate| ball(rate, 0.01)), 0.5);
     assert!(wide > 0.5 * 2.5 / (5.0 - 0.022) && wide < 0.5 * 2.5 / 4.9, "{wide}");
     assert_eq!(across(&moments, &rates.map(|rate| ball(rate, 10.0)), 0.5), f64::INFINITY);
-    let frame = |radii: [f64; 3]| {
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| {
-            let mut parts = axis.into_iter().zip(radii).map(|(part, radius)| ball(part, radius));
-            [0; 3].map(|_| parts.next().unwrap())
-        })
-    };
-    approx::assert_relative_eq!(
-        axes_error(&frame([1e-9, 3e-9, 2e-9])),
-        18e-9 + 12.0 * UNIT_ROUNDOFF,
-        max_relative = 1e-12
-    );
+    let axes = |radii: [f64; 3]| [radii, [0.0; 3], [0.0; 3]].map(|axis| axis.map(|radius| ball(1.0, radius)));
+    let (found, expected) = (axes_error(&axes([1e-9, 3e-9, 2e-9])), 18e-9 + 12.0 * UNIT_ROUNDOFF);
+    approx::assert_relative_eq!(found, expected, epsilon = 0.0, max_relative = 1e-12);
     assert_eq!(axes_error(&[[ball(0.8, 0.0); 3]; 3]), 12.0 * UNIT_ROUNDOFF);
     for radii in [[f64::NAN, 0.0, 0.0], [0.0, f64::NAN, 1e-9], [0.0, 1e-9, f64::NAN]] {
-        assert!(!(axes_error(&frame(radii)) < 1.0), "{radii:?}");
+        assert!(axes_error(&axes(radii)).is_nan(), "{radii:?}");
     }
 }
 
@@ -232,7 +224,7 @@ fn bounds_of_numbers_have_room_for_their_rounding_and_no_more() {
 fn an_error_grows_by_its_formula() {
     for (_, toss) in tosses().chain([(THIN, toss(THIN, RATES[0]))]) {
         let polhode = polhode(&toss);
-        for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.3, 2.0), (2.0, 9.0)] {
+        for (start, h) in [(1e-9, 0.1), (1e-3, 0.7), (0.02, 1.0), (0.1, 2.5), (0.3, 2.0), (2.0, 9.0)] {
             let first = start * exp_above(polhode.growth * h);
             let square = exp_above(2.0 * 0.5774 * polhode.widest * polhode.coupling * first * h);
             let expected = if square <= 2.0 { first * square } else { f64::INFINITY };
@@ -391,6 +383,10 @@ fn the_rounding_of_the_toss_counts() {
     let degree = AngleUnit::Turns(dynamics::Unit::ratio(1, 360).unwrap());
     let launch = Launch::in_unit([40.0, -23.0, 63.0], degree, TimeOfFlight::Given(10.0)).unwrap();
     let exact = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
+    for (rate, is_about_axis) in [([40.0, 0.0, 0.0], true), ([40.0, 0.0, 1.0], false)] {
+        let launch = Launch::in_unit(rate, degree, TimeOfFlight::Given(10.0)).unwrap();
+        assert_eq!(polhode(&Toss { launch, ..exact }).about_axis, is_about_axis, "{rate:?}");
+    }
     let off = [40.0, -23.0, 63.0].map(|part: f64| {
         let exact = DoubleDouble::nearest(&degree.in_digits(160)) * part;
         (exact - (part.to_radians()).into()).hi().abs()
