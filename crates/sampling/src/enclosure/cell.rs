@@ -379,10 +379,14 @@ impl<'a> Problem<'a> {
     /// Bounds of the mean share over `cell`, times the density. If they are wider than `enough`, series of `F` terms are tried
     /// where the share is smooth.
     pub(super) fn bounds<const T: usize, const F: usize>(&self, cell: &Cell<'a>, enough: f64) -> Bounds {
+        self.means::<T>(cell).bounds::<F>(enough)
+    }
+
+    fn means<'b, const T: usize>(&'b self, cell: &'b Cell<'a>) -> Means<'a, 'b, T> {
         let (middle, whole) = (self.launches::<T>(cell, false), self.launches::<T>(cell, true));
         let weight = middle.weight.zip(whole.weight).map(|(middle, whole)| Function { middle, whole }.narrowed());
         let motion = both(self.motion(&middle), self.motion(&whole));
-        Means { problem: self, cell, weight, motion }.bounds::<F>(enough)
+        Means { problem: self, cell, weight, motion }
     }
 }
 
@@ -417,11 +421,11 @@ impl<const T: usize> Means<'_, '_, T> {
     /// The mean of the share of the speeds.
     fn of_many_speeds<const F: usize>(&self, enough: f64) -> Bounds {
         match self.motion.room.sign() {
-            Some(sign) if sign < 0.0 => match self.motion.mean.sign() {
+            Some(-1.0) => match self.motion.mean.sign() {
                 Some(face) => self.of_one_face(face),
                 None => self.of_unknown_half_width([0.0, PI]),
             },
-            Some(sign) if sign > 0.0 => {
+            Some(1.0) => {
                 let found = self.with_edges::<F>(enough);
                 let narrower = (found.width() > enough).then(|| self.grazing());
                 narrower.flatten().filter(|other| other.width() < found.width()).unwrap_or(found)
@@ -434,15 +438,12 @@ impl<const T: usize> Means<'_, '_, T> {
     /// phase.
     fn face_of_all(&self) -> Option<f64> {
         let most = upper(self.motion.phases[1].values());
-        if most.is_nan() || most >= FRAC_PI_2 {
+        if most >= FRAC_PI_2 {
             return None;
         }
         let cos_tilt = self.motion.cos_tilt.values();
         let needed = exactly(most).sine_and_cosine()[0];
-        (cos_tilt.has_sign()
-            && (cos_tilt.magnitude() - needed).has_sign()
-            && (cos_tilt.magnitude() - needed).sign() > 0.0)
-            .then(|| cos_tilt.sign())
+        (lower(&(cos_tilt.magnitude() - needed)) > 0.0).then(|| cos_tilt.sign())
     }
 
     /// The mean of the density.
@@ -573,7 +574,7 @@ impl<const T: usize> Means<'_, '_, T> {
             beyond_edges = beyond_edges.plus(sign * side, beyond.mean_of_positive_part(Power::One));
         }
         // More terms serve if they can make the cell narrow enough.
-        let enough = if beyond_edges.width() < enough { enough - beyond_edges.width() } else { f64::INFINITY };
+        let enough = enough - beyond_edges.width();
         self.smooth::<F>(numerator, apart, [half_width, landings[0], landings[1]], inverse, enough)
             .plus(1.0, beyond_edges)
     }
@@ -704,39 +705,34 @@ impl<const T: usize> Means<'_, '_, T> {
         let Motion { squared, room, mean, span, .. } = self.motion;
         let face = mean.sign()?;
         // The narrow intervals are those of the face that the mean has not.
-        let largest = magnitude(squared.values()) * upper(room.values());
-        if largest.is_nan() || largest > magnitude(mean.values()).powi(2) {
-            return None;
-        }
+        let is_heads = mean.sign() == Some(1.0);
         let ratio = squared.times(room).with(mean, |product, mean| product / (mean * mean)).narrowed();
-        let (least, most) = (lower(ratio.values()), upper(ratio.values()));
-        if !(most <= 0.25 && least >= -0.25) {
+        let ratios = [lower(ratio.values()), upper(ratio.values())];
+        if !ratios.iter().all(|ratio| ratio.abs() <= 0.25) {
             return None;
         }
-        let widths = [least, most].map(|ratio| ratio.max(0.0).sqrt().atan());
-        let (narrowest, widest) =
-            ((widths[0] * (1.0 - 4.0 * f64::EPSILON)).max(0.0), widths[1] * (1.0 + 4.0 * f64::EPSILON));
+        let [narrowest, widest] = narrow_half_widths(ratios);
         let crest = self.crest();
         let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
         let crude = || {
             let heads =
-                if face > 0.0 { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };
+                if is_heads { [(PI - widest).next_down(), PI.next_up() - narrowest] } else { [narrowest, widest] };
             self.of_unknown_half_width(heads)
         };
         // Phases from the nearest middle of a narrow interval.
-        let to_middle = if face > 0.0 { exactly(0.0).pi() } else { exactly(0.0) };
+        let to_middle = if is_heads { exactly(0.0).pi() } else { exactly(0.0) };
         let mut passed = [0.0; 2];
         for (passed, phase) in passed.iter_mut().zip(&from_crest) {
             let phase = phase.map(|jet| jet - Jet::constant(to_middle));
             let turns = (phase.middle.to_f64() / TAU).round();
             let turned = self.turned(turns);
             let distance = phase.map(|jet| jet - turned).narrowed();
-            let (values, size) = (distance.values(), distance.values().magnitude());
-            let is_clear = values.has_sign() && lower(&size) > widest && upper(&size) < (TAU - widest).next_down();
+            let size = distance.values().magnitude();
+            let is_clear = lower(&size) > widest && upper(&size) < (TAU - widest).next_down();
             if !is_clear {
                 return Some(crude());
             }
-            *passed = turns + if values.sign() > 0.0 { 1.0 } else { 0.0 };
+            *passed = turns + f64::from(distance.sign() == Some(1.0));
         }
         let number = passed[1] - passed[0];
         if number == 0.0 {
@@ -746,9 +742,14 @@ impl<const T: usize> Means<'_, '_, T> {
         let factor = self.weight.map_or(factor, |weight| factor.times(weight));
         let squared = ratio.map(|ratio| squared_angle_of_root(&ratio)).times(factor.times(factor));
         let narrow = squared.mean_of_positive_part(Power::Half);
-        let found = if face < 0.0 { narrow } else { self.weight().plus(-1.0, narrow) };
-        Some(found)
+        Some(if is_heads { self.weight().plus(-1.0, narrow) } else { narrow })
     }
+}
+
+/// Bounds of atan √`ratio` between two ratios; 0 for a negative one.
+fn narrow_half_widths(ratios: [f64; 2]) -> [f64; 2] {
+    let [narrowest, widest] = ratios.map(|ratio| ratio.max(0.0).sqrt().atan());
+    [narrowest * (1.0 - 4.0 * f64::EPSILON), widest * (1.0 + 4.0 * f64::EPSILON)]
 }
 
 /// |L|² cos θ at a phase.
@@ -912,5 +913,307 @@ mod tests {
         let function = Function { middle: Jet::constant(Ball::new(2.0, 0.25)), whole: wide(2.0) }.narrowed();
         assert_eq!(*function.values().midpoint(), 2.0);
         assert!((0.75..0.75 + 1e-12).contains(&function.values().radius()), "{:?}", function.values());
+    }
+
+    fn constant(value: f64) -> Function<6> {
+        linear(value, 0.0)
+    }
+
+    /// value + slope t in the first direction.
+    fn linear(value: f64, slope: f64) -> Function<6> {
+        about(value, Ball::new(value, slope.abs()), slope)
+    }
+
+    /// A function of this value and slope about the middle, with these values over the cell.
+    fn about(value: f64, whole: Ball<f64>, slope: f64) -> Function<6> {
+        let jet = |value| Jet::variable(value, exactly(slope), 0);
+        Function { middle: jet(exactly(value)), whole: jet(whole) }
+    }
+
+    /// The motion of launches of |L| = 1 from horizontal, with a room P - s² and A, between two phases.
+    fn motion(room: f64, mean: f64, [first, last]: [f64; 2]) -> Motion<Function<6>> {
+        Motion {
+            squared: constant(1.0),
+            phases: [constant(first), constant(last)],
+            span: constant(last - first),
+            room: constant(room),
+            mean: constant(mean),
+            cosine: constant(1.0 - mean),
+            sine: constant(0.0),
+            cos_tilt: constant(1.0),
+        }
+    }
+
+    /// Calls `of` with the means of a motion and of a density that are made by hand.
+    fn by_hand<R>(motion: Motion<Function<6>>, weight: Option<Function<6>>, of: impl Fn(Means<'_, '_, 6>) -> R) -> R {
+        let coin = dynamics::Coin::PAPER;
+        let space = Space::builder(coin).rate_x(1.0..=2.0).rate_y(1.0).rate_z(1.0).speed(2.0..=3.0).build().unwrap();
+        let (problem, cell) = (Problem::new(&space, coin, false), Cell::whole([None; MOST_DIRECTIONS]));
+        of(Means { problem: &problem, cell: &cell, weight, motion })
+    }
+
+    fn assert_near(found: Bounds, [lo, hi]: [f64; 2], case: impl std::fmt::Debug) {
+        let is_near = found.lo <= lo && hi <= found.hi && found.width() < hi - lo + 1e-12;
+        assert!(is_near, "{case:?}: {found:?}, not {lo} to {hi}");
+    }
+
+    /// Tails (of A > 0) are within b = atan √(room/A²) of π + 2π n, and heads (of A < 0) of 2π n.
+    #[test]
+    fn narrow_intervals_are_counted() {
+        let b = 0.1_f64.atan();
+        for (mean, phases, number) in [
+            (1.0, [0.0, 10.0], 2.0),
+            (1.0, [3.5, 9.0], 0.0),
+            (1.0, [-3.5, 3.5], 2.0),
+            (1.0, [3.0, 16.0], 3.0),
+            (-1.0, [1.0, 13.0], 2.0),
+            (-1.0, [-0.5, 6.5], 2.0),
+            (-1.0, [6.5, 12.0], 0.0),
+        ] {
+            let narrow = 2.0 * b * number / (phases[1] - phases[0]);
+            let share = if mean > 0.0 { 1.0 - narrow } else { narrow };
+            let case = (mean, phases);
+            let found =
+                |room: f64, weight| by_hand(motion(room, mean, phases), weight, |means| means.grazing().unwrap());
+            assert_near(found(0.01, None), [share, share], case);
+            assert_near(found(0.01, Some(constant(2.0))), [2.0 * share, 2.0 * share], case);
+            let none = if mean > 0.0 { 1.0 } else { 0.0 };
+            assert_near(found(-0.01, None), [none, none], case);
+        }
+    }
+
+    /// A landing in a narrow interval, or nearly in the next one.
+    #[test]
+    fn a_landing_within_a_narrow_interval_is_bounded_by_the_half_widths() {
+        let b = 0.1_f64.atan();
+        for (mean, phases, heads) in [
+            (1.0, [PI + 0.05, PI + 2.0], 2.0 - b),
+            (1.0, [1.0, PI + 0.05], PI - b - 1.0),
+            (1.0, [PI - 0.05, 3.0 * PI + 0.05], TAU - 2.0 * b),
+            (-1.0, [0.05, 2.0], b - 0.05),
+            (-1.0, [-0.05, TAU - 0.05], 2.0 * b),
+        ] {
+            let share = heads / (phases[1] - phases[0]);
+            let found = by_hand(motion(0.01, mean, phases), None, |means| means.grazing().unwrap());
+            assert_near(found, [share, share], (mean, phases));
+        }
+        // Somewhere from 1.75 to 6.25, and so perhaps at the heads about 2π.
+        let wide = about(3.0, Ball::new(4.0, 2.25), 3.0);
+        let motion = Motion { phases: [constant(1.0), wide], ..motion(0.01, -1.0, [1.0, 5.0]) };
+        let found = by_hand(motion, None, |means| means.grazing().unwrap());
+        assert!(found.lo <= 0.0 && found.hi > 0.25 * (6.25 - TAU + b), "{found:?}");
+    }
+
+    /// The mean of atan √(Y t) over t from 0 to 1 is (1 + 1/Y) atan √Y - 1/√Y.
+    #[test]
+    fn narrow_intervals_that_vanish_have_a_mean_width() {
+        let y = 0.04_f64;
+        let b = 0.5 * ((1.0 + 1.0 / y) * y.sqrt().atan() - 1.0 / y.sqrt());
+        for (mean, share) in [(1.0, 1.0 - 0.4 * b), (-1.0, 0.4 * b)] {
+            let phases = if mean > 0.0 { [0.0, 10.0] } else { [3.0, 13.0] };
+            let motion = Motion { room: linear(0.0, y), ..motion(0.0, mean, phases) };
+            let found = by_hand(motion, None, |means| means.grazing().unwrap());
+            assert!(found.lo <= share && share <= found.hi && found.width() < 0.004, "{mean}: {found:?}, not {share}");
+        }
+    }
+
+    /// Where they are known to be narrow.
+    #[test]
+    fn intervals_graze_up_to_a_ratio_of_a_quarter() {
+        for (room, radius, expected) in [
+            (0.24, 0.0, true),
+            (-0.24, 0.0, true),
+            (0.26, 0.0, false),
+            (-0.26, 0.0, false),
+            (0.0, 0.24, true),
+            (0.1, 0.2, false),
+            (-0.1, 0.2, false),
+        ] {
+            let motion = Motion { room: linear(room, radius), ..motion(room, 1.0, [0.5, 8.0]) };
+            assert_eq!(by_hand(motion, None, |means| means.grazing().is_some()), expected, "{room} ± {radius}");
+        }
+        let unknown = Motion { mean: linear(0.5, 0.6), ..motion(0.01, 0.5, [0.5, 8.0]) };
+        assert!(by_hand(unknown, None, |means| means.grazing().is_none()));
+    }
+
+    #[test]
+    fn narrow_half_widths_have_room_for_their_roundings() {
+        use numerics::DoubleDouble;
+        for part in 1..=100 {
+            let ratio = 0.0025 * f64::from(part);
+            let root = DoubleDouble::from(ratio).sqrt();
+            let exact = Elementary::atan2(&root, &DoubleDouble::from(1.0));
+            let [narrowest, widest] = narrow_half_widths([ratio, ratio]).map(DoubleDouble::from);
+            let room = |difference: DoubleDouble| difference.to_f64() / exact.to_f64() / f64::EPSILON;
+            assert!(
+                (2.0..6.0).contains(&room(exact - narrowest)) && (2.0..6.0).contains(&room(widest - exact)),
+                "{ratio}"
+            );
+        }
+        assert_eq!(narrow_half_widths([-0.25, 0.0]), [0.0, 0.0]);
+    }
+
+    /// By no more than the phase: sin 0.5 = 0.4794.
+    #[test]
+    fn a_coin_that_turns_by_less_than_to_its_edge_shows_one_face() {
+        for (most, cos_tilt, radius, expected) in [
+            (0.5, 0.5, 0.0, Some(1.0)),
+            (0.5, -0.5, 0.0, Some(-1.0)),
+            (0.5, 0.47, 0.0, None),
+            (0.5, -0.47, 0.0, None),
+            (0.5, 0.49, 0.02, None),
+            (0.1, 0.2, 0.3, None),
+            (1.0, 0.85, 0.0, Some(1.0)),
+            (3.0, 0.5, 0.0, None),
+            (f64::NAN, 0.5, 0.0, None),
+        ] {
+            let motion = Motion { cos_tilt: linear(cos_tilt, radius), ..motion(1.0, 0.0, [0.0, most]) };
+            assert_eq!(by_hand(motion, None, |means| means.face_of_all()), expected, "{most} {cos_tilt} ± {radius}");
+        }
+    }
+
+    #[test]
+    fn shares_are_from_0_to_1_and_times_the_density() {
+        for (shares, [lo, hi]) in [([0.25, 0.5], [0.25, 0.5]), ([-0.5, 1.5], [0.0, 1.0]), ([2.0, 3.0], [1.0, 1.0])] {
+            for factor in [1.0, 2.0] {
+                let weight = (factor > 1.0).then(|| constant(factor));
+                let found = by_hand(motion(1.0, 0.0, [0.0, 2.0]), weight, |means| means.of_shares(shares, [0.5; 3]));
+                assert_near(found, [factor * lo, factor * hi], shares);
+                assert_eq!(found.by, [0.5; 3]);
+            }
+        }
+        // Nothing that is known exactly is widened.
+        let found = by_hand(motion(1.0, 0.0, [0.0, 2.0]), None, |means| means.of_shares([0.0, 1.0], [0.0; 3]));
+        assert_eq!((found.lo, found.hi), (0.0, 1.0));
+    }
+
+    /// cos θ = cos φ, where φ = π/2 + 0.2 + 0.4 t is below π/2 for a quarter of the cell.
+    #[test]
+    fn a_share_times_a_density_is_between_the_smallest_and_the_largest() {
+        let phase = linear(FRAC_PI_2 + 0.2, 0.4);
+        let of = |weight| by_hand(motion(1.0, 0.0, [0.0, 2.0]), weight, |means| means.of_one_landing(phase));
+        let share = of(None);
+        assert!(share.lo < 0.25 && 0.25 < share.hi && share.width() < 0.15, "{share:?}");
+        let found = of(Some(linear(2.5, -0.5)));
+        assert_near(found, [2.0 * share.lo, 3.0 * share.hi], share);
+        // The direction of the phase adds the width of the share, the density's its slope.
+        let expected = 3.0 * share.width() + 0.5 * share.hi;
+        assert!(
+            (found.by[0] - expected).abs() < 1e-9 && found.by[1] + found.by[2] < 1e-300,
+            "{found:?}, not {expected}"
+        );
+    }
+
+    #[test]
+    fn a_phase_is_placed_among_the_edges_next_to_it() {
+        use Place::{Edge, Inside, Outside};
+        for (half_width, phase, radius, expected) in [
+            (1.0, 0.0, 0.9, Some(Inside)),
+            (1.0, 0.0, 1.1, None),
+            (1.0, 1.5, 0.4, Some(Outside(1.0))),
+            (1.0, -1.5, 0.4, Some(Outside(-1.0))),
+            (1.0, 1.5, 0.6, Some(Edge(1.0))),
+            (1.0, -1.5, 0.6, Some(Edge(-1.0))),
+            // Tails are from 3 to 2π - 3 = 3.283.
+            (3.0, 3.1, 0.05, Some(Outside(1.0))),
+            (3.0, -3.1, 0.05, Some(Outside(-1.0))),
+            (3.0, 3.1, 0.15, Some(Edge(1.0))),
+            (3.0, -3.1, 0.15, Some(Edge(-1.0))),
+            (3.0, 3.1, 0.2, None),
+            (3.0, -3.1, 0.2, None),
+            (3.0, 3.25, 0.05, None),
+            (3.0, -3.25, 0.05, None),
+        ] {
+            let found = place(linear(phase, radius), constant(half_width));
+            assert_eq!(found, expected, "{half_width}: {phase} ± {radius}");
+        }
+    }
+
+    /// Heads are within 1 of 2π n, as A = -cos 1 and √room = sin 1. The share is counted by hand.
+    #[test]
+    fn heads_between_two_landings_are_counted() {
+        let (room, mean) = (1.0_f64.sin().powi(2), -1.0_f64.cos());
+        for (phases, heads) in [
+            ([-0.5, 0.75], 1.25),
+            ([0.25, 2.0], 0.75),
+            ([-2.0, 0.25], 1.25),
+            ([-2.0, 2.0], 2.0),
+            ([2.0, 3.0], 0.0),
+            ([2.0, 4.0], 0.0),
+            ([0.5, TAU + 0.25], 0.5 + 1.25),
+            ([-0.5, TAU - 0.25], 1.5 + 0.75),
+            ([2.0, TAU + 0.25], 1.25),
+            ([-2.0, 2.0 * TAU + 2.0], 6.0),
+        ] {
+            let share = heads / (phases[1] - phases[0]);
+            for factor in [1.0, 2.0] {
+                let weight = (factor > 1.0).then(|| constant(factor));
+                let expected = [factor * share; 2];
+                let found = by_hand(motion(room, mean, phases), weight, |means| means.with_edges::<6>(0.0));
+                assert_near(found, expected, phases);
+                let found = by_hand(motion(room, mean, phases), weight, |means| {
+                    means.of_half_width(means.half_width(), means.motion.phases)
+                });
+                assert_near(found, expected, phases);
+            }
+        }
+        // About an edge at ±1, max(0, ±0.125 t) has the mean 1/32.
+        for (first, last, heads) in [
+            (constant(0.0), linear(1.0, 0.125), 1.0 - 1.0 / 32.0),
+            (constant(-2.0), linear(-1.0, 0.125), 1.0 / 32.0),
+            (linear(-1.0, 0.125), constant(0.0), 1.0 - 1.0 / 32.0),
+            (linear(1.0, 0.125), constant(2.0), 1.0 / 32.0),
+        ] {
+            let motion = Motion { phases: [first, last], ..motion(room, mean, [0.0, 2.0]) };
+            let found = by_hand(motion, None, |means| means.with_edges::<6>(0.0));
+            assert_near(found, [0.5 * heads; 2], heads);
+        }
+    }
+
+    /// With A = 0 and C = 0 heads are where cos φ > 0: at any of the phases between both landings.
+    #[test]
+    fn any_speed_lands_between_both_landings() {
+        for (phases, expected) in [([-0.4, 0.4], [1.0, 1.0]), ([2.8, 3.4], [0.0, 0.0]), ([-1.6, -1.5], [0.0, 1.0])] {
+            let found = by_hand(motion(1.0, 0.0, phases), None, |means| means.of_any_speed());
+            assert_near(found, expected, phases);
+        }
+        for (slope, expected) in [(0.125, false), (0.5, true)] {
+            let motion = Motion { phases: [constant(1.0), linear(1.25, slope)], ..motion(1.0, 0.0, [1.0, 1.25]) };
+            assert_eq!(by_hand(motion, None, |means| means.is_speed_nearly_single()), expected, "{slope}");
+        }
+    }
+
+    /// Where the motion never passes its edge it has the face of A, which may be unknown.
+    #[test]
+    fn a_motion_without_edges_has_the_face_of_its_mean() {
+        for (mean, radius, expected) in [(0.5, 0.0, [1.0, 1.0]), (-0.5, 0.0, [0.0, 0.0]), (0.5, 0.6, [0.0, 1.0])] {
+            let motion = Motion { mean: linear(mean, radius), ..motion(-9.0, mean, [1.0, 8.0]) };
+            let found = by_hand(motion, None, |means| means.of_many_speeds::<6>(0.0));
+            assert_near(found, expected, (mean, radius));
+        }
+    }
+
+    /// Series of more terms are tried for what is smooth as soon as a cell is a little too wide, also where it has an edge.
+    #[test]
+    fn a_cell_that_more_terms_make_narrower_becomes_narrower() {
+        let coin = dynamics::Coin::PAPER;
+        let space = Space::builder(coin).rate_x(1.0).rate_y(9.0..=12.0).rate_z(5.0).speed(2.0..=2.5).build().unwrap();
+        let (directions, _) = crate::enclosure::directions::directions_of(&space);
+        let problem = Problem::new(&space, coin, false);
+        let mut cells = vec![Cell::whole([Some(&directions[0][0]), None, None])];
+        for _ in 0..6 {
+            cells = cells.iter().flat_map(|cell| cell.halves(0).unwrap()).collect();
+        }
+        let narrower = cells.iter().filter(|cell| {
+            let means = problem.means::<3>(cell);
+            let width = |enough: f64| means.with_edges::<5>(enough).width();
+            let rough = width(f64::MAX);
+            let least = (1..6).map(|halvings| width(rough * 0.5_f64.powi(halvings))).fold(f64::INFINITY, f64::min);
+            let found = width(0.999 * rough);
+            assert!(found <= least, "{found} {least} {rough}");
+            found < rough
+        });
+        let number = narrower.count();
+        assert!(number > 40, "{number}");
     }
 }
