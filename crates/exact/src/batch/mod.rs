@@ -71,4 +71,11 @@ mod tests {
             assert_eq!(Batch::new(tosses).on(level).level.name(), level.name());
         }
     }
+
+    /// These have a shorter formula, with a smaller error.
+    #[test]
+    fn a_batch_is_flat_from_horizontal_alone() {
+        let is_flat = |attitude| Batch::new(Tosses::new(Coin::PAPER, attitude, 9.81, [&[]; 3], &[]).unwrap()).is_flat();
+        assert_eq!([0.0, 1e-9, 3.0].map(|tilt| is_flat(Attitude::about_x(tilt))), [true, false, false]);
+    }
 }

@@ -277,5 +277,16 @@ mod tests {
         {
             assert!(!are_ordinary([ordinary, other]) && !are_ordinary([other, ordinary]), "{other:?}");
         }
+        // Two beyond different limits do not make up for each other.
+        let fast = [1.5e100, 0.0, 0.0, 0.0];
+        for other in [[1.0, 1.5e100, 0.0, 0.0], [1.0, 0.5, 0.75 * MOST_TURNS, 0.0]] {
+            assert!(!are_ordinary([fast, other]) && !are_ordinary([other, fast]), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn a_negligible_rest_is_0_and_another_keeps_its_bits() {
+        let kept = |rest: f64| without_negligible(Real::splat(pulp::Scalar, rest)).first();
+        assert_eq!([0.0, 5e-324, -1e-170, 1e-120, -1e-20].map(kept), [0.0, 0.0, 0.0, 1e-120, -1e-20]);
     }
 }

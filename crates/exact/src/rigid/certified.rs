@@ -352,4 +352,33 @@ mod tests {
         let toss = Toss { launch: launch.with_tilt(1.0).unwrap(), ..toss };
         assert!(certify(&toss).unwrap().is_proven());
     }
+
+    /// After π/2 rad to the nearest f64 cos θ is 6.1e-17. At rest, from a quaternion near (1, 1, 0, 0) it is z²/(2 + z²), which
+    /// some of these round to the very bound.
+    #[test]
+    fn the_error_of_a_small_cos_tilt_is_below_it() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        for moments in [[1.0, 1.0, 2.0], [1.0, 2.0, 2.5]] {
+            let body = Body::from_moments(moments).unwrap();
+            let launch = Launch::new([1.0, 0.0, 0.0], TimeOfFlight::Given(quarter)).unwrap();
+            let cos_tilt = quarter.cos();
+            assert_eq!(
+                cos_tilt_with_error(&Toss { body, launch }),
+                Ok((cos_tilt, f64::EPSILON * cos_tilt)),
+                "{moments:?}"
+            );
+        }
+        let (body, mut met) = (Body::from_moments([1.0, 2.0, 2.5]).unwrap(), 0);
+        let mut z = (2.0 * COS_TILT_ERROR).sqrt() * (1.0 - 4e-15);
+        for _ in 0..40 {
+            z = z.next_up();
+            let launch = Launch::new([0.0; 3], TimeOfFlight::Given(1.0)).unwrap();
+            let toss =
+                Toss { body, launch: launch.with_attitude(Attitude::from_components([1.0, 1.0, 0.0, z]).unwrap()) };
+            let (cos_tilt, error) = cos_tilt_with_error(&toss).unwrap();
+            assert!(error < cos_tilt, "{z:e}: {cos_tilt:e} {error:e}");
+            met += u32::from(ExactMotion::new(&toss).cos_tilt(1.0) == Ok(COS_TILT_ERROR));
+        }
+        assert!(met > 0);
+    }
 }

@@ -139,6 +139,11 @@ impl<B: Elementary> Stage<B> {
 
     /// The motion for a ball of changes.
     fn curve(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> Option<Curve<B>> {
+        Curve::new(&toss.body, &self.rates(toss, input, change, radius))
+    }
+
+    /// The rates (BF) for a ball of changes, in a unit near the largest.
+    fn rates(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> [B; 3] {
         let exponent = unit_exponent(toss, input, change);
         let number = |value: f64| self.mantissa.like(value).times_power_of_two(-exponent);
         // A rate that was not given in rad/s has a second part, and an error of 16 u²; a tiny one has lost digits.
@@ -155,7 +160,7 @@ impl<B: Elementary> Stage<B> {
             let width = radius * 2f64.powi(-exponent);
             rates[axis] = (rates[axis].clone() + number(change)).widened(width);
         }
-        Curve::new(&toss.body, &rates)
+        rates
     }
 
     /// cos θ for all changes within `radius` of `change`.
@@ -398,5 +403,85 @@ mod tests {
             });
             assert!(found == expected && found != Outcome::Undecided, "{time}: {found:?} {expected:?}");
         }
+    }
+
+    /// By exact arithmetic, and a ball is as small as the digits of the rate allow: those of a tiny one are few.
+    #[test]
+    fn balls_of_rates_contain_the_rates_as_they_were_given_and_all_changes() {
+        let (body, thirds) = (toss().body, dynamics::AngleUnit::Radians(dynamics::Unit::ratio(1, 3).unwrap()));
+        for (scale, relative) in [(1.0, 2f64.powi(-100)), (1e200, 2f64.powi(-100)), (1e-300, 2f64.powi(-49))] {
+            let rate = [3.1, -0.7, 4.9].map(|part| part * scale);
+            let launch = Launch::in_unit(rate, thirds, TimeOfFlight::Given(0.8)).unwrap();
+            let (toss, input) = (Toss { body, launch }, Input::Rate(1));
+            let fine = Line::new(&toss, input).fine;
+            for (change, radius) in [(0.0, 0.0), (0.3 * scale, 0.0), (-0.2 * scale, 0.01 * scale)] {
+                let unit = -unit_exponent(&toss, input, change);
+                let in_unit = |value: f64| exactly(value).times_power_of_two(unit);
+                for (axis, ball) in fine.rates(&toss, input, change, radius).into_iter().enumerate() {
+                    let [change, radius] =
+                        if axis == 1 { [change, radius].map(in_unit) } else { [0.0; 2].map(exactly) };
+                    let off = (exactly(3.0) * (ball.to_big() - change) - in_unit(rate[axis])).magnitude();
+                    let (least, found) = (off + exactly(3.0) * &radius, exactly(3.0) * exactly(ball.radius()));
+                    assert!(least <= found, "{scale} {axis}: {}", ball.radius());
+                    let most = radius.to_f64().value() * (1.0 + 1e-15) + 10.0 * relative;
+                    assert!(ball.radius() <= most, "{scale} {axis}: {} above {most}", ball.radius());
+                }
+            }
+        }
+    }
+
+    /// In a unit near the largest, squares of rates stay in the range of f64.
+    #[test]
+    fn rates_of_any_size_are_decided_in_f64() {
+        for scale in [1e-200, 1e-100, 1e100, 1e200] {
+            let launch =
+                Launch::new([3.0, 2.0, 5.0].map(|part| part * scale), TimeOfFlight::Given(0.8 / scale)).unwrap();
+            let scaled = Toss { launch, ..toss() };
+            let sign = |toss: &Toss| Line::new(toss, Input::Rate(0)).sign_in(0, 0.0, 0.0);
+            assert!(sign(&scaled) == sign(&toss()) && sign(&scaled) != 0.0, "{scale:e}");
+        }
+    }
+
+    #[test]
+    fn each_stage_has_its_own_digits() {
+        let toss = toss();
+        let line = Line::new(&toss, Input::Time);
+        for (index, digits) in DIGITS.into_iter().enumerate() {
+            assert_ne!(line.sign_in(2 + index, 0.0, 0.0), 0.0);
+            let made = line.many.each_ref().map(|stage| stage.get().map(|stage| stage.mantissa.digits()));
+            assert_eq!(made[index], i32::try_from(digits).ok());
+            assert!(made[index + 1..].iter().all(Option::is_none), "{made:?}");
+        }
+    }
+
+    /// No ball over 20 s has a sign, which takes an evaluation of the interval and one at its middle.
+    #[test]
+    fn an_interval_that_is_too_wide_is_given_up_after_its_middle_is_decided() {
+        let (toss, mut work) = (toss(), 0);
+        let line = Line::new(&toss, Input::Time);
+        assert_eq!((line.sign_around([10.0, 10.0], 0, true, &mut work), work), (None, 2 * WORK[0]));
+    }
+
+    /// As after a start that was rounded across it.
+    #[test]
+    fn a_flip_at_the_start_of_a_walk_is_found_there() {
+        let toss = toss();
+        let line = Line::new(&toss, Input::Time);
+        let other = if line.outcome_at(0.0) == Outcome::Heads { Outcome::Tails } else { Outcome::Heads };
+        let found = Walk::new(&line, other, 1.0, 1e-3, 1.0).next_flip();
+        assert!(matches!(found, End::Flip(distance) if distance <= RESOLUTION), "{found:?}");
+    }
+
+    /// A body on edge with a rate of ½ rad/s about the horizontal axis: without the rate it stays there, and with the opposite
+    /// one it shows the other face.
+    #[test]
+    fn a_tie_is_passed_by_another_step() {
+        let quarter = dynamics::AngleUnit::Turns(dynamics::Unit::ONE).times(0.25);
+        let launch = Launch::new([0.5, 0.0, 0.0], TimeOfFlight::Given(0.8)).unwrap().with_tilt(quarter).unwrap();
+        let toss = Toss { launch, ..toss() };
+        let line = Line::new(&toss, Input::Rate(0));
+        let sign = line.sign_at(0.0, &mut 0);
+        let mut walk = Walk::new(&line, line.outcome_at(0.0), -1.0, 1000.0, 0.0);
+        assert_eq!((sign, walk.decided_after(0.5)), (-1.0, Some((1.0, 1.0))));
     }
 }

@@ -218,6 +218,7 @@ fn launches_outside_the_derivation_have_no_bound() {
         (symmetric, [1e-10, 0.0, 1.0], 3.0, false),
         (tensor, along([1e-6, 1.0, 2.0]), 3.0, true),
         (tensor, along([1.0, 2.0, 1e-8]), 3.0, false),
+        (tensor, along([1.0, 1e-8, 2.0]), 3.0, false),
         (tensor, along([1e-8, 1.0, 2.0]), 3.0, false),
     ] {
         let [x, y, z] = rate.map(|part| [part]);
@@ -274,4 +275,49 @@ fn bodies_without_a_filter_are_those_whose_constants_are_unknown() {
     }
     assert!(!has_one(Body::from_tensor([[3.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 2.0]]).unwrap()));
     assert!(has_one(Body::from_moments([2.0, 2.0, 1.0]).unwrap()));
+    // Moments of 25, of 50 turned about the z axis, and of 3 parts in 10^16 more about that.
+    let nearly = [[41.0, -12.0, 0.0], [-12.0, 34.0, 0.0], [0.0, 0.0, 50.0 + 2f64.powi(-46)]];
+    assert!(!has_one(Body::from_tensor(nearly).unwrap()));
+}
+
+/// The condition of a launch, and the bound of the error after so many turns of both phases with this condition.
+struct Told<'a>(&'a Constants, [f64; 3], [f64; 3]);
+
+impl WithSimd for Told<'_> {
+    type Output = [f64; 2];
+
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 2] {
+        let number = |value: f64| Real::splat(simd, value);
+        let start = self.0.start(self.1.map(number), number(1.0));
+        let mut begun = self.0.begin([self.1[0], self.1[1], self.1[2], 1.0].map(number));
+        [begun[5], begun[6], begun[7]] = self.2.map(number);
+        [start.condition.first(), self.0.end(begun).bound.first()]
+    }
+}
+
+/// E is the difference of α23 m3² and α12 m1². A rounding of it moves cos θ the more, the longer the flight.
+#[test]
+fn the_bound_of_the_error_grows_with_the_condition_and_the_turns() {
+    let body = Body::from_moments([1.0, 2.0, 2.25]).unwrap();
+    let launches = Columns::new(1, 1.0, 1.0);
+    let constants = Constants::new(&launches.tosses(body, Attitude::IDENTITY)).unwrap();
+    let told = |rate, told| SimdLevel::for_one_lane().run(Told(&constants, rate, told));
+    for rate in [[0.7, 1.0, 1.0], [0.8, 1.0, -1.0], [3.0, 0.5, 1.0]] {
+        // α12 = ½ and α23 = 1/18 in these units, m1 = x and m3 = 2.25 z.
+        let [first, third] = [0.5 * rate[0] * rate[0], 2.25 * 2.25 / 18.0 * rate[2] * rate[2]];
+        let (condition, expected) = (told(rate, [0.0; 3])[0], (third + first) / (third - first).abs());
+        assert!((condition / expected - 1.0).abs() < 1e-13 * expected, "{rate:?}: {condition}, not {expected}");
+        let of_condition = |across, precession| {
+            let [without, with] = [0.0, 1e9].map(|condition| told(rate, [condition, across, precession])[1]);
+            with - without
+        };
+        let still = of_condition(0.0, 0.0);
+        for (across, precession) in [(7.0, 0.0), (-21.0, 0.0), (0.0, 5.0), (14.0, -3.0)] {
+            let expected =
+                still * (1.0 + f64::abs(across) / 7.0) + 260e9 * numerics::UNIT_ROUNDOFF * f64::abs(precession);
+            let found = of_condition(across, precession);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{rate:?} {across} {precession}: {found:e}");
+        }
+        assert!(still > 7.0 * 130e9 * numerics::UNIT_ROUNDOFF, "{still:e}");
+    }
 }

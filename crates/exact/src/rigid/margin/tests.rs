@@ -361,3 +361,27 @@ fn a_flip_is_the_nearest_one_only_if_both_searches_came_as_far() {
     assert_eq!(of_rate(found(5.0), none(3.0)), (None, 3.0));
     assert_eq!(of_rate(none(10.0), none(3.0)), (None, 3.0));
 }
+
+/// A body that spins about its first axis from horizontal has cos θ = cos ωT: 2 rad are past the flip at π/2 and before that at
+/// 3π/2.
+#[test]
+fn the_nearer_flip_of_a_rate_may_be_at_a_smaller_one() {
+    let spinning = toss([1.0, 2.0, 2.5], [20.0, 0.0, 0.0], TimeOfFlight::Given(0.1), 0.0);
+    let (change, range) = of_rate(&spinning, 0, Outcome::Tails);
+    let expected = 10.0 * std::f64::consts::FRAC_PI_2 - 20.0;
+    assert!((change.unwrap() - expected).abs() < 1e-11 && range == 1000.0, "{change:?} {range}");
+}
+
+#[test]
+fn times_are_searched_up_to_a_number_of_turns() {
+    let upright = toss([1.0, 2.0, 2.5], [0.0, 0.0, 2.0], TimeOfFlight::Given(0.5), 0.0);
+    assert_eq!(of_flight(&upright, Outcome::Heads), (None, None, None, [0.5, TURN_RANGE / 2.0]));
+}
+
+#[test]
+fn an_undecided_toss_alone_has_a_margin_of_0() {
+    let quarter = dynamics::AngleUnit::Turns(numerics::Unit::ONE).times(0.25);
+    let upright = toss([1.0, 2.0, 2.5], [0.0; 3], TimeOfFlight::Given(0.5), 0.0);
+    let on_edge = Toss { launch: upright.launch.with_tilt(quarter).unwrap(), ..upright };
+    assert_eq!(margin(&on_edge).unwrap(), Margin::on_edge(&on_edge.launch, 0.0, 0.0));
+}
