@@ -155,39 +155,72 @@ fn enclosed(
 ) -> Enclosure {
     let (directions, roundings) = directions_of(space);
     let is_across = directions.iter().flatten().any(Direction::is_across);
-    let is_normal = |of: Coordinate| matches!(space.axis(of).distribution(), Distribution::Normal { .. });
-    let beyond = BEYOND_REACH * space.free().filter(|of| is_normal(*of)).count() as f64;
+    let left_out = left_out(space, roundings);
     let work = Work { problem: Problem::new(space, coin, is_across), roots: roots(&directions), progress };
-    let mut best = Enclosure { interval: Interval { lo: 0.0, hi: 1.0 }, cells: 0 };
-    let goal = 2.0 * accuracy;
+    let mut best: Option<Enclosure> = None;
     // A first threshold from which few cells result, and lower ones as the last width asks for.
-    let mut threshold = 0.05 * accuracy.powf(0.8);
-    let power = [1.5, 1.5, 1.35, 1.7][directions.len()];
-    // The last width that was clearly narrower than those before, and its threshold.
-    let (mut before, mut at) = (f64::INFINITY, threshold);
+    let mut passes = Passes {
+        goal: 2.0 * accuracy,
+        power: [1.5, 1.5, 1.35, 1.7][directions.len()],
+        most_cells,
+        threshold: 0.05 * accuracy.powf(0.8),
+        narrowest: None,
+    };
     loop {
-        let Some((sum, cells)) = work.pass(threshold, most_cells) else {
-            return Enclosure { cells: most_cells, ..best };
+        let Some((sum, cells)) = work.pass(passes.threshold, most_cells) else {
+            let interval = best.map_or(Interval { lo: 0.0, hi: 1.0 }, |best| best.interval);
+            return Enclosure { interval, cells: most_cells };
         };
-        let interval = ends(&sum.widened(roundings + beyond));
+        let interval = ends(&sum.widened(left_out));
         let now = interval.width();
-        if now < best.interval.width() || best.cells == 0 {
-            best = Enclosure { interval, cells };
+        let narrower = best.filter(|best| best.interval.width() <= now);
+        let found = narrower.unwrap_or(Enclosure { interval, cells });
+        if narrower.is_none() {
             narrowed(interval);
         }
-        let is_narrower = now < 0.9 * before;
+        best = Some(found);
+        if !passes.is_next(now, cells) {
+            return found;
+        }
+    }
+}
+
+/// What no cell sees: `roundings`, and what normal distributions have beyond their reach.
+fn left_out(space: &Space, roundings: f64) -> f64 {
+    let is_normal = |of: &Coordinate| matches!(space.axis(*of).distribution(), Distribution::Normal { .. });
+    roundings + BEYOND_REACH * space.free().filter(is_normal).count() as f64
+}
+
+/// The threshold of one pass after another.
+#[derive(Debug, Clone, Copy)]
+struct Passes {
+    /// The width that is wanted.
+    goal: f64,
+    /// With the threshold the cells grow roughly to the power of -1/`power`.
+    power: f64,
+    most_cells: u64,
+    threshold: f64,
+    /// The last width that was clearly narrower than those before, and its threshold.
+    narrowest: Option<[f64; 2]>,
+}
+
+impl Passes {
+    /// Whether another pass follows one that gave the width `now`. If so, lowers the threshold.
+    fn is_next(&mut self, now: f64, cells: u64) -> bool {
+        let is_narrower = self.narrowest.is_none_or(|[before, _]| now < 0.9 * before);
         if is_narrower {
-            (before, at) = (now, threshold);
+            self.narrowest = Some([now, self.threshold]);
         }
         // If far smaller cells add up to the same width, roundings make it, and no pass helps. Nor is another begun if it would
         // take too many cells.
-        if now <= goal || (!is_narrower && threshold < 1e-3 * at) || most_cells < LAST_PASS * cells {
-            return best;
+        let is_in_vain = self.narrowest.is_some_and(|[_, at]| self.threshold < 1e-3 * at);
+        if now <= self.goal || is_in_vain || self.most_cells < LAST_PASS * cells {
+            return false;
         }
-        let wanted = 0.8 * (goal / now).powf(power);
-        // With the threshold the cells grow roughly to the power of -1/`power`.
-        let affordable = (most_cells as f64 / (LAST_PASS * cells) as f64).powf(-power);
-        threshold *= wanted.max(affordable).clamp(1e-5, if is_narrower { 0.5 } else { 0.05 });
+        let wanted = 0.8 * (self.goal / now).powf(self.power);
+        let affordable = (self.most_cells as f64 / (LAST_PASS * cells) as f64).powf(-self.power);
+        self.threshold *= wanted.max(affordable).clamp(1e-5, if is_narrower { 0.5 } else { 0.05 });
+        true
     }
 }
 

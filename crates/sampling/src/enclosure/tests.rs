@@ -270,9 +270,14 @@ fn a_narrow_enclosure_takes_as_many_cells_as_it_did() {
 #[test]
 fn the_usual_accuracy_is_reached_soon() {
     let space = || Space::builder(Coin::PAPER).rate_x(1.0).rate_y(9.0..=12.0).rate_z(5.0).speed(2.0..=2.5);
-    for space in [space(), space().rate_z(5.0..=6.0), space().rate_z(5.0..=6.0).tilt(0.0..=0.25)] {
+    for (space, most_cells) in [
+        // Over one coordinate by series of order 4.
+        (space(), 1_000),
+        (space().rate_z(5.0..=6.0), 40_000),
+        (space().rate_z(5.0..=6.0).tilt(0.0..=0.25), 40_000),
+    ] {
         let space = space.build().unwrap();
-        let found = estimate(SILENT, &space, usual_accuracy(&space), 40_000).unwrap();
+        let found = estimate(SILENT, &space, usual_accuracy(&space), most_cells).unwrap();
         assert!(found.points > 50, "{space:?}: {}", found.points);
     }
 }
@@ -372,6 +377,13 @@ fn a_coin_that_hardly_turns_shows_one_face() {
         let problem = Problem::new(&space, space.coin().unwrap(), false);
         let found = bounds_in(&problem, &roots(&directions)[0], 1, 0.0);
         assert_eq!((found.lo, found.hi), (share, share), "{tilt}");
+        let work = Work { problem, roots: roots(&directions), progress: SILENT.0 };
+        let (sum, cells) = work.pass(1.0, 1).unwrap();
+        let room = sum.radius() / f64::EPSILON;
+        assert!(
+            cells == 1 && sum.midpoint().to_f64() == share && (share..=3.0 * share + 1e-9).contains(&room),
+            "{room}"
+        );
     }
     let shares = [0.8, 0.9, 1.4].map(|tilt| {
         assert_contains(&with(tilt), 1, 1e-12);
@@ -409,4 +421,69 @@ fn a_far_flight_takes_too_many_cells() {
     let far = space.build().unwrap();
     let error = estimate(SILENT, &far, 2e-14, 1 << 13).unwrap_err();
     assert!(matches!(error, Error::NotReached { number: 8192, of: "cells", reached: 0.5, .. }), "{error}");
+    // Any probability is 0.5 ± 0.5.
+    let blind = far.with_axis(Coordinate::Speed, crate::Axis::from(3.0)).unwrap();
+    let found = estimate(SILENT, &blind, 0.5, 1 << 13).unwrap();
+    assert_eq!((found.interval, found.points), (Some(Interval { lo: 0.0, hi: 1.0 }), 127));
+}
+
+/// Nothing is known of any cell: those of a volume of 2^-10 and all before are 2^11 - 1. 255 are made first, and each of the
+/// next 256 gives 7.
+#[test]
+fn cells_are_counted_and_limited() {
+    let space = Space::builder(Coin::PAPER).rate_x(1.0).rate_y(1e10..=2e10).rate_z(3.0).speed(3.0).build().unwrap();
+    let (directions, _) = directions_of(&space);
+    let reported = std::sync::Mutex::new(Vec::new());
+    let report = |cells| reported.lock().unwrap().push(cells);
+    let problem = Problem::new(&space, Coin::PAPER, false);
+    let work = Work { problem, roots: roots(&directions), progress: &report };
+    let (sum, cells) = work.pass(0.5_f64.powi(10), 2047).unwrap();
+    assert_eq!((sum.midpoint().to_f64(), cells), (0.5, 2047));
+    assert_eq!(*reported.lock().unwrap(), [7; 256]);
+    assert!(work.pass(0.5_f64.powi(10), 2046).is_none());
+}
+
+#[test]
+fn a_pass_follows_if_it_helps_and_has_enough_cells() {
+    let passes = Passes { goal: 1.0, power: 1.0, most_cells: 1000, threshold: 1.0, narrowest: None };
+    let thousands = Passes { most_cells: 1_000_000_000, ..passes };
+    let square = Passes { power: 2.0, ..thousands };
+    let second = |threshold: f64| Passes { threshold, narrowest: Some([4.0, 1.0]), ..thousands };
+    for (passes, now, cells, expected) in [
+        // Narrow enough.
+        (passes, 0.5, 1, None),
+        (passes, 1.0, 1, None),
+        // 0.8 of the width that is wanted, and no less than half, nor than 10^-5.
+        (thousands, 4.0, 1, Some(0.2)),
+        (square, 4.0, 1, Some(0.05)),
+        (thousands, 1.25, 1, Some(0.5)),
+        (thousands, 1e9, 1, Some(1e-5)),
+        // No more than the fourth part of the cells, and a threshold that leaves it.
+        (passes, 2.0, 251, None),
+        (passes, 2.0, 250, Some(0.5)),
+        (passes, 10.0, 100, Some(0.4)),
+        (Passes { power: 2.0, ..passes }, 100.0, 100, Some(0.16)),
+        // A width that is not clearly narrower asks for far smaller cells, but not again and again.
+        (second(0.5), 3.5, 1, Some(0.5 * 0.8 / 3.5)),
+        (second(0.5), 3.6, 1, Some(0.025)),
+        (second(0.001), 3.6, 1, Some(0.001 * 0.05)),
+        (second(0.0009), 3.6, 1, None),
+        (second(0.0009), 3.5, 1, Some(0.0009 * 0.8 / 3.5)),
+    ] {
+        let mut next = passes;
+        let is_next = next.is_next(now, cells);
+        assert_eq!(is_next, expected.is_some(), "{passes:?} {now} {cells}");
+        let expected = expected.unwrap_or(passes.threshold);
+        assert!((next.threshold / expected - 1.0).abs() < 1e-12, "{passes:?} {now} {cells}: {next:?}, not {expected}");
+    }
+}
+
+#[test]
+fn roundings_and_the_ends_of_normal_distributions_are_left_out() {
+    let normal = || crate::Axis::normal(9.0, 0.5);
+    let space = Space::builder(Coin::PAPER).rate_x(2.0..=3.0).rate_y(1.0).rate_z(4.0).speed(2.0..=3.0);
+    let found = |space: crate::SpaceBuilder| left_out(&space.build().unwrap(), 1e-15);
+    assert_eq!(found(space.clone()), 1e-15);
+    assert_eq!(found(space.clone().rate_y(normal())), 1e-15 + BEYOND_REACH);
+    assert_eq!(found(space.rate_y(normal()).rate_z(normal())), 1e-15 + 2.0 * BEYOND_REACH);
 }
