@@ -78,3 +78,25 @@ where
     let r = (s.clone() - v.clone() - v.clone()) / squared;
     [cos, s, v, p, r]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against their series.
+    #[test]
+    fn functions_of_a_small_phase_lose_no_digit_to_a_difference() {
+        for phase in [0.0, 1e-110, 1e-99, 1e-30, 1e-7, 1e-5, 1e-3, 0.01] {
+            let x = phase * phase;
+            let [cos, s, v, ..] = functions_of_phase(&phase, f64::sin_cos(phase), |number| number);
+            let expected = [
+                1.0 - x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0)),
+                1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0)),
+                0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0)),
+            ];
+            for (found, expected) in [cos, s, v].into_iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-15, "{phase:e}: {found} {expected}");
+            }
+        }
+    }
+}

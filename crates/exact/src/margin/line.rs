@@ -133,7 +133,7 @@ impl<'a> Line<'a> {
     fn curvature_far_out(&self, ends: [f64; 2]) -> f64 {
         let across = self.across_squared.hi();
         let far = ends[0].abs().max(ends[1].abs());
-        let near = if ends[0] * ends[1] > 0.0 { ends[0].abs().min(ends[1].abs()) } else { 0.0 };
+        let near = ends[0].min(ends[1]).max(-ends[0].max(ends[1])).max(0.0);
         let sine = far / (across + far * far).sqrt();
         let inverse = 1.0 / (across + near * near).sqrt();
         let bound = sine * sine + inverse * (1.0 + 4.5 * sine + 10.0 * inverse);
@@ -172,7 +172,8 @@ impl<'a> Line<'a> {
         let square = level_slope * level_slope + e[2] * e[2] - (1.0 + ERROR);
         // The smallest positive root of constant + 2 linear h + square h².
         let discriminant = linear * linear - square * constant;
-        if square >= 0.0 && (linear >= 0.0 || discriminant < 0.0) {
+        // Where the square is positive, the line is that of ωz, and passes Φz = 0, where the cone reaches the horizontal.
+        if square >= 0.0 && linear >= 0.0 {
             return f64::INFINITY;
         }
         (1.0 - 1e-9) * (constant / (discriminant.max(0.0).sqrt() - linear))
@@ -324,8 +325,14 @@ mod tests {
     #[test]
     fn the_cone_is_closed_as_far_as_its_length_and_no_further() {
         let (mut ended, mut endless) = (0, 0);
-        lines(|line| {
-            for (change, sense) in [0.0, -3.0, 11.0].into_iter().flat_map(|change| [(change, 1.0), (change, -1.0)]) {
+        let short = tosses().into_iter().map(|toss| {
+            let flight = TimeOfFlight::Given(1e-6);
+            CoinToss { launch: toss.launch.with_time_of_flight(flight).unwrap(), ..toss }
+        });
+        lines_of(&tosses().into_iter().chain(short).collect::<Vec<_>>(), |line| {
+            let size = line.across().hypot(line.along().hi());
+            let changes = [0.0, -0.3, 1.1].map(|part| part * size.min(10.0));
+            for (change, sense) in changes.into_iter().flat_map(|change| [(change, 1.0), (change, -1.0)]) {
                 let closed = |length: f64| {
                     let along = line.along().hi() + change + sense * length;
                     let Landing { vertical: m, turn, .. } = line.landing(along);
@@ -338,7 +345,7 @@ mod tests {
                     assert!(closed(0.0) <= 1e-12, "{change} {sense}: {}", closed(0.0));
                 } else if length.is_finite() {
                     ended += 1;
-                    let [before, at, beyond] = [0.5, 1.0 - 1e-7, 1.0 + 1e-7].map(|part| closed(part * length));
+                    let [before, at, beyond] = [0.5, 1.0, 1.0 + 1e-7].map(|part| closed(part * length));
                     assert!(
                         before > 0.0 && at > 0.0 && beyond < 0.0,
                         "{change} {sense} {length}: {before} {at} {beyond}"
@@ -352,6 +359,27 @@ mod tests {
         assert!(ended > 30 && endless > 5, "{ended} {endless}");
     }
 
+    /// With m along (1, 0, s) and Φ = (1, 0, z) that is c + 2 l h + q h² with c = 2 z s + (z² - 1) s², l = z s - s² and
+    /// q = -s², up to s³. Where these are as small as their errors, the length is that of some 32u less of each.
+    #[test]
+    fn a_cone_that_just_closes_is_closed_as_far_as_the_errors_of_its_terms_allow() {
+        for (s, z) in [(1e-7, 1e-7), (1e-9, 1.0)] {
+            let launch = Launch::new([1.0, 0.0, z], TimeOfFlight::Given(1.0)).unwrap();
+            let attitude = Attitude::from_components([1.0, 0.0, s - 1.0, 0.0]).unwrap();
+            let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch: launch.with_attitude(attitude) };
+            let found = Line::of_rate(&toss, 0, turn(&toss)).closed_length(0.0, 1.0);
+            let length = |error: f64| {
+                let phase = f64::hypot(1.0, z);
+                let [c, l] =
+                    [2.0 * z * s + (z * z - 1.0) * s * s - error * phase * phase, z * s - s * s - error * phase];
+                let q = -s * s - error;
+                c / ((l * l - q * c).sqrt() - l)
+            };
+            let [least, most] = [64.0, 16.0].map(|units| length(units * UNIT_ROUNDOFF));
+            assert!(found > least && found < most, "{s} {z}: {least:e} {found:e} {most:e}");
+        }
+    }
+
     /// Next to a flip, and next to where the slope is 0: where nothing but the errors is left of either.
     #[test]
     fn heights_and_slopes_next_to_0_are_right_to_their_errors_and_these_are_not_much_larger() {
@@ -360,6 +388,8 @@ mod tests {
             let exact = line.height(2, change);
             for (stage, largest) in largest.iter_mut().enumerate() {
                 let Height { value, slope, error, slope_error } = line.height(stage, change);
+                // Each was rounded to f64.
+                assert!(error >= UNIT_ROUNDOFF * value.abs() && slope_error >= UNIT_ROUNDOFF * slope.abs(), "{stage}");
                 let off = [(value - exact.value).abs() - exact.error, (slope - exact.slope).abs() - exact.slope_error];
                 for ((off, error), largest) in off.into_iter().zip([error, slope_error]).zip(largest) {
                     assert!(off <= error, "{stage} {change}: {off:e} > {error:e}");

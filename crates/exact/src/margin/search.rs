@@ -76,12 +76,17 @@ impl<'a> Walk<'a> {
     }
 
     fn flip(&self) -> Option<f64> {
-        (self.state == State::Flip).then_some(self.sense * self.distance)
+        (self.state == State::Flip).then_some(self.change())
+    }
+
+    /// The change of the turn so far (rad).
+    fn change(&self) -> f64 {
+        self.sense * self.distance
     }
 
     /// One step.
     fn advance(&mut self) {
-        let change = self.sense * self.distance;
+        let change = self.change();
         let mut here = self.oriented(self.line.height(0, change));
         let mut flip = self.enclosed(&here);
         self.work -= WORK[0];
@@ -91,10 +96,6 @@ impl<'a> Walk<'a> {
                 here = self.oriented(self.line.height(stage, change));
                 flip = self.enclosed(&here);
             }
-        }
-        // Only a shortest step can have passed a flip.
-        if here.value < -here.error {
-            flip = Some(0.0);
         }
         if let Some(further) = flip {
             return self.arrive(further, State::Flip);
@@ -127,11 +128,15 @@ impl<'a> Walk<'a> {
     /// How much further the first flip is, if it is known to the resolution.
     fn enclosed(&self, here: &Height) -> Option<f64> {
         let [value, fall] = [here.value + here.error, -(here.slope + here.slope_error)];
-        if fall <= 0.0 || value < 0.0 {
+        // Only a shortest step can have passed a flip.
+        if value < 0.0 {
+            return Some(0.0);
+        }
+        if fall <= 0.0 {
             return None;
         }
         // It cannot be further than at twice Newton's distance.
-        let curvature = self.line.curvature(self.sense * self.distance, self.sense, 2.0 * value / fall);
+        let curvature = self.line.curvature(self.change(), self.sense, 2.0 * value / fall);
         let discriminant = fall * fall - 2.0 * curvature * value;
         if discriminant <= 0.0 {
             return None;
@@ -143,8 +148,7 @@ impl<'a> Walk<'a> {
 
     /// A length without a flip.
     fn free_length(&self, here: &Height) -> f64 {
-        let change = self.sense * self.distance;
-        let curvature = |length| self.line.curvature(change, self.sense, length);
+        let curvature = |length| self.line.curvature(self.change(), self.sense, length);
         let far = free(here, curvature(0.0));
         free(here, 1.0).max(far.min(free(here, curvature(far))))
     }
@@ -233,5 +237,26 @@ mod tests {
         };
         assert!(flip(2.9 * RESOLUTION).is_some_and(|further| (further - 2.0).abs() < 1e-12));
         assert_eq!(flip(3.1 * RESOLUTION), None);
+        // Below the edge, one was passed.
+        let passed =
+            |value: f64| enclosed(1e-30, 1.0, 1.0, &Height { value, slope: 0.1, error: 0.1, slope_error: 0.0 });
+        assert_eq!([-0.2, -0.1, 0.2].map(passed), [Some(0.0), None, None]);
+    }
+
+    /// With m along y and Φ along x, cos θ = -sin Φx.
+    #[test]
+    fn a_height_takes_the_work_of_its_digits_and_one_of_0_is_a_flip() {
+        for (x, work) in [(-0.5, 1.0), (-1e-14, 21.0), (-1e-40, 5021.0), (0.0, 5021.0)] {
+            let launch = Launch::new([x, 0.0, 0.0], TimeOfFlight::Given(1.0)).unwrap();
+            let launch = launch.with_attitude(Attitude::from_components([1.0, 1.0, 0.0, 0.0]).unwrap());
+            let toss = CoinToss { coin: Coin::from_moments(1.0, 1.0).unwrap(), launch };
+            let line = Line::of_rate(&toss, 0, [x, 0.0, 0.0].map(Into::into));
+            for sense in [1.0, -1.0] {
+                let mut walk = Walk::new(&line, 1.0, sense, 1.0, MOST_WORK);
+                walk.advance();
+                assert_eq!(walk.work, MOST_WORK - work, "{x} {sense}");
+                assert!(x != 0.0 || (walk.state, walk.distance) == (State::Flip, 0.0), "{sense}: {:?}", walk.state);
+            }
+        }
     }
 }

@@ -13,6 +13,7 @@
 //! errors count, as next to an edge or a touch, they are found in more digits.
 
 use std::f64::consts::{PI, TAU};
+use std::iter::successors;
 
 use dynamics::CoinToss;
 use numerics::big::Big;
@@ -38,8 +39,9 @@ const LOST_DIGITS: usize = 80;
 pub(super) fn flips(toss: &CoinToss, phase: DoubleDouble) -> Option<[f64; 2]> {
     let halves = in_double_double(toss, phase).unwrap_or_else(|| in_digits(toss))?;
     // Each flip is one of the turn after the landing, and one of the turn before.
-    let later = halves.map(|half| if half.is_sign_positive() { 2.0 * half } else { 2.0 * half + TAU });
-    let earlier = halves.map(|half| if half.is_sign_positive() { 2.0 * half - TAU } else { 2.0 * half });
+    let changes = halves.map(|half| 2.0 * half);
+    let later = changes.map(|change| if change.is_sign_positive() { change } else { change + TAU });
+    let earlier = changes.map(|change| if change.is_sign_positive() { change - TAU } else { change });
     Some([later[0].min(later[1]), earlier[0].max(earlier[1])])
 }
 
@@ -98,42 +100,44 @@ fn errors_of_halves([f, slope, g, root]: [f64; 4], [error, g_error, d_error]: [f
 
 /// h/2 of both flips in as many digits as it takes.
 fn in_digits(toss: &CoinToss) -> Option<[f64; 2]> {
-    let mut digits = DIGITS;
-    while digits <= MOST_DIGITS {
-        let round = |value: Big| value.with_precision(digits).value();
-        let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
-        let [x, y, z] = momentum(toss, digits);
-        let across = &x * &x + &y * &y;
-        let squared = &across + &z * &z;
-        let rate = squared.sqrt();
-        let (sin, cos) = (&rate * flight_time(toss, digits)).sin_cos();
-        // Without the factor |m| |L|² of all terms, of which each is then right to 2^(10 - digits).
-        let size = &squared * round(norm);
-        let [mean, cosine, sine] = terms(vertical.map(round), [x, y, z], across);
-        // Exactly 0 where no digit was rounded, as for a horizontal launch with (k ωz)² = ωx² + ωy².
-        let discriminant = &cosine * &cosine + &sine * &sine * &squared - &mean * &mean;
-        if discriminant == Big::ZERO {
-            return None;
-        }
-        let sine = sine * rate;
-        let (f, slope) = (&mean + &cosine * &cos + &sine * &sin, &sine * &cos - &cosine * &sin);
-        let g = &mean + &mean - &f;
-        let bound = Big::ONE >> (digits - LOST_DIGITS - 60).cast_signed();
-        let is_clear = |value: &Big, of: &Big| value.magnitude() > of * &bound;
-        if is_clear(&f, &size) && is_clear(&discriminant, &(&size * &size)) {
-            if discriminant < Big::ZERO {
-                return None;
-            }
-            let root = discriminant.sqrt();
-            // An infinite tangent is that of half a turn.
-            let is_level = g == Big::ZERO;
-            let divisor = if is_level { g.like(1.0) } else { g };
-            let [by_g, by_q] = halves([&f, &slope, &divisor, &root]).map(|tangent| tangent.to_f64().value().atan());
-            return Some([if is_level { 0.5 * PI } else { by_g }, by_q]);
-        }
-        digits *= 2;
+    let digits = successors(Some(DIGITS), |digits| Some(2 * digits)).take_while(|digits| *digits <= MOST_DIGITS);
+    digits.into_iter().find_map(|digits| in_so_many_digits(toss, digits)).flatten()
+}
+
+/// As [`in_double_double`], in `digits` binary digits.
+fn in_so_many_digits(toss: &CoinToss, digits: usize) -> Option<Option<[f64; 2]>> {
+    let round = |value: Big| value.with_precision(digits).value();
+    let (vertical, norm) = toss.launch.attitude().vertical_in_digits(digits);
+    let [x, y, z] = momentum(toss, digits);
+    let across = &x * &x + &y * &y;
+    let squared = &across + &z * &z;
+    // Without the factor |m| |L|² of all terms, of which each is then right to 2^(10 - digits).
+    let size = &squared * round(norm);
+    let bound = Big::ONE >> (digits - LOST_DIGITS - 60).cast_signed();
+    let is_clear = |value: &Big, of: &Big| value.magnitude() > of * &bound;
+    let rate = squared.sqrt();
+    let [mean, cosine, sine] = terms(vertical.map(round), [x, y, z], across);
+    let discriminant = &cosine * &cosine + &sine * &sine * &squared - &mean * &mean;
+    // At a touch it is 0 in any number of digits, so that they end here, before the sine and cosine, which take longer.
+    if !is_clear(&discriminant, &(&size * &size)) {
+        return None;
     }
-    None
+    if discriminant < Big::ZERO {
+        return Some(None);
+    }
+    let (sin, cos) = (&rate * flight_time(toss, digits)).sin_cos();
+    let sine = sine * rate;
+    let (f, slope) = (&mean + &cosine * &cos + &sine * &sin, &sine * &cos - &cosine * &sin);
+    if !is_clear(&f, &size) {
+        return None;
+    }
+    let g = &mean + &mean - &f;
+    let root = discriminant.sqrt();
+    // An infinite tangent is that of half a turn.
+    let is_level = g == Big::ZERO;
+    let divisor = if is_level { g.like(1.0) } else { g };
+    let [by_g, by_q] = halves([&f, &slope, &divisor, &root]).map(|tangent| tangent.to_f64().value().atan());
+    Some(Some([if is_level { 0.5 * PI } else { by_g }, by_q]))
 }
 
 #[cfg(test)]
@@ -231,6 +235,34 @@ mod tests {
         }
         assert_eq!((in_double_double(&toss(0.0), phase), in_digits(&toss(0.0))), (None, None));
         assert!(in_digits(&toss(-1e-15)).is_some());
+    }
+
+    /// A horizontal launch touches the edge where k ωz = |(ωx, ωy)|, of any size and in a quaternion of any size. With a k
+    /// whose digits do not end, only the last digits tell; with ωy next to 0, only the first of many.
+    #[test]
+    fn a_touch_is_told_from_two_flips_next_to_each_other() {
+        let [large, small] = [200.0, -200.0].map(f64::exp2);
+        let scales = [(1.0, 1.0), (large, 1.0), (large, 1e50), (small, 1e50), (1.0, 1e50), (1.0, 1e-50)];
+        for (inverse, (scale, norm)) in
+            [1.0, 3.0, 5.0, 7.0, 11.0, 13.0].into_iter().flat_map(|k| scales.map(|s| (k, s)))
+        {
+            let flips = |y: f64| {
+                let rate = [1.0, y, inverse].map(|part| part * scale);
+                let launch = Launch::new(rate, TimeOfFlight::Given(1.0 / scale)).unwrap();
+                let attitude = dynamics::Attitude::from_components([norm, 0.0, 0.0, 0.0]).unwrap();
+                let coin = Coin::from_moments(inverse, 1.0).unwrap();
+                in_digits(&CoinToss { coin, launch: launch.with_attitude(attitude) })
+            };
+            let rest = (PI - std::f64::consts::SQRT_2) / 2.0;
+            assert_eq!(flips(0.0), None, "{inverse} {scale} {norm}");
+            for y in [1e-20, 1e-60, 1e-100] {
+                let found = flips(y).unwrap_or_else(|| panic!("{inverse} {scale} {norm} {y}: no flip"));
+                assert!(
+                    found.iter().all(|half| (half - rest).abs() < 1e-15),
+                    "{inverse} {scale} {norm} {y}: {found:?}"
+                );
+            }
+        }
     }
 
     /// With L along (1, 0, 2) and the vertical along (-3, 12, 4), half a turn about L takes cos θ from 4/13 to exactly 0.
