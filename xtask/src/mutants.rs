@@ -1,9 +1,9 @@
 //! Runs mutation testing: cargo-mutants changes the numerical crates, and each change has to make a test fail. A change
-//! that survives points to a claim that no test makes, unless `validation/mutants.md` explains why it makes no
+//! that survives points to a claim that no test makes, unless `validation/mutants.txt` explains why it makes no
 //! difference.
 //!
-//! The code blocks of that file list the explained mutants as cargo-mutants names them, but without line and column, so
-//! that the list stays valid when lines move. `.cargo/mutants.toml` says which crates are changed.
+//! That file lists the explained mutants as cargo-mutants names them, but without line and column, so that the list stays
+//! valid when lines move, and the reasons in lines that begin with `#`. `.cargo/mutants.toml` says which crates are changed.
 
 use std::collections::{BTreeMap, HashSet};
 use std::process::{Command, ExitCode, ExitStatus};
@@ -12,7 +12,7 @@ use clap::Args;
 
 use crate::{output, root};
 
-const EXPLANATIONS: &str = "validation/mutants.md";
+const EXPLANATIONS: &str = "validation/mutants.txt";
 const FOLDER: &str = "target";
 
 /// How often each mutant occurs. Two mutants in one function may have the same name.
@@ -20,7 +20,7 @@ type Counts = BTreeMap<String, usize>;
 
 /// Change the numerical crates in some 12 000 ways; each change has to fail a test or be explained
 ///
-/// The explanations are in validation/mutants.md. Exit code 1 if a change survived that is not explained or, in a run
+/// The explanations are in validation/mutants.txt. Exit code 1 if a change survived that is not explained or, in a run
 /// without arguments, if one was caught that is explained.
 ///
 /// All of them take days. A sample says how many survive, with a limit: of all changes, or of those of some files.
@@ -187,9 +187,9 @@ fn without_position(line: &str) -> String {
     format!("{file}:{change}")
 }
 
-/// The mutants that the code blocks of `markdown` list.
-fn explained(markdown: &str) -> impl Iterator<Item = &str> {
-    markdown.split("```").skip(1).step_by(2).flat_map(str::lines).filter(|line| line.contains(": "))
+/// The mutants of a list with the reasons between them.
+fn explained(list: &str) -> impl Iterator<Item = &str> {
+    list.lines().filter(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
 /// The mutants of `these` that `those` lacks or has less often, each as often as it is missing.
@@ -242,7 +242,7 @@ mod tests {
     fn survivors_are_explained_by_name_and_as_often_as_they_occur() {
         let missed = ["a/b.rs:1:2: replace < with <= in f::g", "a/b.rs:3:4: replace < with <= in f::g"];
         let survived = count(missed.into_iter().map(without_position));
-        let once = count(explained("Why.\n\n```text\na/b.rs: replace < with <= in f::g\n```\n").map(str::to_owned));
+        let once = count(explained("# Why: because.\n\na/b.rs: replace < with <= in f::g\n").map(str::to_owned));
         assert_eq!(beyond(&survived, &once), ["a/b.rs: replace < with <= in f::g"]);
         assert!(beyond(&once, &survived).is_empty());
         assert!(beyond(&survived, &survived).is_empty());
