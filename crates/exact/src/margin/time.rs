@@ -100,8 +100,8 @@ fn errors_of_halves([f, slope, g, root]: [f64; 4], [error, g_error, d_error]: [f
 
 /// h/2 of both flips in as many digits as it takes.
 fn in_digits(toss: &CoinToss) -> Option<[f64; 2]> {
-    let digits = successors(Some(DIGITS), |digits| Some(2 * digits)).take_while(|digits| *digits <= MOST_DIGITS);
-    digits.into_iter().find_map(|digits| in_so_many_digits(toss, digits)).flatten()
+    let mut tries = successors(Some(DIGITS), |digits| Some(2 * digits)).take_while(|digits| *digits <= MOST_DIGITS);
+    tries.find_map(|digits| in_so_many_digits(toss, digits)).flatten()
 }
 
 /// As [`in_double_double`], in `digits` binary digits.
