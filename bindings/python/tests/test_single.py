@@ -48,12 +48,6 @@ def test_a_toss_has_the_bits_of_the_command_line(ask, arguments, toss, solver):
     )
 
 
-@pytest.mark.parametrize(("body", "least"), [("disc", 1e-16), (BOOK, 1e-15)])
-def test_the_error_of_the_exact_motion_grows_with_the_largest_phases(body, least):
-    short, long = (ut.toss(ut.Toss((9, 4, 3), time=time, body=body)).error_estimate for time in (1.5, 8e14))
-    assert 0 < short < 2.4e-16 and least < long < 1e-13
-
-
 def test_a_trace_has_the_bits_of_the_command_line(ask):
     for solver in ("exact", "quaternion"):
         points = ask("trace", "--rate", "9,4,3", "--time", "1.5", "--points", "31", "--solver", solver)["points"]
