@@ -705,7 +705,7 @@ impl<const T: usize> Means<'_, '_, T> {
         let Motion { squared, room, mean, span, .. } = self.motion;
         let face = mean.sign()?;
         // The narrow intervals are those of the face that the mean has not.
-        let is_heads = mean.sign() == Some(1.0);
+        let is_heads = face == 1.0;
         let ratio = squared.times(room).with(mean, |product, mean| product / (mean * mean)).narrowed();
         let ratios = [lower(ratio.values()), upper(ratio.values())];
         if !ratios.iter().all(|ratio| ratio.abs() <= 0.25) {

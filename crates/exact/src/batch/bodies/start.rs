@@ -72,7 +72,7 @@ impl Constants {
         let inverse = one / (a23 * p1);
         let complementary_squared = (a13 * launch.excess) * inverse;
         let (momentum, root_13, root_p1) = (launch.squared.sqrt(), number(self.roots[2]), p1.sqrt());
-        // c and v have the amplitudes √(α23/α12) and √(P1/P3).
+        // c and v have the amplitudes √(α23/α12) and √(P1/P3). The smaller one has the larger decay.
         let size = (p1 + p3).sqrt() + root_p1;
         let decay_of_v = p3 / (size * size);
         let is_c = decay_of_v.less_than(launch.decay);
