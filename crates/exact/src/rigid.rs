@@ -50,12 +50,15 @@ mod angles;
 mod certified;
 mod constants;
 mod curve;
+mod doubling;
 mod form;
 mod margin;
 mod phases;
 mod quaternion;
 mod regime;
 mod sensitivity;
+mod tensor;
+mod tensor_toss;
 mod walk;
 
 use dynamics::phase::require_phase;
@@ -72,8 +75,11 @@ use curve::Curve;
 pub use margin::{margin, speeds_of_heads};
 pub use regime::Regime;
 
+use crate::certificate::Stage;
 use crate::given::{components_are_close, scaled};
 use crate::motion::CoinMotion;
+use quaternion::{Quaternion, norm_squared};
+use tensor_toss::{Landed, Question, climb};
 
 /// Digits of the constants of a launch where double-double has too few.
 const MANY_DIGITS: usize = 1536;
@@ -90,9 +96,14 @@ pub struct ExactMotion {
 enum Kind {
     /// By the closed form for coins.
     Coin(Box<CoinMotion>),
-    /// By that for any body.
+    /// By elliptic functions about the principal axes, of a body given by its moments.
     Rigid(RigidMotion),
+    /// By doubling in the frame of the tensor, of a body given by one.
+    Tensor(Box<Toss>),
 }
+
+/// Largest error of a turn (as a unit quaternion) and of a rate (in parts of it) that are rounded to f64.
+const TO_F64: f64 = 3.469_446_951_953_614e-18; // 2^-58
 
 /// The motion of a body that is not a coin, as its turn since launch.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,6 +143,7 @@ impl ExactMotion {
         let launch = State { attitude: toss.launch.attitude(), rate: toss.launch.rate() };
         let kind = match toss.coin() {
             Some(toss) => Kind::Coin(Box::new(CoinMotion::new(&toss))),
+            None if toss.body.moments().is_none() => Kind::Tensor(Box::new(*toss)),
             None => Kind::Rigid(rigid(toss)),
         };
         Self { launch, kind }
@@ -145,11 +157,13 @@ impl ExactMotion {
                 Sums::F64(curve) => curve.regime(),
                 Sums::DoubleDouble(curve) => curve.regime(),
             },
+            Kind::Tensor(toss) => tensor_toss::regime(toss),
         }
     }
 
     /// The larger of two phases (rad), `time` (s) after launch: how far the body has turned about its angular momentum,
-    /// and how far the angular momentum has turned in the body.
+    /// and how far the angular momentum has turned in the body. Of a body given by a tensor it is the angle that |ω| at
+    /// launch makes of the time.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if it is above 2^53.
@@ -157,6 +171,7 @@ impl ExactMotion {
         match &self.kind {
             Kind::Coin(motion) => motion.phase(time),
             Kind::Rigid(motion) => motion.own_time(time.into()).map(|(_, phase)| phase),
+            Kind::Tensor(toss) => turned_at_launch(toss, time.into()),
         }
     }
 
@@ -165,12 +180,16 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn cos_tilt(&self, time: impl Into<ExactTime>) -> Result<f64, SolveError> {
+        let vertical = self.launch.attitude.exact_vertical();
         let motion = match &self.kind {
             Kind::Coin(motion) => return motion.cos_tilt(time),
             Kind::Rigid(motion) => motion,
+            Kind::Tensor(toss) => {
+                let (turn, _) = turn_and_rate(toss, time.into(), TO_F64)?;
+                return Ok(cos_tilt(&turn, &vertical).hi().clamp(-1.0, 1.0));
+            }
         };
         let (time, _) = motion.own_time(time.into())?;
-        let vertical = self.launch.attitude.exact_vertical();
         let cos_tilt = match &motion.curve {
             Sums::F64(curve) => cos_tilt(&curve.turn(&time), &vertical.map(DoubleDouble::hi)),
             Sums::DoubleDouble(curve) => cos_tilt(&curve.turn(&time), &vertical).hi(),
@@ -183,31 +202,34 @@ impl ExactMotion {
     /// # Errors
     /// [`SolveError::PhaseTooLarge`].
     pub fn state(&self, time: impl Into<ExactTime>) -> Result<State, SolveError> {
-        let motion = match &self.kind {
+        let (turn, rate) = match &self.kind {
             Kind::Coin(motion) => return motion.state(time),
-            Kind::Rigid(motion) => motion,
-        };
-        let (time, _) = motion.own_time(time.into())?;
-        let (turn, rate) = match &motion.curve {
-            Sums::F64(curve) => {
-                let (turn, rate) = curve.turn_and_rate(&time);
-                (turn, rate.map(DoubleDouble::from))
-            }
-            Sums::DoubleDouble(curve) => {
-                let (turn, rate) = curve.turn_and_rate(&time);
+            Kind::Rigid(motion) => motion.turn_and_rate(time.into())?,
+            Kind::Tensor(toss) => {
+                let (turn, rate) = turn_and_rate(toss, time.into(), TO_F64)?;
                 (turn.map(DoubleDouble::hi), rate)
             }
         };
         // Its norm is not 0, for A and B never vanish together.
         let turn = Attitude::from_components(turn).unwrap_or(Attitude::IDENTITY);
-        let rate = rate.map(|part| (part * motion.unit).times_power_of_two(motion.exponent).hi());
         Ok(State { attitude: self.launch.attitude * turn, rate: Vector3::from(rate) })
     }
 
-    /// The time in the unit of the curve, and the unit of the rates (rad/s); of a coin, both as they are.
+    /// The turn (of any norm) from the body at launch to the body at `time`; `None` for a coin.
+    fn turn(&self, time: ExactTime) -> Result<Option<Quaternion<DoubleDouble>>, SolveError> {
+        // Heights near 0 lose digits of the turn.
+        const WITHIN: f64 = 1.355_252_715_606_880_5e-20; // 2^-66
+        Ok(match &self.kind {
+            Kind::Coin(_) => None,
+            Kind::Rigid(motion) => Some(motion.turn(time)?),
+            Kind::Tensor(toss) => Some(turn_and_rate(toss, time, WITHIN)?.0),
+        })
+    }
+
+    /// The time in the unit of the curve, and the unit of the rates (rad/s); of a body without a curve, both as they are.
     fn time_and_unit(&self, time: ExactTime) -> Result<(DoubleDouble, f64), SolveError> {
         match &self.kind {
-            Kind::Coin(_) => Ok((time.mantissa().times_power_of_two(time.exponent()), 1.0)),
+            Kind::Coin(_) | Kind::Tensor(_) => Ok((time.mantissa().times_power_of_two(time.exponent()), 1.0)),
             Kind::Rigid(motion) => {
                 let (own, _) = motion.own_time(time)?;
                 Ok((own, motion.unit.times_power_of_two(motion.exponent).hi()))
@@ -242,8 +264,24 @@ impl RigidMotion {
         Self { curve, exponent, unit }
     }
 
+    /// The turn (of any norm) from the body at launch to the body at `time`, and the body rate (rad/s).
+    fn turn_and_rate(&self, time: ExactTime) -> Result<([f64; 4], [f64; 3]), SolveError> {
+        let (time, _) = self.own_time(time)?;
+        let (turn, rate) = match &self.curve {
+            Sums::F64(curve) => {
+                let (turn, rate) = curve.turn_and_rate(&time);
+                (turn, rate.map(DoubleDouble::from))
+            }
+            Sums::DoubleDouble(curve) => {
+                let (turn, rate) = curve.turn_and_rate(&time);
+                (turn.map(DoubleDouble::hi), rate)
+            }
+        };
+        Ok((turn, rate.map(|part| (part * self.unit).times_power_of_two(self.exponent).hi())))
+    }
+
     /// The turn (of any norm) from the body at launch to the body at `time`.
-    fn turn(&self, time: ExactTime) -> Result<quaternion::Quaternion<DoubleDouble>, SolveError> {
+    fn turn(&self, time: ExactTime) -> Result<Quaternion<DoubleDouble>, SolveError> {
         let (time, _) = self.own_time(time)?;
         Ok(match &self.curve {
             Sums::F64(curve) => curve.turn(&time).map(DoubleDouble::from),
@@ -266,16 +304,64 @@ impl RigidMotion {
     }
 }
 
+/// The angle (rad) that |ω| at launch makes of `time`.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`] if it is above 2^53.
+fn turned_at_launch(toss: &Toss, time: ExactTime) -> Result<f64, SolveError> {
+    let rate = toss.launch.rate();
+    let (_, exponent) = mantissa_and_exponent(power_of_two_scale(rate.amax()));
+    let size = (rate / power_of_two_scale(rate.amax())).norm();
+    require_phase((time.mantissa().hi() * size).times_power_of_two(exponent + time.exponent()))
+}
+
+/// The turn of a body that was given by a tensor, a unit quaternion, and its rate (BF, rad/s) after `time`, within so much
+/// of what they are: the rate in parts of the rate at launch.
+///
+/// # Errors
+/// [`SolveError::PhaseTooLarge`]; [`SolveError::NotFinite`] if the last number of digits is too few.
+fn turn_and_rate(
+    toss: &Toss,
+    time: ExactTime,
+    within: f64,
+) -> Result<(Quaternion<DoubleDouble>, [f64; 3]), SolveError> {
+    turned_at_launch(toss, time)?;
+    let found = climb(toss, Some(time), Stage::DoubleDouble, &TurnAndRate { within });
+    let seconds = time.mantissa().times_power_of_two(time.exponent()).hi();
+    found.map(|(answer, _)| answer).ok_or(SolveError::NotFinite { time: seconds })
+}
+
+/// The turn and the rate, within so much.
+struct TurnAndRate {
+    within: f64,
+}
+
+impl Question for TurnAndRate {
+    type Answer = (Quaternion<DoubleDouble>, [f64; 3]);
+
+    fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<Self::Answer> {
+        let size = norm_squared(&landed.turn).sqrt();
+        let turn = landed.turn.each_ref().map(|part| part.clone() / size.clone());
+        let rate = landed.rate();
+        let is_known = |part: &N| part.error() <= self.within;
+        let given = &landed.given;
+        let in_rad =
+            |part: &N| (part.clone() * given.unit.clone()).to_double_double().times_power_of_two(given.exponent).hi();
+        (turn.iter().all(is_known) && rate.iter().all(is_known))
+            .then(|| (turn.each_ref().map(N::to_double_double), rate.each_ref().map(in_rad)))
+    }
+}
+
 /// The larger number; NaN if one of them is.
 fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 
 /// cos θ of a body that has turned by `turn` (of any norm) since launch, with the `vertical` in BF at launch.
-fn cos_tilt<N: Elementary>(turn: &quaternion::Quaternion<N>, vertical: &[N; 3]) -> N {
+fn cos_tilt<N: Elementary>(turn: &Quaternion<N>, vertical: &[N; 3]) -> N {
     let [x, y, z] = quaternion::turned_normal(turn);
     let [up_x, up_y, up_z] = vertical.clone();
-    (x * up_x + y * up_y + z * up_z) / quaternion::norm_squared(turn)
+    (x * up_x + y * up_y + z * up_z) / norm_squared(turn)
 }
 
 /// The curve in double-double, from more digits if these are too few.

@@ -247,6 +247,9 @@ impl<N: Elementary> Elementary for Ball<N> {
     }
 
     fn times_power_of_two(&self, exponent: i32) -> Self {
+        if self.radius == 0.0 && self.sign() == 0.0 {
+            return self.clone();
+        }
         let (midpoint, radius) = (self.midpoint.times_power_of_two(exponent), self.radius.times_power_of_two(exponent));
         Self::within(midpoint, radius + TINY)
     }

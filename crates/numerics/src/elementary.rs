@@ -74,6 +74,19 @@ pub trait Elementary: Number + Div<Output = Self> {
         self
     }
 
+    /// The same as [`widened`](Elementary::widened). Of a series in some variables, each coefficient is widened: what is
+    /// added is then any function that is at most `error` where every variable, a complex number, is within 1 of 0, for no
+    /// coefficient of such a function is larger (Cauchy's estimate).
+    #[must_use]
+    fn widened_throughout(self, error: f64) -> Self {
+        self.widened(error)
+    }
+
+    /// A bound of the absolute value; of a series, where every variable is within 1 of 0. Infinite or NaN if nothing is known.
+    fn bound(&self) -> f64 {
+        (self.to_f64().abs() + self.error()) * (1.0 + 4.0 * f64::EPSILON)
+    }
+
     /// Whether all parts of the number are in the range of f64: of a double-double number, the remainder too. Of a number
     /// with an error bound it is said of the midpoint.
     fn is_in_range(&self) -> bool {

@@ -357,6 +357,15 @@ impl<N: Elementary, const TERMS: usize> Elementary for Jet<N, TERMS> {
         self.terms[0] = self.terms[0].clone().widened(error);
         self
     }
+
+    fn widened_throughout(self, error: f64) -> Self {
+        Self { terms: self.terms.map(|term| term.widened(error)) }
+    }
+
+    fn bound(&self) -> f64 {
+        // Each of up to 35 sums is rounded.
+        self.terms.iter().map(N::bound).sum::<f64>() * (1.0 + 64.0 * f64::EPSILON)
+    }
 }
 
 #[cfg(test)]

@@ -2,13 +2,15 @@
 //! the true numbers, first in f64, then in double-double and then in more and more digits, until cos θ has a sign.
 //!
 //! The numbers as given are the moments or the tensor, the rates in their unit, the attitude, and the time or the
-//! speed, gravity and drop. They are exact, or balls contain them. The sign of E, and with it the formula, is exact for
-//! a body given by its moments; of a tensor it is proven, or more digits are tried.
+//! speed, gravity and drop. They are exact, or balls contain them. A body given by its moments takes elliptic functions
+//! about its principal axes, whose formula the exact sign of E tells. One given by a tensor takes doubling in the frame of
+//! the tensor, which has no cases.
 
 use dynamics::{Error, Outcome, SolveError, Toss};
 use numerics::{Ball, Elementary, WideBall};
 
-use super::{ExactMotion, cos_tilt};
+use super::tensor_toss::{Landed, Question, climb};
+use super::{ExactMotion, TO_F64, cos_tilt};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::{self, certify_coin};
 use crate::given::{in_digits, in_double_double, rounded, scaled};
@@ -27,14 +29,17 @@ const ERROR_AT_LARGE_PHASES: f64 = 1e-14;
 
 /// Proves the outcome of a toss.
 ///
-/// An outcome is undecided, without a proof, if cos θ is 0, as far as 960 digits can tell; or if two principal moments of a
-/// tensor are equal, for its axes are then not known. No ratio of rates leaves it undecided.
+/// An outcome is undecided, without a proof, if cos θ is 0 as far as 960 digits can tell, or 12 288 for a tensor. No ratio of
+/// rates leaves it undecided, and no gap between two moments.
 ///
 /// # Errors
 /// [`SolveError::PhaseTooLarge`] for a phase above 2^53 rad.
 pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
     if let Some(toss) = toss.coin() {
         return certify_coin(&toss);
+    }
+    if toss.body.moments().is_none() {
+        return certify_tensor(toss);
     }
     if let Some(outcome) = by_f64(toss) {
         return Ok(Certificate::new(outcome, Stage::F64));
@@ -48,9 +53,60 @@ pub fn certify(toss: &Toss) -> Result<Certificate, SolveError> {
     Ok(outcome.map_or_else(Certificate::without_proof, proven))
 }
 
+/// Proves the outcome of a body that was given by a tensor. Where the body does not move, exact arithmetic decides, and an
+/// outcome that is undecided is a tie.
+///
+/// # Errors
+/// As [`certify`].
+fn certify_tensor(toss: &Toss) -> Result<Certificate, SolveError> {
+    ExactMotion::new(toss).phase(toss.launch.time_of_flight())?;
+    if let Some(sign) = sign_at_rest(toss) {
+        return Ok(Certificate::new(Outcome::of(sign, 0.0), Stage::Multiprecision));
+    }
+    let found = climb(toss, None, Stage::F64, &Sign);
+    Ok(found.map_or_else(Certificate::without_proof, |(outcome, stage)| Certificate::new(outcome, stage)))
+}
+
+/// The sign of cos θ, by exact arithmetic, of a body that does not turn; `None` of one that does.
+fn sign_at_rest(toss: &Toss) -> Option<f64> {
+    let turns = toss.launch.rate().amax() > 0.0 && toss.launch.time_of_flight().is_positive();
+    // Digits do not matter to the sign: what is 0 is 0 in any number of them.
+    (!turns).then(|| Elementary::sign(&toss.launch.attitude().vertical_in_digits(DIGITS[0]).0[2]))
+}
+
+/// cos θ in the numbers of a landing.
+fn cos_tilt_of<N: Elementary>(landed: &Landed<N>) -> N {
+    cos_tilt(&landed.turn, &landed.given.vertical)
+}
+
+/// Which face is up.
+struct Sign;
+
+impl Question for Sign {
+    type Answer = Outcome;
+
+    fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<Outcome> {
+        let cos_tilt = cos_tilt_of(landed);
+        (cos_tilt.sign() != 0.0 && cos_tilt.has_known_sign()).then(|| Outcome::of(cos_tilt.sign(), 0.0))
+    }
+}
+
+/// cos θ to 2^-58 of itself.
+struct Rounded;
+
+impl Question for Rounded {
+    type Answer = f64;
+
+    fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<f64> {
+        let cos_tilt = cos_tilt_of(landed);
+        let value = cos_tilt.to_f64();
+        (cos_tilt.error() <= TO_F64 * value.abs() && value != 0.0).then_some(value)
+    }
+}
+
 /// cos θ at landing and a bound of its error. cos θ has the sign of the proven outcome, and where an outcome is proven the
 /// bound is smaller than |cos θ|: near 0, where f64 would lose the leading digits, cos θ is rounded from more digits. A body
-/// of which 960 digits do not give 60 bits of cos θ has 0.
+/// of which the last number of digits does not give 58 bits of cos θ has 0.
 ///
 /// # Errors
 /// As [`certify`].
@@ -63,6 +119,14 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
         });
     }
     let (motion, time) = (ExactMotion::new(toss), toss.launch.time_of_flight());
+    if toss.body.moments().is_none() {
+        motion.phase(time)?;
+        if sign_at_rest(toss) == Some(0.0) {
+            return Ok((0.0, 0.0));
+        }
+        let found = climb(toss, None, Stage::DoubleDouble, &Rounded);
+        return Ok(found.map_or((0.0, COS_TILT_ERROR), |(cos_tilt, _)| rounded(cos_tilt)));
+    }
     let (cos_tilt, phase) = (motion.cos_tilt(time)?, motion.phase(time)?);
     let error = if phase <= LARGEST_PHASE_IN_DOUBLE_DOUBLE { COS_TILT_ERROR } else { ERROR_AT_LARGE_PHASES };
     if cos_tilt.abs() > error {

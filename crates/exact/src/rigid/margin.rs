@@ -10,7 +10,7 @@ use dynamics::{Outcome, SolveError, TimeOfFlight, Toss};
 use numerics::DoubleDouble;
 
 use super::walk::{End, Input, Line, RESOLUTION, Walk};
-use super::{ExactMotion, RigidMotion, certify, cos_tilt};
+use super::{ExactMotion, certify, cos_tilt};
 use crate::margin::{Margin, TURN_RANGE, margin_coin, rate_range, speed_and_gravity, thrown_speeds_of_heads};
 
 /// The margin of the toss of any body. That of a coin is by [`margin`].
@@ -94,8 +94,8 @@ fn nearest_rate((up, up_range): Found, (down, down_range): Found, range: f64) ->
 
 /// Of the tilt: f(δ) = f cos δ + f(90°) sin δ.
 fn of_tilt(toss: &Toss) -> Result<Option<f64>, SolveError> {
-    let motion = RigidMotion::in_double_double(toss);
-    let (turn, attitude) = (motion.turn(toss.launch.time_of_flight().into())?, toss.launch.attitude());
+    let Some(turn) = ExactMotion::new(toss).turn(toss.launch.time_of_flight().into())? else { return Ok(None) };
+    let attitude = toss.launch.attitude();
     let [height, turned]: [DoubleDouble; 2] = [attitude.exact_vertical(), attitude.exact_quarter_turned_vertical()]
         .map(|vertical| cos_tilt(&turn, &vertical));
     Ok(Some(-(height / turned).hi().atan()).filter(|change| change.is_finite()))

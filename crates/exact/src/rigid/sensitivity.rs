@@ -21,13 +21,15 @@ use numerics::big::exactly;
 use numerics::{DoubleDouble, Elementary, Jet};
 
 use super::curve::Curve;
-use super::quaternion::{conjugate, norm_squared, product};
+use super::quaternion::{Quaternion, conjugate, norm_squared, product};
 use super::regime::{Regime, along};
-use super::{ExactMotion, MANY_DIGITS, cos_tilt};
+use super::tensor::Symmetric;
+use super::tensor_toss::Given;
+use super::{ExactMotion, MANY_DIGITS, cos_tilt, doubling};
 use crate::given::{components_are_close, in_digits, right_to_25_u2, scaled, vertical_in_double_double};
 use crate::sensitivity::Sensitivity;
 
-/// How far, in units of the largest component, a launch is moved off the separatrix, or off the axis of a tensor. Its
+/// How far, in units of the largest component, a launch is moved off the separatrix. Its
 /// derivatives across are those of the motions around it, which differ by this times the second derivatives.
 const ASIDE: f64 = 7.888_609_052_210_118e-31; // 2^-100
 
@@ -36,6 +38,9 @@ const RELATIVE: f64 = 1.421_085_471_520_200_4e-14; // 2^-46
 
 /// Digits of the stages after double-double.
 const DIGITS: [usize; 2] = [320, 960];
+
+/// Those for a body given by a tensor, whose digits the separatrix takes.
+const DIGITS_OF_TENSORS: [usize; 3] = [320, 960, 3840];
 
 /// Parts of the largest component of the rate below which balls of so many digits lose the derivatives, and the phase (rad)
 /// up to which the derivatives are those without such a component: it grows by less than e^300.
@@ -73,7 +78,11 @@ impl Sensitivity {
         }
         let (_, unit) = motion.time_and_unit(at.into())?;
         let up = landing.attitude.lab_to_body(&Vector3::z());
-        let changes = spun(toss, &motion, unit, &up)?.or_else(|| changes(toss, &motion));
+        let (changes, unit) = match spun(toss, &motion, unit, &up)? {
+            Some(spun) => (Some(spun), unit),
+            None if toss.body.moments().is_none() => changes_of_tensor(toss),
+            None => (changes(toss, &motion), unit),
+        };
         let (mut attitude, mut slopes) = (Matrix3x4::zeros(), Vector4::zeros());
         // In many digits there is a regime, so that none is missing.
         let changes = changes.ok_or(SolveError::NotFinite { time: at.seconds() })?;
@@ -107,7 +116,7 @@ fn without_vanishing(toss: &Toss) -> Option<Toss> {
 /// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
 fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
     let (rate, _) = toss.launch.given_rate();
-    // Without an error bound: beside a motion that has a form of its own, and of a tensor whose regime no ball tells.
+    // Without an error bound, beside a motion that has a form of its own.
     let without_bound = |aside: f64| {
         let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
         let like = exactly(0.0).with_precision(MANY_DIGITS).value();
@@ -119,8 +128,7 @@ fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
         }
         Some(in_f64(&changes_in(toss, &moved, &time, &vertical)?))
     };
-    let is_tensor = toss.body.moments().is_none();
-    if motion.regime() == Regime::Separatrix || is_tensor && motion.regime() == Regime::Uniform {
+    if motion.regime() == Regime::Separatrix {
         return without_bound(ASIDE);
     }
     let in_double_double = || {
@@ -136,16 +144,44 @@ fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
         are_right(&found, none_above).then(|| in_f64(&found))
     };
     let close = if components_are_close(&rate) { in_double_double() } else { None };
-    let found = close.or_else(|| DIGITS.into_iter().find_map(in_balls));
-    if is_tensor { found.or_else(|| without_bound(0.0)) } else { found }
+    close.or_else(|| DIGITS.into_iter().find_map(in_balls))
+}
+
+/// The changes of a body that was given by a tensor, and the unit (rad/s) of the rates by which it is changed.
+fn changes_of_tensor(toss: &Toss) -> (Option<[Change<f64>; 3]>, f64) {
+    let fine = Given::in_double_double(toss, None);
+    let unit = 2f64.powi(fine.exponent);
+    if let Some(found) = changes_by_doubling(&fine).filter(|found| are_right(found, 0.0)) {
+        return (Some(in_f64(&found)), unit);
+    }
+    let found = DIGITS_OF_TENSORS.into_iter().find_map(|digits| {
+        let given = Given::in_digits(toss, None, digits);
+        let unit = (given.unit.clone().times_power_of_two(given.exponent)).to_f64();
+        let none_above = if digits == DIGITS_OF_TENSORS[2] { NO_SLOPE } else { 0.0 };
+        let found = changes_by_doubling(&given).filter(|found| are_right(found, none_above))?;
+        Some((in_f64(&found), unit))
+    });
+    found.map_or((None, unit), |(changes, unit)| (Some(changes), unit))
+}
+
+/// The changes by doubling.
+fn changes_by_doubling<N: Elementary>(given: &Given<N>) -> Option<[Change<N>; 3]> {
+    let inputs = [0, 1, 2].map(|input| Jet::<_, 4>::variable(given.rate[input].clone(), given.time.like(1.0), input));
+    let tensor = Symmetric(given.tensor.0.clone().map(Jet::constant));
+    let turn = doubling::Curve::new(tensor, inputs).turn(&Jet::constant(given.time.clone()))?;
+    Some(changes_of_turn(&turn, &given.vertical))
 }
 
 /// The changes in one kind of number. `None` if it has too few digits.
 fn changes_in<N: Elementary>(toss: &Toss, rate: &[N; 3], time: &N, vertical: &[N; 3]) -> Option<[Change<N>; 3]> {
-    let vertical = vertical.clone().map(Jet::constant);
     let inputs = [0, 1, 2].map(|input| Jet::<_, 4>::variable(rate[input].clone(), time.like(1.0), input));
     let turn = Curve::new(&toss.body, &inputs)?.turn(&Jet::constant(time.clone()));
-    let slopes = cos_tilt(&turn, &vertical);
+    Some(changes_of_turn(&turn, vertical))
+}
+
+/// The changes that a turn with its derivatives by the rates makes.
+fn changes_of_turn<N: Elementary>(turn: &Quaternion<Jet<N, 4>>, vertical: &[N; 3]) -> [Change<N>; 3] {
+    let slopes = cos_tilt(turn, &vertical.clone().map(Jet::constant));
     let values = turn.each_ref().map(|part| part.value().clone());
     let size = norm_squared(&values);
     let change = |input: usize| {
@@ -153,7 +189,7 @@ fn changes_in<N: Elementary>(toss: &Toss, rate: &[N; 3], time: &N, vertical: &[N
         let [_, x, y, z] = product(&conjugate(&values), &rises).map(|part| (part.clone() + part) / size.clone());
         ([x, y, z], slopes.slopes()[input].clone())
     };
-    Some([0, 1, 2].map(change))
+    [0, 1, 2].map(change)
 }
 
 /// Whether the radii leave enough digits, where a change of cos θ below the part `none_above` of the turn

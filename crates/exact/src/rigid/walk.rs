@@ -9,10 +9,12 @@ use std::cell::OnceCell;
 
 use dynamics::{Outcome, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
-use numerics::{Ball, DoubleDouble, Elementary, WideBall};
+use numerics::{Ball, DoubleDouble, Elementary, Jet, WideBall};
 
-use super::cos_tilt;
 use super::curve::Curve;
+use super::tensor::Symmetric;
+use super::tensor_toss::tensor;
+use super::{cos_tilt, doubling};
 use crate::given::{right_to_25_u2, rounded, time_in_digits, vertical_in_digits, vertical_in_double_double};
 
 /// Width of the interval that a flip is known to lie in, in parts of its distance; also the shortest step.
@@ -126,7 +128,7 @@ impl<'a> Line<'a> {
 impl<B: Elementary> Stage<B> {
     fn new(toss: &Toss, input: Input, vertical: [B; 3], mantissa: B, exponent: i32) -> Self {
         let mut stage = Self { vertical, mantissa, exponent, fixed: None };
-        if input == Input::Time {
+        if input == Input::Time && toss.body.moments().is_some() {
             stage.fixed = stage.curve(toss, input, 0.0, 0.0);
         }
         stage
@@ -163,8 +165,47 @@ impl<B: Elementary> Stage<B> {
         rates
     }
 
+    /// cos θ for all changes within `radius` of `change`, of a body that was given by a tensor.
+    ///
+    /// Doubling forgets how a rate depends on the change, so that a ball of it would grow with the time by more than cos θ
+    /// does. The series of cos θ in x at `change` + x `radius` keeps it: for |x| ≤ 1 cos θ differs from its first
+    /// coefficient by no more than the sum of the next three, and of the fourth anywhere in the interval.
+    fn height_by_doubling(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
+        let exponent = unit_exponent(toss, input, change);
+        let rates = self.rates(toss, input, change, 0.0);
+        let time = self.mantissa.times_power_of_two(self.exponent + exponent);
+        let in_unit = |value: f64| {
+            let sign = if input == Input::Time { 1 } else { -1 };
+            time.like(value).times_power_of_two(sign * exponent)
+        };
+        let time = if input == Input::Time { time.clone() + in_unit(change) } else { time.clone() };
+        let tensor = tensor(toss, &time);
+        if radius == 0.0 {
+            return doubled(tensor, rates, &time, &self.vertical);
+        }
+        let width = in_unit(radius);
+        let series = |off: f64| {
+            let varied = |number: &B| Jet::<B, 5>::variable(number.clone().widened(off), width.clone(), 0);
+            let (mut rates, mut time) = (rates.clone().map(Jet::constant), Jet::constant(time.clone()));
+            match input {
+                Input::Rate(axis) => rates[axis] = varied(rates[axis].value()),
+                Input::Time => time = varied(time.value()),
+            }
+            let tensor = Symmetric(tensor.0.clone().map(Jet::constant));
+            doubled(tensor, rates, &time, &self.vertical.clone().map(Jet::constant))
+        };
+        let (middle, whole) = (series(0.0)?, series(width.bound())?);
+        let size =
+            |jet: &Jet<B, 5>, degree: usize| jet.terms().nth(degree).map_or(f64::INFINITY, |(_, term)| term.bound());
+        let change = (1..4).map(|degree| size(&middle, degree)).sum::<f64>() + size(&whole, 4);
+        Some(middle.value().clone().widened(change * (1.0 + 8.0 * f64::EPSILON)))
+    }
+
     /// cos θ for all changes within `radius` of `change`.
     fn height(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
+        if toss.body.moments().is_none() {
+            return self.height_by_doubling(toss, input, [change, radius]);
+        }
         let exponent = unit_exponent(toss, input, change);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let turn = if input == Input::Time {
@@ -181,6 +222,11 @@ impl Stage<WideBall> {
     fn in_digits(toss: &Toss, input: Input, digits: usize) -> Self {
         Self::new(toss, input, vertical_in_digits(&toss.launch, digits), time_in_digits(&toss.launch, digits), 0)
     }
+}
+
+/// cos θ by doubling.
+fn doubled<N: Elementary>(tensor: Symmetric<N>, rate: [N; 3], time: &N, vertical: &[N; 3]) -> Option<N> {
+    Some(cos_tilt(&doubling::Curve::new(tensor, rate).turn(time)?, vertical))
 }
 
 /// Exponent of the unit of the rates, a power of two near the largest.
