@@ -85,7 +85,7 @@ fn derivatives_are_those_of_the_motion() {
             };
             let slope = (cos_tilt(STEP) - cos_tilt(-STEP)) / (2.0 * STEP);
             let off = (found.cos_tilt[input] - slope).abs();
-            assert!(off < 1e-7, "{inertia:?} {input}: {} {slope}", found.cos_tilt[input]);
+            assert!(off < 1e-8 * slope.abs().max(10.0), "{inertia:?} {input}: {} {slope}", found.cos_tilt[input]);
         }
     }
 }
@@ -110,7 +110,7 @@ fn a_turned_body_lands_as_the_same_body_does_along_its_axes() {
     let moments =
         [[4.0, 4.0, 7.0], [4.0, 7.0, 7.0], [3.0, 4.0, 6.0], [4.0, 4.0, 4.0], [5.0, 4.0, 9.0], [4.0, 8.0, 9.0]];
     let turns = [[1, 2, 2, 4], [1, 0, 2, 2], [2, 1, 0, 2], [1, 1, 1, 1]];
-    let rates = [[3.0, 4.0, 5.0], [0.75, 1.0, 1.0], [0.0, 2.0, 0.0], [-1.0, 0.0, 6.0]];
+    let rates = [[3.0, 4.0, 5.0], [3.0, 4.0, 4.0], [0.0, 2.0, 0.0], [-1.0, 0.0, 6.0]];
     let mut compared = 0;
     for ((moments, turn), rate) in
         moments.iter().flat_map(|body| turns.map(|turn| (*body, turn))).flat_map(|case| rates.map(|rate| (case, rate)))
@@ -184,7 +184,6 @@ fn rates_in_degrees_are_decided_as_they_were_given() {
     let degree = AngleUnit::Turns(Unit::ratio(1, 360).unwrap());
     for (inertia, ..) in INTEGRATED {
         let body = Body::from_inertia(inertia).unwrap();
-        // A whole turn brings a body at a fixed rate back; a spin of this one is about the axis (1, 1, 0).
         let launch = Launch::in_unit([300.0, 200.0, 100.0], degree, TimeOfFlight::Given(2.0)).unwrap();
         let rounded = Launch::new(launch.rate(), TimeOfFlight::Given(2.0)).unwrap();
         let [given, rounded] = [launch, rounded].map(|launch| ExactSolver.tilt(&Toss { body, launch }).unwrap());

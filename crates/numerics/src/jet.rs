@@ -149,8 +149,19 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
     }
 
     /// Whether it depends on no variable.
-    fn is_constant(&self) -> bool {
+    pub(crate) fn is_constant(&self) -> bool {
         self.terms[1..].iter().all(|term| term.sign() == 0.0 && term.error() == 0.0)
+    }
+
+    /// The same series with the last term within `error` more.
+    pub(crate) fn widened_last(mut self, error: f64) -> Self {
+        self.terms[TERMS - 1] = self.terms[TERMS - 1].clone().widened(error);
+        self
+    }
+
+    /// Every term over `divisor`.
+    pub(crate) fn divided(self, divisor: &N) -> Self {
+        Self { terms: self.terms.map(|term| term / divisor.clone()) }
     }
 
     /// Every term times `factor`.
@@ -180,7 +191,7 @@ impl<N: Elementary, const TERMS: usize> Jet<N, TERMS> {
     }
 
     /// The coefficients from the first one and a rule for the next of each.
-    fn coefficients(first: &N, next: impl Fn(&N, f64) -> N) -> [N; 5] {
+    pub(crate) fn coefficients(first: &N, next: impl Fn(&N, f64) -> N) -> [N; 5] {
         let mut coefficients = std::array::from_fn(|_| first.clone());
         for index in 1..5 {
             #[expect(clippy::cast_precision_loss, reason = "at most 4")]

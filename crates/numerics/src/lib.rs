@@ -11,6 +11,7 @@
 //! | numbers with a bound of their error, which grows with each operation | [`ball`] |
 //! | Taylor series in up to three variables, whose terms are the derivatives of a formula | [`jet`] |
 //! | elliptic integrals of the first kind and theta functions | [`elliptic`] |
+//! | functions on an interval as polynomials with error bounds | [`taylor_model`] |
 //! | powers of two as units | [`scale`] |
 //! | vectors of f64 in SIMD registers, with the same bits on every machine | [`lanes`] |
 //!
@@ -28,6 +29,7 @@ pub mod number;
 pub mod positive_part;
 pub mod quantity;
 pub mod scale;
+pub mod taylor_model;
 
 pub use angle::{Angle, AngleUnit};
 pub use ball::{Ball, WideBall};
@@ -37,6 +39,7 @@ pub use elementary::Elementary;
 pub use jet::Jet;
 pub use number::Number;
 pub use quantity::{Quantity, Unit};
+pub use taylor_model::TaylorModel;
 
 /// u = 2^-53, half of f64's ε: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;

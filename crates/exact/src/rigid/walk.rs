@@ -9,10 +9,9 @@ use std::cell::OnceCell;
 
 use dynamics::{Outcome, Toss};
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
-use numerics::{Ball, DoubleDouble, Elementary, Jet, WideBall};
+use numerics::{Ball, DoubleDouble, Elementary, TaylorModel, WideBall};
 
 use super::curve::Curve;
-use super::tensor::Symmetric;
 use super::tensor_toss::tensor;
 use super::{cos_tilt, doubling};
 use crate::given::{right_to_25_u2, rounded, time_in_digits, vertical_in_digits, vertical_in_double_double};
@@ -25,6 +24,9 @@ const DIGITS: [usize; 3] = [256, 448, 960];
 
 /// The work of an evaluation in each stage, roughly in units of 2 µs.
 const WORK: [u32; 2 + DIGITS.len()] = [1, 8, 200, 400, 1000];
+
+/// How much more work a Taylor model by doubling is, of a body that was given by a tensor.
+const WORK_OF_TENSOR: u32 = 30;
 
 /// The work that a search may take, about half a second.
 pub(super) const MOST_WORK: u32 = 250_000;
@@ -70,6 +72,12 @@ impl<'a> Line<'a> {
         Self { toss, input, rough, fine, many: Default::default() }
     }
 
+    /// The work of an evaluation in each stage.
+    fn work(&self) -> [u32; WORK.len()] {
+        let times = if self.toss.body.moments().is_none() { WORK_OF_TENSOR } else { 1 };
+        WORK.map(|work| times * work)
+    }
+
     /// The sign of cos θ at all changes within `radius` of `change`, in a stage: 0 if it is not proven.
     fn sign_in(&self, stage: usize, change: f64, radius: f64) -> f64 {
         let (toss, input) = (self.toss, self.input);
@@ -90,7 +98,7 @@ impl<'a> Line<'a> {
             *work += of_stage;
             self.sign_in(stage, change, 0.0)
         };
-        WORK.into_iter().enumerate().map(sign).find(|sign| *sign != 0.0).unwrap_or(0.0)
+        self.work().into_iter().enumerate().map(sign).find(|sign| *sign != 0.0).unwrap_or(0.0)
     }
 
     /// The sign of cos θ at all changes within `radius` of `change`, and the stage that proves it: `None` if none does, for
@@ -103,7 +111,7 @@ impl<'a> Line<'a> {
         is_retry: bool,
         work: &mut u32,
     ) -> Option<(f64, usize)> {
-        for (stage, of_stage) in WORK.into_iter().enumerate() {
+        for (stage, of_stage) in self.work().into_iter().enumerate() {
             *work += of_stage;
             let sign = self.sign_in(stage, change, radius);
             if sign != 0.0 {
@@ -165,40 +173,27 @@ impl<B: Elementary> Stage<B> {
         rates
     }
 
-    /// cos θ for all changes within `radius` of `change`, of a body that was given by a tensor.
-    ///
-    /// Doubling forgets how a rate depends on the change, so that a ball of it would grow with the time by more than cos θ
-    /// does. The series of cos θ in x at `change` + x `radius` keeps it: for |x| ≤ 1 cos θ differs from its first
-    /// coefficient by no more than the sum of the next three, and of the fourth anywhere in the interval.
+    /// cos θ for all changes within `radius` of `change`, of a body that was given by a tensor: by a Taylor model, because
+    /// doubling forgets how a ball depends on the change.
     fn height_by_doubling(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
         let exponent = unit_exponent(toss, input, change);
-        let rates = self.rates(toss, input, change, 0.0);
+        let mut rates = self.rates(toss, input, change, 0.0).map(TaylorModel::constant);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
-        let in_unit = |value: f64| {
-            let sign = if input == Input::Time { 1 } else { -1 };
-            time.like(value).times_power_of_two(sign * exponent)
+        let number = |value: f64, exponent: i32| time.like(value).times_power_of_two(exponent);
+        let vary = |value: &mut TaylorModel<B>, width: B| {
+            *value = value.clone() + TaylorModel::variable(width.like(0.0), width)
         };
-        let time = if input == Input::Time { time.clone() + in_unit(change) } else { time.clone() };
-        let tensor = tensor(toss, &time);
-        if radius == 0.0 {
-            return doubled(tensor, rates, &time, &self.vertical);
-        }
-        let width = in_unit(radius);
-        let series = |off: f64| {
-            let varied = |number: &B| Jet::<B, 5>::variable(number.clone().widened(off), width.clone(), 0);
-            let (mut rates, mut time) = (rates.clone().map(Jet::constant), Jet::constant(time.clone()));
-            match input {
-                Input::Rate(axis) => rates[axis] = varied(rates[axis].value()),
-                Input::Time => time = varied(time.value()),
+        let mut time = TaylorModel::constant(time.clone());
+        match input {
+            Input::Rate(axis) => vary(&mut rates[axis], number(radius, -exponent)),
+            Input::Time => {
+                time = time.clone() + TaylorModel::constant(number(change, exponent));
+                vary(&mut time, number(radius, exponent));
             }
-            let tensor = Symmetric(tensor.0.clone().map(Jet::constant));
-            doubled(tensor, rates, &time, &self.vertical.clone().map(Jet::constant))
-        };
-        let (middle, whole) = (series(0.0)?, series(width.bound())?);
-        let size =
-            |jet: &Jet<B, 5>, degree: usize| jet.terms().nth(degree).map_or(f64::INFINITY, |(_, term)| term.bound());
-        let change = (1..4).map(|degree| size(&middle, degree)).sum::<f64>() + size(&whole, 4);
-        Some(middle.value().clone().widened(change * (1.0 + 8.0 * f64::EPSILON)))
+        }
+        let vertical = self.vertical.clone().map(TaylorModel::constant);
+        let turn = doubling::Curve::new(tensor(toss, &time), rates).turn(&time)?;
+        Some(cos_tilt(&turn, &vertical).range())
     }
 
     /// cos θ for all changes within `radius` of `change`.
@@ -222,11 +217,6 @@ impl Stage<WideBall> {
     fn in_digits(toss: &Toss, input: Input, digits: usize) -> Self {
         Self::new(toss, input, vertical_in_digits(&toss.launch, digits), time_in_digits(&toss.launch, digits), 0)
     }
-}
-
-/// cos θ by doubling.
-fn doubled<N: Elementary>(tensor: Symmetric<N>, rate: [N; 3], time: &N, vertical: &[N; 3]) -> Option<N> {
-    Some(cos_tilt(&doubling::Curve::new(tensor, rate).turn(time)?, vertical))
 }
 
 /// Exponent of the unit of the rates, a power of two near the largest.
