@@ -43,7 +43,7 @@ impl<N: Elementary> Start<N> {
         let principal = body.rigid().scaled_principal(&rate[0]);
         let axes = principal.axes;
         let rate = axes.each_ref().map(|axis| along(axis, rate));
-        let excess = excess(body, &principal.moments, &rate)?;
+        let excess = excess(&principal.moments, &rate);
         let mut start = Self { moments: principal.moments, axes, rate, excess, regime: Regime::Uniform };
         start.regime = start.regime()?;
         match start.regime {
@@ -146,8 +146,8 @@ pub(super) fn along<N: Elementary>(axis: &[N; 3], vector: &[N; 3]) -> N {
 }
 
 /// E = I3 (I3 - I2) ω3² - I1 (I2 - I1) ω1². Next to the separatrix, rounding it would lose all digits of the period, so
-/// that it is taken exactly there. `None` if that is impossible because the moments are rounded.
-fn excess<N: Elementary>(body: &Body, [first, second, third]: &[N; 3], [x, _, z]: &[N; 3]) -> Option<N> {
+/// that it is taken exactly there.
+fn excess<N: Elementary>([first, second, third]: &[N; 3], [x, _, z]: &[N; 3]) -> N {
     let term = |moment: &N, less: N, rate: &N| moment.clone() * less * (rate.clone() * rate.clone());
     let outer = term(third, third.clone() - second.clone(), z);
     let inner = term(first, second.clone() - first.clone(), x);
@@ -155,33 +155,20 @@ fn excess<N: Elementary>(body: &Body, [first, second, third]: &[N; 3], [x, _, z]
     let sum = outer + inner;
     let left = if sum.sign() == 0.0 { 0.0 } else { (rounded.clone() / sum.clone()).to_f64().abs() };
     if left >= CANCELLED {
-        return Some(rounded);
-    }
-    if body.moments().is_none() {
-        // Of numbers with an error bound, the bound tells what is lost.
-        let lost = 2f64.powi((100 - first.digits()).max(-300));
-        let on_separatrix = sum.sign() == 0.0 || first.digits() >= TENSOR_DIGITS;
-        return match () {
-            () if rounded.error() > 0.0 || left >= lost => Some(rounded),
-            () => on_separatrix.then(|| rounded.like(0.0)),
-        };
+        return rounded;
     }
     if x.error() > 0.0 || z.error() > 0.0 {
         // Balls of rates hold many values of E.
-        return Some(rounded);
+        return rounded;
     }
     let [first, second, third, x, z] = [first, second, third, x, z].map(N::to_big);
     let product = |moment: &Big, less: Big, rate: &Big| moment * less * rate * rate;
     let exact = product(&third, &third - &second, &z) - product(&first, &second - &first, &x);
-    Some(if exact == Big::ZERO { rounded.like(0.0) } else { rounded.with_value(&exact) })
+    if exact == Big::ZERO { rounded.like(0.0) } else { rounded.with_value(&exact) }
 }
-
-/// Digits above which a tensor whose E is below 2^-300 of its terms counts as one on the separatrix.
-const TENSOR_DIGITS: i32 = 400;
 
 #[cfg(test)]
 mod tests {
-    use numerics::big::exactly;
     use numerics::{Ball, DoubleDouble};
 
     use super::*;
@@ -226,20 +213,5 @@ mod tests {
             let expected = if apart > 0.0 { Regime::AroundLargest } else { Regime::AroundSmallest };
             assert_eq!(regime, Some(expected), "{size} {apart}");
         }
-    }
-
-    /// The same body and motion, turned about the third axis by the angle whose tangent is 4/3. The moments are roots of a
-    /// polynomial, so that E is never exactly 0.
-    #[test]
-    fn a_tensor_is_on_the_separatrix_only_by_many_digits() {
-        let body = Body::from_tensor([[41.0, -12.0, 0.0], [-12.0, 34.0, 0.0], [0.0, 0.0, 56.25]]).unwrap();
-        let regime = |z: f64, size: f64, digits: usize| {
-            let rate = [-7.0 * size, 24.0 * size, z].map(|part| exactly(part).with_precision(digits).value());
-            Start::new(&body, &rate).map(|start| start.regime)
-        };
-        assert_eq!([192, 384, 448].map(|digits| regime(20.0, 1.0, digits)), [None, None, Some(Regime::Separatrix)]);
-        let next_up = [128, 192, 448].map(|digits| regime(20f64.next_up(), 1.0, digits));
-        assert_eq!(next_up, [None, Some(Regime::AroundLargest), Some(Regime::AroundLargest)]);
-        assert_eq!(regime(0.0, 0.0, 192), Some(Regime::Uniform));
     }
 }
