@@ -11,7 +11,8 @@
 //! # Which numbers describe a body
 //! No moment is larger than the sum of the other two, because of the integrals ∫ x² dm ≥ 0. Equality holds for plates.
 //! A moment of 0 is that of a rod about its own axis, and the other two are then equal. Numbers that break the
-//! inequality by no more than their rounding to f64 are accepted, so that the moments 0.1, 0.7, 0.8 of a plate are.
+//! inequality by no more than their rounding to f64 are accepted, so that the moments 0.1, 0.7, 0.8 of a plate are. A
+//! coin with such moments is the flat disc.
 
 mod principal;
 
@@ -328,6 +329,12 @@ fn principal_axes<N: Elementary>(origin: &Origin, like: &N) -> PrincipalAxes<N> 
 fn in_own_unit(tensor: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], i32) {
     let scale = power_of_two_scale(tensor.iter().flatten().fold(0.0, |most, element| element.abs().max(most)));
     (tensor.map(|row| row.map(|element| element / scale)), mantissa_and_exponent(scale).1)
+}
+
+/// Whether the largest moment is above the sum of the others by no more than their rounding.
+pub(crate) fn is_rounding(moments: [f64; 3]) -> bool {
+    let (excess, allowed) = excess(moments);
+    excess <= allowed
 }
 
 /// By how much the largest moment is above the sum of the others, and how much of it the rounding of the three

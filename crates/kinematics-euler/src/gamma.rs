@@ -90,7 +90,7 @@ impl GammaSolver {
             let (end, work) = flight.integrate(&system, first, &self.stepping)?;
             return start.landing(&flight, &system.angles(&end), [end[3], end[4]], work);
         }
-        let system = GammaSystem::new(k, rate.z, start.precession);
+        let system = GammaSystem { launched: start.angles.beta, ..GammaSystem::new(k, rate.z, start.precession) };
         if system.precession_too_slow(&first) && !start.rests_at_the_pole(&rate) {
             return Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 });
         }
@@ -107,6 +107,8 @@ struct GammaSystem {
     q: f64,
     /// s, the sign of α'.
     sense: f64,
+    /// β at launch.
+    launched: f64,
 }
 
 /// D and u by (5), and β' by (8), at one state.
@@ -117,11 +119,13 @@ struct Terms {
 }
 
 impl GammaSystem {
+    /// The system of a launch at β = 0.
     fn new(inertia_ratio: f64, rate_z: f64, precession: f64) -> Self {
         Self {
             rate_z,
             q: body_precession_rate(inertia_ratio, rate_z),
             sense: if precession < 0.0 { -1.0 } else { 1.0 },
+            launched: 0.0,
         }
     }
 
@@ -133,8 +137,9 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        // D = u = 0 (each +0 or -0) is a coin without precession. Such a flight is accepted only if n rests at β = 0.
-        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
+        // D = u = 0 (each +0 or -0) is a coin without precession. Such a flight is accepted only if n rests: that of a coin
+        // at rest, or of one that spins at β = 0.
+        let beta = if d == 0.0 && u == 0.0 { self.launched } else { (self.sense * d).atan2(self.sense * u) };
         EulerAngles { alpha: y[2], beta, gamma: y[0] }
     }
 

@@ -63,8 +63,7 @@ impl<N: Elementary> PrincipalAxes<N> {
     /// size of what is left off the diagonal.
     ///
     /// Each rotation makes one element off the diagonal 0. After a few sweeps over the three, what is left of them is
-    /// below the rounding of the largest moment. Of balls, axes and elements contain those of exact rotations, whatever the
-    /// moments.
+    /// below the rounding of the largest moment.
     fn diagonalised(mut tensor: [[N; 3]; 3]) -> (Self, f64) {
         let like = tensor[0][0].clone();
         let mut axes = Self::of_moments([1.0, 2.0, 3.0], &like).axes;
@@ -82,8 +81,7 @@ impl<N: Elementary> PrincipalAxes<N> {
                 }
             }
         }
-        let error = tensor[0][1].error() + tensor[0][2].error() + tensor[1][2].error();
-        let left = off_diagonal(&tensor) + 2.0 * error + TINY;
+        let left = left_off_diagonal(&tensor);
         let moments = [0, 1, 2].map(|index: usize| tensor[index][index].clone());
         (Self { moments, axes }.sorted(), left)
     }
@@ -145,6 +143,12 @@ fn gap<N: Elementary>(a: &N, b: &N) -> f64 {
 fn off_diagonal<N: Elementary>(tensor: &[[N; 3]; 3]) -> f64 {
     let [[_, xy, xz], [_, _, yz], _] = tensor;
     2.0 * (xy.to_f64().abs() + xz.to_f64().abs() + yz.to_f64().abs())
+}
+
+/// A bound of the size of the matrix above and below the diagonal, with what the scaling of a tensor took from it.
+fn left_off_diagonal<N: Elementary>(tensor: &[[N; 3]; 3]) -> f64 {
+    let error = tensor[0][1].error() + tensor[0][2].error() + tensor[1][2].error();
+    off_diagonal(tensor) + 2.0 * error + TINY
 }
 
 /// The tangent of the smaller angle that makes the element `apq` 0, with this `difference` of the two on the diagonal.

@@ -34,6 +34,8 @@ pub(super) struct Polhode {
     axes: f64,
     /// Whether the body turns about a principal axis, as a sphere always does.
     about_axis: bool,
+    /// Whether two moments are equal.
+    is_symmetric: bool,
 }
 
 /// More than underflow can change in a rate.
@@ -63,7 +65,8 @@ impl Polhode {
         }
         let rates = ideal_rates(toss, &axes, flight)?;
         let [x, y, z] = rates.map(|rate| rate * rate);
-        let is_sphere = b.to_f64() == 0.0 && b.radius() == 0.0;
+        let vanishes = |coupling: &Ball<DoubleDouble>| coupling.to_f64() == 0.0 && coupling.radius() == 0.0;
+        let is_sphere = vanishes(&b);
         let kappas = if is_sphere { [b.like(1.0); 2] } else { [a / b, c / b] };
         let invariants = [x + kappas[0] * y, z + kappas[1] * y];
         let widest = kappas.iter().map(above).fold(1.0, f64::max);
@@ -84,6 +87,7 @@ impl Polhode {
             launched: distance(&rates, flight.rates),
             axes: axes_error(&axes) + off_model(model, fastest * flight.timing().span()),
             about_axis,
+            is_symmetric: vanishes(&a) || vanishes(&c),
         };
         let radii = [kappas[0], kappas[1], invariants[0], invariants[1]].map(|ball| ball.radius());
         let told = radii.into_iter().all(|radius| radius < 1e-6) && found.axes < 1e-6 && found.launched < 1e-6;

@@ -6,10 +6,9 @@
 //! there, too, or where there is none, the model has two equal moments: any axes across the third one are then principal
 //! axes of the model, and the body differs from it by the gap.
 
-use numerics::big::exactly;
 use numerics::{Ball, Big, DoubleDouble, Elementary};
 
-use super::{PrincipalAxes, gap};
+use super::{PrincipalAxes, gap, left_off_diagonal};
 
 /// Two moments whose gap is below this part of the largest moment are close: their axes, in double-double, have less than
 /// the digits of f64.
@@ -42,10 +41,20 @@ impl ModelBody {
     }
 
     /// The model of a scaled `tensor` with close moments.
+    ///
+    /// Axes that are almost principal ones are made perpendicular in balls, which contain exact axes A then. In these axes
+    /// the tensor is diagonal but for what is `left`, whatever the gaps.
     pub(in crate::body) fn of_close_moments(tensor: [[f64; 3]; 3]) -> Self {
-        let like = Ball::new(Big::ZERO.with_precision(DIGITS).value(), 0.0);
-        let tensor = tensor.map(|row| row.map(|element| like.like_big(&exactly(element))));
-        let (found, left) = PrincipalAxes::diagonalised(tensor);
+        let like = Big::ZERO.with_precision(DIGITS).value();
+        let (found, _) = PrincipalAxes::diagonalised(tensor.map(|row| row.map(|element| like.like(element))));
+        let like = Ball::new(like, 0.0);
+        let axes = perpendicular(found.axes.map(|axis| axis.map(|part| Ball::new(part, 0.0))));
+        let tensor = tensor.map(|row| row.map(|element| like.like(element)));
+        let turned = axes.each_ref().map(|axis| tensor.each_ref().map(|row| dot(row, axis)));
+        let diagonal = turned.map(|row| axes.each_ref().map(|axis| dot(axis, &row)));
+        let left = left_off_diagonal(&diagonal);
+        let moments = [0, 1, 2].map(|index: usize| diagonal[index][index].clone());
+        let found = PrincipalAxes { moments, axes };
         let [first, second, third] = found.moments.clone();
         let gaps = [gap(&first, &second), gap(&second, &third)];
         let equal = gaps.map(|gap| gap < EQUAL * third.to_f64());
@@ -77,9 +86,32 @@ fn couplings<N: Elementary>(moments: &[N; 3]) -> [N; 3] {
     let differences = [(third, second, first), (third, first, second), (second, first, third)];
     differences.map(|(above, below, moment)| {
         let difference = above.clone() - below.clone();
-        // Of a rod about its own axis, the difference is 0, too.
-        if moment.to_f64() == 0.0 { difference } else { difference / moment.clone() }
+        // Of a rod about its own axis, the difference is 0, too. A quotient of balls is not exactly 0.
+        let vanishes = difference.sign() == 0.0 && difference.error() == 0.0;
+        if vanishes || moment.to_f64() == 0.0 { difference } else { difference / moment.clone() }
     })
+}
+
+fn dot<N: Elementary>([a, b, c]: &[N; 3], [d, e, f]: &[N; 3]) -> N {
+    a.clone() * d.clone() + b.clone() * e.clone() + c.clone() * f.clone()
+}
+
+/// Perpendicular unit vectors near those that are almost so, right-handed.
+fn perpendicular<N: Elementary>([first, second, _]: [[N; 3]; 3]) -> [[N; 3]; 3] {
+    let unit = |vector: [N; 3]| {
+        let size = dot(&vector, &vector).sqrt();
+        vector.map(|part| part / size.clone())
+    };
+    let first = unit(first);
+    let along = dot(&first, &second);
+    let second = unit([0, 1, 2].map(|index: usize| second[index].clone() - along.clone() * first[index].clone()));
+    let ([a, b, c], [d, e, f]) = (first.clone(), second.clone());
+    let third = [
+        b.clone() * f.clone() - c.clone() * e.clone(),
+        c * d.clone() - a.clone() * f,
+        a * e - b * d,
+    ];
+    [first, second, third]
 }
 
 fn rounded(principal: PrincipalAxes<Ball<Big>>) -> PrincipalAxes<Ball<DoubleDouble>> {
