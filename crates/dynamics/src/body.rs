@@ -244,7 +244,8 @@ impl RigidBody {
     /// The body whose tensor was multiplied by 2^-`exponent` before its `model` was made.
     fn of_model(origin: Origin, model: &ModelBody, exponent: i32) -> Self {
         let PrincipalAxes { moments, axes } = &model.principal;
-        let [moments, a, b, c] = [moments, &axes[0], &axes[1], &axes[2]].map(|balls| balls.map(|ball| *ball.midpoint()));
+        let [moments, a, b, c] =
+            [moments, &axes[0], &axes[1], &axes[2]].map(|balls| balls.map(|ball| *ball.midpoint()));
         let principal = PrincipalAxes { moments, axes: [a, b, c] }.times_power_of_two(exponent);
         let [a, b, c] = model.couplings.map(|coupling| coupling.to_f64());
         Self { origin, principal, couplings: [-a, b, -c] }

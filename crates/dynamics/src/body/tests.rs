@@ -222,7 +222,10 @@ fn models_of_close_moments_have_axes_to_the_digits_of_double_double() {
         }
         let [a, b, c] = couplings;
         for coupling in couplings {
-            assert!(coupling.to_f64() >= 0.0 && coupling.radius() <= 2f64.powi(-85) * coupling.to_f64(), "{couplings:?}");
+            assert!(
+                coupling.to_f64() >= 0.0 && coupling.radius() <= 2f64.powi(-85) * coupling.to_f64(),
+                "{couplings:?}"
+            );
         }
         let rounding = 1e-15 * b.to_f64();
         assert!((a.to_f64() - b.to_f64() + c.to_f64() - a.to_f64() * b.to_f64() * c.to_f64()).abs() <= rounding);

@@ -32,8 +32,7 @@ const OF_ATTITUDE: f64 = 24.0 * UNIT_ROUNDOFF;
 const DIGITS: [usize; 3] = [192, 384, 768];
 
 /// Why a flight without a bound proves nothing.
-const NO_BOUND: &str =
-    "next to a turn about the middle axis, the errors of this flight have no bound";
+const NO_BOUND: &str = "next to a turn about the middle axis, the errors of this flight have no bound";
 
 type Certified = Result<IntegratedCertificate, SolveError>;
 

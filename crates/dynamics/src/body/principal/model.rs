@@ -106,11 +106,7 @@ fn perpendicular<N: Elementary>([first, second, _]: [[N; 3]; 3]) -> [[N; 3]; 3] 
     let along = dot(&first, &second);
     let second = unit([0, 1, 2].map(|index: usize| second[index].clone() - along.clone() * first[index].clone()));
     let ([a, b, c], [d, e, f]) = (first.clone(), second.clone());
-    let third = [
-        b.clone() * f.clone() - c.clone() * e.clone(),
-        c * d.clone() - a.clone() * f,
-        a * e - b * d,
-    ];
+    let third = [b.clone() * f.clone() - c.clone() * e.clone(), c * d.clone() - a.clone() * f, a * e - b * d];
     [first, second, third]
 }
 

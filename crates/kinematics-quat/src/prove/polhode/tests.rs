@@ -355,7 +355,11 @@ fn rates_in_another_unit_near_the_ends_of_the_range_are_refused() {
         let rates = [40.0, -23.0, 63.0].map(|part: f64| part * size);
         let launch = Launch::in_unit(rates, degree, TimeOfFlight::Given(10.0 / size)).unwrap();
         let toss = Toss { body: Body::from_moments(MOMENTS[0]).unwrap(), launch };
-        assert_eq!(Polhode::new(&toss, &toss.body.rigid().model(), &RigidFlight::new(&toss).unwrap()).is_some(), is_told, "{size:e}");
+        assert_eq!(
+            Polhode::new(&toss, &toss.body.rigid().model(), &RigidFlight::new(&toss).unwrap()).is_some(),
+            is_told,
+            "{size:e}"
+        );
     }
 }
 
