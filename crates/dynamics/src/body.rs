@@ -11,15 +11,16 @@
 //! # Which numbers describe a body
 //! No moment is larger than the sum of the other two, because of the integrals ∫ x² dm ≥ 0. Equality holds for plates.
 //! A moment of 0 is that of a rod about its own axis, and the other two are then equal. Numbers that break the
-//! inequality by no more than their rounding to f64 are accepted, so that the moments 0.1, 0.7, 0.8 of a plate are.
+//! inequality by no more than their rounding to f64 are accepted, so that the moments 0.1, 0.7, 0.8 of a plate are. A
+//! coin with such moments is the flat disc.
 
 mod principal;
 
 use nalgebra::Vector3;
-use numerics::scale::power_of_two_scale;
-use numerics::{DoubleDouble, Elementary, UNIT_ROUNDOFF};
+use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
+use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
-pub use principal::{PrincipalAxes, principal_acceleration};
+pub use principal::{ModelBody, PrincipalAxes, principal_acceleration};
 
 use crate::coin::Coin;
 use crate::error::{InputError, require};
@@ -214,12 +215,22 @@ impl Body {
 
 impl RigidBody {
     fn of(origin: Origin) -> Self {
-        let principal = principal_axes(&origin, &DoubleDouble::ZERO);
+        let principal = match &origin {
+            Origin::Moments(_) => principal_axes(&origin, &DoubleDouble::ZERO),
+            Origin::Tensor(tensor) => {
+                let (scaled, exponent) = in_own_unit(tensor);
+                let found = principal_axes(&Origin::Tensor(scaled), &DoubleDouble::ZERO);
+                if found.has_close_moments() {
+                    return Self::of_model(origin, &ModelBody::of_close_moments(scaled), exponent);
+                }
+                found.times_power_of_two(exponent)
+            }
+        };
         let [a, b, c] = principal.moments;
         // A rod has a moment of 0, and the difference is 0 too: no torque acts about its own axis.
         let coupling = |above: DoubleDouble, below: DoubleDouble| {
             if below.hi() > 0.0 {
-                let (_, exponent) = numerics::scale::mantissa_and_exponent(below.hi());
+                let (_, exponent) = mantissa_and_exponent(below.hi());
                 let [above, below] = [above, below].map(|part| part.times_power_of_two(-exponent));
                 (above / below).hi()
             } else {
@@ -228,6 +239,16 @@ impl RigidBody {
         };
         let couplings = [coupling(b - c, a), coupling(c - a, b), coupling(a - b, c)];
         Self { origin, principal, couplings }
+    }
+
+    /// The body whose tensor was multiplied by 2^-`exponent` before its `model` was made.
+    fn of_model(origin: Origin, model: &ModelBody, exponent: i32) -> Self {
+        let PrincipalAxes { moments, axes } = &model.principal;
+        let [moments, a, b, c] =
+            [moments, &axes[0], &axes[1], &axes[2]].map(|balls| balls.map(|ball| *ball.midpoint()));
+        let principal = PrincipalAxes { moments, axes: [a, b, c] }.times_power_of_two(exponent);
+        let [a, b, c] = model.couplings.map(|coupling| coupling.to_f64());
+        Self { origin, principal, couplings: [-a, b, -c] }
     }
 
     /// The principal moments (kg m²), the smallest first.
@@ -240,8 +261,19 @@ impl RigidBody {
         &self.principal
     }
 
+    /// The body with known principal axes that is nearest to this one, for proofs in these axes.
+    pub fn model(&self) -> ModelBody {
+        match &self.origin {
+            Origin::Tensor(tensor) if self.principal.has_close_moments() => {
+                ModelBody::of_close_moments(in_own_unit(tensor).0)
+            }
+            _ => ModelBody::exactly(self.scaled_principal(&Ball::new(DoubleDouble::ZERO, 0.0))),
+        }
+    }
+
     /// Principal moments and axes in numbers like `like`, divided by a power of two near the largest moment. They are
-    /// exact for a body that was given by its moments.
+    /// exact for a body that was given by its moments. Balls of the axes of a tensor are wide for nearly equal moments, and
+    /// infinite for moments that can't be told from equal ones: see [`RigidBody::model`].
     pub fn scaled_principal<N: Elementary>(&self, like: &N) -> PrincipalAxes<N> {
         let scale = power_of_two_scale(self.principal.moments[2].hi());
         let scaled = match self.origin {
@@ -291,6 +323,19 @@ fn principal_axes<N: Elementary>(origin: &Origin, like: &N) -> PrincipalAxes<N> 
         Origin::Moments(moments) => PrincipalAxes::of_moments(*moments, like),
         Origin::Tensor(tensor) => PrincipalAxes::of_tensor(tensor.map(|row| row.map(|element| like.like(element)))),
     }
+}
+
+/// A tensor that is multiplied by a power of two, so that its largest element is between 1 and 2, and the exponent of what
+/// it was divided by.
+fn in_own_unit(tensor: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], i32) {
+    let scale = power_of_two_scale(tensor.iter().flatten().fold(0.0, |most, element| element.abs().max(most)));
+    (tensor.map(|row| row.map(|element| element / scale)), mantissa_and_exponent(scale).1)
+}
+
+/// Whether the largest moment is above the sum of the others by no more than their rounding.
+pub(crate) fn is_rounding(moments: [f64; 3]) -> bool {
+    let (excess, allowed) = excess(moments);
+    excess <= allowed
 }
 
 /// By how much the largest moment is above the sum of the others, and how much of it the rounding of the three

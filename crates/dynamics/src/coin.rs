@@ -10,6 +10,7 @@ use numerics::double_double::DoubleDouble;
 use numerics::scale::mantissa_and_exponent;
 use numerics::{Big, Quantity, Unit};
 
+use crate::body::is_rounding;
 use crate::error::{InputError, require};
 
 /// A coin with finite moments, I1 > 0 and 0 ≤ I3 ≤ 2 I1. No constructor makes any other coin.
@@ -74,12 +75,14 @@ impl Coin {
 
     /// A body of revolution with the principal moments `i1` = I1 = I2 and `i3` = I3 (kg m²).
     ///
-    /// I3 = 0 is a thin rod, I3 = 2 I1 a flat disc. No body has a larger I3, because I3 ≤ I1 + I2.
+    /// I3 = 0 is a thin rod, I3 = 2 I1 a flat disc. No body has a larger I3, because I3 ≤ I1 + I2. An I3 that is larger by
+    /// no more than the rounding of the two moments is taken as that of the flat disc, 2 I1.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`]. I1 has to be at least 2.3e-308, a normal f64, so that I3/I1 loses no digits.
     pub fn from_moments(i1: f64, i3: f64) -> Result<Self, InputError> {
         require("I1 [kg m²]", i1, "finite and > 0 (at least 2.3e-308)", i1 >= f64::MIN_POSITIVE)?;
+        let i3 = if i3 > 2.0 * i1 && is_rounding([i1, i1, i3]) { 2.0 * i1 } else { i3 };
         require("I3 [kg m²]", i3, "0 <= I3 <= 2 I1", (0.0..=2.0 * i1).contains(&i3))?;
         let ((m1, e1), (m3, e3)) = (mantissa_and_exponent(i1), mantissa_and_exponent(i3));
         let ratio = DoubleDouble::quotient(m3, m1).times_power_of_two(e3 - e1);
@@ -224,6 +227,14 @@ mod tests {
     fn moments_are_taken_up_to_the_ends_of_their_ranges() {
         for (i1, i3) in [(1.0, 2.0), (1.0, 0.0), (1.0, 1.0), (f64::MIN_POSITIVE, 0.0), (1e300, 2e300)] {
             assert!(Coin::from_moments(i1, i3).is_ok(), "{i1}, {i3}");
+        }
+        for (i1, i3) in [(1.0, 2.000_000_000_000_000_4), (0.1, 0.200_000_000_000_000_04), (1e-9, 2e-9_f64.next_up())] {
+            let disc = Coin::from_moments(i1, i3).unwrap();
+            assert_eq!((disc.i3(), disc.inertia_ratio(), Ok(disc)), (2.0 * i1, 2.0, Coin::from_moments(i1, 2.0 * i1)));
+            assert_eq!(disc.inertia_ratio_in_digits(200), exactly(2.0));
+        }
+        for (i1, i3) in [(1.0, f64::NAN), (f64::NAN, 1.0), (1.0, f64::INFINITY), (f64::INFINITY, f64::INFINITY)] {
+            assert!(Coin::from_moments(i1, i3).is_err(), "{i1}, {i3}");
         }
         for (i1, i3, message) in [
             (0.0, 0.0, "I1 [kg m²] = 0.0 is outside"),

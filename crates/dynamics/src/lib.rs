@@ -84,7 +84,7 @@ pub mod toss;
 
 pub use adapter::ForeignError;
 pub use attitude::Attitude;
-pub use body::{Body, PrincipalAxes, RigidBody};
+pub use body::{Body, ModelBody, PrincipalAxes, RigidBody};
 pub use checked::Checked;
 pub use coin::Coin;
 pub use columns::Tosses;

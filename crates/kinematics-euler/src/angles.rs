@@ -25,6 +25,7 @@ use dynamics::{
 use nalgebra::SVector;
 
 use crate::initial::InitialConditions;
+use crate::passes::Passes;
 use crate::raw::RawAngles;
 use crate::rigid;
 
@@ -68,28 +69,32 @@ impl Solver for EulerAnglesSolver {
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
-        let landing = match toss.body {
+        let (landing, passes) = match toss.body {
             Body::Rigid(_) if self.formulation.is_guarded() => rigid::land(toss, &self.stepping, self.formulation)?,
             _ => self.land_coin(&toss.of_coin(Self::NAME, RAW_IS_FOR_COINS)?)?,
         };
-        Ok(landing.with_error(self.stepping.error_estimate(toss)?))
+        let growth = passes.growth(self.formulation);
+        let estimate = self.stepping.error_estimate(toss)?.map(|estimate| growth * estimate);
+        let tells_nothing = |estimate: f64| estimate >= 1.0 && matches!(toss.body, Body::Rigid(_));
+        Ok(landing.with_error(estimate.filter(|estimate| !tells_nothing(*estimate))))
     }
 }
 
 impl EulerAnglesSolver {
-    fn land_coin(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
+    fn land_coin(&self, toss: &CoinToss) -> Result<(Landing, Passes), SolveError> {
         let flight = Flight::new(toss)?;
         let start = InitialConditions::new(toss, &flight.rate, self.formulation);
         let (k, rate_z) = (toss.coin.inertia_ratio(), flight.rate.z);
         let EulerAngles { alpha, beta, gamma } = start.angles;
         let first = SVector::from([alpha, beta, gamma, flight.rate.x, flight.rate.y]);
+        let system = AnglesSystem::new(k, rate_z);
         let (end, work) = if self.formulation.is_guarded() {
-            flight.integrate(&AnglesSystem::new(k, rate_z), first, &self.stepping)?
+            flight.integrate(&system, first, &self.stepping)?
         } else {
             flight.integrate(&RawAngles::new(k, rate_z), first, &self.stepping)?
         };
         let angles = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] };
-        start.landing(&flight, &angles, [end[3], end[4]], work)
+        Ok((start.landing(&flight, &angles, [end[3], end[4]], work)?, system.passes))
     }
 }
 
@@ -101,11 +106,17 @@ struct AnglesSystem {
     q: f64,
     /// The limit of u = α' cos β at sin β = 0, k ωz / 2.
     limit_of_u: f64,
+    passes: Passes,
 }
 
 impl AnglesSystem {
     fn new(inertia_ratio: f64, rate_z: f64) -> Self {
-        Self { rate_z, q: body_precession_rate(inertia_ratio, rate_z), limit_of_u: 0.5 * inertia_ratio * rate_z }
+        Self {
+            rate_z,
+            q: body_precession_rate(inertia_ratio, rate_z),
+            limit_of_u: 0.5 * inertia_ratio * rate_z,
+            passes: Passes::none(),
+        }
     }
 }
 
@@ -130,6 +141,7 @@ impl OdeSystem<5> for AnglesSystem {
     }
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
+        self.passes.turned(after[0] - before[0]);
         let [was, is] = [before, after].map(|y| y[1].sin());
         let started_there = was.abs() < f64::EPSILON;
         (!started_there && was * is <= 0.0).then_some(Singularity::NormalAlongAxis)

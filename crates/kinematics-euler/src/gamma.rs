@@ -24,6 +24,7 @@ use dynamics::{
 use nalgebra::SVector;
 
 use crate::initial::InitialConditions;
+use crate::passes::Passes;
 use crate::raw::RawGamma;
 
 /// Why the γ-ODE solves coins alone.
@@ -73,13 +74,14 @@ impl Solver for GammaSolver {
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
-        let landing = self.land_coin(&toss.of_coin(Self::NAME, FOR_COINS)?)?;
-        Ok(landing.with_error(self.stepping.error_estimate(toss)?))
+        let (landing, passes) = self.land_coin(&toss.of_coin(Self::NAME, FOR_COINS)?)?;
+        let growth = passes.growth(self.formulation);
+        Ok(landing.with_error(self.stepping.error_estimate(toss)?.map(|estimate| growth * estimate)))
     }
 }
 
 impl GammaSolver {
-    fn land_coin(&self, toss: &CoinToss) -> Result<Landing, SolveError> {
+    fn land_coin(&self, toss: &CoinToss) -> Result<(Landing, Passes), SolveError> {
         let flight = Flight::new(toss)?;
         let rate = flight.rate;
         let start = InitialConditions::new(toss, &rate, self.formulation);
@@ -88,14 +90,15 @@ impl GammaSolver {
         if !self.formulation.is_guarded() {
             let system = RawGamma::new(k, rate.z);
             let (end, work) = flight.integrate(&system, first, &self.stepping)?;
-            return start.landing(&flight, &system.angles(&end), [end[3], end[4]], work);
+            return Ok((start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)?, Passes::none()));
         }
-        let system = GammaSystem::new(k, rate.z, start.precession);
+        let system = GammaSystem { launched: start.angles.beta, ..GammaSystem::new(k, rate.z, start.precession) };
         if system.precession_too_slow(&first) && !start.rests_at_the_pole(&rate) {
             return Err(SolveError::Singular { point: Singularity::PrecessionTooSlow, time: 0.0 });
         }
         let (end, work) = flight.integrate(&system, first, &self.stepping)?;
-        start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)
+        let landing = start.landing(&flight, &system.angles(&end), [end[3], end[4]], work)?;
+        Ok((landing, system.passes))
     }
 }
 
@@ -107,6 +110,9 @@ struct GammaSystem {
     q: f64,
     /// s, the sign of α'.
     sense: f64,
+    /// β at launch.
+    launched: f64,
+    passes: Passes,
 }
 
 /// D and u by (5), and β' by (8), at one state.
@@ -117,11 +123,14 @@ struct Terms {
 }
 
 impl GammaSystem {
+    /// The system of a launch at β = 0.
     fn new(inertia_ratio: f64, rate_z: f64, precession: f64) -> Self {
         Self {
             rate_z,
             q: body_precession_rate(inertia_ratio, rate_z),
             sense: if precession < 0.0 { -1.0 } else { 1.0 },
+            launched: 0.0,
+            passes: Passes::none(),
         }
     }
 
@@ -133,8 +142,9 @@ impl GammaSystem {
 
     fn angles(&self, y: &SVector<f64, 5>) -> EulerAngles {
         let Terms { d, u, .. } = self.terms(y);
-        // D = u = 0 (each +0 or -0) is a coin without precession. Such a flight is accepted only if n rests at β = 0.
-        let beta = if d == 0.0 && u == 0.0 { 0.0 } else { (self.sense * d).atan2(self.sense * u) };
+        // D = u = 0 (each +0 or -0) is a coin without precession. Such a flight is accepted only if n rests: that of a coin
+        // at rest, or of one that spins at β = 0.
+        let beta = if d == 0.0 && u == 0.0 { self.launched } else { (self.sense * d).atan2(self.sense * u) };
         EulerAngles { alpha: y[2], beta, gamma: y[0] }
     }
 
@@ -154,10 +164,16 @@ impl GammaSystem {
         -sum * (beta_rate / d)
     }
 
-    /// Whether |α'| is below [`SMALLEST_PRECESSION`] times the larger one of √(ωx² + ωy²) and |ωz|.
-    fn precession_too_slow(&self, y: &SVector<f64, 5>) -> bool {
+    /// |α'|, and the larger one of √(ωx² + ωy²) and |ωz|.
+    fn precession_and_rate(&self, y: &SVector<f64, 5>) -> [f64; 2] {
         let Terms { d, u, .. } = self.terms(y);
-        d.hypot(u) < SMALLEST_PRECESSION * y[3].hypot(y[4]).max(self.rate_z.abs())
+        [d.hypot(u), y[3].hypot(y[4]).max(self.rate_z.abs())]
+    }
+
+    /// Whether |α'| is below [`SMALLEST_PRECESSION`] times the rates.
+    fn precession_too_slow(&self, y: &SVector<f64, 5>) -> bool {
+        let [precession, rate] = self.precession_and_rate(y);
+        precession < SMALLEST_PRECESSION * rate
     }
 }
 
@@ -175,6 +191,10 @@ impl OdeSystem<5> for GammaSystem {
     }
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
+        self.passes.turned(after[2] - before[2]);
+        for [precession, rate] in [before, after].map(|y| self.precession_and_rate(y)) {
+            self.passes.magnified(rate / precession);
+        }
         let (was, is) = (self.terms(before), self.terms(after));
         // D = 0 counts as no crossing, because a tiny transverse rate may underflow in the momentum frame.
         let crossed = was.d * is.d < 0.0;

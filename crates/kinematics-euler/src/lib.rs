@@ -12,6 +12,7 @@
 pub mod angles;
 pub mod gamma;
 mod initial;
+mod passes;
 mod raw;
 mod rigid;
 

@@ -34,6 +34,7 @@ use dynamics::{
 use nalgebra::SVector;
 
 use crate::initial::VERTICAL;
+use crate::passes::Passes;
 
 /// The largest change of the rate across n, by that rate, in the unit of a [`Flight`](dynamics::Flight), with which a
 /// flight may start at the vertical. Above it the regular solution has a rate α' that no digit of the angles can follow.
@@ -44,7 +45,11 @@ const FASTEST_START: f64 = 1e6;
 ///
 /// # Errors
 /// As [`Solver::land`](dynamics::Solver::land).
-pub(crate) fn land(toss: &Toss, stepping: &Stepping, formulation: Formulation) -> Result<Landing, SolveError> {
+pub(crate) fn land(
+    toss: &Toss,
+    stepping: &Stepping,
+    formulation: Formulation,
+) -> Result<(Landing, Passes), SolveError> {
     let flight = RigidFlight::new(toss)?;
     let launched = toss.launch.attitude();
     let start = match formulation.frame() {
@@ -65,7 +70,8 @@ pub(crate) fn land(toss: &Toss, stepping: &Stepping, formulation: Formulation) -
             launched * turn.map_err(|_| flight.timing().not_finite())?
         }
     };
-    Ok(Landing::new(State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) }, work))
+    let state = State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) };
+    Ok((Landing::new(state, work), start.system.passes))
 }
 
 /// The angles at launch, and their equations.
@@ -90,10 +96,7 @@ impl Start {
         let beta = if momentum == [0.0; 3] { FRAC_PI_2 } else { x.hypot(y).atan2(z) };
         let angles = EulerAngles { alpha: 0.0, beta, gamma: x.atan2(y) };
         let axes = order.map(|axis| [0, 1, 2].map(|column| if column == axis { 1.0 } else { 0.0 }));
-        Self {
-            angles,
-            system: RigidAngles { axes, couplings: flight.couplings, limit_of_u: 0.5 * third_of(&axes, flight) },
-        }
+        Self { angles, system: RigidAngles::new(axes, flight, 0.5 * third_of(&axes, flight)) }
     }
 
     /// Angles of n from the vertical.
@@ -104,7 +107,7 @@ impl Start {
         let angles = EulerAngles::principal(launched);
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| flight.in_body(axis));
         let axes = [0, 1, 2].map(|row: usize| columns.map(|column| column[row]));
-        let system = |limit_of_u| RigidAngles { axes, couplings: flight.couplings, limit_of_u };
+        let system = |limit_of_u| RigidAngles::new(axes, flight, limit_of_u);
         let [w, x, y, z] = launched.components();
         let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
         if sin_half_beta.min(cos_half_beta) > VERTICAL {
@@ -149,9 +152,14 @@ struct RigidAngles {
     couplings: [f64; 3],
     /// The limit of u = α' cos β at sin β = 0.
     limit_of_u: f64,
+    passes: Passes,
 }
 
 impl RigidAngles {
+    fn new(axes: [[f64; 3]; 3], flight: &RigidFlight, limit_of_u: f64) -> Self {
+        Self { axes, couplings: flight.couplings, limit_of_u, passes: Passes::none() }
+    }
+
     /// The components along the principal axes of a vector along the axes of the angles.
     fn about_principal_axes(&self, vector: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|column: usize| (0..3).map(|row| self.axes[row][column] * vector[row]).sum())
@@ -177,6 +185,7 @@ impl OdeSystem<6> for RigidAngles {
     }
 
     fn singularity(&self, before: &SVector<f64, 6>, after: &SVector<f64, 6>) -> Option<Singularity> {
+        self.passes.turned(after[0] - before[0]);
         let [was, is] = [before, after].map(|state| state[1].sin());
         let started_there = was.abs() < f64::EPSILON;
         (!started_there && was * is <= 0.0).then_some(Singularity::NormalAlongAxis)

@@ -12,7 +12,7 @@ use exact::motion::COS_TILT_ERROR;
 
 use crate::answer::{Answer, Verdict};
 use crate::choice::{Candidate, Choice, How, Offer};
-use crate::model::{Kind, MODELS, Model};
+use crate::model::{Kind, MODELS, Model, Of};
 use crate::reason::Reason;
 use crate::registry::Registry;
 use crate::samples::no_integrator_for_a_space;
@@ -31,19 +31,24 @@ const ATTITUDE_ERROR: f64 = 1.13e-15 + 4.0 * f64::EPSILON;
 /// as the costs of the [models](crate::model) were.
 const POINT_NS: f64 = 799.0;
 
-/// What a flight costs without its calls of the right-hand side, and what each call costs (ns). They were measured on coins
-/// as the costs of the [models](crate::model) were. Those of other bodies are of the same size. An integrator from elsewhere
-/// is taken to cost as much as the dearest of ours.
-pub(crate) fn costs(solver: &str, scheme: Scheme) -> [f64; 2] {
-    match (solver, scheme.name()) {
-        ("gamma", "dop853") => [362.0, 39.7],
-        ("gamma", "dopri5") => [308.0, 59.8],
-        ("euler", "dop853") => [298.0, 44.0],
-        ("euler", "dopri5") => [285.0, 53.6],
-        ("quaternion", "dop853") => [200.0, 17.5],
-        ("quaternion", "dopri5") => [166.0, 23.9],
-        ("quaternion", "taylor") => [170.0, 6.61],
-        _ => [362.0, 59.8],
+/// What a flight costs without its calls of the right-hand side, and what each call costs (ns), of a coin or of another
+/// body. `cargo bench --package toss --bench costs` measures them; those of coins were taken as the costs of the
+/// [models](crate::model) were. An integrator from elsewhere is taken to cost as much as the dearest of ours.
+pub(crate) fn costs(solver: &str, scheme: Scheme, of: Of) -> [f64; 2] {
+    match (of, solver, scheme.name()) {
+        (Of::Coins, "gamma", "dop853") => [362.0, 39.7],
+        (Of::Coins, "gamma", "dopri5") => [308.0, 59.8],
+        (Of::Coins, "euler", "dop853") => [298.0, 44.0],
+        (Of::Coins, "euler", "dopri5") => [285.0, 53.6],
+        (Of::Coins, "quaternion", "dop853") => [200.0, 17.5],
+        (Of::Coins, "quaternion", "dopri5") => [166.0, 23.9],
+        (Of::Coins, "quaternion", "taylor") => [170.0, 6.61],
+        (Of::Coins, ..) => [362.0, 59.8],
+        (Of::Others, "euler", "dop853") => [750.0, 46.9],
+        (Of::Others, "quaternion", "dop853") => [443.0, 18.1],
+        (Of::Others, "quaternion", "dopri5") => [592.0, 22.2],
+        (Of::Others, "quaternion", "taylor") => [339.0, 37.4],
+        (Of::Others, ..) => [654.0, 50.5],
     }
 }
 
@@ -161,7 +166,8 @@ fn flown(scene: &Scene, exact: &Answer, entry: &SolverEntry, scheme: Scheme, tol
         return Ok(Flown::IsOffBy(error));
     }
     let expected_error = if matches!(scene.want, Want::Outcome(_)) { 0.0 } else { error };
-    let expected_cost_ns = cost_ns(solver.as_ref(), costs(entry.name(), scheme), &scene.want)?;
+    let of = scene.want.toss().map_or(Of::Coins, |toss| Of::body(&toss.body));
+    let expected_cost_ns = cost_ns(solver.as_ref(), costs(entry.name(), scheme, of), &scene.want)?;
     let how = How::Integrator(entry.clone(), stepping);
     Ok(Flown::Serves(Choice { model: model(), how, expected_error, expected_cost_ns }))
 }

@@ -6,14 +6,13 @@ use kinematics_quat::{IntegratedCertificate, QuaternionSolver, TAYLOR};
 
 use crate::answer::Answer;
 use crate::choice::{Choice, Decision, How};
-use crate::integrators::{TOLERANCES, costs, model};
+use crate::integrators::{TOLERANCES, model};
 use crate::registry::Registry;
 use crate::scene::{Integrator, Want};
 
-/// What a flight with its bound costs, in flights of a coin with as many calls and without one: that of a coin, and that of
-/// another body, of whose series each call costs more and whose bound is computed step by step. Measured on the paper's
-/// coin, a racket and a book.
-const COSTS: [f64; 2] = [2.0, 20.0];
+/// What a flight with its bound costs without its calls, and what each call costs (ns), of a coin and of another body, whose
+/// bound is computed step by step. `cargo bench --package toss --bench costs` measures them.
+const COSTS: [[f64; 2]; 2] = [[1746.0, 8.5], [868.0, 81.4]];
 
 /// Why something has no plan with a proof.
 fn refused(why: &'static str) -> InputError {
@@ -55,14 +54,13 @@ pub(crate) fn plan(registry: &Registry, by: &Integrator, want: &Want, accuracy: 
         return Err(refused("a plan with a proof takes the solver quaternion with the scheme taylor").into());
     }
     let (toss, bound) = question(want)?;
-    let [cost_ns, call_ns] = costs(entry.name(), scheme);
+    let [cost_ns, call_ns] = COSTS[usize::from(toss.coin().is_none())];
     for tolerance in TOLERANCES {
         let stepping = Stepping::adaptive(scheme, tolerance)?;
         let found = QuaternionSolver::new(stepping, Formulation::default()).enclose(toss)?;
         if bound(&found) <= accuracy {
             #[expect(clippy::cast_precision_loss, reason = "calls of a flight are fewer than 2^53")]
-            let flight_ns = cost_ns + call_ns * found.work().rhs_calls as f64;
-            let expected_cost_ns = COSTS[usize::from(toss.coin().is_none())] * flight_ns;
+            let expected_cost_ns = cost_ns + call_ns * found.work().rhs_calls as f64;
             let how = How::Integrator(entry.clone(), stepping);
             let choice = Choice { model: model(), how, expected_error: bound(&found), expected_cost_ns };
             return Ok(Decision { choice, passed_over: Vec::new() });

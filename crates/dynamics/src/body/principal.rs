@@ -1,8 +1,20 @@
 //! Principal axes: the eigenvectors of the inertia tensor, by Jacobi's method in any kind of number. In f64 their
-//! errors would grow with the phase of a flight, so they are taken in double-double.
+//! errors would grow with the phase of a flight, so they are taken in double-double. Axes of nearly equal moments lose
+//! digits there, too: [`ModelBody`] has more.
 
 use nalgebra::Vector3;
 use numerics::{DoubleDouble, Elementary};
+
+pub use self::model::ModelBody;
+
+mod model;
+
+/// Elements off the diagonal below this part of the largest element are not made 0, because the squares on the way would
+/// underflow. They count as what is left off the diagonal.
+const NEGLIGIBLE: f64 = 1e-240;
+
+/// More than scaling can take from the elements of a tensor by underflow.
+const TINY: f64 = 1e-300;
 
 /// Principal moments, the smallest first, and their axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,10 +43,28 @@ impl<N: Elementary> PrincipalAxes<N> {
 
     /// The eigenvalues and eigenvectors of a symmetric `tensor`.
     ///
+    /// What is left off the diagonal bounds the error of the moments, and divided by the difference of two moments that of
+    /// their axes.
+    pub(super) fn of_tensor(tensor: [[N; 3]; 3]) -> Self {
+        let (found, left) = Self::diagonalised(tensor);
+        found.enclosing(left)
+    }
+
+    /// What is [`diagonalised`](Self::diagonalised) but for elements of this size, as enclosures of moments and axes.
+    fn enclosing(self, left: f64) -> Self {
+        let moments = self.moments.map(|moment| moment.widened(left));
+        let nearest = gap(&moments[0], &moments[1]).min(gap(&moments[1], &moments[2]));
+        // Of balls, this is infinite for equal moments, whose axes are not determined.
+        let turned = 4.0 * left / (nearest - 2.0 * left).max(0.0);
+        Self { moments, axes: self.axes.map(|axis| axis.map(|part| part.widened(turned))) }
+    }
+
+    /// Axes that are almost those of a symmetric `tensor`, the elements on its diagonal in these axes, and a bound of the
+    /// size of what is left off the diagonal.
+    ///
     /// Each rotation makes one element off the diagonal 0. After a few sweeps over the three, what is left of them is
-    /// below the rounding of the largest moment; with its own error, it bounds the error of the moments, and divided by the
-    /// difference of two moments that of their axes.
-    pub(super) fn of_tensor(mut tensor: [[N; 3]; 3]) -> Self {
+    /// below the rounding of the largest moment.
+    fn diagonalised(mut tensor: [[N; 3]; 3]) -> (Self, f64) {
         let like = tensor[0][0].clone();
         let mut axes = Self::of_moments([1.0, 2.0, 3.0], &like).axes;
         let largest = tensor.iter().flatten().fold(0.0_f64, |most, element| most.max(element.to_f64().abs()));
@@ -45,28 +75,23 @@ impl<N: Elementary> PrincipalAxes<N> {
             }
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
                 // An element within its own error is left: a turn to make it 0 has no angle.
-                if tensor[p][q].to_f64().abs() > 16.0 * tensor[p][q].error() {
+                let known = (16.0 * tensor[p][q].error()).max(NEGLIGIBLE * largest);
+                if tensor[p][q].to_f64().abs() > known {
                     rotate(&mut tensor, &mut axes, p, q);
                 }
             }
         }
-        let error = tensor[0][1].error() + tensor[0][2].error() + tensor[1][2].error();
-        let left = off_diagonal(&tensor) + 2.0 * error;
-        let found = Self { moments: [0, 1, 2].map(|index: usize| tensor[index][index].clone().widened(left)), axes };
-        let Self { moments, axes } = found.sorted();
-        let gap = |a: &N, b: &N| (b.clone() - a.clone()).to_f64().abs();
-        let nearest = gap(&moments[0], &moments[1]).min(gap(&moments[1], &moments[2]));
-        // Of balls, this is infinite for equal moments, whose axes are not determined.
-        let turned = 4.0 * left / (nearest - 2.0 * left).max(0.0);
-        let turned = if left == 0.0 { 0.0 } else { turned };
-        Self { moments, axes: axes.map(|axis| axis.map(|part| part.widened(turned))) }
+        let left = left_off_diagonal(&tensor);
+        let moments = [0, 1, 2].map(|index: usize| tensor[index][index].clone());
+        (Self { moments, axes }.sorted(), left)
     }
 
-    /// In the order of the moments, right-handed.
+    /// In the order of the moments, right-handed. Moments that differ by less than their rounding to f64 are ordered, too.
     fn sorted(self) -> Self {
         let Self { moments, axes } = self;
         let mut order = [0, 1, 2];
-        order.sort_by(|a: &usize, b: &usize| moments[*a].to_f64().total_cmp(&moments[*b].to_f64()));
+        let above = |a: usize, b: usize| (moments[a].clone() - moments[b].clone()).sign();
+        order.sort_by(|a: &usize, b: &usize| above(*a, *b).total_cmp(&0.0));
         // The order is a cyclic one, or it exchanges two axes, which makes a right-handed system left-handed.
         let cyclic = (order[0] + 1) % 3 == order[1];
         let mut axes = order.map(|index| axes[index].clone());
@@ -78,6 +103,17 @@ impl<N: Elementary> PrincipalAxes<N> {
 }
 
 impl PrincipalAxes<DoubleDouble> {
+    /// Whether two moments differ by so little that these axes are not known to the digits of f64.
+    pub(super) fn has_close_moments(&self) -> bool {
+        let [a, b, c] = &self.moments;
+        gap(a, b).min(gap(b, c)) < model::CLOSE * c.hi()
+    }
+
+    /// The axes of a tensor that is 2^`exponent` times as large.
+    pub(super) fn times_power_of_two(self, exponent: i32) -> Self {
+        Self { moments: self.moments.map(|moment| moment.times_power_of_two(exponent)), ..self }
+    }
+
     /// The components of a rate (BF) about the principal axes, rounded once.
     pub(crate) fn rates(&self, rate: &Vector3<f64>) -> [f64; 3] {
         self.axes.map(|[x, y, z]| (x * rate.x + y * rate.y + z * rate.z).hi())
@@ -98,10 +134,21 @@ impl PrincipalAxes<DoubleDouble> {
     }
 }
 
+/// By how much the moment `b` is above `a`, rounded.
+fn gap<N: Elementary>(a: &N, b: &N) -> f64 {
+    (b.clone() - a.clone()).to_f64().abs()
+}
+
 /// The sum of the absolute elements above the diagonal, twice.
 fn off_diagonal<N: Elementary>(tensor: &[[N; 3]; 3]) -> f64 {
     let [[_, xy, xz], [_, _, yz], _] = tensor;
     2.0 * (xy.to_f64().abs() + xz.to_f64().abs() + yz.to_f64().abs())
+}
+
+/// A bound of the size of the matrix above and below the diagonal, with what the scaling of a tensor took from it.
+fn left_off_diagonal<N: Elementary>(tensor: &[[N; 3]; 3]) -> f64 {
+    let error = tensor[0][1].error() + tensor[0][2].error() + tensor[1][2].error();
+    off_diagonal(tensor) + 2.0 * error + TINY
 }
 
 /// The tangent of the smaller angle that makes the element `apq` 0, with this `difference` of the two on the diagonal.
@@ -109,14 +156,14 @@ fn tangent<N: Elementary>(apq: &N, difference: N) -> N {
     /// θ² of more may exceed the range of f64, in which balls have their radii.
     const LARGE: f64 = 1e100;
     let (one, twice) = (apq.like(1.0), apq.clone() + apq.clone());
-    let theta = difference.clone() / twice.clone();
-    let size = theta.to_f64();
-    if size.abs() > LARGE {
+    // Asked before the division, whose quotient may exceed the range of the number.
+    if difference.to_f64().abs() > LARGE * twice.to_f64().abs() {
         let root = (difference.clone() * difference.clone() + twice.clone() * twice.clone()).sqrt();
         return twice / if difference.to_f64() >= 0.0 { difference + root } else { difference - root };
     }
+    let theta = difference / twice;
     let root = (theta.clone() * theta.clone() + one.clone()).sqrt();
-    if size >= 0.0 { one / (theta + root) } else { -(one / (root - theta)) }
+    if theta.to_f64() >= 0.0 { one / (theta + root) } else { -(one / (root - theta)) }
 }
 
 /// Turns the axes p and q so that the element between them becomes 0.

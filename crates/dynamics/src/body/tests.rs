@@ -68,6 +68,19 @@ fn plates_and_rods_are_bodies_and_so_are_decimal_plates() {
         assert_eq!(body.moments(), Some(moments));
         assert_eq!(body.coin(), None);
     }
+    // A flat disc by any of the constructors, with moments that were rounded.
+    let i3 = 2.000_000_000_000_000_4;
+    let disc = Body::from(Coin::from_moments(1.0, 2.0).unwrap());
+    for found in [
+        Body::from_moments([1.0, 1.0, i3]),
+        Body::from_listed_moments(&[1.0, i3]),
+        Body::from_inertia([1.0, 1.0, i3, 0.0, 0.0, 0.0]),
+    ] {
+        assert_eq!(found, Ok(disc));
+    }
+    for found in [Body::from_moments([1.0, i3, 1.0]), Body::from_inertia([1.0, i3, 1.0, 1e-20, 0.0, 0.0])] {
+        assert!(found.is_ok_and(|body| body.coin().is_none()));
+    }
     // All plates whose moments are decimal numbers of two digits, in all orders.
     for first in 1..100 {
         for second in (1..100).filter(|second| *second != first) {
@@ -163,5 +176,83 @@ fn moments_of_any_size_give_the_same_scaled_axes() {
             one,
             "{exponent}"
         );
+    }
+}
+
+/// Tensors with moments that are nearly or exactly equal, or that differ by small elements alone.
+fn close_tensors() -> Vec<[[f64; 3]; 3]> {
+    let symmetric = |[xx, yy, zz, xy, xz, yz]: [f64; 6]| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let mut inertia = Vec::new();
+    for exponent in [-16, -17, -18, -19, -25, -40, -48, -49, -50, -100, -145, -200, -290, -310, -323] {
+        let tiny = 10f64.powi(exponent);
+        for [xy, xz, yz] in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [1.0, 0.5, -0.7], [tiny.sqrt(), 0.0, 1.0]] {
+            let [xy, xz, yz] = [xy, xz, yz].map(|part| part * tiny);
+            inertia.extend([
+                [1.0, 1.0, 1.0, xy, xz, yz],
+                [1.0, 1.0, 0.5, xy, xz, yz],
+                [0.6, 1.0, 1.0, xy, xz, yz],
+                [0.783_175_569_369_716_7, 0.783_175_569_369_716_7, 0.595_072_136_183_691_7, xy * tiny, 0.0, 1e-19],
+                [1.0, 1.1, 1.0, xy, 0.1 + xz, yz],
+                [5.0, 5.0, 5.0, 1.0 + xy, 1.0 + xz, 1.0 + yz],
+            ]);
+        }
+    }
+    inertia.into_iter().filter(|[.., xy, xz, yz]| [*xy, *xz, *yz] != [0.0; 3]).map(symmetric).collect()
+}
+
+/// |J' axis - moment axis| of a model is at most its `off`, but for rounding, and its couplings are in the order of moments.
+#[test]
+fn models_of_close_moments_have_axes_to_the_digits_of_double_double() {
+    let big = |value: DoubleDouble| (exactly(value.hi()) + exactly(value.lo())).with_precision(400).value();
+    let mut models = [0; 2];
+    for tensor in close_tensors() {
+        let body = Body::from_tensor(tensor).unwrap().rigid();
+        let ModelBody { principal: PrincipalAxes { moments, axes }, couplings, off } = body.model();
+        models[usize::from(off > 0.0)] += 1;
+        let (scaled, _) = in_own_unit(&tensor);
+        for (index, axis) in axes.iter().enumerate() {
+            assert!(axis.iter().all(|part| part.radius() < 2f64.powi(-90)), "{tensor:?}: {axis:?}");
+            let axis = axis.map(|part| big(*part.midpoint()));
+            for (row, part) in scaled.iter().zip(&axis) {
+                let along =
+                    row.iter().zip(&axis).fold(Big::ZERO, |sum, (element, part)| sum + exactly(*element) * part);
+                let left = (along - big(*moments[index].midpoint()) * part).to_f64().value().abs();
+                assert!(left < 2f64.powi(-98) + off, "{tensor:?}: 2^{}", left.log2());
+            }
+        }
+        let [a, b, c] = couplings;
+        for coupling in couplings {
+            assert!(
+                coupling.to_f64() >= 0.0 && coupling.radius() <= 2f64.powi(-85) * coupling.to_f64(),
+                "{couplings:?}"
+            );
+        }
+        let rounding = 1e-15 * b.to_f64();
+        assert!((a.to_f64() - b.to_f64() + c.to_f64() - a.to_f64() * b.to_f64() * c.to_f64()).abs() <= rounding);
+        assert_eq!(body.couplings().map(f64::abs), couplings.map(|coupling| coupling.to_f64()));
+        // The largest gap that is closed is 2^-160 of the largest moment.
+        assert!(off < 2f64.powi(-157), "{tensor:?}: {off:e}");
+    }
+    assert!(models.into_iter().all(|count| count > 50), "{models:?}");
+}
+
+/// Moments in the order of their size, whatever the kind of number, and nothing that is not a number.
+#[test]
+fn nearly_equal_moments_are_in_order_in_every_kind_of_number() {
+    fn assert_in_order<N: Elementary>(tensor: &[[f64; 3]; 3], like: &N) {
+        let body = Body::from_tensor(*tensor).unwrap().rigid();
+        let PrincipalAxes { moments: [a, b, c], axes } = body.scaled_principal(like);
+        for (below, above) in [(&a, &b), (&b, &c)] {
+            assert!((above.clone() - below.clone()).sign() >= 0.0, "{tensor:?}");
+        }
+        assert!(axes.iter().flatten().all(|part| part.is_in_range() && part.to_f64().abs() < 1.001), "{tensor:?}");
+    }
+    for tensor in close_tensors() {
+        assert_in_order(&tensor, &0.0);
+        assert_in_order(&tensor, &DoubleDouble::ZERO);
+        assert_in_order(&tensor, &Ball::new(0.0, 0.0));
+        assert_in_order(&tensor, &Ball::new(DoubleDouble::ZERO, 0.0));
+        assert_in_order(&tensor, &Big::ZERO.with_precision(192).value());
+        assert_in_order(&tensor, &Ball::new(Big::ZERO.with_precision(192).value(), 0.0));
     }
 }

@@ -209,3 +209,15 @@ fn beta_is_found_in_all_quadrants_and_is_0_for_a_coin_at_rest() {
         assert!(landing.state.attitude.angle_to(&toss.launch.attitude()) < 1e-15, "{rest:?}");
     }
 }
+
+/// Without a rate nothing defines D and u, and so they do not tell the attitude.
+#[test]
+fn a_coin_at_rest_stays_as_it_was_thrown() {
+    for formulation in [Formulation::MOMENTUM, Formulation::VERTICAL] {
+        for tilt in [0.0, 1e-17, 1e-9, 1.0, 2.0, -2.0, std::f64::consts::PI, 3.2] {
+            let landing = GammaSolver::new(Stepping::DEFAULT, formulation).land(&toss(0.5, [0.0; 3], tilt)).unwrap();
+            assert!((landing.cos_tilt - tilt.cos()).abs() < 1e-15, "{tilt}: {landing:?}");
+            assert!(landing.state.attitude.angle_to(&toss(0.5, [0.0; 3], tilt).launch.attitude()) < 1e-14, "{tilt}");
+        }
+    }
+}

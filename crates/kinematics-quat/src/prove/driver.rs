@@ -32,8 +32,7 @@ const OF_ATTITUDE: f64 = 24.0 * UNIT_ROUNDOFF;
 const DIGITS: [usize; 3] = [192, 384, 768];
 
 /// Why a flight without a bound proves nothing.
-const NO_BOUND: &str =
-    "next to a turn about the middle axis, or next to equal moments, the errors of this flight have no bound";
+const NO_BOUND: &str = "next to a turn about the middle axis, the errors of this flight have no bound";
 
 type Certified = Result<IntegratedCertificate, SolveError>;
 
@@ -293,6 +292,8 @@ fn of_attitude(launched: Attitude) -> f64 {
     OF_ATTITUDE + UNIT_ROUNDOFF * tilt
 }
 
+#[cfg(test)]
+mod close_moments_tests;
 #[cfg(test)]
 mod rigid_tests;
 #[cfg(test)]

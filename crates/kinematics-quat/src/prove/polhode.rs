@@ -5,7 +5,7 @@
 mod errors;
 
 use dynamics::body::PrincipalAxes;
-use dynamics::{AngleUnit, RigidFlight, Toss};
+use dynamics::{AngleUnit, ModelBody, RigidFlight, Toss};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 pub(super) use self::errors::{Errors, Step};
@@ -30,10 +30,12 @@ pub(super) struct Polhode {
     growth: f64,
     /// The distance of the computed rates at launch from the ideal ones.
     launched: f64,
-    /// The error of the turn at landing because the axes are rounded.
+    /// The error of the turn at landing because the axes are rounded, and because the body is not quite its model.
     axes: f64,
-    /// Whether the body turns about a principal axis.
+    /// Whether the body turns about a principal axis, as a sphere always does.
     about_axis: bool,
+    /// Whether two moments are equal.
+    is_symmetric: bool,
 }
 
 /// More than underflow can change in a rate.
@@ -53,19 +55,24 @@ const ROOT_2: f64 = 1.4143;
 const INVERSE_ROOT_3: f64 = 0.5774;
 
 impl Polhode {
-    /// That of a `toss` with this `flight`. `None` if the numbers of the toss do not tell it: if its moments can't be told
-    /// from equal ones, or underflow.
-    pub(super) fn new(toss: &Toss, flight: &RigidFlight) -> Option<Self> {
-        let like = Ball::new(DoubleDouble::ZERO, 0.0);
-        let PrincipalAxes { moments, axes } = toss.body.rigid().scaled_principal(&like);
-        let [a, b, c] = couplings(&moments, flight)?;
+    /// That of the `model` of a toss with this `flight`. `None` if the numbers of the toss do not tell it: if they are too
+    /// far from those of the flight, or underflow.
+    pub(super) fn new(toss: &Toss, model: &ModelBody, flight: &RigidFlight) -> Option<Self> {
+        let PrincipalAxes { moments, axes } = model.principal;
+        let [a, b, c] = model.couplings;
+        if !are_told(model, flight) {
+            return None;
+        }
         let rates = ideal_rates(toss, &axes, flight)?;
         let [x, y, z] = rates.map(|rate| rate * rate);
-        let kappas = [a / b, c / b];
+        let vanishes = |coupling: &Ball<DoubleDouble>| coupling.to_f64() == 0.0 && coupling.radius() == 0.0;
+        let is_sphere = vanishes(&b);
+        let kappas = if is_sphere { [b.like(1.0); 2] } else { [a / b, c / b] };
         let invariants = [x + kappas[0] * y, z + kappas[1] * y];
         let widest = kappas.iter().map(above).fold(1.0, f64::max);
         let fastest = above(&(x + y + z + a * c * y).sqrt());
-        let about_axis = rates.iter().filter(|rate| rate.to_f64() == 0.0 && rate.radius() == 0.0).count() > 1;
+        let about_axis =
+            is_sphere || rates.iter().filter(|rate| rate.to_f64() == 0.0 && rate.radius() == 0.0).count() > 1;
         // Turns about a principal axis stay as they are.
         let still = if about_axis { 0.0 } else { 1.0 };
         let found = Self {
@@ -78,8 +85,9 @@ impl Polhode {
                 .min(fastest),
             growth: still * above(&(a + c)) * fastest * INVERSE_ROOT_3,
             launched: distance(&rates, flight.rates),
-            axes: axes_error(&axes),
+            axes: axes_error(&axes) + off_model(model, fastest * flight.timing().span()),
             about_axis,
+            is_symmetric: vanishes(&a) || vanishes(&c),
         };
         let radii = [kappas[0], kappas[1], invariants[0], invariants[1]].map(|ball| ball.radius());
         let told = radii.into_iter().all(|radius| radius < 1e-6) && found.axes < 1e-6 && found.launched < 1e-6;
@@ -144,23 +152,24 @@ fn above(ball: &Ball<DoubleDouble>) -> f64 {
     (ball.to_f64().abs() + ball.radius()) * (1.0 + 1e-15)
 }
 
-/// a, b and c of the ideal body with these `moments`. `None` if they can't be told from rounding, or underflow, or if those of
-/// the flight are not these, rounded.
-fn couplings(moments: &[Ball<DoubleDouble>; 3], flight: &RigidFlight) -> Option<[Ball<DoubleDouble>; 3]> {
-    let [first, second, third] = *moments;
-    let exact = [(third - second, first), (third - first, second), (second - first, third)];
-    let exact = exact.map(|(difference, moment)| {
-        // Of a rod about its own axis, the difference is 0, too.
-        if moment.to_f64() == 0.0 { difference } else { difference / moment }
-    });
-    let [_, b, _] = exact;
-    let off = exact.iter().zip(flight.couplings).map(|(exact, rounded)| {
+/// Whether the couplings of the `model` are those of the flight but for their rounding, and nothing underflows.
+fn are_told(model: &ModelBody, flight: &RigidFlight) -> bool {
+    let off = model.couplings.iter().zip(flight.couplings).map(|(exact, rounded)| {
         let rounded = Ball::new(DoubleDouble::exactly(rounded.abs()), 0.0);
         above(&(*exact - rounded))
     });
-    let told = off.fold(0.0, f64::max) <= 1.01 * UNIT_ROUNDOFF * above(&b);
-    let thin = first.to_f64() != 0.0 && first.to_f64() < SMALLEST;
-    (told && !thin).then_some(exact)
+    let told = off.fold(0.0, f64::max) <= 1.01 * UNIT_ROUNDOFF * above(&model.couplings[1]);
+    let least = model.principal.moments[0].to_f64();
+    told && (least == 0.0 || least >= SMALLEST)
+}
+
+/// A bound (21) of how far the body turns away from its `model` while it turns by `phase`.
+fn off_model(model: &ModelBody, phase: f64) -> f64 {
+    if model.off == 0.0 {
+        return 0.0;
+    }
+    let (phase, least) = (1.5 * phase, model.principal.moments[0]);
+    1.001 * model.off / (least.to_f64() - least.radius()) * phase * phase * (1.0 + 0.2 * phase)
 }
 
 /// The largest rate across the momentum, if no |f| exceeds `fastest`.

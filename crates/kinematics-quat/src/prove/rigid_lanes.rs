@@ -1,7 +1,7 @@
 //! The flights of bodies in the lanes of a vector, each with a bound of its error: the same steps with the same bits, and
 //! what they add to the bound.
 
-use dynamics::{Flight, RigidFlight, SolveError, Toss, Work};
+use dynamics::{Flight, ModelBody, RigidBody, RigidFlight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd};
 
 use crate::Landed;
@@ -17,6 +17,8 @@ pub(crate) struct Enclosed {
     bodies: Bodies,
     /// `None` for a flight without a bound.
     errors: [Option<Errors>; MOST_LANES],
+    /// The body that was launched last, and its model, which takes longer than a flight where moments are nearly equal.
+    model: Option<(RigidBody, ModelBody)>,
 }
 
 /// What a landing by [`Enclosed`] states.
@@ -49,7 +51,13 @@ impl Motion for Enclosed {
 
     fn launch(&mut self, lane: usize, toss: &Toss, flight: &RigidFlight) {
         self.bodies.launch(lane, toss, flight);
-        self.errors[lane] = Polhode::new(toss, flight).map(|polhode| Errors::at_launch(polhode, flight.rates));
+        let body = toss.body.rigid();
+        let model = match self.model {
+            Some((known, model)) if known == body => model,
+            _ => body.model(),
+        };
+        self.model = Some((body, model));
+        self.errors[lane] = Polhode::new(toss, &model, flight).map(|polhode| Errors::at_launch(polhode, flight.rates));
     }
 
     #[inline(always)]

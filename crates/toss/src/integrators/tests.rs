@@ -160,3 +160,21 @@ fn what_an_integrator_does_not_solve_is_refused_with_its_own_error() {
     let far = Scene::new(Want::Tilt(Toss { launch: far, ..racket }), 1e-3).by("euler", None);
     assert!(matches!(refused(far), Error::Solve(SolveError::PhaseTooLarge { .. })));
 }
+
+/// The series of a body have three rates that change, and so each of their calls costs several times that of a coin's. A
+/// plan that took the two for the same chose series where DOP853 takes half the time.
+#[test]
+fn series_of_a_body_are_dearer_than_those_of_a_coin() {
+    let racket = dynamics::catalogue::named_body("racket").unwrap();
+    for (body, cheapest) in [(racket, "quaternion/dop853"), (Coin::PAPER.into(), "quaternion/taylor")] {
+        let toss = Toss { body, ..thrown([9.0, 1.0, 2.5]) };
+        let scene = Scene::new(Want::Tilt(toss), 1e-6).by("quaternion", None);
+        let offers = scene.candidates(&Registry::standard()).unwrap();
+        let cost = |(candidate, offer): &(Candidate, Offer)| {
+            let choice = offer.as_ref().ok().filter(|choice| matches!(choice.how, How::Integrator(..)))?;
+            Some((choice.expected_cost_ns, candidate.to_string()))
+        };
+        let least = offers.iter().filter_map(cost).min_by(|(a, _), (b, _)| a.total_cmp(b)).unwrap();
+        assert_eq!(least.1, cheapest, "{offers:?}");
+    }
+}

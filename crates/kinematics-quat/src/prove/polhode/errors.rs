@@ -44,6 +44,8 @@ pub(super) struct Along {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Growing {
     pub(super) error: f64,
+    /// Σ |d| and the roundings, which is all that the rate about the axis of a symmetric body is off.
+    pub(super) added: f64,
     /// ∫ |e| dt.
     pub(super) integral: f64,
 }
@@ -53,7 +55,7 @@ impl Errors {
     pub(crate) fn at_launch(polhode: Polhode, rates: [f64; 3]) -> Self {
         let launched = polhode.launched;
         let along = Along { across: 0.0, integral: 0.0, shift: 0.0, speed: polhode.speed_near(rates, launched) };
-        let growing = Growing { error: launched, integral: 0.0 };
+        let growing = Growing { error: launched, added: launched, integral: 0.0 };
         let mut errors = Self { polhode, turn: 0.0, along, growing };
         errors.along.step(&polhode, &Step { h: 0.0, turn: 0.0, rates: 0.0, rounding: launched, after: rates });
         errors
@@ -83,8 +85,14 @@ impl Errors {
 
 impl Growing {
     fn step(&mut self, polhode: &Polhode, step: &Step) {
-        let reach = polhode.grown(self.error + step.rates, step.h);
+        let error = self.error + step.rates;
+        let mut reach = polhode.grown(error, step.h);
+        self.added += step.rates;
+        if polhode.is_symmetric {
+            reach = reach.min(error + polhode.coupling * polhode.fastest * step.h * self.added); // (22)
+        }
         self.integral += step.h * reach;
+        self.added += step.rounding;
         self.error = reach + step.rounding;
     }
 }
