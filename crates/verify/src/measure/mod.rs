@@ -16,12 +16,14 @@
 mod adversary;
 pub mod atlas;
 pub mod case;
+pub(crate) mod cases;
 pub mod check;
 pub mod checks;
 pub mod context;
 pub(crate) mod convergence;
 mod drift;
 pub mod effort;
+mod families;
 mod hostile;
 pub(crate) mod long_flights;
 pub mod measurement;
