@@ -149,7 +149,7 @@ const FAMILIES: [(&str, &[&str]); 17] = [
     ("launches chosen to break solvers", &["adversarial-", "hostile-"]),
     ("places where methods fail", &["atlas-", "vertical-frame-", "work-by-tilt", "work-through-"]),
     ("batches", &["batch-", "counts-one-by-one"]),
-    ("bodies", &["bodies-", "rigid-"]),
+    ("bodies", &["bodies-", "hard-", "rigid-"]),
     ("proofs", &["certified-", "integrated-"]),
     ("random launches", &["claims-", "cross-method-", "random-"]),
     ("reference motions", &["reference-"]),
