@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{CoinToss, Landing, SolveError};
 
+use crate::measure::cases::Case;
 use crate::measure::context::Context;
 pub use crate::measure::measurement::Judges;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
@@ -17,7 +18,6 @@ use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::survey::{Landings, Survey};
-use crate::measure::cases::Case;
 use crate::measure::tosses::tries;
 
 /// The kind of evidence that a claim rests on.

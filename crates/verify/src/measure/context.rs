@@ -13,6 +13,8 @@ use toss::SolverEntry;
 use crate::measure::adversary::{Findings, search};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
+use crate::measure::cases::{Case, hard_bodies, long_bodies};
+use crate::measure::checks::hard;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
@@ -21,8 +23,6 @@ use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, Reference
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
 use crate::measure::tables::fig4;
-use crate::measure::cases::{Case, hard_bodies, long_bodies};
-use crate::measure::checks::hard;
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
 

@@ -347,4 +347,3 @@ fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut 
     let toss = Toss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
     Reference::is_elliptic(&toss).then_some(toss)
 }
-

@@ -11,8 +11,8 @@ use rand::rngs::ChaCha8Rng;
 use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
-use super::subject::{Subject, by_kind};
 use super::families::{FAMILIES, flown_for};
+use super::subject::{Subject, by_kind};
 use super::tosses::{decades, one};
 
 const SEED: u64 = 20_270_115;

@@ -325,7 +325,9 @@ impl Truth {
                 self.landing.attitude_error(&point.attitude)
             } else {
                 let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                Reference::of(&Toss { launch: until, ..self.toss }).map_err(SolveError::from)?.attitude_error(&point.attitude)
+                Reference::of(&Toss { launch: until, ..self.toss })
+                    .map_err(SolveError::from)?
+                    .attitude_error(&point.attitude)
             };
             largest = largest.max(error);
         }

@@ -13,10 +13,10 @@ use toss::{Coin, CoinToss, Landing, Launch, SolveError};
 
 use crate::measure::cases::Case;
 use crate::measure::effort::Effort;
+use crate::measure::families::{FAMILIES, TOSSED, launches};
 use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
-use crate::measure::families::{FAMILIES, TOSSED, launches};
 use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw};
 
 /// Seed of the random launches; its value has no meaning.

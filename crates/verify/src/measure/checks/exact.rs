@@ -21,9 +21,9 @@ use crate::measure::case::is_horizontal;
 use crate::measure::check::{Basis, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
+use crate::measure::families::{FAMILIES, Family, LONG, launches};
 use crate::measure::measurement::Deviation;
 use crate::measure::reference::Reference;
-use crate::measure::families::{FAMILIES, Family, LONG, launches};
 use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
 
 pub(super) const COS_TILT: Check = Check {

@@ -258,9 +258,11 @@ fn long_flights(context: &Context) -> anyhow::Result<Vec<Measurement>> {
         let cases = parts.len() as u64;
         let (measured, worst) = parts.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unzip();
         let measured = measured.unwrap_or(f64::INFINITY);
-        anyhow::Ok(Measurement { measured, cases, worst, ..Measurement::of(&name) }
-            .claiming(Some(1.0))
-            .beside_unjudged(unjudged))
+        anyhow::Ok(
+            Measurement { measured, cases, worst, ..Measurement::of(&name) }
+                .claiming(Some(1.0))
+                .beside_unjudged(unjudged),
+        )
     };
     let each = context.registry.iter().flat_map(by_scheme).filter_map(|(entry, scheme)| Some((entry, scheme?)));
     // A solver for coins flies few of these bodies.

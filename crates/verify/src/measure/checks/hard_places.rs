@@ -9,8 +9,8 @@ use std::f64::consts::FRAC_PI_2;
 use anyhow::Context as _;
 use rayon::prelude::*;
 use toss::{
-    Attitude, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolveError, Solver,
-    SolverEntry, Stepping, Toss,
+    Attitude, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping,
+    Toss,
 };
 
 use super::landings::part_of_estimate;
@@ -21,13 +21,13 @@ use crate::measure::case::{self, is_horizontal};
 use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
+use crate::measure::families::FAMILIES;
 use crate::measure::hostile::{self, Flight};
 use crate::measure::long_flights::Drift;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
 use crate::measure::run::Answer;
 use crate::measure::subject::Subject;
-use crate::measure::families::FAMILIES;
 
 pub(super) const ANSWERS: Check = Check {
     id: "atlas-answers",

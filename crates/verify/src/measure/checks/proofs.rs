@@ -12,10 +12,10 @@ use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveErro
 use super::exact::at_an_edge;
 use crate::measure::check::{Check, Fold, Measure, Set};
 use crate::measure::context::Context;
+use crate::measure::families::{FAMILIES, FLOWN, Family, launches};
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
 use crate::measure::subject::taylor;
-use crate::measure::families::{FAMILIES, FLOWN, Family, launches};
 use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
 
 pub(super) const BOUNDS: Check = Check {

@@ -47,7 +47,8 @@ impl Fixed {
         let (mut left, mut digits) = (value.clone().with_precision(0).value(), [0; PLACES]);
         for (place, digit) in digits.iter_mut().enumerate().rev() {
             let shift = BITS.cast_signed() * (FRACTION.cast_signed() - place.cast_signed());
-            *digit = i64::try_from((left.clone() << shift).to_int().value()).ok().filter(|digit| digit.abs() <= HALF)?;
+            *digit =
+                i64::try_from((left.clone() << shift).to_int().value()).ok().filter(|digit| digit.abs() <= HALF)?;
             left -= Big::from(*digit).with_precision(0).value() >> shift;
         }
         Some(Self::of(digits))
@@ -56,7 +57,8 @@ impl Fixed {
     /// The same number.
     pub(super) fn to_big(self) -> Big {
         let exactly = |digit: i64| Big::from(digit).with_precision(0).value();
-        let whole = self.digits.iter().rev().fold(exactly(0), |whole, digit| (whole << BITS.cast_signed()) + exactly(*digit));
+        let whole =
+            self.digits.iter().rev().fold(exactly(0), |whole, digit| (whole << BITS.cast_signed()) + exactly(*digit));
         whole.with_precision(BITS * PLACES).value() >> DIGITS.cast_signed()
     }
 
@@ -72,7 +74,8 @@ impl Fixed {
     #[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 21 digits")]
     pub(super) fn of_few_digits(value: f64) -> Self {
         let millionths = (value.min(1.0) * 2f64.powi(20)) as i64;
-        Self::of([0, 0, 0, 0, 0, millionths >> 20]).plus(Self::of([0, 0, 0, 0, (millionths & 0xf_ffff) << 37, 0]).twice())
+        Self::of([0, 0, 0, 0, 0, millionths >> 20])
+            .plus(Self::of([0, 0, 0, 0, (millionths & 0xf_ffff) << 37, 0]).twice())
     }
 
     pub(super) fn minus(self) -> Self {
@@ -174,7 +177,9 @@ mod tests {
         };
         for a in &numbers {
             let fixed = Fixed::new(a).unwrap();
-            assert!(off(fixed, a.clone()) < 1.0 && (fixed.size() / to_f64(a).abs() - 1.0).abs() < 1e-9 || fixed.len < 2);
+            assert!(
+                off(fixed, a.clone()) < 1.0 && (fixed.size() / to_f64(a).abs() - 1.0).abs() < 1e-9 || fixed.len < 2
+            );
             assert!(off(fixed.minus(), -a) < 1.0);
             for b in &numbers {
                 let other = Fixed::new(b).unwrap();

@@ -63,7 +63,10 @@ pub struct NoReference;
 
 impl fmt::Display for NoReference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "not judged: no closed form of the reference holds for this flight, and it is too long to be integrated")
+        write!(
+            f,
+            "not judged: no closed form of the reference holds for this flight, and it is too long to be integrated"
+        )
     }
 }
 
@@ -128,7 +131,8 @@ impl Reference {
     /// much that it can't vouch for 33 digits, as next to a turn about the middle axis.
     pub(crate) fn flown(toss: &Toss) -> Result<Self, NoReference> {
         let (rate, time) = (rates(&toss.launch), time(toss.launch.time_of_flight()));
-        let taylor::Flown { turn, rate, error } = taylor::fly(&taylor::tensor(toss), &rate, &time).ok_or(NoReference)?;
+        let taylor::Flown { turn, rate, error } =
+            taylor::fly(&taylor::tensor(toss), &rate, &time).ok_or(NoReference)?;
         Ok(Self { attitude: product(&quaternion(&toss.launch.attitude()), &turn), rate, error })
     }
 
@@ -382,7 +386,9 @@ mod tests {
             let passes = |row: &crate::Row| row.status.passes();
             // Few of the tosses that are counted land near enough to an edge.
             if if counts { rows.iter().all(passes) } else { rows.iter().any(passes) } {
-                passing.extend(rows.iter().filter(|row| passes(row)).map(|row| format!("{} / {}", row.check, row.subject)));
+                passing.extend(
+                    rows.iter().filter(|row| passes(row)).map(|row| format!("{} / {}", row.check, row.subject)),
+                );
             }
         }
         assert!(number > 20 && passing.is_empty(), "{number} checks; passing: {passing:#?}");

@@ -103,7 +103,8 @@ fn drift(tensor: &[[Big; 3]; 3], launched: &[Big; 3], State { rate, turn }: &Sta
     let momentum = |rate: &[Big; 3]| {
         tensor.each_ref().map(|row| row.iter().zip(rate).fold(big(0.0), |sum, (element, part)| sum + element * part))
     };
-    let energy = |rate: &[Big; 3]| rate.iter().zip(momentum(rate)).fold(big(0.0), |sum, (part, other)| sum + part * other);
+    let energy =
+        |rate: &[Big; 3]| rate.iter().zip(momentum(rate)).fold(big(0.0), |sum, (part, other)| sum + part * other);
     let size = tensor.iter().flatten().map(|element| to_f64(element).abs()).fold(0.0, f64::max);
     let of_energy = energy(rate) - energy(launched);
     let turned = rotated(turn, &momentum(rate));

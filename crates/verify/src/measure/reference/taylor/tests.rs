@@ -18,7 +18,13 @@ fn bodies_with_nearly_equal_moments_land_as_in_another_program() {
         (["1", "1", "0.5", "-1e-17", "0", "0"], ["3", "4", "5"], "0", "0.5", "-0.55245159221779951"),
         (["1.5", "1.5", "1.5", "-0.2", "-0.2", "-0.2"], ["-6", "-15.6", "-4.9"], "0", "0.41", "0.14912853846257760843"),
         (["1.25", "1", "1", "0", "0", "-3e-18"], ["-1.35", "-6", "3"], "1.2", "1.94", "-0.20229905379638641134"),
-        (["0.7", "0.7", "0.7", "0", "-3e-18", "-7e-19"], ["-0.6", "-11.09", "-11.23"], "-2", "2.08", "-0.66528433707389281"),
+        (
+            ["0.7", "0.7", "0.7", "0", "-3e-18", "-7e-19"],
+            ["-0.6", "-11.09", "-11.23"],
+            "-2",
+            "2.08",
+            "-0.66528433707389281",
+        ),
     ] {
         // The exact number that the decimals of an element are.
         let exactly = |text: &str| decimal(text).with_precision(0).value();
@@ -76,9 +82,8 @@ fn rates_of_any_size_land_alike_and_tiny_components_are_kept() {
 /// On the separatrix the distance to it grows from the roundings, and a tiny component that is lost is not known.
 #[test]
 fn where_roundings_grow_it_vouches_for_nothing() {
-    let judged = |rate: [f64; 3], time: f64| {
-        Reference::flown(&body([1.0, 2.0, 2.25, 0.0, 0.0, 0.0], rate, 0.0, time)).is_ok()
-    };
+    let judged =
+        |rate: [f64; 3], time: f64| Reference::flown(&body([1.0, 2.0, 2.25, 0.0, 0.0, 0.0], rate, 0.0, time)).is_ok();
     assert!(judged([0.75, 1.0, 1.0], 20.0));
     assert!(!judged([0.75, 1.0, 1.0], 600.0));
     assert!(judged([1e-12, 1.0, 1e-12], 200.0) && judged([0.0, 1.0, 0.0], 900.0));
@@ -88,9 +93,11 @@ fn where_roundings_grow_it_vouches_for_nothing() {
 #[test]
 #[ignore = "a measurement"]
 fn a_flight_of_30_rad_takes_few_milliseconds() {
-    for (name, inertia) in
-        [("tensor", [2.0, 3.0, 4.0, 0.3, -0.1, 0.2]), ("moments", [1.0, 2.0, 2.5, 0.0, 0.0, 0.0]), ("near", [1.0, 1.0, 1.0, 0.0, -5e-18, 0.0])]
-    {
+    for (name, inertia) in [
+        ("tensor", [2.0, 3.0, 4.0, 0.3, -0.1, 0.2]),
+        ("moments", [1.0, 2.0, 2.5, 0.0, 0.0, 0.0]),
+        ("near", [1.0, 1.0, 1.0, 0.0, -5e-18, 0.0]),
+    ] {
         let toss = body(inertia, [0.3, -0.5, 0.8], 0.0, 30.0);
         let start = std::time::Instant::now();
         let _ = std::hint::black_box(Reference::flown(&toss));
