@@ -13,7 +13,7 @@ use super::program::Foreign;
 use crate::measure::atlas;
 use crate::measure::atlas::conditioning::Conditioning;
 use crate::measure::case;
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::render::report::{PROPOSAL, Report, Verdict};
 use crate::render::{github, junit, text, words};
@@ -206,7 +206,7 @@ fn as_row(
 /// say nothing about a foreign program. It passes if no solver in its default formulation is wrong without an error.
 fn by_all(suite: &Suite, Replayed(toss, control): &Replayed, is_foreign: bool) -> anyhow::Result<(bool, String)> {
     let context = Context::new(suite.registry().entries(), Effort::Quick)?;
-    let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, ExactLanding::new(toss)?);
+    let (subjects, exact) = (atlas::contestants_at(&context.registry, *control)?, Reference::of(toss)?);
     let runs: Vec<Run> = subjects.iter().map(|subject| Run::new(subject, toss, &exact)).collect();
     let by_default = subjects.iter().zip(&runs).filter(|(subject, _)| subject.formulation == Formulation::default());
     let passes = !by_default.into_iter().any(|(_, run)| run.answer == Answer::SilentlyWrong);

@@ -70,8 +70,10 @@ pub struct Row {
     pub reserve: Option<f64>,
     /// The verdict.
     pub status: Status,
-    /// Number of cases that were tried.
+    /// Number of cases that were tried and judged.
     pub cases: u64,
+    /// Number of further cases, which were not judged because there is no reference of them.
+    pub without_reference: u64,
     /// The input of the worst case, as the text of a toss or in words.
     pub worst_input: Option<String>,
     /// Why the subject failed on the worst case, if it did.
@@ -186,7 +188,7 @@ fn by_limit(measured: f64, limit: f64) -> Status {
 }
 
 fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
-    let Measurement { subject, measured, cases, worst, claim, judges } = measurement;
+    let Measurement { subject, measured, cases, without_reference, worst, claim, judges } = measurement;
     let largest = Some(measured).filter(|largest| largest.is_finite());
     let Verdict { measured, allowed, worst, status } =
         Verdict::new(measured, worst, claim, judge.limits.get(check.id, &subject), check.ceiling);
@@ -201,6 +203,7 @@ fn row(check: &Check, measurement: Measurement, judge: Judge<'_>) -> Row {
         reserve: allowed.map(|allowed| allowed / measured).filter(|reserve| reserve.is_finite() && *reserve > 0.0),
         status,
         cases,
+        without_reference,
         worst_input: worst.as_ref().map(|worst| worst.input.clone()),
         failure: worst.as_ref().and_then(|worst| worst.failure.clone()),
         replay: Some(judge.command(check, worst.and_then(|worst| worst.replay).as_ref())),

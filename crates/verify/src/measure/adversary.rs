@@ -7,6 +7,7 @@
 //! angle of n to the vertical.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use dynamics::Toss;
 use rand::RngExt;
@@ -18,7 +19,7 @@ use toss::{
 
 use super::case;
 use super::measurement::Worst;
-use super::reference::ExactLanding;
+use super::reference::Reference;
 use super::replay::Replay;
 use super::run::{Answer, Run};
 use super::subject::{Subject, by_scheme};
@@ -58,12 +59,26 @@ pub(crate) struct Findings {
 /// Tries `launches` adversarial launches with every solver of `registry`, each integrator by every scheme.
 ///
 /// # Errors
-/// If a scheme takes neither a tolerance nor steps, or the exact motion fails.
+/// If a scheme takes neither a tolerance nor steps.
 pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<Vec<Findings>> {
+    search_among(registry, launches, |index| {
+        let toss = launch(SEED, index);
+        Ok((toss, Arc::new(Reference::of(&toss)?)))
+    })
+}
+
+/// The same with the tosses that `case` gives, with their references.
+///
+/// # Errors
+/// Those of [`search`] and of `case`.
+pub(super) fn search_among(
+    registry: &[SolverEntry],
+    launches: u64,
+    case: impl Fn(u64) -> anyhow::Result<(Toss, Arc<Reference>)> + Sync,
+) -> anyhow::Result<Vec<Findings>> {
     let contestants: Vec<_> = registry.iter().flat_map(by_scheme).collect();
     let fly = |index: u64| -> anyhow::Result<Vec<Run>> {
-        let toss = launch(SEED, index);
-        let exact = ExactLanding::new(&toss)?;
+        let (toss, exact) = case(index)?;
         contestants.par_iter().map(|by| Ok(Run::new(&subject(*by, &toss, index)?, &toss, &exact))).collect()
     };
     let runs: Vec<Vec<Run>> = (0..launches).into_par_iter().map(fly).collect::<anyhow::Result<_>>()?;
@@ -71,7 +86,7 @@ pub(super) fn search(registry: &[SolverEntry], launches: u64) -> anyhow::Result<
         let of = |answer: Answer| (0..).zip(&runs).filter(move |(_, runs)| runs[column].answer == answer);
         let first = |answer: Answer| -> anyhow::Result<Option<Worst>> {
             let Some((index, runs)) = of(answer).next() else { return Ok(None) };
-            let toss = launch(SEED, index);
+            let (toss, _) = case(index)?;
             let replay = Some(Replay::new(&toss, &subject(*by, &toss, index)?));
             let run = &runs[column];
             let failure = run.failure.clone().unwrap_or_else(|| run.words());

@@ -2,6 +2,7 @@
 //! data: a deviation of one toss, the tosses on which it is taken, and how the deviations become one number. What does not
 //! fit that has a function of its own.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use dynamics::Toss;
@@ -9,14 +10,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{CoinToss, Landing, SolveError};
 
+use crate::measure::cases::Case;
 use crate::measure::context::Context;
 pub use crate::measure::measurement::Judges;
 use crate::measure::measurement::{Deviation, Measurement, Worst};
-use crate::measure::reference::{ExactLanding, Reference};
+use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
 use crate::measure::survey::{Landings, Survey};
-use crate::measure::tosses::{Case, tries};
+use crate::measure::tosses::tries;
 
 /// The kind of evidence that a claim rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -166,15 +168,13 @@ impl Set {
     fn measured(&self, fold: Fold, cases: &[Case]) -> Measurement {
         let name = &*self.subject;
         let deviation = |case: &Case| {
-            let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).map(Arc::new));
-            let unsolved =
-                || SolveError::failed("the 256-bit reference", std::io::Error::other("it solves no such toss"));
-            (self.deviation)(&case.toss, &*reference.ok_or_else(unsolved)?)
+            let reference = case.reference.clone().or_else(|| Reference::of(&case.toss).ok().map(Arc::new))?;
+            Some((case.toss, guarded(|| (self.deviation)(&case.toss, &reference))))
         };
-        let found: Vec<Deviation> = cases.par_iter().map(deviation).collect();
-        let worst = |index: usize, failure| Worst::of_library(&cases[index].toss, failure);
+        let (tosses, found): (Vec<Toss>, Vec<Deviation>) = cases.par_iter().filter_map(deviation).unzip();
+        let worst = |index: usize, failure| Worst::of_library(&tosses[index], failure);
         let mut sizes: Vec<f64> = found.iter().map(|found| found.clone().unwrap_or(f64::INFINITY)).collect();
-        let figure = |measured: f64, input| Measurement::figure(name, measured, cases.len() as u64, input);
+        let figure = |measured: f64, input| Measurement::figure(name, measured, found.len() as u64, input);
         let measured = match fold {
             Fold::Largest => Measurement::without_estimate(name, &found, worst),
             Fold::Count => Measurement::count(name, &found, worst),
@@ -188,8 +188,19 @@ impl Set {
                 figure(at(50), format!("95 % are below {:.0}", at(95)))
             }
         };
-        measured.of_the_library()
+        measured.of_the_library().beside_unjudged(cases.len() - found.len())
     }
+}
+
+/// What `measure` finds, or an error if it panics, so that a fault of the library is a row that fails and not the end of
+/// the run.
+pub(super) fn guarded(measure: impl FnOnce() -> Deviation) -> Deviation {
+    catch_unwind(AssertUnwindSafe(measure)).unwrap_or_else(|payload| {
+        let text = payload.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| payload.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+        let text = text.unwrap_or_else(|| "without a message".to_owned());
+        Err(SolveError::failed("the library", std::io::Error::other(format!("it panicked: {text}"))))
+    })
 }
 
 /// A landing beside the exact one.
@@ -200,7 +211,7 @@ pub struct Landed<'a> {
     /// Its family; empty if there are none.
     pub family: &'static str,
     /// The exact landing.
-    pub exact: &'a ExactLanding,
+    pub exact: &'a Reference,
     /// The landing.
     pub landing: &'a Landing,
 }
@@ -231,7 +242,7 @@ pub(super) fn of_landings(
     }
     let family = |index: usize| survey.families.get(index).copied().unwrap_or_default();
     let judged = landings.iter().enumerate().filter_map(|(index, landing)| {
-        let (toss, exact) = (&survey.tosses[index], &survey.exact[index]);
+        let (toss, exact) = (&survey.tosses[index], survey.exact[index].as_ref()?);
         match landing {
             Ok(landing) => Some((index, Ok(deviation(&Landed { toss, family: family(index), exact, landing })?))),
             Err(error) => Some((index, Err(error.clone()))),
@@ -244,6 +255,7 @@ pub(super) fn of_landings(
         Allowed::UpTo(most) => Ok(Some(most)),
         Allowed::NotJudged => Ok(None),
     });
+    let found = found.beside_unjudged(survey.exact.iter().filter(|exact| exact.is_none()).count());
     Some(if matches!(allowed, Allowed::NotJudged) { found.without_claim() } else { found })
 }
 
@@ -299,7 +311,7 @@ impl Check {
     /// or not of such a body, have none.
     ///
     /// # Errors
-    /// [`SolveError`] for a phase above 2^53 rad.
+    /// If there is no reference of the toss.
     pub fn again(
         &self,
         context: &Context,
@@ -323,7 +335,7 @@ impl Check {
                 [one?, other?].concat()
             }
             Measure::Tosses(sets, fold) => {
-                let is_solved = Reference::of(toss).is_some();
+                let is_solved = Reference::of(toss).is_ok();
                 let takes = |set: &Set| is_solved && (!set.of_coins || toss.coin().is_some());
                 let sets = sets().into_iter().filter(|set| is_asked(&set.subject) && takes(set));
                 let case = Case { toss: *toss, reference: None };
@@ -336,7 +348,7 @@ impl Check {
                     let survey = Survey {
                         tosses: vec![*toss],
                         families: Vec::new(),
-                        exact: vec![ExactLanding::new(toss)?],
+                        exact: vec![Some(Arc::new(Reference::of(toss)?))],
                         landings: Vec::new(),
                     };
                     anyhow::Ok(of_landings(&survey, (subject, &landings), deviation, allowed))

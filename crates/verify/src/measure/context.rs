@@ -13,6 +13,8 @@ use toss::SolverEntry;
 use crate::measure::adversary::{Findings, search};
 use crate::measure::atlas::Atlas;
 use crate::measure::atlas::expected::Expected;
+use crate::measure::cases::{Case, hard_bodies, long_bodies};
+use crate::measure::checks::hard;
 use crate::measure::convergence::{Convergence, convergence};
 use crate::measure::effort::Effort;
 use crate::measure::long_flights::LongFlights;
@@ -21,7 +23,6 @@ use crate::measure::reference::outside::{ReferenceCoin, ReferenceData, Reference
 use crate::measure::subject::{Subject, subjects, tight};
 use crate::measure::survey::Survey;
 use crate::measure::tables::fig4;
-use crate::measure::tosses::{Case, long_bodies};
 use crate::measure::work_precision::problems::{self, Problem};
 use crate::measure::work_precision::{Sweep, YARDSTICK};
 
@@ -62,6 +63,15 @@ pub struct Context {
     /// Long flights of bodies, by family, with their references.
     #[serde(skip)]
     pub(crate) long_bodies: Shared<Vec<Vec<Case>>>,
+    /// Tosses of the hard families, with their references.
+    #[serde(skip)]
+    pub(crate) hard_bodies: Shared<Vec<Vec<Case>>>,
+    /// The same within 3 ulp of a time at which their outcome changes.
+    #[serde(skip)]
+    pub(crate) hard_edges: Shared<Vec<Vec<Case>>>,
+    /// The landings of the hard families by every subject.
+    #[serde(skip)]
+    pub(crate) hard: Shared<Survey>,
     /// The atlas of failures.
     pub atlas: Shared<Atlas>,
     /// The long flights.
@@ -135,6 +145,14 @@ impl Context {
             survey: Shared::by(|context| Survey::random(&context.subjects, context.effort.launches())),
             bodies: Shared::by(|context| Survey::of_bodies(&context.subjects, context.effort)),
             long_bodies: Shared::by(|context| Ok(long_bodies(context.effort))),
+            hard_bodies: Shared::by(|context| Ok(hard_bodies(context.effort))),
+            hard_edges: Shared::by(hard::edges),
+            hard: Shared::by(|context| {
+                // Longer ones take more steps than a scheme of fixed steps has.
+                let is_short = |case: &&Case| case.toss.launch.flight_time() <= 50.0;
+                let cases = context.hard_bodies.get(context)?.iter().flatten().filter(is_short);
+                Survey::of_cases(&context.subjects, cases)
+            }),
             atlas: Shared::by(|context| Atlas::new(&context.registry)),
             long_flights: Shared::by(|context| LongFlights::new(&context.registry)),
             search: Shared::by(|context| search(&context.registry, context.effort.adversarial_launches())),

@@ -8,11 +8,12 @@
 use dynamics::Toss;
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
-use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, TimeOfFlight, Vector3};
+use toss::{Coin, CoinToss, Formulation, InputError, Launch, Scheme, SolverEntry, Stepping, TimeOfFlight, Vector3};
 
 use super::effort::Effort;
+use super::families::{FAMILIES, flown_for};
 use super::subject::{Subject, by_kind};
-use super::tosses::{FAMILIES, decades, flown_for, one};
+use super::tosses::{decades, one};
 
 const SEED: u64 = 20_270_115;
 
@@ -80,6 +81,22 @@ pub(super) fn of_body(
     let phase = settings.phase(most_steps(index, steps), &mut rng);
     let Some(toss) = flown_for(&FAMILIES[usize::try_from(family).unwrap_or(0)], index, phase) else { return Ok(None) };
     Ok(Some(Flight { toss, by: settings.subject(entry, toss.launch.turn_rate())? }))
+}
+
+/// `entry` with its `scheme`, by turns at the finest tolerance and at one between that and 1e-6, for `toss`.
+///
+/// # Errors
+/// As [`of_coin`].
+pub(super) fn of_toss(entry: &SolverEntry, scheme: Scheme, toss: &Toss, index: u64) -> Result<Subject, InputError> {
+    Settings::drawn(scheme, &mut stream(200, index)).subject(entry, toss.launch.turn_rate())
+}
+
+/// `scheme` at the finest settings that take part.
+///
+/// # Errors
+/// As [`of_coin`].
+pub(super) fn finest(scheme: Scheme) -> Result<Stepping, InputError> {
+    by_kind(scheme, FINEST, STEPS[3])
 }
 
 /// A scheme with its tolerance, or with its step in units of 1/|ω|.

@@ -6,7 +6,7 @@ use serde::Serialize;
 use toss::{Coin, InputError, Launch, SolveError, SolverEntry, Stepping, TimeOfFlight, Toss};
 
 use crate::measure::drift;
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::{Subject, by_kind, subjects};
 
@@ -80,7 +80,7 @@ impl Drift {
     fn new(subject: &Subject, toss: &Toss) -> Result<Self, SolveError> {
         let landing = subject.solver.land(toss)?;
         Ok(Self {
-            err_attitude: ExactLanding::new(toss)?.attitude_error(&landing.state.attitude),
+            err_attitude: Reference::of(toss)?.attitude_error(&landing.state.attitude),
             allowed: Allowance::new(subject, toss, landing.error).map(|allowance| allowance.attitude),
             energy: drift::energy(toss, &landing.state),
             momentum_vector: drift::momentum_vector(toss, &landing.state),

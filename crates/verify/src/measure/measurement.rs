@@ -42,8 +42,10 @@ pub struct Measurement {
     pub subject: String,
     /// The largest deviation found; infinite if the subject failed or gave a NaN.
     pub measured: f64,
-    /// Number of cases that were tried.
+    /// Number of cases that were tried and judged.
     pub cases: u64,
+    /// Number of further cases, which were not judged because there is no reference of them.
+    pub without_reference: u64,
     /// The case with the largest deviation.
     pub worst: Option<Worst>,
     /// What the solver's own error estimate allows.
@@ -89,6 +91,18 @@ pub struct Worst {
 pub type Deviation = Result<f64, SolveError>;
 
 impl Measurement {
+    /// Nothing measured yet of what is called `name`.
+    pub(super) fn of(name: &str) -> Self {
+        let (subject, claim) = (name.to_owned(), Claim::NoSolver);
+        Self { subject, measured: f64::INFINITY, cases: 0, without_reference: 0, worst: None, claim, judges: None }
+    }
+
+    /// The same measurement, beside so many cases without a reference.
+    #[must_use]
+    pub fn beside_unjudged(self, without_reference: usize) -> Self {
+        Self { without_reference: without_reference as u64, ..self }
+    }
+
     /// The largest of the deviations of `subject`, which are in the order of their tosses; `allowed` returns the deviation
     /// that its estimate allows for a toss, `None` if it has no estimate. A NaN or a failure counts as infinite.
     pub fn largest(
@@ -113,7 +127,7 @@ impl Measurement {
             None => (f64::INFINITY, None),
         };
         let cases = deviations.len() as u64;
-        Self { subject: name.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
+        Self { measured, cases, worst, ..Self::of(name) }
     }
 
     /// The number of cases with a deviation; the first one becomes the worst case. With a failure it is infinite.
@@ -128,7 +142,7 @@ impl Measurement {
     pub fn figure(subject: &str, measured: f64, cases: u64, input: String) -> Self {
         let measured = if measured.is_nan() { f64::INFINITY } else { measured };
         let worst = Some(Worst { input, failure: None, replay: None });
-        Self { subject: subject.to_owned(), measured, cases, worst, claim: Claim::NoSolver, judges: None }
+        Self { measured, cases, worst, ..Self::of(subject) }
     }
 
     /// The largest of several measurements of one subject, with the claim of theirs that has the largest ratio of

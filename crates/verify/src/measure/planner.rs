@@ -22,7 +22,7 @@ use toss::{
 
 use crate::measure::case;
 use crate::measure::effort::Effort;
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::tosses::{decades, stream};
 
 /// Seed of the scenes.
@@ -282,7 +282,7 @@ pub(crate) fn accuracy_of_a_probability(seed: u64, index: u64) -> f64 {
 
 /// The exact answer to every scene about one toss.
 pub(crate) struct Truth {
-    landing: ExactLanding,
+    landing: Reference,
     toss: Toss,
 }
 
@@ -290,9 +290,9 @@ impl Truth {
     /// Solves `toss`.
     ///
     /// # Errors
-    /// [`SolveError`] for a phase above 2^53 rad.
+    /// [`SolveError`] if there is no reference of it.
     pub(crate) fn new(toss: &Toss) -> Result<Self, SolveError> {
-        Ok(Self { landing: ExactLanding::new(toss)?, toss: *toss })
+        Ok(Self { landing: Reference::of(toss)?, toss: *toss })
     }
 
     /// The error of an answer to a scene: that of cos θ, or the angle between attitudes (rad). The error of an outcome
@@ -325,7 +325,9 @@ impl Truth {
                 self.landing.attitude_error(&point.attitude)
             } else {
                 let until = launch.with_time_of_flight(TimeOfFlight::Given(point.time))?;
-                ExactLanding::new(&Toss { launch: until, ..self.toss })?.attitude_error(&point.attitude)
+                Reference::of(&Toss { launch: until, ..self.toss })
+                    .map_err(SolveError::from)?
+                    .attitude_error(&point.attitude)
             };
             largest = largest.max(error);
         }

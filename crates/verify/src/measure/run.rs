@@ -7,7 +7,7 @@ use exact::motion::COS_TILT_ERROR;
 use serde::{Deserialize, Serialize};
 use toss::{Landing, Outcome, SolveError};
 
-use super::reference::ExactLanding;
+use super::reference::Reference;
 use super::subject::Subject;
 use super::{case, drift};
 
@@ -112,7 +112,7 @@ pub struct Run {
 
 impl Run {
     /// Solves `toss` with `subject` and compares the answer with the exact one.
-    pub fn new(subject: &Subject, toss: &Toss, exact: &ExactLanding) -> Self {
+    pub fn new(subject: &Subject, toss: &Toss, exact: &Reference) -> Self {
         let failed = Self { subject: subject.name.clone(), inputs: case::text(toss), ..Self::default() };
         match subject.solver.land(toss) {
             Ok(landing) => failed.answered(&landing, toss, exact, Allowance::new(subject, toss, landing.error)),
@@ -134,7 +134,7 @@ impl Run {
         format!("cos θ off by {cos_tilt:>7}, attitude by {attitude:>7} rad{of_allowed}")
     }
 
-    fn answered(self, landing: &Landing, toss: &Toss, exact: &ExactLanding, allowance: Option<Allowance>) -> Self {
+    fn answered(self, landing: &Landing, toss: &Toss, exact: &Reference, allowance: Option<Allowance>) -> Self {
         let outcome = landing.outcome();
         let outcome_ok = (outcome != Outcome::Undecided).then(|| outcome == exact.outcome());
         let cos_tilt = exact.cos_tilt_error(landing.cos_tilt);

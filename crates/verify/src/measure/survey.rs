@@ -3,6 +3,7 @@
 //! launches of coins, one of bodies in families each of which is hard for a method of its own.
 
 use std::f64::consts::{PI, SQRT_2};
+use std::sync::Arc;
 
 use dynamics::Toss;
 use rayon::prelude::*;
@@ -10,11 +11,13 @@ use sampling::Coordinate::{RateX, RateY, RateZ, Speed};
 use sampling::Space;
 use toss::{Coin, CoinToss, Landing, Launch, SolveError};
 
+use crate::measure::cases::Case;
 use crate::measure::effort::Effort;
-use crate::measure::reference::ExactLanding;
+use crate::measure::families::{FAMILIES, TOSSED, launches};
+use crate::measure::reference::Reference;
 use crate::measure::run::Allowance;
 use crate::measure::subject::Subject;
-use crate::measure::tosses::{FAMILIES, GOLDEN, TOSSED, evenly, launches, random_flights, throw};
+use crate::measure::tosses::{GOLDEN, evenly, random_flights, throw};
 
 /// Seed of the random launches; its value has no meaning.
 const SEED: u64 = 20_260_101;
@@ -28,8 +31,8 @@ pub struct Survey {
     pub tosses: Vec<Toss>,
     /// The family of each; empty if there are none.
     pub families: Vec<&'static str>,
-    /// Their exact landings.
-    pub exact: Vec<ExactLanding>,
+    /// Their exact landings, where they have one.
+    pub exact: Vec<Option<Arc<Reference>>>,
     /// The landing of each toss, by subject in the order of the subjects.
     pub landings: Vec<Landings>,
 }
@@ -64,17 +67,32 @@ impl Survey {
     /// Solves `tosses`, of these families, with every subject.
     ///
     /// # Errors
-    /// [`SolveError`] for a phase above 2^53 rad.
+    /// Never so far.
     pub fn of(subjects: &[Subject], tosses: Vec<Toss>, families: Vec<&'static str>) -> anyhow::Result<Self> {
-        let exact = tosses.par_iter().map(ExactLanding::new).collect::<Result<_, _>>()?;
-        let is_of_bodies = tosses.first().is_some_and(|toss| toss.coin().is_none());
+        let exact = tosses.par_iter().map(|toss| Reference::of(toss).ok().map(Arc::new)).collect();
+        Ok(Self::flown(subjects, tosses, families, exact))
+    }
+
+    /// Solves `cases` with every subject.
+    pub(crate) fn of_cases<'a>(subjects: &[Subject], cases: impl Iterator<Item = &'a Case>) -> anyhow::Result<Self> {
+        let (tosses, exact) = cases.map(|case| (case.toss, case.reference.clone())).unzip();
+        Ok(Self::flown(subjects, tosses, Vec::new(), exact))
+    }
+
+    fn flown(
+        subjects: &[Subject],
+        tosses: Vec<Toss>,
+        families: Vec<&'static str>,
+        exact: Vec<Option<Arc<Reference>>>,
+    ) -> Self {
+        let is_of_bodies = tosses.iter().any(|toss| toss.coin().is_none());
         let fly = |subject: &Subject| {
             let landings: Landings = tosses.par_iter().with_max_len(1).map(|toss| subject.solver.land(toss)).collect();
             let is_refused = |landing: &Solved| matches!(landing, Err(SolveError::NotSymmetric { .. }));
-            if is_of_bodies && landings.iter().all(is_refused) { Vec::new() } else { landings }
+            if is_of_bodies && landings.iter().any(is_refused) { Vec::new() } else { landings }
         };
         let landings = subjects.par_iter().map(fly).collect();
-        Ok(Self { tosses, families, exact, landings })
+        Self { tosses, families, exact, landings }
     }
 
     /// The errors that are allowed `subject`, which has these `landings`, on toss number `index`.

@@ -1,24 +1,20 @@
 //! The tosses on which solvers and the library are measured: random ones, given in every form; those for which rounding is
-//! hardest, with large phases, at corners of the model, and within a few ulp of a change of the outcome; and bodies that
-//! are no coins, in families each of which is hard for a method of its own.
+//! hardest, with large phases, at corners of the model, and within a few ulp of a change of the outcome. Bodies that are
+//! no coins are in [`families`](super::families).
 //!
 //! They share no code with the random launches of the crate `sampling`, which is measured itself, so that a change of these
 //! moves no measurement of a solver.
 
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
-use std::sync::Arc;
 
-use dynamics::{Body, Toss};
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rayon::prelude::*;
 use sampling::Coordinate::{self, Gravity, RateX, RateY, RateZ, Speed, Tilt};
 use sampling::{AxisOrTie, Distribution, Space};
 use toss::{Attitude, Coin, CoinMotion, CoinToss, InputError, Launch, TimeOfFlight, Vector3};
 
 use crate::measure::effort::Effort;
-use crate::measure::reference::Reference;
 
 /// The random numbers for the item `index` of the sequence that `seed` starts.
 pub(super) fn stream(seed: u64, index: u64) -> ChaCha8Rng {
@@ -230,163 +226,6 @@ fn grazing_tilt(toss: &CoinToss, turn: usize) -> f64 {
     let reach = rate.y.hypot(spin);
     let height = rate.x.hypot(rate.y) / reach;
     if height > 1.0 { 0.3 } else { ulps(rate.y.atan2(spin) + height.acos(), turn) }
-}
-
-/// The sizes of rates (rad/s, each component at most) and of phases (rad), as powers of ten.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Within {
-    rate: [f64; 2],
-    phase: [f64; 2],
-}
-
-/// Phases from 1 to 1e9 rad, which a closed form has to stand.
-pub(super) const LONG: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 9.0] };
-
-/// Phases of 1 to 30 rad, as of tosses by hand.
-pub(super) const TOSSED: Within = Within { rate: [1.0, 1.5], phase: [0.0, 1.5] };
-
-/// Phases of 1 to 1000 rad, which integrators fly in moments.
-pub(super) const FLOWN: Within = Within { rate: [-3.0, 3.0], phase: [0.0, 3.0] };
-
-/// Bodies and launches that are hard in the same way.
-pub(super) struct Family {
-    pub(super) name: &'static str,
-    /// Moments about three axes and the rate along them, from numbers in 0..1 of which no two are related.
-    make: fn(&mut Numbers) -> ([f64; 3], [f64; 3]),
-}
-
-/// All families.
-pub(super) const FAMILIES: [Family; 7] = [
-    Family { name: "random", make: |numbers| (moments(numbers), vector(numbers)) },
-    Family {
-        name: "nearly symmetric",
-        make: |numbers| {
-            let (a, c) = (numbers.between(0.5, 1.0), numbers.between(0.01, 1.0));
-            ([a, a * (1.0 + numbers.small(15.0)), a * 2.0 * c], vector(numbers))
-        },
-    },
-    Family {
-        name: "nearly spherical",
-        make: |numbers| {
-            let near = [1.0, 1.0 + numbers.small(15.0), 1.0 - numbers.small(15.0)];
-            (near, vector(numbers))
-        },
-    },
-    Family {
-        name: "near pure spin",
-        make: |numbers| {
-            let (outer, body) = (if numbers.next() < 0.5 { 0 } else { 2 }, sorted(moments(numbers)));
-            let mut rate = [numbers.small(12.0), -numbers.small(12.0), numbers.small(12.0)];
-            rate[outer] = 1.0;
-            (body, rate)
-        },
-    },
-    Family {
-        name: "near the middle axis",
-        make: |numbers| {
-            let body = sorted(moments(numbers));
-            (body, [numbers.small(12.0), 1.0, -numbers.small(12.0)])
-        },
-    },
-    Family {
-        name: "near the separatrix",
-        make: |numbers| {
-            let ([a, b, c], [_, y, z]) = (sorted(moments(numbers)), vector(numbers));
-            let on = (c * (c - b) / (a * (b - a))).sqrt() * z;
-            let off = numbers.small(16.0);
-            // Where two moments are nearly equal, the separatrix is far out, but no rate is to be much above 1.
-            let outside = on.abs().max(1.0);
-            ([a, b, c], [on * (1.0 + off), y, z].map(|rate| rate / outside))
-        },
-    },
-    Family {
-        name: "rods and plates",
-        make: |numbers| {
-            let (thin, long) = (numbers.small(8.0), numbers.between(0.5, 1.0));
-            let body = if numbers.next() < 0.5 { [thin, long, long + 0.9 * thin] } else { [1.0 - long, long, 1.0] };
-            (body, vector(numbers))
-        },
-    },
-];
-
-/// Numbers that look random, the same in every run (S. Vigna, splitmix64).
-pub(super) struct Numbers(u64);
-
-impl Numbers {
-    /// A number from 0 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 * 2f64.powi(-53)
-    }
-
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.next()
-    }
-
-    /// A number from 1e-2 down to 10^-`digits`, of any size alike.
-    fn small(&mut self, digits: f64) -> f64 {
-        10f64.powf(-self.between(2.0, digits))
-    }
-}
-
-/// Moments of a body with mass at random distances from three planes.
-fn moments(numbers: &mut Numbers) -> [f64; 3] {
-    let [a, b, c] = [0; 3].map(|_| numbers.between(0.01, 1.0));
-    [b + c, c + a, a + b]
-}
-
-fn sorted(mut moments: [f64; 3]) -> [f64; 3] {
-    moments.sort_by(f64::total_cmp);
-    moments
-}
-
-fn vector(numbers: &mut Numbers) -> [f64; 3] {
-    [0; 3].map(|_| numbers.between(-1.0, 1.0))
-}
-
-/// Tosses of a family. n is any one of the three axes.
-pub(super) fn launches(family: &Family, number: u64, within: Within) -> impl Iterator<Item = Toss> {
-    (0..number).filter_map(move |index| {
-        launch(family, index, within.rate, |numbers| 10f64.powf(numbers.between(within.phase[0], within.phase[1])))
-    })
-}
-
-/// A toss, with its exact landing where that was computed before.
-#[derive(Clone)]
-pub(crate) struct Case {
-    /// The toss.
-    pub(crate) toss: Toss,
-    /// The landing in 256 bits.
-    pub(crate) reference: Option<Arc<Reference>>,
-}
-
-/// The long flights of each family of bodies.
-pub(super) fn long_bodies(effort: Effort) -> Vec<Vec<Case>> {
-    let case = |toss: Toss| Case { toss, reference: Reference::of(&toss).map(Arc::new) };
-    let of =
-        |family| launches(family, tries(effort) / 20, LONG).collect::<Vec<_>>().into_par_iter().map(case).collect();
-    FAMILIES.iter().map(of).collect()
-}
-
-/// Toss number `index` of a family, of any size of rates, which turns by about `phase` (rad); `None` if there is none.
-pub(super) fn flown_for(family: &Family, index: u64, phase: f64) -> Option<Toss> {
-    launch(family, index, FLOWN.rate, |_| phase)
-}
-
-fn launch(family: &Family, index: u64, sizes: [f64; 2], phase: impl FnOnce(&mut Numbers) -> f64) -> Option<Toss> {
-    let mut numbers = Numbers(index.wrapping_mul(0x5851_f42d_4c95_7f2d));
-    let (mut moments, mut rate) = (family.make)(&mut numbers);
-    moments.rotate_left((index % 3) as usize);
-    rate.rotate_left((index % 3) as usize);
-    let rate = Vector3::from(rate) * 10f64.powf(numbers.between(sizes[0], sizes[1]));
-    let time = phase(&mut numbers) / rate.norm();
-    let launch = Launch::new(rate, TimeOfFlight::Given(time)).ok()?;
-    let tilt = if index.is_multiple_of(2) { 0.0 } else { numbers.between(-3.0, 3.0) };
-    // A family may make a body that rounding leaves without room, or a launch that needs no elliptic function.
-    let toss = Toss { body: Body::from_moments(moments).ok()?, launch: launch.with_tilt(tilt).ok()? };
-    Reference::is_elliptic(&toss).then_some(toss)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{Group, comparison, left_out, number, replay, reserve, verdict};
+use super::words::{Group, comparison, left_out, number, replay, reserve, unjudged, verdict};
 use crate::judge::baseline::{Direction, Move};
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -307,7 +307,7 @@ fn line(row: &Row) -> Markup {
         tr {
             th scope="row" { (row.subject) } td { (comparison(row)) }
             td { (reserve(row).trim_start_matches("reserve ")) }
-            td.wide { (row.cases) }
+            td.wide { (row.cases) (unjudged(row)) }
             td class=(class) { (verdict(row)) }
         }
         @if let Some(input) = &row.worst_input { tr.more { td colspan="5" { "worst input " code { (input) } } } }

@@ -17,7 +17,7 @@ use crate::measure::effort::Effort;
 use crate::measure::work_precision::Sample;
 
 /// Version of the layout of report.json, which `docs/report.schema.json` describes.
-const SCHEMA: u32 = 7;
+const SCHEMA: u32 = 8;
 
 /// Name of the file with proposed limits, beside the reports.
 pub(crate) const PROPOSAL: &str = "limits.proposed.toml";

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::Report;
-use super::words::{Group, comparison, reserve, verdict};
+use super::words::{Group, comparison, reserve, unjudged, verdict};
 use crate::judge::record::Record;
 use crate::judge::time::Timing;
 use crate::judge::{Row, Status};
@@ -109,7 +109,8 @@ fn remarks(rows: &[Row]) -> String {
 
 fn line(row: &Row, width: usize) -> String {
     let (comparison, reserve, cases, verdict) = (comparison(row), reserve(row), row.cases, verdict(row));
-    format!("{:<width$}  {comparison:<28}  {reserve:<18}  {cases:>7} cases  {verdict}", row.subject)
+    let unjudged = unjudged(row);
+    format!("{:<width$}  {comparison:<28}  {reserve:<18}  {cases:>7} cases{unjudged}  {verdict}", row.subject)
 }
 
 /// The answer, errors and work of each run, and the effect of one rounding of the launch by itself.

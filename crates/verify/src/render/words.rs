@@ -37,6 +37,11 @@ pub(super) fn relation(row: &Row) -> &'static str {
     if row.part() <= 1.0 { "≤" } else { ">" }
 }
 
+/// How many cases have no reference, in words; empty if all have one.
+pub(super) fn unjudged(row: &Row) -> String {
+    if row.without_reference > 0 { format!(", {} more not judged", row.without_reference) } else { String::new() }
+}
+
 /// How far the row is from its limit: `reserve 2.3×`, `830 times over`, `not judged`; `–` where nothing deviates or nothing is
 /// allowed.
 pub(super) fn reserve(row: &Row) -> String {
@@ -144,7 +149,7 @@ const FAMILIES: [(&str, &[&str]); 17] = [
     ("launches chosen to break solvers", &["adversarial-", "hostile-"]),
     ("places where methods fail", &["atlas-", "vertical-frame-", "work-by-tilt", "work-through-"]),
     ("batches", &["batch-", "counts-one-by-one"]),
-    ("bodies", &["bodies-", "rigid-"]),
+    ("bodies", &["bodies-", "hard-", "rigid-"]),
     ("proofs", &["certified-", "integrated-"]),
     ("random launches", &["claims-", "cross-method-", "random-"]),
     ("reference motions", &["reference-"]),

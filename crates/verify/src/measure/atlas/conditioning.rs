@@ -1,6 +1,8 @@
 //! The conditioning of a toss says how far its landing moves when its launch changes a little. An error that one
 //! rounding of the inputs would cause is not a fault of the method, so both are reported together.
 
+use std::panic::catch_unwind;
+
 use anyhow::ensure;
 use faer::Mat;
 use serde::Serialize;
@@ -18,12 +20,13 @@ pub struct Conditioning {
 }
 
 impl Conditioning {
-    /// The conditioning of `toss`; `None` if its phase is so large that it cannot be solved.
+    /// The conditioning of `toss`; `None` if it cannot be solved, because its phase is too large or the library panics.
     ///
     /// # Errors
     /// If the singular values can't be found, which finite numbers never cause.
     pub fn new(toss: &Toss) -> anyhow::Result<Option<Self>> {
-        Sensitivity::new(toss).ok().map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
+        let derivatives = catch_unwind(|| Sensitivity::new(toss).ok()).ok().flatten();
+        derivatives.map(|derivatives| Self::by(&derivatives, &toss.launch)).transpose()
     }
 
     fn by(Sensitivity { attitude, cos_tilt }: &Sensitivity, launch: &Launch) -> anyhow::Result<Self> {

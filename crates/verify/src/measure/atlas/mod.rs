@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use toss::{Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping};
 
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::run::{Answer, Run};
 use crate::measure::subject::{Subject, by_scheme, usual};
 use conditioning::Conditioning;
@@ -110,14 +110,14 @@ struct Place {
     hazard: &'static str,
     distance: f64,
     toss: Toss,
-    exact: ExactLanding,
+    exact: Reference,
     conditioning: Option<Conditioning>,
 }
 
 impl Place {
     fn new(hazard: &Hazard, distance: f64) -> anyhow::Result<Self> {
         let toss = (hazard.toss)(distance)?;
-        let (exact, conditioning) = (ExactLanding::new(&toss)?, Conditioning::new(&toss)?);
+        let (exact, conditioning) = (Reference::of(&toss)?, Conditioning::new(&toss)?);
         Ok(Self { hazard: hazard.id, distance, toss, exact, conditioning })
     }
 

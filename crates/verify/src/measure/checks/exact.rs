@@ -21,9 +21,10 @@ use crate::measure::case::is_horizontal;
 use crate::measure::check::{Basis, Check, Fold, Measure, Set};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
+use crate::measure::families::{FAMILIES, Family, LONG, launches};
 use crate::measure::measurement::Deviation;
 use crate::measure::reference::Reference;
-use crate::measure::tosses::{FAMILIES, Family, LONG, adversarial, corners, few_turns, launches, random, tries};
+use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
 
 pub(super) const COS_TILT: Check = Check {
     id: "last-bit-cos-tilt",
@@ -421,8 +422,19 @@ fn at_edges() -> Vec<Set> {
 /// none is found.
 pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
     let motion = ExactMotion::new(toss);
-    let rate = toss.launch.rate().norm();
-    let heads = |time: f64| motion.cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0).ok();
+    let edge = edge_near(toss, |time| motion.cos_tilt(time).ok())?;
+    // By turns 3 ulp before and behind the edge.
+    let ulps = (toss.launch.flight_time().to_bits() % 7) as i64 - 3;
+    let time = f64::from_bits(edge.to_bits().wrapping_add_signed(ulps));
+    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).ok()?;
+    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+}
+
+/// The first time near that of the toss, from there on, at which `cos_tilt` has changed its sign. It only looks for a
+/// toss that is hard; the reference judges it.
+pub(super) fn edge_near(toss: &Toss, cos_tilt: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let rate = toss.launch.turn_rate();
+    let heads = |time: f64| cos_tilt(time).map(|cos_tilt| cos_tilt > 0.0);
     let start = toss.launch.flight_time();
     let first = heads(start)?;
     let end = (1..100).map(|step| start + f64::from(step) * 0.3 / rate).find(|time| heads(*time) == Some(!first))?;
@@ -434,11 +446,7 @@ pub(super) fn at_an_edge(toss: &Toss) -> Option<Toss> {
         let middle = before + 0.5 * (after - before);
         if heads(middle)? == first { before = middle } else { after = middle }
     }
-    // By turns 3 ulp before and behind the edge.
-    let ulps = (start.to_bits() % 7) as i64 - 3;
-    let time = f64::from_bits(after.to_bits().wrapping_add_signed(ulps));
-    let launch = Launch::new(toss.launch.rate(), TimeOfFlight::Given(time)).ok()?;
-    Some(Toss { launch: launch.with_attitude(toss.launch.attitude()), ..*toss })
+    Some(after)
 }
 
 pub(super) const DERIVATIVES: Check = Check {
@@ -497,8 +505,9 @@ fn differences(toss: &CoinToss) -> (Matrix3x4<f64>, Vector4<f64>) {
 pub(super) const MARGINS: Check = Check {
     id: "margins",
     claim: "Where a margin says that the outcome changes with one input, the 256-bit reference changes, to a relative \
-            1e-9; no toss in between, and none at all for an input without a margin, has another outcome. Measured: \
-            the number of inputs of a toss with a wrong margin; one is enough to fail.",
+            1e-9. None of twelve tosses on each side in between, nor of those for an input without a margin, has another \
+            outcome: that is a sample, and a flip between two of them would not be seen. Measured: the number of inputs of \
+            a toss with a wrong margin; one is enough to fail.",
     unit: "inputs",
     measure: Measure::Tosses(|| searched(61, wrong_margins), Fold::Largest),
     ..Check::OF_LIBRARY
@@ -600,32 +609,33 @@ fn wrong_margins(toss: &CoinToss, reference: &Reference) -> Deviation {
     let ranges = [speed, 0.99 * gravity, 1.5, near[0], near[1], near[2]];
     let wrong = INPUTS.iter().zip(margins).zip(ranges).filter(|(((value, changed), margin), range)| {
         let outcome_after = |change: f64| changed(toss, change).map(|toss| Reference::new(&toss).outcome());
-        !is_right(value(toss), *margin, *range, outcome, outcome_after)
+        !is_right(value(toss), *margin, *range, outcome, MOST_LOOKS, outcome_after)
     });
     Ok(wrong.count() as f64)
 }
 
-/// Whether no toss up to a margin, and the one beyond it, has another outcome than `outcome`.
-fn is_right(
+/// Whether no toss that is looked at up to a margin, and the one beyond it, has another outcome than `outcome`.
+pub(super) fn is_right(
     value: f64,
     margin: Option<f64>,
     range: f64,
     outcome: Outcome,
+    number: u32,
     outcome_after: impl Fn(f64) -> Option<Outcome>,
 ) -> bool {
     let stays = |change: f64| outcome_after(change).is_none_or(|after| after == outcome);
-    let Some(margin) = margin else { return looks(range).all(|change| stays(change) && stays(-change)) };
+    let Some(margin) = margin else { return looks(range, number).all(|change| stays(change) && stays(-change)) };
     // The change is rounded when it is added to the value.
     let close = CLOSE.max(4.0 * f64::EPSILON * value.abs() / margin.abs());
     let beyond = outcome_after(margin * (1.0 + close));
     beyond.is_some_and(|beyond| beyond != outcome)
         && stays(margin * (1.0 - close))
-        && looks(margin.abs() * (1.0 - close)).all(|change| stays(change) && stays(-change))
+        && looks(margin.abs() * (1.0 - close), number).all(|change| stays(change) && stays(-change))
 }
 
-/// Changes from 0 up to `range`, evenly spread.
-fn looks(range: f64) -> impl Iterator<Item = f64> {
-    (1..=MOST_LOOKS).map(move |look| range * f64::from(look) / f64::from(MOST_LOOKS))
+/// So many changes from 0 up to `range`, evenly spread.
+fn looks(range: f64, number: u32) -> impl Iterator<Item = f64> {
+    (1..=number).map(move |look| range * f64::from(look) / f64::from(number))
 }
 
 /// The number of speeds, at the ends of the intervals of heads and in between, whose outcome is another one: for a
@@ -654,7 +664,7 @@ fn wrong_speeds(toss: &CoinToss, _: &Reference) -> Deviation {
 
 fn wrong_among(toss: &CoinToss, [slowest, fastest]: [f64; 2], heads: &[[f64; 2]]) -> Result<usize, SolveError> {
     let ends = heads.iter().flatten().flat_map(|end| [end * (1.0 - CLOSE), end * (1.0 + CLOSE)]);
-    let between = looks(1.0).map(|part| slowest + part * (fastest - slowest));
+    let between = looks(1.0, MOST_LOOKS).map(|part| slowest + part * (fastest - slowest));
     // Next to an end of the range an interval may touch it within rounding.
     let inside = |speed: &f64| *speed > slowest * (1.0 + CLOSE) && *speed < fastest * (1.0 - CLOSE);
     let away = |speed: &f64| heads.iter().flatten().all(|end| (speed / end - 1.0).abs() > 0.5 * CLOSE);

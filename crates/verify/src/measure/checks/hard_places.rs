@@ -9,8 +9,8 @@ use std::f64::consts::FRAC_PI_2;
 use anyhow::Context as _;
 use rayon::prelude::*;
 use toss::{
-    Attitude, CoinMotion, CoinToss, ExactSolver, Formulation, InputError, Launch, Scheme, SolveError, Solver,
-    SolverEntry, Stepping, Toss,
+    Attitude, CoinMotion, CoinToss, Formulation, InputError, Launch, Scheme, SolveError, Solver, SolverEntry, Stepping,
+    Toss,
 };
 
 use super::landings::part_of_estimate;
@@ -21,13 +21,13 @@ use crate::measure::case::{self, is_horizontal};
 use crate::measure::check::{Basis, Check, Landed, Measure, ceiling};
 use crate::measure::context::Context;
 use crate::measure::effort::Effort;
+use crate::measure::families::FAMILIES;
 use crate::measure::hostile::{self, Flight};
 use crate::measure::long_flights::Drift;
-use crate::measure::measurement::{Claim, Deviation, Measurement, Worst};
-use crate::measure::reference::ExactLanding;
+use crate::measure::measurement::{Deviation, Measurement, Worst};
+use crate::measure::reference::Reference;
 use crate::measure::run::Answer;
 use crate::measure::subject::Subject;
-use crate::measure::tosses::FAMILIES;
 
 pub(super) const ANSWERS: Check = Check {
     id: "atlas-answers",
@@ -185,7 +185,7 @@ fn searched(context: &Context, found: fn(&Findings) -> Counted) -> anyhow::Resul
     let row = |findings: &Findings| {
         let (subject, cases, (measured, worst, allowed)) =
             (findings.subject.clone(), findings.launches, found(findings));
-        Measurement { subject, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(allowed)
+        Measurement { measured, cases, worst, ..Measurement::of(&subject) }.claiming(allowed)
     };
     Ok(context.search.get(context)?.iter().map(row).collect())
 }
@@ -265,30 +265,42 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
         }))
     };
     let landings: Vec<_> = flown.map(land).collect::<Result<_, InputError>>()?;
-    let landings: Vec<(Flight, Result<Option<f64>, SolveError>)> = landings.into_iter().flatten().collect();
+    let landings: Vec<(Flight, Result<Judged, SolveError>)> = landings.into_iter().flatten().collect();
     let name = hostile::of_coin(entry, scheme, 0, most_steps)?.by.name;
-    let refused = landings.iter().filter(|(_, part)| part.is_err()).count();
-    let silent = landings.iter().filter(|(_, part)| matches!(part, Ok(None))).count();
-    let judged = landings.iter().filter_map(|(flight, part)| Some((flight, (*part.as_ref().ok()?)?)));
+    let number = |is: fn(&Result<Judged, SolveError>) -> bool| landings.iter().filter(|(_, part)| is(part)).count();
+    let refused = number(|part| part.is_err());
+    let silent = number(|part| matches!(part, Ok(Judged::Silent)));
+    let unjudged = number(|part| matches!(part, Ok(Judged::WithoutReference)));
+    let judged = landings.iter().filter_map(|(flight, part)| match part {
+        Ok(Judged::Part(part)) => Some((flight, *part)),
+        _ => None,
+    });
     let over = judged.clone().filter(|(_, part)| *part > 1.0).count();
     let (Flight { toss, by }, measured) =
         judged.max_by(|a, b| a.1.total_cmp(&b.1)).context("every flight was refused")?;
     let settings = case::settings(by);
     let remark = format!("{}; {over} above; {refused} refused, {silent} without an estimate", settings.trim_start());
     let worst = Some(Worst::by(toss, by, None).remarking(&remark));
-    let cases = landings.len() as u64;
-    Ok(Measurement { subject: name, measured, cases, worst, claim: Claim::Silent, judges: None }.claiming(Some(1.0)))
+    let cases = (landings.len() - unjudged) as u64;
+    Ok(Measurement { measured, cases, worst, ..Measurement::of(&name) }.claiming(Some(1.0)).beside_unjudged(unjudged))
 }
 
-/// The error divided by what the estimate allows, `None` without an estimate. A coin is judged by the exact motion.
-fn land(Flight { toss, by }: &Flight) -> Result<Option<f64>, SolveError> {
+/// How a flight is judged.
+enum Judged {
+    /// By its error, divided by what the estimate allows.
+    Part(f64),
+    /// Not at all, without an estimate.
+    Silent,
+    /// Not at all, without a reference.
+    WithoutReference,
+}
+
+fn land(Flight { toss, by }: &Flight) -> Result<Judged, SolveError> {
     let landing = by.solver.land(toss)?;
     if landing.error.is_none() {
-        return Ok(None);
+        return Ok(Judged::Silent);
     }
-    let exact = match toss.coin() {
-        Some(_) => ExactLanding::ByMotion(ExactSolver.land(toss)?),
-        None => ExactLanding::new(toss)?,
-    };
-    Ok(part_of_estimate(&Landed { toss, family: "", exact: &exact, landing: &landing }))
+    let Ok(exact) = Reference::of(toss) else { return Ok(Judged::WithoutReference) };
+    let part = part_of_estimate(&Landed { toss, family: "", exact: &exact, landing: &landing });
+    Ok(part.map_or(Judged::Silent, Judged::Part))
 }

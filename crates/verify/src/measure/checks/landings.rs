@@ -146,7 +146,8 @@ fn claims_of_class(
         if toss.launch.turn_rate() < SLOW {
             continue;
         }
-        largest = largest.max(survey.exact[index].attitude_error(&landing.state.attitude));
+        let Some(exact) = &survey.exact[index] else { continue };
+        largest = largest.max(exact.attitude_error(&landing.state.attitude));
         let Some(claim) = landing.error else {
             return figure(f64::NAN, 0, "it claims no error".to_owned()).claiming(None);
         };

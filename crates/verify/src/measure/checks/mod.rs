@@ -5,6 +5,7 @@
 mod counting;
 mod coverage;
 mod exact;
+pub(super) mod hard;
 mod hard_places;
 mod landings;
 mod planner;
@@ -66,6 +67,18 @@ pub const CHECKS: &[Check] = &[
     hard_places::LONG_ERROR,
     hard_places::LONG_DRIFT,
     hard_places::HOSTILE,
+    hard::CLOSED_FORMS,
+    hard::COS_TILT,
+    hard::ATTITUDE,
+    hard::COMPENSATED_ATTITUDE,
+    hard::OUTCOMES,
+    hard::INTEGRATED_OUTCOMES,
+    hard::INTEGRATED_UNDECIDED,
+    hard::INTEGRATED_BOUNDS,
+    hard::WITHIN_ESTIMATE,
+    hard::SILENTLY_WRONG,
+    hard::LONG_FLIGHTS,
+    hard::MARGINS,
     exact::DERIVATIVES,
     work::WITHIN_ESTIMATE,
     work::ORDER,

@@ -12,10 +12,11 @@ use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveErro
 use super::exact::at_an_edge;
 use crate::measure::check::{Check, Fold, Measure, Set};
 use crate::measure::context::Context;
+use crate::measure::families::{FAMILIES, FLOWN, Family, launches};
 use crate::measure::measurement::{Deviation, Measurement, Worst};
 use crate::measure::reference::Reference;
 use crate::measure::subject::taylor;
-use crate::measure::tosses::{FAMILIES, FLOWN, Family, adversarial, corners, few_turns, launches, random, tries};
+use crate::measure::tosses::{adversarial, corners, few_turns, random, tries};
 
 pub(super) const BOUNDS: Check = Check {
     id: "integrated-bounds",
@@ -102,7 +103,7 @@ fn bounds() -> Vec<Set> {
 }
 
 /// The larger one of the errors of cos θ and of the attitude, divided by their bounds.
-fn share(found: &IntegratedCertificate, reference: &Reference) -> f64 {
+pub(super) fn share(found: &IntegratedCertificate, reference: &Reference) -> f64 {
     let of_cos_tilt = reference.cos_tilt_error(found.cos_tilt()) / found.error_bound();
     of_cos_tilt.max(distance(found, reference) / found.attitude_error_bound())
 }
@@ -128,18 +129,20 @@ fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) 
         (found.error_bound() < 2.0).then_some((index, *toss, found))
     };
     let bounded: Vec<(usize, Toss, IntegratedCertificate)> = tosses.par_iter().enumerate().filter_map(fly).collect();
-    let share = |(_, toss, found): &(usize, Toss, IntegratedCertificate)| {
-        Ok(Reference::of(toss).map_or(0.0, |reference| share(found, &reference)))
+    let judged = |flown: &(usize, Toss, IntegratedCertificate)| {
+        Reference::of(&flown.1).ok().map(|reference| (flown.clone(), Ok(share(&flown.2, &reference))))
     };
-    let shares: Vec<Deviation> = bounded.par_iter().map(share).collect();
-    let remark = format!("of {} tosses {} have a bound", tosses.len(), bounded.len());
+    let number = bounded.len();
+    let (bounded, shares): (Vec<_>, Vec<Deviation>) = bounded.par_iter().filter_map(judged).unzip();
+    let remark = format!("of {} tosses {number} have a bound", tosses.len());
     let worst = |at: usize, failure| {
-        let (index, toss, _) = &bounded[at];
+        let (index, toss, _): &(usize, Toss, IntegratedCertificate) = &bounded[at];
         let remark = format!("{remark}; tolerance {:e}", TOLERANCES[index % TOLERANCES.len()]);
         // The text of a toss has no tolerance, so that the whole check repeats it.
         Worst { replay: None, ..Worst::of_library(toss, failure).remarking(&remark) }
     };
-    Measurement::without_estimate(&format!("bodies: {}", family.name), &shares, worst)
+    let found = Measurement::without_estimate(&format!("bodies: {}", family.name), &shares, worst);
+    found.beside_unjudged(number - shares.len())
 }
 
 fn outcomes() -> Vec<Set> {

@@ -1,29 +1,53 @@
-//! This file solves the toss of any rigid body in 256-bit arithmetic, to judge the motion in double-double. It shares
-//! no code with it, and takes other ways where there are others: elliptic integrals by Carlson's duplication instead of
-//! means, theta functions in one form for all nomes, and rotation matrices instead of quaternions. A test integrates
-//! the equations of motion in 256 bits, and compares.
+//! The toss of a body that is given by three different moments, in closed form and in 256 bits, for speed and for long
+//! flights. It takes other ways than the solver that it judges, where there are others: elliptic integrals by Carlson's
+//! duplication instead of means, theta functions in one form for all nomes, and rotation matrices instead of
+//! quaternions. [`landed`] says for which motions it is vouched for; tests and a check compare it with the [ground
+//! truth](super::taylor).
 //!
-//! A body is given by its moments here; E, which decides the regime, is exact. The formulas are those of
-//! `exact::rigid`: the symbols too.
+//! E, which decides the regime, is exact.
 
 use dashu_float::FBig;
 use dynamics::Toss;
-use toss::TimeOfFlight;
 
-use super::{Big, PRECISION, big, product, sin_cos, to_f64};
+use super::{Big, PRECISION, big, exactly, sin_cos, to_f64};
 
 type Matrix = [[Big; 3]; 3];
 
-/// The attitude at landing of a body with I1 ≠ I2; see [`Reference::of`](super::Reference::of).
-pub(super) fn attitude(toss: &Toss) -> Option<[Big; 4]> {
-    let TimeOfFlight::Given(time) = toss.launch.time_of_flight() else { return None };
-    let landed = turned(toss.body.moments()?, toss.launch.rate().into(), time)?;
-    Some(product(&super::quaternion(&toss.launch.attitude()), &landed))
+/// Bound of the error of each component: 2^-256, and a factor of at most 2^60 for each of the phase, the distance to the
+/// separatrix and that to a turn about an axis, of which no two are near their limits at once.
+pub(super) const ERROR: f64 = 1e-40;
+
+/// The slowest rate beside the fastest one, about the axes of the middle and of the least rate, relative to it.
+const NEAREST_TO_AN_AXIS: f64 = 1e-13;
+
+/// The least |E|, relative to its two terms.
+const NEAREST_TO_THE_SEPARATRIX: f64 = 1e-18;
+
+/// The smallest moment, relative to the largest.
+const THINNEST: f64 = 1e-10;
+
+/// The longest flight (rad).
+const LONGEST: f64 = 1e12;
+
+/// The turn since launch and the rate (rad/s) at landing, of a body with three different moments (f64 differ by 2^-53 of
+/// their size at least) which is neither too thin nor too near to a turn about an axis or to the separatrix.
+pub(super) fn landed(toss: &Toss) -> Option<([Big; 4], [Big; 3])> {
+    let (moments, rate) = (toss.body.moments()?, super::rates(&toss.launch));
+    let time = super::time(toss.launch.time_of_flight());
+    let sorted = Sorted::new(moments, &rate)?;
+    if !sorted.is_inside(&rate, &time) {
+        return None;
+    }
+    let turn = turned(&sorted, &time);
+    let momentum = [0, 1, 2].map(|axis: usize| big(moments[axis]) * &rate[axis]);
+    let [w, x, y, z] = turn.clone();
+    let momentum = super::rotated(&[w, -x, -y, -z], &momentum);
+    Some((turn, [0, 1, 2].map(|axis: usize| &momentum[axis] / big(moments[axis]))))
 }
 
-/// Whether a body needs elliptic functions, and [`attitude`] solves its toss.
-pub(super) fn solves(toss: &Toss) -> bool {
-    toss.body.moments().is_some_and(|moments| Sorted::new(moments, toss.launch.rate().into()).is_some())
+/// Whether a body given by its moments needs elliptic functions.
+pub(super) fn is_elliptic(toss: &Toss) -> bool {
+    toss.body.moments().is_some_and(|moments| Sorted::new(moments, &super::rates(&toss.launch)).is_some())
 }
 
 /// A launch in the axes in which its momentum circles the third.
@@ -31,22 +55,25 @@ struct Sorted {
     /// Which axis is the first, the second and the third.
     order: [usize; 3],
     moments: [f64; 3],
-    rates: [f64; 3],
+    rates: [Big; 3],
     /// |E|.
     excess: Big,
+    /// |E| relative to its two terms.
+    distance: f64,
 }
 
 impl Sorted {
     /// `None` if no elliptic function is needed.
-    fn new(moments: [f64; 3], rate: [f64; 3]) -> Option<Self> {
+    fn new(moments: [f64; 3], rate: &[Big; 3]) -> Option<Self> {
         let mut order = [0, 1, 2];
         order.sort_by(|a: &usize, b: &usize| moments[*a].total_cmp(&moments[*b]));
-        let sorted = |order: [usize; 3]| (order.map(|index| moments[index]), order.map(|index| rate[index]));
+        let sorted = |order: [usize; 3]| (order.map(|index| moments[index]), order.map(|index| rate[index].clone()));
         let (ascending, rates) = sorted(order);
         let [i1, i2, i3] = ascending.map(exactly);
-        let [w1, _, w3] = rates.map(exactly);
-        let excess = &i3 * (&i3 - &i2) * &w3 * &w3 - &i1 * (&i2 - &i1) * &w1 * &w1;
-        let about_one_axis = rate.iter().filter(|part| **part == 0.0).count() > 1;
+        let [w1, _, w3] = rates.map(|part| part.with_precision(0).value());
+        let terms = [&i3 * (&i3 - &i2) * &w3 * &w3, &i1 * (&i2 - &i1) * &w1 * &w1];
+        let excess = &terms[0] - &terms[1];
+        let about_one_axis = rate.iter().filter(|part| **part == Big::ZERO).count() > 1;
         let equal = ascending[0] == ascending[1] || ascending[1] == ascending[2];
         if equal || about_one_axis || excess == Big::ZERO {
             return None;
@@ -55,20 +82,38 @@ impl Sorted {
             order.reverse();
         }
         let (moments, rates) = sorted(order);
-        Some(Self { order, moments, rates, excess: size(&excess).with_precision(PRECISION).value() })
+        let excess = size(&excess).with_precision(PRECISION).value();
+        let [one, other] = terms;
+        let distance = to_f64(&(&excess / (one + other).with_precision(PRECISION).value()));
+        Some(Self { order, moments, rates, excess, distance })
+    }
+
+    /// Whether the motion is one for which the closed form is vouched for.
+    fn is_inside(&self, rate: &[Big; 3], time: &Big) -> bool {
+        let [least, _, largest] = {
+            let mut moments = self.moments;
+            moments.sort_by(f64::total_cmp);
+            moments
+        };
+        let speed = rate.iter().fold(big(0.0), |sum, part| sum + part * part).sqrt();
+        let mut parts = rate.each_ref().map(|part| to_f64(&(part / &speed)).abs());
+        parts.sort_by(f64::total_cmp);
+        least >= THINNEST * largest
+            && parts[1] >= NEAREST_TO_AN_AXIS
+            && self.distance >= NEAREST_TO_THE_SEPARATRIX
+            && to_f64(&(speed * time)) <= LONGEST
     }
 }
 
 /// The quaternion of the turn since launch.
-fn turned(moments: [f64; 3], rate: [f64; 3], time: f64) -> Option<[Big; 4]> {
-    let Sorted { order, moments, rates, excess } = Sorted::new(moments, rate)?;
+fn turned(Sorted { order, moments, rates, excess, .. }: &Sorted, time: &Big) -> [Big; 4] {
     // The new axes as rows: any signs that make them right-handed and the third rate positive.
-    let third = rates[2].signum();
+    let third = if rates[2] < Big::ZERO { -1.0 } else { 1.0 };
     let even = (order[0] + 1) % 3 == order[1];
     let signs = [1.0, if even { third } else { -third }, third];
-    let rates = [0, 1, 2].map(|axis: usize| signs[axis] * rates[axis]);
-    let motion = Motion::new(&moments.map(big), &rates.map(big), &excess);
-    let (start, end) = (motion.matrix(&big(0.0)), motion.matrix(&big(time)));
+    let rates = [0, 1, 2].map(|axis: usize| big(signs[axis]) * &rates[axis]);
+    let motion = Motion::new(&moments.map(big), &rates, excess);
+    let (start, end) = (motion.matrix(&big(0.0)), motion.matrix(time));
     // D = P^T R(0)^T R(t) P, where the rows of P are the new axes.
     let relative = |row: usize, column: usize| (0..3).fold(big(0.0), |sum, k| sum + &start[k][row] * &end[k][column]);
     let mut matrix: Matrix = [0, 1, 2].map(|_| [0, 1, 2].map(|_| big(0.0)));
@@ -77,7 +122,7 @@ fn turned(moments: [f64; 3], rate: [f64; 3], time: f64) -> Option<[Big; 4]> {
             matrix[to_row][to_column] = big(signs[row] * signs[column]) * relative(row, column);
         }
     }
-    Some(quaternion_of(&matrix))
+    quaternion_of(&matrix)
 }
 
 /// The constants of a motion in sorted axes.
@@ -242,11 +287,6 @@ fn quaternion_of(matrix: &Matrix) -> [Big; 4] {
         2 => [xz - zx, xy + yx, y, yz + zy],
         _ => [yx - xy, xz + zx, yz + zy, z],
     })
-}
-
-/// The number in unlimited precision.
-fn exactly(value: f64) -> Big {
-    Big::try_from(value).expect("a validated toss is finite").with_precision(0).value()
 }
 
 fn size(value: &Big) -> Big {

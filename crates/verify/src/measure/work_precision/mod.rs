@@ -15,11 +15,11 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use toss::{Error, Formulation, InputError, Scheme, SolverEntry, StepControl, Stepping, Toss};
+use toss::{Error, Formulation, InputError, Scheme, SolveError, SolverEntry, StepControl, Stepping, Toss};
 
 use crate::clock;
 use crate::measure::effort::Effort;
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::run::{Allowance, Answer, Run};
 use crate::measure::subject::Subject;
 use problems::Problem;
@@ -94,10 +94,11 @@ impl Sweep {
     /// Never for the library's own solvers.
     pub fn new(registry: &[SolverEntry], problems: &[Problem], effort: Effort) -> Result<Self, Error> {
         let jobs = jobs(&yardstick::beside(registry), problems, effort)?;
-        let references: Vec<Vec<ExactLanding>> = problems
+        let references: Vec<Vec<Reference>> = problems
             .iter()
-            .map(|problem| problem.tosses.par_iter().map(ExactLanding::new).collect::<Result<_, _>>())
-            .collect::<Result<_, _>>()?;
+            .map(|problem| problem.tosses.par_iter().map(Reference::of).collect::<Result<_, _>>())
+            .collect::<Result<_, _>>()
+            .map_err(SolveError::from)?;
         let mut samples: Vec<Sample> =
             jobs.par_iter().map(|job| job.sample(&problems[job.problem], &references[job.problem])).collect();
         for (index, times) in times(&jobs, problems, effort) {
@@ -188,7 +189,7 @@ fn states_an_error(subject: &Subject, toss: &Toss) -> bool {
 }
 
 impl Job {
-    fn sample(&self, problem: &Problem, references: &[ExactLanding]) -> Sample {
+    fn sample(&self, problem: &Problem, references: &[Reference]) -> Sample {
         let subject = &self.subject;
         let run = |(toss, exact)| Run::new(subject, toss, exact);
         let runs: Vec<Run> = problem.tosses.iter().zip(references).map(run).collect();

@@ -5,7 +5,7 @@ use dynamics::Toss;
 use toss::SolveError;
 
 use super::problems::Problem;
-use crate::measure::reference::ExactLanding;
+use crate::measure::reference::Reference;
 use crate::measure::subject::taylor;
 
 /// The flights of a problem at one tolerance.
@@ -24,13 +24,13 @@ pub struct Proof {
 /// The proofs of `problem` at two tolerances a decade, from 1e-3 to 1e-15.
 ///
 /// # Errors
-/// [`SolveError`] for a phase above 2^53 rad, which no problem has.
+/// [`SolveError`] if a problem has no reference; each has one.
 pub fn proofs(problem: &Problem) -> Result<Vec<Proof>, SolveError> {
-    let exact: Vec<ExactLanding> = problem.tosses.iter().map(ExactLanding::new).collect::<Result<_, _>>()?;
+    let exact: Vec<Reference> = problem.tosses.iter().map(Reference::of).collect::<Result<_, _>>()?;
     (0..=24).map(|step| proof(&problem.tosses, &exact, 10f64.powf(-3.0 - 0.5 * f64::from(step)))).collect()
 }
 
-fn proof(tosses: &[Toss], references: &[ExactLanding], tolerance: f64) -> Result<Proof, SolveError> {
+fn proof(tosses: &[Toss], references: &[Reference], tolerance: f64) -> Result<Proof, SolveError> {
     let solver = taylor(tolerance)?;
     let mut largest = Proof { tolerance, calls: 0.0, error: 0.0, bound: 0.0 };
     for (toss, reference) in tosses.iter().zip(references) {

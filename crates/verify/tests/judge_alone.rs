@@ -1,0 +1,92 @@
+//! The judge judges alone: no file of the reference may name code that it judges, and no check may take its landings from
+//! elsewhere than the reference.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
+}
+
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("a source file");
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| format!("{line}\n")).collect()
+}
+
+/// All that a file of the reference may take from this workspace: the toss as it was given, and plain types of results.
+const PLAIN: [&str; 15] = [
+    "Toss",
+    "Attitude",
+    "Coin",
+    "CoinToss",
+    "Launch",
+    "Outcome",
+    "SolveError",
+    "TimeOfFlight",
+    "Vector3",
+    "DoubleDouble",
+    "Body",
+    "State",
+    "Space",
+    "quantity",
+    "Angle",
+];
+
+#[test]
+fn the_reference_takes_nothing_from_the_workspace_but_the_toss_as_it_was_given() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/measure/reference");
+    let files = sources(&folder);
+    assert!(files.len() >= 5, "{files:?}");
+    for path in files {
+        let text = code(&path);
+        for name in [
+            "exact::",
+            "kinematics",
+            "sampling::",
+            "ExactSolver",
+            "ExactMotion",
+            "CoinMotion",
+            "certify",
+            "principal",
+            "Solver::",
+            ".land(",
+            ".tilt(&",
+            "rigid()",
+            "inertia_ratio()",
+            "exact_vertical",
+            "exact_rate",
+            "exact_inertia",
+            "in_digits",
+            "vertical",
+            "numerics::Big",
+        ] {
+            // `outside` reads a space of launches for numbers of probabilities.
+            let is_outside = path.ends_with("outside.rs") && name == "sampling::";
+            assert!(is_outside || !text.contains(name), "{} names {name}", path.display());
+        }
+        for line in text.lines().filter(|line| {
+            ["use toss::", "use dynamics::", "use numerics::"].iter().any(|start| line.starts_with(start))
+        }) {
+            assert!(line.ends_with(';'), "{}: names of one import stand on one line: {line}", path.display());
+            let names = line.split(|part: char| !part.is_alphanumeric()).filter(|name| !name.is_empty());
+            let foreign =
+                names.skip(2).find(|name| !PLAIN.contains(name) && !["AngleUnit", "Quantity", "Unit"].contains(name));
+            assert_eq!(foreign, None, "{}: {line}", path.display());
+        }
+    }
+}
+
+/// Only the reference makes a `Reference`, and nothing else is called an exact landing.
+#[test]
+fn no_check_has_a_judge_of_its_own() {
+    let measure = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/measure");
+    for path in sources(&measure).into_iter().filter(|path| !path.starts_with(measure.join("reference"))) {
+        let text = code(&path);
+        assert!(!text.contains("Reference {") && !text.contains("ByMotion"), "{}", path.display());
+        // The solver of the exact motion is a subject, never what errors are taken against.
+        for line in text.lines().filter(|line| line.contains("ExactSolver.")) {
+            panic!("{}: {line}", path.display());
+        }
+    }
+}
