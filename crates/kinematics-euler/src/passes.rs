@@ -95,7 +95,7 @@ mod tests {
             for landing in [euler, gamma].into_iter().flatten() {
                 let Some(estimate) = landing.error else { continue };
                 let error = (landing.cos_tilt - exact.cos_tilt).abs();
-                assert!(error <= 0.25 * estimate, "{:e} of {estimate:e}, {stepping:?}, {toss:?}", error);
+                assert!(error <= 0.25 * estimate, "{error:e} of {estimate:e}, {stepping:?}, {toss:?}");
                 flown += 1;
             }
         }

@@ -169,7 +169,7 @@ fn series_of_a_body_are_dearer_than_those_of_a_coin() {
     for (body, cheapest) in [(racket, "quaternion/dop853"), (Coin::PAPER.into(), "quaternion/taylor")] {
         let toss = Toss { body, ..thrown([9.0, 1.0, 2.5]) };
         let scene = Scene::new(Want::Tilt(toss), 1e-6).by("quaternion", None);
-        let offers = scene.candidates(&Registry::standard()).unwrap();
+        let offers = scene.candidates(Registry::standard()).unwrap();
         let cost = |(candidate, offer): &(Candidate, Offer)| {
             let choice = offer.as_ref().ok().filter(|choice| matches!(choice.how, How::Integrator(..)))?;
             Some((choice.expected_cost_ns, candidate.to_string()))

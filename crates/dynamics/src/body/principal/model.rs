@@ -61,14 +61,14 @@ impl ModelBody {
         let moments = match equal {
             [false, false] => {
                 let known = found.enclosing(left);
-                let couplings = couplings(&known.moments).map(in_double_double);
+                let couplings = couplings(&known.moments).each_ref().map(in_double_double);
                 return Self { principal: rounded(known), couplings, off: 0.0 };
             }
             [true, true] => [second.clone(), second.clone(), second],
             [true, false] => [first.clone(), first, third],
             [false, true] => [first, second.clone(), second],
         };
-        let couplings = couplings(&moments).map(in_double_double);
+        let couplings = couplings(&moments).each_ref().map(in_double_double);
         // The difference of a ball and itself is not exactly 0.
         let none = Ball::new(DoubleDouble::ZERO, 0.0);
         let vanish = [equal[1], equal[0] && equal[1], equal[0]];
@@ -112,11 +112,14 @@ fn perpendicular<N: Elementary>([first, second, _]: [[N; 3]; 3]) -> [[N; 3]; 3] 
 
 fn rounded(principal: PrincipalAxes<Ball<Big>>) -> PrincipalAxes<Ball<DoubleDouble>> {
     let PrincipalAxes { moments, axes } = principal;
-    PrincipalAxes { moments: moments.map(in_double_double), axes: axes.map(|axis| axis.map(in_double_double)) }
+    PrincipalAxes {
+        moments: moments.each_ref().map(in_double_double),
+        axes: axes.map(|axis| axis.each_ref().map(in_double_double)),
+    }
 }
 
 /// A ball of double-double that contains this one.
-fn in_double_double(ball: Ball<Big>) -> Ball<DoubleDouble> {
+fn in_double_double(ball: &Ball<Big>) -> Ball<DoubleDouble> {
     let like = Ball::new(DoubleDouble::ZERO, 0.0);
     like.like_big(&ball.to_big()).widened(ball.radius())
 }
