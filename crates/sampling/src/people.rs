@@ -47,7 +47,7 @@ const FARTHEST: f64 = 36.5;
 /// A log-likelihood that is larger by less is not larger: this is above its rounding error for real counts.
 const NOISE: f64 = 1e-9;
 /// The width at which the search of a place ends; of ln φ where only the value counts, which is flat there.
-const FINE: f64 = 1e-9;
+const FINE: f64 = 1e-8;
 const COARSE: f64 = 1e-5;
 
 /// How much people differ.
@@ -221,7 +221,7 @@ impl People {
         let share = self.mean_share();
         let [pooled, people] = [odds(self.same, self.tosses - self.same, 0.25), odds(share, 1.0 - share, 1e-3)];
         let range = [pooled.min(people) - 1.5, pooled.max(people) + 1.5];
-        let best = golden(|logit| self.log_likelihood(Mean::of_logit(logit), ln_phi), range, COARSE);
+        let best = golden(|logit| self.log_likelihood(Mean::of_logit(logit), ln_phi), range, FINE);
         (best.value, Mean::of_logit(best.at))
     }
 

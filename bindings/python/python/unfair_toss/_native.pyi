@@ -234,10 +234,11 @@ def rate_of_precession(turn: float, wobble: float, body: str | Body) -> tuple[fl
 def wobble(
     same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body
 ) -> tuple[
-    tuple[int, int],
+    tuple[tuple[int, int], tuple[float, tuple[float, float]]],
     tuple[float, tuple[float, float], str],
+    tuple[tuple[float, tuple[float, float], float, float] | None, tuple[float, float] | None],
     tuple[float, float | None],
-    tuple[float, tuple[float, float]],
+    tuple[float, tuple[float, float]] | None,
     list[list[float]],
 ]: ...
 def trace(
