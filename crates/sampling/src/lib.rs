@@ -63,7 +63,7 @@ pub use fold::{Narrowed, Progress};
 pub use interval::{Interval, clopper_pearson};
 pub use long_flight::{long_flight_cone, long_flight_probability, rate_ratio};
 pub use long_flight_share::{LONG_FLIGHT_TURNS, LongFlightShare};
-pub use map::{Map, map_nodes};
+pub use map::{Map, Node, map_nodes};
 pub use people::Spread;
 pub use plan::{Method, Plan, Rest, Scrambled};
 pub use random::random_tosses;
@@ -73,6 +73,6 @@ pub use space::{AxisOrTie, Space};
 pub use space_builder::SpaceBuilder;
 #[cfg(feature = "serde")]
 pub use space_file::{DescribedSpace, named_space, named_spaces};
-pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
+pub use spread::{HAND, LARGEST_SPREAD, LargestSpread, MOST_LOOKS, RESOLUTION, SMALLEST_SPREAD, SufficientSpread};
 pub use tally::Tally;
 pub use wobble::{Cone, FEW_PEOPLE, SameSide, Wobble};

@@ -42,7 +42,7 @@ _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
 _Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 _Counts: TypeAlias = tuple[int, int, int, list[int] | None]
 _EstimateValues: TypeAlias = tuple[
-    float, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[tuple[str, int]] | None
+    float | None, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[tuple[str, int]] | None
 ]
 
 @final
