@@ -224,7 +224,10 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     81.16
     """
     counts, _ = combined({"same_side": same_side, "tosses": tosses})
-    pooled, mean, (differ, further), rates, cone, people = _native.wobble(**counts, body=body)
+    ((same, of), (share, these)), mean, (differ, further), rates, cone, people = _native.wobble(**counts, body=body)
+    (over_people, interval, kind), (k, ratio), (angle, ends) = mean, rates, cone or (None, None)
     spread = None if differ is None else PeopleSpread(*differ)
     each = np.array(people)
-    return Wobble(*pooled[0], *pooled[1], *mean, spread, further, *rates, *(cone or (None, None)), each[:, 0], each[:, 1:])
+    return Wobble(
+        same, of, share, these, over_people, interval, kind, spread, further, k, ratio, angle, ends, each[:, 0], each[:, 1:]
+    )
