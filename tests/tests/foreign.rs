@@ -75,7 +75,7 @@ fn outcomes_of_a_wrong_solver_never_count_as_proven() {
         }
     }
     let map = Sampler::by(&Liar).map(&spaces()[0], [Coordinate::RateX, Coordinate::RateZ], COUNTED[1]).unwrap();
-    assert!(map.nodes.iter().any(|probability| *probability < 0.5));
+    assert!(map.nodes.iter().any(|node| node.probability.is_some_and(|probability| probability < 0.5)));
 }
 
 #[test]

@@ -62,15 +62,21 @@ export class Hand {
       byId("thrown-count").textContent = refusal.message;
       return;
     }
-    const heads = [...this.thrown].filter((outcome) => outcome === "H").length;
-    byId("thrown-count").textContent = `${heads} heads in ${this.thrown.length} throws: ${percent(heads / this.thrown.length, 5e-3)}`;
+    const of = (outcome) => [...this.thrown].filter((thrown) => thrown === outcome).length;
+    const heads = of("H"), decided = heads + of("T");
+    const share = decided ? percent(heads / decided, 5e-3) : "on their edge";
+    byId("thrown-count").textContent = `${heads} heads in ${decided} throws: ${share}`;
     this.drawThrows();
   }
 
   drawThrows() {
     if (!this.thrown) return;
-    let heads = 0;
-    const shares = [...this.thrown].map((outcome, index) => (heads += outcome === "H" ? 1 : 0) / (index + 1));
+    let heads = 0, decided = 0;
+    const shares = [...this.thrown].map((outcome) => {
+      heads += outcome === "H" ? 1 : 0;
+      decided += outcome === "-" ? 0 : 1;
+      return decided ? heads / decided : null;
+    });
     const probability = Number(byId("chance").dataset.probability ?? NaN);
     const { normal, faint } = colours();
     this.plot.draw([shares.map((_, index) => index + 1), shares, shares.map(() => (Number.isFinite(probability) ? probability : null))], [
@@ -96,7 +102,7 @@ export class Hand {
       const { probability, interval, interval_kind, points } = ask({ ask: "hand", scene: question(), spread: state.view.spread });
       const error = interval ? (interval[1] - interval[0]) / 2 : 5e-5;
       const range = interval ? `${percent(interval[0], error)} to ${percent(interval[1], error)} (${interval_kind})` : interval_kind;
-      this.say(percent(probability, error), `${range}; ${points} launches, each at all its speeds`, probability);
+      this.say(probability === null ? "not known" : percent(probability, error), `${range}; ${points} launches, each at all its speeds`, probability);
       this.refuse(null);
     } catch (refusal) {
       this.say("–");
@@ -119,6 +125,7 @@ export class Hand {
         `${Math.floor(1e4 * found.at_least) / 1e4} in between`;
       const text = {
         up_to: `a spread of up to ${short(100 * found.spread, 3)} % of each rate and of the speed${between}`,
+        at_least: `a spread of up to ${short(100 * found.spread, 3)} % at least, where the search ended${between}`,
         any: `any spread up to 12 %, the largest that is tried${between}`,
         toss_is_not_heads: "none: the toss itself does not land heads",
         below_smallest: "none that can be told from 0: the toss lands next to its edge",

@@ -196,7 +196,8 @@ fn probabilities(thrown: &Thrown, grid: &Grid, spread: f64, cells: &mut Vec<u8>)
         let is_fixed = here.free().next().is_none();
         let found = sampler.sampled(&here, if is_fixed { Plan::Grid } else { plan })?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 254")]
-        cells.push((found.probability * f64::from(HEADS)).round() as u8);
+        let cell = (found.probability * f64::from(HEADS)).round() as u8;
+        cells.push(if found.is_known() { cell } else { UNDECIDED });
     }
     Ok(())
 }

@@ -16,7 +16,7 @@ use crate::threads::threads_of;
 /// Values of an estimate: the probability, its interval and what that means, the number of launches, the counts of heads,
 /// tails and undecided, where they were counted, and by stage of the proof, where they are proven.
 pub(crate) type Values =
-    (f64, Option<(f64, f64)>, String, u64, Option<(u64, u64, u64)>, Option<Vec<(&'static str, u64)>>);
+    (Option<f64>, Option<(f64, f64)>, String, u64, Option<(u64, u64, u64)>, Option<Vec<(&'static str, u64)>>);
 
 /// The values of an estimate that `plan` has `found`.
 pub(crate) fn values(found: &sampling::Estimate, plan: sampling::Plan) -> Values {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ::toss::sampling::{SameSide, Wobble, long_flight_cone, rate_ratio};
+use ::toss::sampling::{Cone, Interval, SameSide, Wobble, long_flight_cone, rate_ratio};
 use ::toss::trace::trace_every;
 use ::toss::{
     Backend, ExactMotion, Launch, Margin, SolveError, Solver, State, StepControl, Stepping, TAYLOR, TimeOfFlight, Toss,
@@ -148,13 +148,25 @@ pub(crate) fn rate_of_precession(
     Ok((rate.x, rate.y, rate.z))
 }
 
-/// Values of a wobble: the counts of all people; the share with its interval and what that means; k and Ω/ωz; ψ with its
-/// interval; and these of each person alone, NaN where no wobble explains the counts.
-type Wobbled = ((u64, u64), (f64, (f64, f64), String), (f64, Option<f64>), (f64, (f64, f64)), Vec<[f64; 3]>);
+/// Values of a wobble: the counts of all people; their share, and its interval for these flips; the mean over people with its
+/// interval and what that means; the spread as deviation, interval, X² and p-value; the interval of a further person; k and
+/// Ω/ωz; ψ with its interval; and these of each person alone, NaN where no wobble explains the counts.
+type Wobbled = (
+    ((u64, u64), (f64, Ends)),
+    (f64, Ends, String),
+    (Option<(f64, Ends, f64, f64)>, Option<Ends>),
+    (f64, Option<f64>),
+    Option<(f64, Ends)>,
+    Vec<[f64; 3]>,
+);
+
+/// The ends of an interval.
+type Ends = (f64, f64);
 
 /// The ψ that explains how many of the tosses of each person landed on the side that had been up.
 #[pyfunction]
 pub(crate) fn wobble(
+    py: Python<'_>,
     same_side: &Bound<'_, PyAny>,
     tosses: &Bound<'_, PyAny>,
     body: &Bound<'_, PyAny>,
@@ -172,16 +184,22 @@ pub(crate) fn wobble(
         SameSide::new(same, tosses).map_err(failed)
     };
     let people = (0..).zip(same.into_iter().zip(of)).map(person).collect::<Result<Vec<_>, _>>()?;
-    let Wobble { counts, share, interval, interval_kind, angle, angles } =
-        Wobble::of(&people).map_err(Failure::from)?;
+    let given = people.clone();
+    let found = threads::aside(py, move |_| Ok(Wobble::of(&given)?))?;
     let k = coin.inertia_ratio();
-    let ratio = (share > 0.5).then(|| rate_ratio(share, k)).transpose().map_err(Failure::from)?;
-    let alone = |person| Wobble::of(&[person]).map_or([f64::NAN; 3], |one| [one.angle, one.angles[0], one.angles[1]]);
+    let ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, k)).transpose().map_err(Failure::from)?;
+    let ends = |interval: Interval| (interval.lo, interval.hi);
+    let alone = |person| {
+        let cone = Wobble::of(&[person]).ok().and_then(|one| one.cone);
+        cone.map_or([f64::NAN; 3], |Cone { angle, interval: [least, most] }| [angle, least, most])
+    };
+    let spread = found.spread.map(|spread| (spread.sd, ends(spread.interval), spread.chi2, spread.p_value));
     Ok((
-        (counts.same(), counts.tosses()),
-        (share, (interval.lo, interval.hi), interval_kind),
+        ((found.counts.same(), found.counts.tosses()), (found.share, ends(found.these_flips))),
+        (found.mean, ends(found.interval), found.interval_kind),
+        (spread, found.next_person.map(ends)),
         (k, ratio),
-        (angle, angles.into()),
+        found.cone.map(|cone| (cone.angle, cone.interval.into())),
         people.into_iter().map(alone).collect(),
     ))
 }

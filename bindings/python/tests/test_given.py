@@ -185,7 +185,7 @@ def test_every_public_callable_is_tried():
     kinds = (ut.Body, ut.Toss, ut.Solver, ut.Space, ut.Plan, ut.Tally)
     members = {(kind.__name__, name, callable(member)) for kind in kinds for name, member in inspect.getmembers(kind)}
     methods = {f"{kind}.{name}" for kind, name, is_method in members if is_method and not name.startswith("_")}
-    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "Solution", "Trace", "Wobble", "Work"}
+    answers = {"Choice", "Counts", "DenseOutput", "Estimate", "Intervals", "Inverse", "Landing", "Margins", "PeopleSpread", "Solution", "Trace", "Wobble", "Work"}
     functions = {name for name in ut.__all__ if callable(getattr(ut, name))} - answers
     without_arguments = {"bodies", "solvers", "spaces", "Plan", "Body", "Tally", "Plan.grid"}
     without_arguments |= {"Plan.to_json", "Space.to_json", "Tally.to_json"}

@@ -1,6 +1,7 @@
 """Probabilities and their parts: the counts of the command line, whatever computes them and whoever dies."""
 
 import json
+import math
 import os
 import subprocess
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -268,3 +269,12 @@ def test_impossible_plans_are_refused():
             make()
     with pytest.raises(errors.InputError):
         ut.probability(ut.Space(rate_x=(0, 1), rate_y=0, rate_z=0, speed=1), ut.Plan.grid())
+
+
+def test_what_is_undecided_is_no_share_of_tails():
+    coarse = ut.Solver("quaternion", scheme="rk4", step=0.1)
+    found = ut.probability(ut.Space(rate_x=(0, 40), rate_y=5.0, rate_z=10.0, speed=(3, 5)), ut.Plan.random(64), solver=coarse)
+    assert (found.probability, found.interval, found.half_width, found.undecided) == (None, (0.0, 1.0), None, 64)
+    counts = ut.count([0.0, 40.0], 5.0, 10.0, 4.0, solver=coarse)
+    assert counts.undecided == 2 and math.isnan(counts.probability)
+    assert ut.Counts(3, 1, 60, False, None).probability == 0.75

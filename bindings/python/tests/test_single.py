@@ -102,11 +102,18 @@ def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
         for person, angle, ends in zip(expected["people"], found.each_cone_angle, found.each_cone_angle_interval):
             expected_angles = (person["cone_angle"], person["cone_angle_interval"])
             assert (angle, ends.tolist()) == expected_angles or (np.isnan([angle, *ends]).all() and expected_angles == (None, None))
-        for name in ("probability", "interval", "interval_kind", "inertia_ratio", "rate_ratio", "cone_angle", "cone_angle_interval"):
+        names = ("probability", "these_flips", "mean_over_people", "interval", "interval_kind", "next_person")
+        for name in (*names, "inertia_ratio", "rate_ratio", "cone_angle", "cone_angle_interval"):
             value = getattr(found, name)
             assert (list(value) if isinstance(value, tuple) else value) == expected[name], name
-    assert several.interval_kind == "student 95 % of 3 people" and np.isnan(several.each_cone_angle).tolist() == [False, False, True]
+        spread = None if found.spread is None else {**vars(found.spread), "interval": list(found.spread.interval)}
+        assert spread == expected["spread"]
+    assert several.interval_kind == "beta-binomial 95 % of 3 people" and np.isnan(several.each_cone_angle).tolist() == [False, False, True]
     assert one.each_cone_angle.tolist() == [one.cone_angle] and half.rate_ratio is None
+    absent = ut.wobble([56, 0, 61, 20], [100, 0, 100, 100])
+    assert absent.interval == several.interval and np.isnan(absent.each_cone_angle).tolist() == [False, True, False, True]
+    below = ut.wobble(10, 100)
+    assert (below.cone_angle, below.cone_angle_interval, below.rate_ratio) == (None, None, None)
 
 
 @pytest.mark.parametrize(
@@ -114,13 +121,14 @@ def test_a_wobble_has_the_bits_of_the_command_line(ask, tmp_path):
     [
         ((3, 2), errors.OutOfRangeError, "same_side", None, "0 to the number of tosses"),
         (([1, 3], [2, 2]), errors.OutOfRangeError, "same_side", 1, "0 to the number of tosses"),
-        (([1, 0], [2, 0]), errors.OutOfRangeError, "tosses", 1, "at least 1"),
+        (([0, 0], [0, 0]), errors.OutOfRangeError, "tosses", None, "at least 1"),
+        (([1, 1], [2, 0]), errors.OutOfRangeError, "same_side", 1, "0 to the number of tosses"),
         (([], []), errors.MalformedError, "same_side", None, "the count of at least 1 person"),
         (([1, -1], [2, 2]), errors.MalformedError, "same_side", 1, "a whole number from 0 to 2^64 - 1"),
         ((1, [2.5]), errors.MalformedError, "tosses", 0, "a whole number from 0 to 2^64 - 1"),
         (([1, 2], [2]), errors.MalformedError, "tosses", None, "as many as of same_side"),
-        ((10, 100), errors.OutsideModelError, "same_side", None, None),
-        (([2**63, 2**63], [2**63, 2**63]), errors.MalformedError, "same_side", None, "fewer for all people together"),
+        (([1, 1], [10**12, 10**12]), errors.OutOfRangeError, "tosses", None, "at most 1e12 for several people together"),
+        (([2**63, 2**63], [2**63, 2**63]), errors.MalformedError, "tosses", None, "fewer for all people together"),
     ],
 )
 def test_counts_that_cannot_be_are_refused(counts, kind, field, index, valid):

@@ -7,6 +7,7 @@ use toss::Stage;
 pub(crate) fn text(found: &Estimate, solver: &str) -> String {
     let (probability, kind) = (found.probability, &found.interval_kind);
     let (probability, interval) = match (found.interval, found.half_width()) {
+        _ if !found.is_known() => ("not known".to_owned(), format!("0 to 1 ({kind})")),
         (Some(_), Some(error)) if *kind == IntervalKind::Rounding => {
             (probability.to_string(), format!("± {error:.1e} ({kind})"))
         }

@@ -11,6 +11,7 @@ mod failure;
 mod help;
 mod json;
 mod output;
+mod people_file;
 mod quantity;
 mod solver_args;
 mod space_args;

@@ -1,4 +1,6 @@
-//! This file counts the outcomes of launches; the probability of heads is heads/(heads + tails + undecided). Proven and
+//! This file counts the outcomes of launches. An undecided launch may land either way, so that it counts for neither: the
+//! share of heads is heads/(heads + tails), and there is none if no launch is decided. The share of all launches lies between
+//! that with all undecided ones tails and that with all heads, and so does the share of the decided ones. Proven and
 //! estimated outcomes are counted in different types, so that an estimated one cannot pass as proven: only the crate
 //! `exact` can make proven counts.
 
@@ -53,9 +55,16 @@ impl Counts {
         self.heads() + self.tails() + self.undecided()
     }
 
-    /// Fraction of heads among all launches, from 0 to 1.
+    /// Fraction of heads among the decided launches, from 0 to 1; `None` if none is decided.
     #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
-    pub fn probability(&self) -> f64 {
+    pub fn probability(&self) -> Option<f64> {
+        let decided = self.heads() + self.tails();
+        (decided > 0).then(|| self.heads() as f64 / decided as f64)
+    }
+
+    /// Fraction of heads among all launches if all undecided ones land tails.
+    #[expect(clippy::cast_precision_loss, reason = "a ratio of counts")]
+    pub(crate) fn smallest_probability(&self) -> f64 {
         self.heads() as f64 / self.points() as f64
     }
 
@@ -186,7 +195,8 @@ mod tests {
         let [once, twice] = [Counts::estimated(3, 4, 5), Counts::estimated(6, 8, 10)];
         assert_eq!((once.merge(once), [once, once].into_iter().sum()), (twice, twice));
         assert_eq!((once.heads(), once.tails(), once.undecided(), once.points()), (3, 4, 5, 12));
-        assert_eq!(once.probability(), 0.25);
+        assert_eq!((once.probability(), Counts::estimated(0, 0, 9).probability()), (Some(3.0 / 7.0), None));
+        assert_eq!([once.smallest_probability(), once.largest_probability()], [0.25, 8.0 / 12.0]);
     }
 
     #[test]

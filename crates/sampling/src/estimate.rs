@@ -41,6 +41,8 @@ pub enum IntervalKind {
     Rounding,
     /// A proof: the probability lies between both ends.
     Proven,
+    /// From 0 to 1, because no launch is decided.
+    NoneDecided,
 }
 
 impl fmt::Display for IntervalKind {
@@ -54,6 +56,7 @@ impl fmt::Display for IntervalKind {
             Self::Unanimous => f.write_str("clopper-pearson 95 %, all points agree"),
             Self::Rounding => f.write_str("rounding error"),
             Self::Proven => f.write_str("proven"),
+            Self::NoneDecided => f.write_str("no launch is decided"),
         }
     }
 }
@@ -61,7 +64,8 @@ impl fmt::Display for IntervalKind {
 /// An estimate of the probability of heads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Estimated probability of heads, from 0 to 1.
+    /// Estimated probability of heads, from 0 to 1: of counts, the share of heads among the decided launches. If no launch is
+    /// decided it is ½, the middle of the interval; see [`Estimate::is_known`].
     pub probability: f64,
     /// Interval in which the probability lies, at the confidence [`LEVEL`]. It allows for either outcome of the
     /// undecided launches.
@@ -94,14 +98,32 @@ impl Estimate {
         Some((self.probability - lo).max(hi - self.probability))
     }
 
-    fn of_counts(counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
-        Self {
-            probability: counts.probability(),
-            interval,
-            interval_kind,
-            points: counts.points(),
-            found: Found::Counts(counts),
+    /// Whether any launch is decided. If none is, nothing is known of the probability.
+    pub fn is_known(&self) -> bool {
+        self.interval_kind != IntervalKind::NoneDecided
+    }
+
+    /// The number of launches whose outcome is undecided.
+    pub fn undecided(&self) -> u64 {
+        match self.found {
+            Found::Counts(counts) => counts.undecided(),
+            Found::Shares { .. } if self.is_known() => 0,
+            Found::Shares { .. } => self.points,
         }
+    }
+
+    fn of_counts(counts: Counts, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
+        let (found, points) = (Found::Counts(counts), counts.points());
+        match counts.probability() {
+            Some(probability) => Self { probability, interval, interval_kind, points, found },
+            None => Self::of_nothing(found, points),
+        }
+    }
+
+    /// The estimate from `points` launches of which none is decided.
+    fn of_nothing(found: Found, points: u64) -> Self {
+        let interval = Some(Interval { lo: 0.0, hi: 1.0 });
+        Self { probability: 0.5, interval, interval_kind: IntervalKind::NoneDecided, points, found }
     }
 
     pub(crate) fn of_grid_counts(counts: Counts) -> Self {
@@ -114,7 +136,7 @@ impl Estimate {
 
     pub(crate) fn of_scrambled_counts(scrambles: &[Counts]) -> Self {
         let counts: Counts = scrambles.iter().copied().sum();
-        if counts.heads() == counts.points() || counts.heads() == 0 {
+        if counts.heads() == counts.points() || counts.tails() == counts.points() {
             return Self::of_counts(counts, Some(of_independent(counts)), IntervalKind::Unanimous);
         }
         // The undecided launches may all land tails, or all heads.
@@ -122,7 +144,7 @@ impl Estimate {
             let means: Vec<f64> = scrambles.iter().map(probability).collect();
             from_scrambled_points(&means, 0.0, counts.points(), LEVEL)
         };
-        match (from(Counts::probability), from(Counts::largest_probability)) {
+        match (from(Counts::smallest_probability), from(Counts::largest_probability)) {
             (Some((low, low_is_wider)), Some((high, high_is_wider))) => {
                 let kind = of_scrambles(scrambles.len(), low_is_wider || high_is_wider);
                 Self::of_counts(counts, Some(Interval { lo: low.lo, hi: high.hi }), kind)
@@ -133,6 +155,9 @@ impl Estimate {
 
     fn of_share(share: Share, points: u64, interval: Option<Interval>, interval_kind: IntervalKind) -> Self {
         let found = Found::Shares { rounding_error: share.error };
+        if share.error >= 0.5 && interval_kind != IntervalKind::Proven {
+            return Self::of_nothing(found, points);
+        }
         Self { probability: share.probability, interval, interval_kind, points, found }
     }
 
@@ -179,7 +204,7 @@ fn of_scrambles(number: usize, is_wider: bool) -> IntervalKind {
 }
 
 /// Clopper and Pearson's interval, widened so that it holds whatever the outcome of the undecided launches is.
-fn of_independent(counts: Counts) -> Interval {
+pub(crate) fn of_independent(counts: Counts) -> Interval {
     let points = counts.points();
     Interval {
         lo: clopper_pearson(counts.heads(), points, LEVEL).lo,
@@ -203,6 +228,35 @@ mod tests {
         let [lo, hi] = [interval.lo - (0.5 - reach), interval.hi - (0.7 + reach)];
         assert!(lo.abs() < 1e-12 && hi.abs() < 1e-12, "{interval:?}");
         assert_eq!(Estimate::of_scrambled_counts(&scrambles[..1]).interval_kind, IntervalKind::OneScramble);
+    }
+
+    /// An undecided launch counts neither as heads nor as tails, whichever the plan.
+    #[test]
+    fn undecided_launches_are_in_no_share_and_if_none_is_decided_nothing_is_known() {
+        let of = |counts: Counts| {
+            [
+                Estimate::of_grid_counts(counts),
+                Estimate::of_independent_counts(counts),
+                Estimate::of_scrambled_counts(&[counts; 8]),
+            ]
+        };
+        for found in of(Counts::estimated(3, 1, 60)) {
+            assert_eq!((found.probability, found.is_known()), (0.75, true));
+            assert!(found.interval.is_none_or(|interval| interval.lo < 3.0 / 64.0 && interval.hi > 63.0 / 64.0));
+        }
+        for found in of(Counts::estimated(0, 40, 24)) {
+            assert!(found.interval.is_none_or(|interval| interval.hi > 24.0 / 64.0), "{found:?}");
+            assert_ne!(found.interval_kind, IntervalKind::Unanimous);
+        }
+        let tie = Estimate::of_grid_share(Share::new(0.5, 0.5), 1, true);
+        for found in of(Counts::estimated(0, 0, 64)).into_iter().chain([tie]) {
+            let interval = Some(Interval { lo: 0.0, hi: 1.0 });
+            assert_eq!((found.probability, found.interval, found.is_known()), (0.5, interval, false));
+            assert_eq!(
+                (found.undecided(), found.interval_kind.to_string()),
+                (found.points, "no launch is decided".to_owned())
+            );
+        }
     }
 
     #[test]

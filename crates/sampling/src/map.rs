@@ -17,8 +17,17 @@ pub struct Map {
     pub across: (Coordinate, Vec<f64>),
     /// The coordinate that varies from row to row, and its values.
     pub up: (Coordinate, Vec<f64>),
-    /// P(heads) of the nodes, from 0 to 1, row by row.
-    pub nodes: Vec<f64>,
+    /// The nodes, row by row.
+    pub nodes: Vec<Node>,
+}
+
+/// What is known at a node of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// P(heads), from 0 to 1, of the launches that are decided; `None` if none is.
+    pub probability: Option<f64>,
+    /// Number of launches that are undecided.
+    pub undecided: u64,
 }
 
 impl Sampler<'_> {
@@ -34,9 +43,9 @@ impl Sampler<'_> {
         let node = |index: usize| {
             let (column, row) = (columns[index % columns.len()], rows[index / columns.len()]);
             let here = space.with_axis(across, column)?.with_axis(up, row)?;
-            let probability = sampler.estimate(&here, plan)?.probability;
+            let found = sampler.estimate(&here, plan)?;
             (self.progress)(1);
-            Ok(probability)
+            Ok(Node { probability: found.is_known().then_some(found.probability), undecided: found.undecided() })
         };
         let indices = 0..columns.len() * rows.len();
         #[cfg(feature = "rayon")]
@@ -110,7 +119,8 @@ mod tests {
         let space = space(&[(RateX, "0:40:21"), (RateY, "0"), (RateZ, "-10:30:5"), (Speed, "3:5")]);
         let map = Sampler::exact().map(&space, [RateX, RateZ], EXACT).unwrap();
         assert_eq!((map.across.1.len(), map.up.1.len(), map.nodes.len()), (21, 5, 105));
-        for (index, probability) in map.nodes.iter().enumerate() {
+        let shares: Vec<f64> = map.nodes.iter().map(|node| node.probability.unwrap()).collect();
+        for (index, probability) in shares.iter().enumerate() {
             let (rate_x, rate_z) = (map.across.1[index % 21], map.up.1[index / 21]);
             let cone = rate_x.atan2(0.5 * rate_z);
             let least_cos_tilt = (2.0 * cone).cos();
@@ -122,7 +132,38 @@ mod tests {
             });
             assert!((probability - heads.count() as f64 / 2000.0).abs() < 4e-3, "{rate_x}, {rate_z}: {probability}");
         }
-        assert!(map.nodes.iter().any(|probability| *probability < 0.6));
+        assert!(shares.iter().any(|probability| *probability < 0.6));
+    }
+
+    /// A solver that can't tell any outcome of a launch that turns about x.
+    struct Unsure;
+
+    impl dynamics::Solver for Unsure {
+        fn name(&self) -> &str {
+            "unsure"
+        }
+        fn land(&self, toss: &dynamics::Toss) -> Result<dynamics::Landing, dynamics::SolveError> {
+            let mut landing = exact::ExactSolver.land(toss)?;
+            if toss.launch.rate().x > 0.0 {
+                landing.error = Some(1.0);
+            }
+            Ok(landing)
+        }
+    }
+
+    #[test]
+    fn a_node_where_no_launch_is_decided_has_no_probability() {
+        let space = space(&[(RateX, "0:40:2"), (RateY, "0"), (RateZ, "10:20:2"), (Speed, "3:5")]);
+        let map = Sampler::by(&Unsure).map(&space, [RateX, RateZ], Plan::Random { points: 64, seed: 1 }).unwrap();
+        let (spins, unknown) =
+            (Node { probability: Some(1.0), undecided: 0 }, Node { probability: None, undecided: 64 });
+        assert_eq!(map.nodes, [spins, unknown, spins, unknown]);
+        // A quarter of a turn at a single speed is an exact tie.
+        let texts = [(RateX, "0:1:2"), (RateY, "0"), (RateZ, "0:1:2"), (Speed, "0"), (Tilt, "90deg")];
+        let ties = Space::parse(Coin::PAPER, &texts).unwrap();
+        if let Ok(map) = Sampler::exact().map(&ties, [RateX, RateZ], EXACT) {
+            assert!(map.nodes.iter().all(|node| node.probability != Some(0.5)), "{map:?}");
+        }
     }
 
     #[test]
@@ -130,7 +171,7 @@ mod tests {
         let texts = [(RateX, "0:40:3"), (RateY, "x"), (RateZ, "10:50"), (Speed, "3:5"), (Tilt, "0:1:2")];
         let plan = Plan::ExactSpeed(Rest::Sobol(crate::Scrambled::new(64, 1)));
         let map = Sampler::exact().map(&space(&texts), [RateX, Tilt], plan).unwrap();
-        assert_eq!(map.nodes[0], 1.0, "no rate but spin");
+        assert_eq!(map.nodes[0], Node { probability: Some(1.0), undecided: 0 }, "no rate but spin");
     }
 
     #[test]

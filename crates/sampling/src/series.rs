@@ -2,13 +2,12 @@
 //! launches, as in the paper's Fig. 4, and the root-mean-square error √⟨(p(n) - P)²⟩ of independent estimates p(n) of
 //! each method.
 
-use dynamics::Error;
 use dynamics::error::require;
+use dynamics::{Error, InputError};
 
 use crate::counts::Counts;
-use crate::estimate::LEVEL;
+use crate::estimate::of_independent;
 use crate::grid::Grid;
-use crate::interval::clopper_pearson;
 use crate::launches::Launches;
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
@@ -20,25 +19,28 @@ use crate::space::{Cube, Space};
 pub struct RunningStep {
     /// Number of launches so far.
     pub launches: u64,
-    /// Share of heads among the first launches of the grid (A).
-    pub grid: f64,
-    /// Share of heads among the first random launches (B).
-    pub random: f64,
+    /// Share of heads among the decided ones of the first launches of the grid (A); `None` if none is decided.
+    pub grid: Option<f64>,
+    /// Share of heads among the decided ones of the first random launches (B); likewise.
+    pub random: Option<f64>,
     /// Lower end of the 95 % interval of the random launches.
     pub random_lo: f64,
-    /// Upper end of that interval.
+    /// Upper end of that interval, which holds whatever the outcomes of the undecided launches are.
     pub random_hi: f64,
+    /// Numbers of undecided launches of the grid and of the random ones.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub undecided: [u64; 2],
 }
 
 /// More steps than this are refused; a chart shows hundreds.
 const MOST_STEPS: u64 = 1_000_000;
 
 impl RunningStep {
-    /// The values in the order of the fields.
-    pub fn columns(&self) -> [f64; 5] {
+    /// The number of launches, the shares and the interval, in the order of the fields; `None` if a share is not known.
+    pub fn columns(&self) -> Option<[f64; 5]> {
         #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
         let launches = self.launches as f64;
-        [launches, self.grid, self.random, self.random_lo, self.random_hi]
+        Some([launches, self.grid?, self.random?, self.random_lo, self.random_hi])
     }
 }
 
@@ -52,13 +54,14 @@ impl Sampler<'_> {
         let grid = self.running_grid(space, steps)?;
         let random = self.running_random(space, space.grid_points()?, seed, steps)?;
         let step = |(grid, random): (&Counts, &Counts)| {
-            let interval = clopper_pearson(random.heads(), random.points(), LEVEL);
+            let interval = of_independent(*random);
             RunningStep {
                 launches: grid.points(),
                 grid: grid.probability(),
                 random: random.probability(),
                 random_lo: interval.lo,
                 random_hi: interval.hi,
+                undecided: [grid.undecided(), random.undecided()],
             }
         };
         Ok(grid.iter().zip(&random).map(step).collect())
@@ -136,7 +139,7 @@ impl Estimator {
     /// random numbers gives a single estimate, from the largest even grid of at most `points` launches.
     ///
     /// # Errors
-    /// As [`Sampler::estimate`].
+    /// As [`Sampler::estimate`]; [`InputError::OutsideModel`] if no launch of an estimate is decided.
     pub fn estimates(
         &self,
         sampler: &Sampler<'_>,
@@ -146,7 +149,13 @@ impl Estimator {
     ) -> Result<Vec<f64>, Error> {
         let space = if self.is_random { *space } else { space.with_grid_of(points)? };
         let seeds = if self.is_random { 1..=replicates } else { 1..=1 };
-        seeds.map(|seed| Ok(sampler.estimate(&space, (self.plan)(points, seed))?.probability)).collect()
+        let share = |seed| {
+            let found = sampler.estimate(&space, (self.plan)(points, seed))?;
+            let why = "no launch is decided, so that there is no share of heads";
+            let unknown = InputError::OutsideModel { field: "launches", why };
+            found.is_known().then_some(found.probability).ok_or(unknown.into())
+        };
+        seeds.map(share).collect()
     }
 }
 
@@ -163,9 +172,9 @@ mod tests {
 
     use super::*;
     use crate::axis::Axis;
-    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed};
+    use crate::coordinate::Coordinate::{RateX, RateY, RateZ, Speed, Tilt};
     use crate::estimate::Found;
-    use crate::interval::Interval;
+    use crate::interval::{Interval, clopper_pearson};
     use crate::space_file::named_space;
 
     #[test]
@@ -196,10 +205,44 @@ mod tests {
         assert_eq!(steps.len(), 9);
         for ((step, grid), random) in steps.iter().zip(&grid).zip(&random) {
             let Interval { lo, hi } = clopper_pearson(random.heads(), random.points(), 0.95);
-            let columns = [grid.points() as f64, grid.probability(), random.probability(), lo, hi];
-            assert_eq!(step.columns(), columns);
+            let columns = [grid.points() as f64, grid.probability().unwrap(), random.probability().unwrap(), lo, hi];
+            assert_eq!((step.columns(), step.undecided), (Some(columns), [0, 0]));
         }
         assert_ne!(steps[8].grid, steps[8].random);
+    }
+
+    /// A solver that can't tell the outcome of a launch below a speed.
+    struct Unsure(f64);
+
+    impl dynamics::Solver for Unsure {
+        fn name(&self) -> &str {
+            "unsure"
+        }
+        fn land(&self, toss: &dynamics::Toss) -> Result<dynamics::Landing, dynamics::SolveError> {
+            let mut landing = exact::ExactSolver.land(toss)?;
+            if toss.launch.flight_time() < 2.0 * self.0 / 9.81 {
+                landing.error = Some(1.0);
+            }
+            Ok(landing)
+        }
+    }
+
+    #[test]
+    fn undecided_launches_are_in_no_running_share_and_widen_the_interval() {
+        let texts = [(RateX, "0"), (RateY, "0"), (RateZ, "1"), (Speed, "0:5:100")];
+        let space = Space::parse(Coin::PAPER, &texts).unwrap();
+        let steps = Sampler::by(&Unsure(4.0)).running_shares(&space, 10, 5).unwrap();
+        // All launches that are decided land heads. The slowest come first.
+        assert_eq!((steps[0].grid, steps[0].columns(), steps[0].undecided[0]), (None, None, 10));
+        assert_eq!((steps[9].grid, steps[9].random, steps[9].undecided[0]), (Some(1.0), Some(1.0), 80));
+        assert!(steps[9].random_lo < 0.35 && steps[9].random_hi == 1.0, "{:?}", steps[9]);
+        let tails =
+            Space::parse(Coin::PAPER, &[(RateX, "0"), (RateY, "0"), (RateZ, "1"), (Tilt, "3"), (Speed, "0:5:100")]);
+        let last = Sampler::by(&Unsure(4.0)).running_shares(&tails.unwrap(), 1, 5).unwrap()[0];
+        assert!(last.random == Some(0.0) && last.random_lo == 0.0 && last.random_hi > 0.8, "{last:?}");
+        for estimator in ESTIMATORS.iter().take(3) {
+            assert!(estimator.estimates(&Sampler::by(&Unsure(9.0)), &space, 64, 2).is_err(), "{}", estimator.name);
+        }
     }
 
     #[test]

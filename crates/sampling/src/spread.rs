@@ -23,7 +23,8 @@
 //! A function whose second derivative is at most c is at most c (u2 - u1)²/8 below its chord. So P(heads) between s1 and
 //! s2 is at least the smaller one of P at s1 and s2, less that, with the smaller bound of P''. Spreads are added by
 //! halving u2 - u1, until no dip of more than [`RESOLUTION`] below the wanted probability is possible. Nothing is known
-//! of spreads below the smallest that is looked at, and every estimate has an error of its own.
+//! of spreads below the smallest that is looked at, and every estimate has an error of its own. Next to 1 the number of
+//! spreads that this takes has no limit, so that a search ends after [`MOST_LOOKS`] with what it has found.
 
 use dynamics::error::require;
 use dynamics::{Error, InputError, Outcome};
@@ -31,7 +32,7 @@ use exact::certify;
 
 use crate::axis::Axis;
 use crate::coordinate::Coordinate;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, Found};
 use crate::plan::{Plan, Rest, Scrambled};
 use crate::sampler::Sampler;
 use crate::space::Space;
@@ -49,6 +50,9 @@ pub const SMALLEST_SPREAD: f64 = 1e-9;
 /// probability is next to 1, a tenth of what is left to 1.
 pub const RESOLUTION: f64 = 1e-3;
 
+/// A search looks at no more spreads than these.
+pub const MOST_LOOKS: u32 = 256;
+
 /// The factor from one spread to the next, if nothing asks for a closer look.
 const LARGEST_FACTOR: f64 = 4.0;
 
@@ -60,9 +64,12 @@ const CURVATURE: [f64; Coordinate::ALL.len() + 1] = [0.0, 0.917, 1.881, 2.849, 3
 pub enum LargestSpread {
     /// Up to this spread.
     UpTo(SufficientSpread),
+    /// Up to this spread at least. The search ended there after [`MOST_LOOKS`], and says nothing about larger spreads.
+    AtLeast(SufficientSpread),
     /// Up to [`LARGEST_SPREAD`] at least. No larger one was looked at.
     Any(SufficientSpread),
-    /// No spread is small enough, because the toss itself does not land heads.
+    /// No spread is small enough, because the toss itself does not land heads. Next to one that lands tails P(heads) goes to 0
+    /// with the spread; next to one that is undecided it may go to any number.
     TossIsNotHeads(Outcome),
     /// Not even [`SMALLEST_SPREAD`], at which heads has this probability: the toss lands heads, next to tails.
     BelowSmallest(Estimate),
@@ -101,7 +108,7 @@ impl Space {
 impl Sampler<'_> {
     /// The largest relative spread of the coordinates `inputs` of `space`, which have single values, with which heads has
     /// at least the probability `heads`, and so at all smaller spreads from [`SMALLEST_SPREAD`] on, up to [`RESOLUTION`]. It
-    /// is found to 1e-5 of itself, with `scrambled` Sobol points for each estimate.
+    /// is found to 1e-5 of itself, with `scrambled` Sobol points for each estimate and at most [`MOST_LOOKS`] estimates.
     ///
     /// # Errors
     /// As [`Sampler::estimate`], and [`InputError`] for a probability `heads` that is not between 0 and 1, and for a
@@ -126,26 +133,28 @@ impl Sampler<'_> {
         }
         let enough = heads - RESOLUTION.min(0.1 * (1.0 - heads));
         let spreading = space.with_spread(LARGEST_SPREAD, inputs)?.free().count();
-        let mut looks = 0;
-        let mut look = |spread: f64| {
-            looks += 1;
+        let look = |spread: f64| {
             let spread_out = space.with_spread(spread, inputs)?;
             let estimate = self.silent().sampled(&spread_out, plan(&spread_out, scrambled))?;
             Ok::<_, Error>(Look { spread, estimate })
         };
-        let mut here = look(SMALLEST_SPREAD)?;
-        if here.estimate.probability < heads {
+        let (mut here, mut looks) = (look(SMALLEST_SPREAD)?, 1);
+        if !here.suffices(heads) {
             return Ok(LargestSpread::BelowSmallest(here.estimate));
         }
         let mut at_least = here.estimate.probability;
         // Larger spreads that were looked at, the nearest last.
         let mut ahead: Vec<Look> = Vec::new();
         while here.spread < LARGEST_SPREAD {
+            if looks >= MOST_LOOKS {
+                return Ok(LargestSpread::AtLeast(here.sufficient(looks, at_least)));
+            }
             let Some(next) = ahead.pop() else {
                 ahead.push(look((LARGEST_FACTOR * here.spread).min(LARGEST_SPREAD))?);
+                looks += 1;
                 continue;
             };
-            let (suffices, between) = (next.estimate.probability >= heads, here.least_up_to(&next, spreading));
+            let (suffices, between) = (next.suffices(heads), here.least_up_to(&next, spreading));
             if suffices && between >= enough {
                 (here, at_least) = (next, at_least.min(between));
             } else if !suffices && next.spread <= here.spread * (1.0 + 1e-5) {
@@ -153,6 +162,7 @@ impl Sampler<'_> {
             } else {
                 let middle = look((here.spread * next.spread).sqrt())?;
                 ahead.extend([next, middle]);
+                looks += 1;
             }
         }
         Ok(LargestSpread::Any(here.sufficient(looks, at_least)))
@@ -166,6 +176,20 @@ struct Look {
 }
 
 impl Look {
+    /// Whether heads has at least the probability `heads`. What is undecided, such as a launch next to an exact tie, counts for
+    /// tails.
+    fn suffices(&self, heads: f64) -> bool {
+        /// The bound of the rounding error is that of the phase over its standard deviation, some 1e-5 at the smallest spread.
+        /// A larger one than this is of launches that are undecided.
+        const ROUNDING: f64 = 1e-2;
+        let undecided = match self.estimate.found {
+            Found::Counts(counts) => return counts.smallest_probability() >= heads,
+            Found::Shares { rounding_error } if rounding_error < ROUNDING => 0.0,
+            Found::Shares { rounding_error } => rounding_error,
+        };
+        self.estimate.probability - undecided >= heads
+    }
+
     /// A lower bound of P(heads) at the spreads from this one to that of `next`, if `spreading` inputs spread and both
     /// estimates are right; see [this module](self).
     fn least_up_to(&self, next: &Self, spreading: usize) -> f64 {
@@ -245,6 +269,28 @@ mod tests {
         // A quarter of a turn less 1e-12.
         let hardly = largest(&space(["1.5707963267933", "0", "0"], "4.905"));
         assert!(matches!(&hardly, LargestSpread::BelowSmallest(found) if found.probability < 0.51), "{hardly:?}");
+    }
+
+    /// Next to 1 no number of spreads would show that P(heads) never falls short.
+    #[test]
+    fn a_search_ends_with_what_it_has_found() {
+        let toss = space(["1", "1", "2.5"], "3");
+        for heads in [1.0 - 1e-10, 1.0 - 1e-12, 1.0f64.next_down()] {
+            let found = Sampler::exact().largest_spread(&toss, &HAND, heads, POINTS).unwrap();
+            let LargestSpread::AtLeast(found) = found else { panic!("{heads}: {found:?}") };
+            assert!(found.looks <= MOST_LOOKS && (SMALLEST_SPREAD..0.01).contains(&found.spread), "{found:?}");
+            assert!(found.at_least >= heads - 0.11 * (1.0 - heads) && found.at_least <= 1.0, "{found:?}");
+        }
+        assert!(matches!(Sampler::exact().largest_spread(&toss, &HAND, 0.999, POINTS), Ok(LargestSpread::Any(_))));
+    }
+
+    /// A coin that spins about the horizontal stays next to its edge. That nothing is decided is no probability of a half.
+    #[test]
+    fn no_spread_is_claimed_from_launches_that_are_undecided() {
+        let texts = [(RateX, "0"), (RateY, "0"), (RateZ, "5"), (Speed, "3"), (Coordinate::Tilt, "90deg")];
+        let tie = Space::parse(Coin::PAPER, &texts).unwrap();
+        let found = Sampler::exact().largest_spread(&tie, &HAND, 0.4, POINTS).unwrap();
+        assert!(matches!(&found, LargestSpread::BelowSmallest(found) if !found.is_known()), "{found:?}");
     }
 
     #[test]

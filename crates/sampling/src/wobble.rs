@@ -3,14 +3,16 @@
 //! asin(cot²ψ)/π; see [`long_flight_probability`](crate::long_flight_probability). This file turns counts into ψ.
 //!
 //! It assumes that all launches leave flat, turn many times and have the same ψ. The angle 180° - ψ, of the opposite spin,
-//! explains them as well. As ψ differs between people, several people have an interval with the people as its sample.
+//! explains them as well. People differ, and the ψ of several is that of the mean share [over people](crate::people). As p is
+//! nearly quadratic in 90° - ψ, it is the ψ of the root mean square tilt, not the mean ψ.
 
 use dynamics::InputError;
 use dynamics::error::require;
 
 use crate::estimate::LEVEL;
-use crate::interval::{Interval, clopper_pearson, from_scrambles};
+use crate::interval::{Interval, clopper_pearson};
 use crate::long_flight::long_flight_cone;
+use crate::people::{People, Spread};
 
 /// How many of the tosses of a person landed on the side that had been up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,13 +22,12 @@ pub struct SameSide {
 }
 
 impl SameSide {
-    /// `same` of `tosses`.
+    /// `same` of `tosses`, which may be 0 of 0 for a person who was absent.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for no tosses, and for more landings on the same side than tosses.
+    /// [`InputError::OutOfRange`] for more landings on the same side than tosses.
     #[expect(clippy::cast_precision_loss, reason = "shown, not computed with")]
     pub fn new(same: u64, tosses: u64) -> Result<Self, InputError> {
-        require("tosses", tosses as f64, "at least 1", tosses > 0)?;
         require("same", same as f64, "0 to the number of tosses", same <= tosses)?;
         Ok(Self { same, tosses })
     }
@@ -40,58 +41,122 @@ impl SameSide {
     pub fn tosses(self) -> u64 {
         self.tosses
     }
+
+    /// The counts of `people` together.
+    ///
+    /// # Errors
+    /// [`InputError::Malformed`] if they tossed 2^64 coins or more.
+    pub fn sum(people: impl IntoIterator<Item = Self>) -> Result<Self, InputError> {
+        let add = |sum: Self, one: Self| {
+            let tosses = sum.tosses.checked_add(one.tosses)?;
+            Some(Self { same: sum.same + one.same, tosses })
+        };
+        let (value, expected) = ("2^64 or more".to_owned(), "fewer for all people together");
+        let sum = people.into_iter().try_fold(Self { same: 0, tosses: 0 }, add);
+        sum.ok_or(InputError::Malformed { field: "tosses", value, expected })
+    }
+
+    /// The share of landings on the same side, of at least one toss.
+    #[expect(clippy::cast_precision_loss, reason = "nobody tosses 2^53 coins")]
+    pub fn share(self) -> f64 {
+        self.same as f64 / self.tosses as f64
+    }
 }
 
-/// The wobble that explains counts.
+/// The wobble that explains counts. Intervals are at the confidence [`LEVEL`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wobble {
     /// The counts of all people together.
     pub counts: SameSide,
-    /// The share of landings on the same side.
+    /// Number of people with at least one toss.
+    pub people: usize,
+    /// The share of all landings on the same side.
     pub share: f64,
-    /// The interval of the share, at the confidence [`LEVEL`].
+    /// Clopper and Pearson's interval of the mean probability of these people, weighted by their tosses. It holds however
+    /// people differ, and says nothing about others.
+    pub these_flips: Interval,
+    /// The mean probability over people like these, each counted once; of one person the share.
+    pub mean: f64,
+    /// The interval of the mean over people; of one person `these_flips`.
     pub interval: Interval,
     /// What the interval means.
     pub interval_kind: String,
-    /// ψ (rad), from π/4 for a share of 1, which every smaller angle has too, to π/2 for a share of ½ or less.
-    pub angle: f64,
-    /// The smallest and the largest ψ (rad) that have a share in the interval.
-    pub angles: [f64; 2],
+    /// How much people differ; `None` for one person, and if all landings are the same.
+    pub spread: Option<Spread>,
+    /// Where the probability of a further person lies; `None` for fewer than three people.
+    pub next_person: Option<Interval>,
+    /// ψ; `None` if the whole interval is below ½, which no wobble explains.
+    pub cone: Option<Cone>,
 }
 
+/// The angle ψ between normal and angular momentum (rad), from π/4 for a share of 1, which every smaller angle has too, to
+/// π/2 for a share of ½ or less.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// ψ of the mean over people.
+    pub angle: f64,
+    /// The smallest and the largest ψ that have a share in the interval.
+    pub interval: [f64; 2],
+}
+
+/// Fewer people than these say little about others.
+pub const FEW_PEOPLE: usize = 6;
+
 impl Wobble {
-    /// The wobble of `people`, of whom there is at least one. A single person, or all tosses together, have Clopper and
-    /// Pearson's interval; several people have Student's, with the people as the sample.
+    /// The wobble of `people`. Those without a toss are passed over.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if there are no people; [`InputError::Malformed`] if they tossed 2^64 coins or more;
-    /// [`InputError::OutsideModel`] if even the upper end of the interval
-    /// is below ½, which no wobble explains.
-    #[expect(clippy::cast_precision_loss, reason = "nobody tosses 2^53 coins")]
+    /// [`InputError::OutOfRange`] if nobody tossed a coin, or if several people tossed more than 10^12, whose counts f64
+    /// could not tell apart well enough; [`InputError::Malformed`] if they tossed 2^64 coins or more.
+    #[expect(clippy::cast_precision_loss, reason = "several people have at most 10^12 tosses")]
     pub fn of(people: &[SameSide]) -> Result<Self, InputError> {
-        let sum = |field, part: fn(SameSide) -> u64| {
-            let sum = people.iter().try_fold(0_u64, |sum, person| sum.checked_add(part(*person)));
-            let value = "2^64 or more".to_owned();
-            sum.ok_or(InputError::Malformed { field, value, expected: "fewer for all people together" })
+        const MOST: u64 = 1_000_000_000_000;
+        let counts = SameSide::sum(people.iter().copied())?;
+        require("tosses", counts.tosses as f64, "at least 1", counts.tosses > 0)?;
+        let present: Vec<[f64; 2]> =
+            people.iter().filter(|one| one.tosses > 0).map(|one| [one.same as f64, one.tosses as f64]).collect();
+        let share = counts.share();
+        let these_flips = clopper_pearson(counts.same, counts.tosses, LEVEL);
+        let alone = Self {
+            counts,
+            people: present.len(),
+            share,
+            these_flips,
+            mean: share,
+            interval: these_flips,
+            interval_kind: "clopper-pearson 95 %".to_owned(),
+            spread: None,
+            next_person: None,
+            cone: Cone::of(share, these_flips)?,
         };
-        let counts = SameSide::new(sum("same", SameSide::same)?, sum("tosses", SameSide::tosses)?)?;
-        let share = counts.same as f64 / counts.tosses as f64;
-        // The share is a ratio of two sums over people, which to first order is the mean of one number for each person.
-        let weight = people.len() as f64 / counts.tosses as f64;
-        let of_one = |one: &SameSide| share + (one.same as f64 - share * one.tosses as f64) * weight;
-        let of_people = from_scrambles(&people.iter().map(of_one).collect::<Vec<_>>(), LEVEL);
-        let (interval, interval_kind) = match of_people {
-            Some(interval) => (interval, format!("student 95 % of {} people", people.len())),
-            None => (clopper_pearson(counts.same, counts.tosses, LEVEL), "clopper-pearson 95 %".to_owned()),
-        };
+        if present.len() == 1 {
+            return Ok(alone);
+        }
+        let valid = "at most 1e12 for several people together";
+        require("tosses", counts.tosses as f64, valid, counts.tosses <= MOST)?;
+        let people = People::new(present);
+        let (mean, interval) = people.mean(these_flips);
+        Ok(Self {
+            mean,
+            interval,
+            interval_kind: format!("beta-binomial 95 % of {} people", alone.people),
+            spread: people.spread(),
+            next_person: people.next_person(),
+            cone: Cone::of(mean, interval)?,
+            ..alone
+        })
+    }
+}
+
+impl Cone {
+    /// ψ of a share in an `interval`; `None` if that is below ½.
+    fn of(share: f64, interval: Interval) -> Result<Option<Self>, InputError> {
         if interval.hi < 0.5 {
-            let why = "no wobble explains so few landings on the same side: in long flights from horizontal they are at \
-                       least half";
-            return Err(InputError::OutsideModel { field: "same", why });
+            return Ok(None);
         }
         let angle = |share: f64| long_flight_cone(share.clamp(0.5, 1.0));
         let least = if interval.hi >= 1.0 { 0.0 } else { angle(interval.hi)? };
-        Ok(Self { counts, share, interval, interval_kind, angle: angle(share)?, angles: [least, angle(interval.lo)?] })
+        Ok(Some(Self { angle: angle(share)?, interval: [least, angle(interval.lo)?] }))
     }
 }
 
@@ -105,34 +170,35 @@ mod tests {
         for (same, tosses) in [(178_078, 350_757), (60, 100), (99, 100), (50, 100), (45, 100)] {
             let found = Wobble::of(&[SameSide::new(same, tosses).unwrap()]).unwrap();
             let share = |angle: f64| long_flight_probability(angle, angle);
-            assert!((share(found.angle) - found.share.max(0.5)).abs() < 1e-12, "{found:?}");
-            let [least, most] = found.angles;
-            assert!(least <= found.angle && found.angle <= most, "{found:?}");
+            let Cone { angle, interval: [least, most] } = found.cone.unwrap();
+            assert!((share(angle) - found.share.max(0.5)).abs() < 1e-12, "{found:?}");
+            assert!(least <= angle && angle <= most, "{found:?}");
             assert!((share(most) - found.interval.lo.max(0.5)).abs() < 1e-12, "{found:?}");
             assert!((share(least) - found.interval.hi).abs() < 1e-12, "{found:?}");
         }
-        let certain = Wobble::of(&[SameSide::new(9, 9).unwrap()]).unwrap();
-        assert_eq!((certain.angle, certain.angles[0]), (std::f64::consts::FRAC_PI_4, 0.0));
+        let certain = Wobble::of(&[SameSide::new(9, 9).unwrap()]).unwrap().cone.unwrap();
+        assert_eq!((certain.angle, certain.interval[0]), (std::f64::consts::FRAC_PI_4, 0.0));
     }
 
     #[test]
-    fn people_who_differ_have_a_wider_interval_than_their_tosses_together() {
-        let people = [(510, 1000), (590, 1000), (480, 1000)].map(|(same, tosses)| SameSide::new(same, tosses).unwrap());
-        let (apart, together) =
-            (Wobble::of(&people).unwrap(), Wobble::of(&[SameSide::new(1580, 3000).unwrap()]).unwrap());
-        assert_eq!((apart.counts, apart.share), (together.counts, together.share));
-        assert!(apart.interval.width() > 2.0 * together.interval.width());
-        assert_eq!(apart.interval_kind, "student 95 % of 3 people");
+    fn one_person_has_the_same_answer_alone_and_among_people_who_were_absent() {
+        let [absent, one] = [(0, 0), (56, 100)].map(|(same, tosses)| SameSide::new(same, tosses).unwrap());
+        let alone = Wobble::of(&[one]).unwrap();
+        assert_eq!(Wobble::of(&[absent, one, absent]).unwrap(), alone);
+        assert_eq!((alone.interval, alone.mean), (clopper_pearson(56, 100, LEVEL), 0.56));
+        assert_eq!((alone.interval_kind.as_str(), alone.spread), ("clopper-pearson 95 %", None));
     }
 
     #[test]
-    fn counts_that_cannot_be_or_that_no_wobble_explains_are_refused() {
-        assert_eq!(SameSide::new(0, 0).unwrap_err().field(), "tosses");
+    fn counts_that_cannot_be_are_refused_and_few_landings_have_no_wobble() {
         assert_eq!(SameSide::new(2, 1).unwrap_err().field(), "same");
+        let absent = SameSide::new(0, 0).unwrap();
+        assert_eq!(Wobble::of(&[]).unwrap_err(), Wobble::of(&[absent]).unwrap_err());
         assert_eq!(Wobble::of(&[]).unwrap_err().field(), "tosses");
-        let many = SameSide::new(u64::MAX, u64::MAX).unwrap();
-        assert_eq!(Wobble::of(&[many, many]).unwrap_err().field(), "same");
-        let few = Wobble::of(&[SameSide::new(10, 100).unwrap()]).unwrap_err();
-        assert!(matches!(few, InputError::OutsideModel { field: "same", .. }), "{few}");
+        let [most, many] = [u64::MAX, 500_000_000_001].map(|number| SameSide::new(number / 2, number).unwrap());
+        assert!(matches!(Wobble::of(&[most, most]).unwrap_err(), InputError::Malformed { field: "tosses", .. }));
+        assert!(matches!(Wobble::of(&[many, many]).unwrap_err(), InputError::OutOfRange { field: "tosses", .. }));
+        assert_eq!(Wobble::of(&[most]).unwrap().people, 1);
+        assert_eq!(Wobble::of(&[SameSide::new(10, 100).unwrap()]).unwrap().cone, None);
     }
 }

@@ -10,14 +10,14 @@
 //! ```text
 //! same side     0.5077, ψ = 81.2°
 //! all alike     0.5060 to 0.5094, ψ = 80.3° to 82.2° (95 %)
-//! 48 people     0.5039 to 0.5115, ψ = 79.2° to 83.7° (95 %)
+//! 48 people     0.5044 to 0.5157, ψ = 77.5° to 83.3° (95 %)
 //! the wobbliest 0.6007, ψ = 60.8°
 //! a US quarter  0.5075 ± 0.0005, 4000000 launches with that ψ
 //! ```
 //!
 //! At ψ = 90° a coin is fair. The first interval assumes that all flips are alike; it agrees with the interval in that
-//! paper's abstract, which has three digits. But people differ by more than chance. The second interval treats the
-//! people as the sample and is more than twice as wide.
+//! paper's abstract, which has three digits. But people differ by more than chance. The second interval is that of the mean
+//! over people, each counted once: it treats the people as the sample and is more than three times as wide.
 //!
 //! Three things are not accounted for: ψ may differ from flip to flip, coins need not leave the thumb flat, and flights
 //! may be short. So the angle would explain the share, but it need not be the mean of the real angles. The last line is
@@ -46,19 +46,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let counts = SAME.iter().zip(FLIPS).map(|(same, flips)| SameSide::new((*same).into(), flips.into()));
     let people = counts.collect::<Result<Vec<SameSide>, _>>()?;
     let apart = Wobble::of(&people)?;
-    let share = apart.share;
+    let (share, together) = (apart.share, Wobble::of(&[apart.counts])?);
     assert_eq!(apart.counts, SameSide::new(178_078, 350_757)?);
-    println!("same side     {share:.4}, ψ = {:.1}°", apart.angle.to_degrees());
-    println!("all alike     {}", text(&Wobble::of(&[apart.counts])?));
+    println!("same side     {share:.4}, ψ = {:.1}°", degrees(together.cone.map(|cone| cone.angle)));
+    println!("all alike     {}", text(&together));
     println!("48 people     {}", text(&apart));
     let alone = people.iter().map(|person| Wobble::of(&[*person])).collect::<Result<Vec<_>, _>>()?;
     let most = alone.iter().max_by(|one, other| one.share.total_cmp(&other.share)).ok_or("there are people")?;
-    println!("the wobbliest {:.4}, ψ = {:.1}°", most.share, most.angle.to_degrees());
+    println!("the wobbliest {:.4}, ψ = {:.1}°", most.share, degrees(most.cone.map(|cone| cone.angle)));
 
     let sample = of_a_quarter(share)?;
     let half_width = sample.half_width().ok_or("a sample has an interval")?;
     println!("a US quarter  {:.4} ± {half_width:.4}, {} launches with that ψ", sample.probability, sample.points);
-    // 1e-3 is four standard deviations of the sample, and a quarter of the half-width of the people's interval.
+    // 1e-3 is four standard deviations of the sample, and less than a fifth of the half-width of the people's interval.
     assert!((sample.probability - share).abs() < 1e-3);
     Ok(())
 }
@@ -76,6 +76,11 @@ fn of_a_quarter(share: f64) -> Result<Estimate, toss::Error> {
 
 /// The interval of the share with that of the angles. A smaller angle ψ belongs to a larger share.
 fn text(found: &Wobble) -> String {
-    let (interval, [least, most]) = (found.interval, found.angles.map(f64::to_degrees));
-    format!("{:.4} to {:.4}, ψ = {least:.1}° to {most:.1}° (95 %)", interval.lo, interval.hi)
+    let [least, most] = [0, 1].map(|end| degrees(found.cone.map(|cone| cone.interval[end])));
+    format!("{:.4} to {:.4}, ψ = {least:.1}° to {most:.1}° (95 %)", found.interval.lo, found.interval.hi)
+}
+
+/// An angle in degrees; not a number where no wobble explains the counts.
+fn degrees(angle: Option<f64>) -> f64 {
+    angle.map_or(f64::NAN, f64::to_degrees)
 }

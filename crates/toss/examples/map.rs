@@ -46,6 +46,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (rates, spins) = (&mapped.across.1, &mapped.up.1);
     for (spin, row) in spins.iter().zip(mapped.nodes.chunks(rates.len())).rev() {
         let certain = rates.iter().filter(|rate| **rate <= quarter.inertia_ratio() * spin).count();
+        let row = row.iter().map(|node| node.probability.ok_or("the exact motion decides all"));
+        let row = row.collect::<Result<Vec<f64>, _>>()?;
         let (left, right) = row.split_at(certain);
         println!("{spin:>3} {}/{}", text(left), text(right));
         assert!(left.iter().all(|probability| *probability == 1.0));

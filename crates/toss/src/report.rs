@@ -342,8 +342,8 @@ pub struct Estimate {
     pub counts: Option<Counts>,
     /// Number of launches.
     pub points: u64,
-    /// The probability of heads.
-    pub probability: f64,
+    /// The probability of heads, of the decided launches; `None` if none is decided.
+    pub probability: Option<f64>,
     /// Without counts: half the width of the interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_bound: Option<f64>,
@@ -399,7 +399,7 @@ impl Estimate {
         Self {
             counts,
             points: found.points,
-            probability: found.probability,
+            probability: found.is_known().then_some(found.probability),
             error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
             interval_kind: found.interval_kind.to_string(),
@@ -512,6 +512,7 @@ impl From<&LargestSpread> for Precision {
     fn from(found: &LargestSpread) -> Self {
         let (answer, found): (_, Option<&SufficientSpread>) = match found {
             LargestSpread::UpTo(found) => ("up_to", Some(found)),
+            LargestSpread::AtLeast(found) => ("at_least", Some(found)),
             LargestSpread::Any(found) => ("any", Some(found)),
             LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
             LargestSpread::BelowSmallest(_) => ("below_smallest", None),

@@ -9,7 +9,7 @@ from . import errors, given
 from ._native import Body, Plan, Solver, Space, Tally, Toss, __version__, bodies, solvers, spaces
 from .columns import Counts, attitude, cos_tilt, count, outcome
 from .planner import Choice, plan
-from .results import DenseOutput, Intervals, Inverse, Landing, Margins, Solution, Trace, Wobble, Work
+from .results import DenseOutput, Intervals, Inverse, Landing, Margins, PeopleSpread, Solution, Trace, Wobble, Work
 from .sampling import Estimate, estimate, merge, probability
 from .single import intervals, inverse, margins, rate_of_precession, toss, trace, wobble
 from .solving import solve
@@ -25,6 +25,7 @@ __all__ = [
     "Inverse",
     "Landing",
     "Margins",
+    "PeopleSpread",
     "Plan",
     "Solution",
     "Solver",

@@ -42,7 +42,7 @@ _Quaternion: TypeAlias = Sequence[float] | npt.NDArray[np.float64] | Rotation
 _Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 _Counts: TypeAlias = tuple[int, int, int, list[int] | None]
 _EstimateValues: TypeAlias = tuple[
-    float, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[tuple[str, int]] | None
+    float | None, tuple[float, float] | None, str, int, tuple[int, int, int] | None, list[tuple[str, int]] | None
 ]
 
 @final
@@ -234,10 +234,11 @@ def rate_of_precession(turn: float, wobble: float, body: str | Body) -> tuple[fl
 def wobble(
     same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body
 ) -> tuple[
-    tuple[int, int],
+    tuple[tuple[int, int], tuple[float, tuple[float, float]]],
     tuple[float, tuple[float, float], str],
+    tuple[tuple[float, tuple[float, float], float, float] | None, tuple[float, float] | None],
     tuple[float, float | None],
-    tuple[float, tuple[float, float]],
+    tuple[float, tuple[float, float]] | None,
     list[list[float]],
 ]: ...
 def trace(

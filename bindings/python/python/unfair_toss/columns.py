@@ -40,8 +40,9 @@ class Counts(ShownAsTable):
 
     @property
     def probability(self) -> float:
-        """The fraction of heads; NaN of no launches."""
-        return self.heads / self.points if self.points else float("nan")
+        """The fraction of heads among the decided launches; NaN if none is decided."""
+        decided = self.heads + self.tails
+        return self.heads / decided if decided else float("nan")
 
 
 STAGES = ("f64", "double_double", "multiprecision")

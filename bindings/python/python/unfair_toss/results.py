@@ -264,6 +264,28 @@ class Inverse(ShownAsTable):
     cone_angle: float
 
 
+@dataclass(frozen=True)
+class PeopleSpread(ShownAsTable):
+    """How much people differ.
+
+    Attributes
+    ----------
+    sd : float
+        Standard deviation of the probability between people.
+    interval : tuple of 2 floats
+        Its interval at a level of 95 %.
+    chi2 : float
+        Pearson's X² of the hypothesis that all people are alike.
+    p_value : float
+        How probable so large an X² is if they are.
+    """
+
+    sd: float
+    interval: tuple[float, float]
+    chi2: float
+    p_value: float
+
+
 @dataclass(frozen=True, eq=False)
 class Wobble(ShownAsTable, _HoldsArrays):
     """The wobble that explains counts. Intervals are at a level of 95 %.
@@ -274,20 +296,29 @@ class Wobble(ShownAsTable, _HoldsArrays):
         The counts of all people together.
     probability : float
         The share of tosses that landed on the side that had been up.
+    these_flips : tuple of 2 floats
+        The interval of the mean probability of these people, weighted by their tosses.
+    mean_over_people : float
+        The mean probability over people like these, each counted once; of one person ``probability``.
     interval : tuple of 2 floats
-        The interval of the share.
+        The interval of the mean over people; of one person ``these_flips``.
     interval_kind : str
         What the interval is.
+    spread : PeopleSpread or None
+        How much people differ; None for one person, and if all landings are the same.
+    next_person : tuple of 2 floats or None
+        Where the probability of a further person lies; None for fewer than three people.
     inertia_ratio : float
         k = I3/I1 of the coin.
     rate_ratio : float or None
-        √(ωx² + ωy²)/ωz; None for a share of ½ or less, at which the coin does not spin.
-    cone_angle : float
-        Angle ψ between the normal and the angular momentum in rad; π/2 for a share of ½ or less.
-    cone_angle_interval : tuple of 2 floats
-        The smallest and the largest ψ that have a share in the interval, in rad.
+        √(ωx² + ωy²)/ωz; None for a mean of ½ or less, at which the coin does not spin.
+    cone_angle : float or None
+        Angle ψ between the normal and the angular momentum in rad; π/2 for a mean of ½ or less, and None if the whole
+        interval is below ½, which no wobble explains.
+    cone_angle_interval : tuple of 2 floats or None
+        The smallest and the largest ψ that have a mean in the interval, in rad.
     each_cone_angle : ndarray of shape (n,)
-        ψ of each person alone in rad; NaN where no wobble explains the counts.
+        ψ of each person alone in rad; NaN without a toss, and where no wobble explains the counts.
     each_cone_angle_interval : ndarray of shape (n, 2)
         Its interval.
     """
@@ -295,12 +326,16 @@ class Wobble(ShownAsTable, _HoldsArrays):
     same_side: int
     tosses: int
     probability: float
+    these_flips: tuple[float, float]
+    mean_over_people: float
     interval: tuple[float, float]
     interval_kind: str
+    spread: PeopleSpread | None
+    next_person: tuple[float, float] | None
     inertia_ratio: float
     rate_ratio: float | None
-    cone_angle: float
-    cone_angle_interval: tuple[float, float]
+    cone_angle: float | None
+    cone_angle_interval: tuple[float, float] | None
     each_cone_angle: npt.NDArray[np.float64]
     each_cone_angle_interval: npt.NDArray[np.float64]
 

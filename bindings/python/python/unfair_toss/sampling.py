@@ -24,8 +24,8 @@ class Estimate(ShownAsTable):
 
     Attributes
     ----------
-    probability : float
-        From 0 to 1.
+    probability : float or None
+        From 0 to 1; of counts, the share of heads among the decided launches, and None if none is decided.
     interval : tuple of 2 floats or None
         The interval in which it lies: proven with enclosure, at a level of 95 % with others; a grid has none.
     interval_kind : str
@@ -42,7 +42,7 @@ class Estimate(ShownAsTable):
         Which launches were tried.
     """
 
-    probability: float
+    probability: float | None
     interval: tuple[float, float] | None
     interval_kind: str
     points: int
@@ -55,8 +55,8 @@ class Estimate(ShownAsTable):
 
     @property
     def half_width(self) -> float | None:
-        """Distance from the probability to the farther end of the interval; None without one."""
-        if self.interval is None:
+        """Distance from the probability to the farther end of the interval; None without one of both."""
+        if self.interval is None or self.probability is None:
             return None
         lo, hi = self.interval
         return max(self.probability - lo, hi - self.probability)

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from . import _native
 from ._native import Body, Solver, Toss
 from .labels import combined
-from .results import Intervals, Inverse, Landing, Margins, Trace, Wobble, Work
+from .results import Intervals, Inverse, Landing, Margins, PeopleSpread, Trace, Wobble, Work
 
 
 def toss(toss: Toss, solver: str | Solver = "exact") -> Landing:
@@ -193,15 +193,16 @@ def rate_of_precession(turn: float, wobble: float, body: str | Body = "paper") -
 def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "paper") -> Wobble:
     """The wobble that explains how often coins landed on the side that had been up.
 
-    It assumes long flights from horizontal, all with the same angle ψ; 180° - ψ explains the counts as well. People
-    differ, so several of them have Student's interval with the people as its sample; one has Clopper and Pearson's.
+    It assumes independent flips and long flights from horizontal, all with the same angle ψ; 180° - ψ explains the
+    counts as well. People differ, so ψ is that of the mean over people, who are the sample of its interval. One person
+    has Clopper and Pearson's. People without a toss are passed over.
 
     Parameters
     ----------
     same_side : int or array_like of int, one per person
         Numbers of tosses that landed on the side that had been up.
     tosses : int or array_like of int, one per person
-        Numbers of all tosses, at least 1.
+        Numbers of all tosses. One row per person: add up the rows of one before.
     body : str or Body
         A symmetric body, for the ratio of rates.
 
@@ -213,8 +214,7 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     Raises
     ------
     errors.InputError
-        For counts that cannot be, with the person's number as ``.index``; and if no wobble explains them, because even
-        the upper end of the interval is below ½.
+        For counts that cannot be, with the person's number as ``.index``; and if nobody tossed a coin.
 
     Examples
     --------
@@ -224,6 +224,10 @@ def wobble(same_side: npt.ArrayLike, tosses: npt.ArrayLike, body: str | Body = "
     81.16
     """
     counts, _ = combined({"same_side": same_side, "tosses": tosses})
-    (same, of), (share, interval, kind), (k, ratio), (angle, ends), people = _native.wobble(**counts, body=body)
+    ((same, of), (share, these)), mean, (differ, further), rates, cone, people = _native.wobble(**counts, body=body)
+    (over_people, interval, kind), (k, ratio), (angle, ends) = mean, rates, cone or (None, None)
+    spread = None if differ is None else PeopleSpread(*differ)
     each = np.array(people)
-    return Wobble(same, of, share, interval, kind, k, ratio, angle, ends, each[:, 0], each[:, 1:])
+    return Wobble(
+        same, of, share, these, over_people, interval, kind, spread, further, k, ratio, angle, ends, each[:, 0], each[:, 1:]
+    )

@@ -41,7 +41,9 @@ fn draw_share(chart: &mut Frame<'_, '_>, found: &LongFlightShare) -> Drawn {
             chart.draw_series(LineSeries::new(cap, VERMILION.stroke_width(3)))?;
         }
     }
-    chart.draw_series([Circle::new((angle, found.estimate.probability), 7, VERMILION.filled())])?;
+    if found.estimate.is_known() {
+        chart.draw_series([Circle::new((angle, found.estimate.probability), 7, VERMILION.filled())])?;
+    }
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use chart::{Axis, ChartError, Drawn, Panel, TEXT, VERMILION, centred, frame, svg};
 use plotters::prelude::*;
-use sampling::{CertainLine, Map, Piece, Space, certain_line};
+use sampling::{CertainLine, Map, Node, Piece, Space, certain_line};
 
 /// Twice the size at which it is read.
 const SIZE: (u32, u32) = (1500, 1300);
@@ -17,6 +17,11 @@ const COLOURS: [(f64, f64, f64); 3] = [(0.0, 34.0, 78.0), (124.0, 123.0, 120.0),
 /// Steps of the colour scale; neighbours in a row with the same step are one rectangle.
 const STEPS: f64 = 100.0;
 
+/// The colour of a node; of one where nothing is known, white, which is on no scale.
+fn colour_of(node: &Node) -> RGBColor {
+    node.probability.map_or(WHITE, colour)
+}
+
 fn colour(probability: f64) -> RGBColor {
     let stepped = (probability * STEPS).round() / STEPS;
     let (from, to, part) = if stepped < 0.5 { (0, 1, 2.0 * stepped) } else { (1, 2, 2.0 * stepped - 1.0) };
@@ -29,6 +34,8 @@ fn colour(probability: f64) -> RGBColor {
 /// The map, which is of `space`, as SVG. Its title says `of` what it is.
 pub(crate) fn map(map: &Map, space: &Space, of: &str) -> Result<String, ChartError> {
     let line = certain_line(map, space);
+    let is_unknown = map.nodes.iter().any(|node| node.probability.is_none());
+    let of = &if is_unknown { format!("{of}; white: no launch is decided") } else { of.to_owned() };
     svg(SIZE, |root| {
         let (head, body) = root.split_vertically(HEAD);
         let (left, right) = body.split_horizontally(SIZE.0 - 200);
@@ -53,11 +60,11 @@ fn draw_map(panel: &Panel<'_>, map: &Map, line: &[Piece]) -> Drawn {
     let mut chart = frame(panel, "", (&x_axis, &y_axis), 20)?;
     for (row, nodes) in map.nodes.chunks(columns.len()).enumerate() {
         let mut start = 0;
-        for run in nodes.chunk_by(|a, b| colour(*a) == colour(*b)) {
+        for run in nodes.chunk_by(|a, b| colour_of(a) == colour_of(b)) {
             // It reaches one cell too far, and the next ones are drawn over it: so no seams are seen.
             let end = (x[(start + run.len() + 1).min(columns.len())], y[(row + 2).min(rows.len())]);
             let corners = [(x[start], y[row]), end];
-            chart.draw_series([Rectangle::new(corners, colour(run[0]).filled())])?;
+            chart.draw_series([Rectangle::new(corners, colour_of(&run[0]).filled())])?;
             start += run.len();
         }
     }

@@ -5,12 +5,13 @@
 use std::path::Path;
 
 use dynamics::quantity::read_count;
-use sampling::{SameSide, Wobble, long_flight_cone, rate_ratio};
+use sampling::{Cone, FEW_PEOPLE, Interval, SameSide, Spread, Wobble, long_flight_cone, rate_ratio};
 use serde::Serialize;
 use toss::{Coin, InputError};
 
 use crate::failure::Failure;
-use crate::output::{self, FormatArgs, Input, row, table};
+use crate::output::{FormatArgs, Input, row, table};
+use crate::people_file::{self, Named};
 use crate::quantity;
 use crate::toss_args::CoinArgs;
 
@@ -34,29 +35,45 @@ struct Rates {
     /// The wanted probability, or the share that was counted.
     probability: f64,
     inertia_ratio: f64,
-    /// Ω/ωz; `None` for a share of ½ or less, which needs ωz = 0.
+    /// Ω/ωz; `None` for a mean share of ½ or less, which needs ωz = 0.
     rate_ratio: Option<f64>,
-    /// ψ (rad).
-    cone_angle: f64,
+    /// ψ (rad); `None` if no wobble explains the counts.
+    cone_angle: Option<f64>,
     #[serde(flatten)]
     counted: Option<Counted>,
 }
 
-/// What is known of a wobble that was found from counts.
+/// What is known of people and of a wobble from counts.
 #[derive(Serialize)]
 struct Counted {
     same: u64,
     tosses: u64,
+    these_flips: [f64; 2],
+    mean_over_people: f64,
     interval: [f64; 2],
     interval_kind: String,
+    spread: Option<Differences>,
+    next_person: Option<[f64; 2]>,
     /// The smallest and the largest ψ (rad).
-    cone_angle_interval: [f64; 2],
+    cone_angle_interval: Option<[f64; 2]>,
     people: Vec<Person>,
+    /// How many people tossed nothing.
+    absent: usize,
+}
+
+/// How much people differ.
+#[derive(Serialize)]
+struct Differences {
+    sd: f64,
+    interval: [f64; 2],
+    chi2: f64,
+    p_value: f64,
 }
 
 /// A person of several, alone.
 #[derive(Serialize)]
 struct Person {
+    person: String,
     same: u64,
     tosses: u64,
     probability: f64,
@@ -78,112 +95,84 @@ impl Args {
 }
 
 /// The people of `K/N` or of a file.
-fn people(text: &str) -> Result<Vec<SameSide>, Failure> {
+fn people(text: &str) -> Result<Vec<Named>, Failure> {
     const EXPECTED: &str = "K/N with whole numbers, such as 178078/350757, or a file that ends in .csv";
     if text.ends_with(".csv") {
-        return read(Path::new(text));
+        return people_file::read(Path::new(text));
     }
     let unreadable = || InputError::unreadable("counts", text, EXPECTED);
     let (same, tosses) = text.split_once('/').ok_or_else(unreadable)?;
     let numbers = read_count(same).zip(read_count(tosses));
     let (same, tosses) = numbers.ok_or_else(unreadable)?;
-    let person = SameSide::new(same, tosses).map_err(|source| Failure::value("counts", source))?;
-    Ok(vec![person])
+    let counts = SameSide::new(same, tosses).map_err(|source| Failure::value("counts", source))?;
+    Ok(vec![Named { name: "1".to_owned(), counts }])
 }
 
-/// The people in a file, one a row, in the columns `same` and `tosses`; others are passed over.
-fn read(path: &Path) -> Result<Vec<SameSide>, Failure> {
-    let text = output::read("counts", path)?;
-    let at = |line: u64, source: InputError| Failure::Row { path: path.display().to_string(), line, source };
-    let unreadable = |error: &csv::Error| {
-        let line = error.position().map_or(1, csv::Position::line);
-        at(line, InputError::Malformed { field: "counts", value: error.to_string(), expected: "a table of CSV" })
-    };
-    let mut table = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-    let heading = table.headers().map_err(|error| unreadable(&error))?.clone();
-    let place = |field: &'static str| {
-        let missing = InputError::Missing { field, expected: "the columns same and tosses in the heading" };
-        heading.iter().position(|name| name == field).ok_or_else(|| at(1, missing))
-    };
-    let places = [("same", place("same")?), ("tosses", place("tosses")?)];
-    let person = |record: Result<csv::StringRecord, csv::Error>| {
-        let record = record.map_err(|error| unreadable(&error))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |(field, place): (&'static str, usize)| {
-            let cell = record.get(place).unwrap_or_default();
-            let malformed = || InputError::unreadable(field, cell, "a whole number, such as 1000");
-            read_count(cell).ok_or_else(malformed).map_err(|source| at(line, source))
-        };
-        let [same, tosses] = places;
-        SameSide::new(number(same)?, number(tosses)?).map_err(|source| at(line, source))
-    };
-    let people = table.into_records().map(person).collect::<Result<Vec<_>, _>>()?;
-    let nobody = InputError::Missing { field: "counts", expected: "a person in a row below the heading" };
-    if people.is_empty() { Err(at(1, nobody)) } else { Ok(people) }
+fn ends(Interval { lo, hi }: Interval) -> [f64; 2] {
+    [lo, hi]
 }
 
 impl Rates {
     fn wanted(coin: Coin, probability: f64) -> Result<Self, Failure> {
-        let (cone_angle, inertia_ratio) = (long_flight_cone(probability)?, coin.inertia_ratio());
+        let (cone_angle, inertia_ratio) = (Some(long_flight_cone(probability)?), coin.inertia_ratio());
         let rate_ratio = Some(rate_ratio(probability, inertia_ratio)?);
         Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted: None })
     }
 
-    fn counted(coin: Coin, people: &[SameSide]) -> Result<Self, Failure> {
-        let found = Wobble::of(people).map_err(|source| Failure::value("counts", source))?;
+    fn counted(coin: Coin, people: &[Named]) -> Result<Self, Failure> {
+        let counts: Vec<SameSide> = people.iter().map(|person| person.counts).collect();
+        let found = Wobble::of(&counts).map_err(|source| Failure::value("counts", source))?;
         let inertia_ratio = coin.inertia_ratio();
-        let rate_ratio = (found.share > 0.5).then(|| rate_ratio(found.share, inertia_ratio)).transpose()?;
+        let rate_ratio = (found.mean > 0.5).then(|| rate_ratio(found.mean, inertia_ratio)).transpose()?;
+        let present = people.iter().filter(|person| person.counts.tosses() > 0);
         let counted = Counted {
             same: found.counts.same(),
             tosses: found.counts.tosses(),
-            interval: [found.interval.lo, found.interval.hi],
+            these_flips: ends(found.these_flips),
+            mean_over_people: found.mean,
+            interval: ends(found.interval),
             interval_kind: found.interval_kind,
-            cone_angle_interval: found.angles,
-            people: if people.len() > 1 { people.iter().map(Person::new).collect() } else { Vec::new() },
+            spread: found.spread.map(Differences::new),
+            next_person: found.next_person.map(ends),
+            cone_angle_interval: found.cone.map(|cone| cone.interval),
+            people: if found.people > 1 { present.map(Person::new).collect() } else { Vec::new() },
+            absent: people.len() - found.people,
         };
-        let (probability, cone_angle) = (found.share, found.angle);
-        Ok(Self { probability, inertia_ratio, rate_ratio, cone_angle, counted: Some(counted) })
+        let cone_angle = found.cone.map(|cone| cone.angle);
+        Ok(Self { probability: found.share, inertia_ratio, rate_ratio, cone_angle, counted: Some(counted) })
     }
 
     /// `is_of_a_coin`: whether the coin was given. ψ is the same for all coins, the ratio of the rates is not.
     fn text(&self, is_of_a_coin: bool) -> String {
-        let Self { probability, inertia_ratio, cone_angle, .. } = self;
+        let Self { probability, inertia_ratio, .. } = self;
         let ratio = self.rate_ratio.map(|ratio| format!("Ω/ωz         {ratio}"));
         let coin = format!("coin         k = {inertia_ratio}");
         let Some(counted) = &self.counted else {
             let wanted = format!("P(heads)     {probability}, in the limit of long flights from horizontal");
-            let angle = format!("ψ            {}°", cone_angle.to_degrees());
-            return [Some(wanted), ratio, Some(angle), Some(coin)].into_iter().flatten().collect::<Vec<_>>().join("\n");
+            let angle = self.cone_angle.map(|angle| format!("ψ            {}°", angle.to_degrees()));
+            return [Some(wanted), ratio, angle, Some(coin)].into_iter().flatten().collect::<Vec<_>>().join("\n");
         };
-        let Counted { same, tosses, interval: [lo, hi], interval_kind, .. } = counted;
-        let mut lines = vec![
-            format!("same side    {same} of {tosses}, {probability:.6}"),
-            format!("interval     {lo:.6} to {hi:.6} ({interval_kind})"),
-            format!("ψ            {}", self.angle(counted)),
-        ];
+        let mut lines = vec![format!("same side    {} of {}, {probability:.6}", counted.same, counted.tosses)];
+        lines.extend(counted.shares());
+        lines.push(format!("ψ            {}", self.angle(counted)));
         lines.extend(ratio.filter(|_| is_of_a_coin).map(|ratio| [ratio, coin]).into_iter().flatten());
         lines.push(
-            "assumed      long flights from horizontal, all with this ψ; 180° - ψ explains them as well".to_owned(),
+            "assumed      independent flips; long flights from horizontal, all with this ψ; 180° - ψ explains them as well"
+                .to_owned(),
         );
-        if !counted.people.is_empty() {
-            let heading = row(["person", "same", "tosses", "share", "ψ/°", "from", "to"]);
-            let people = counted.people.iter().zip(1..).map(|(person, number)| person.cells(number));
-            lines.push(table(&std::iter::once(heading).chain(people).collect::<Vec<_>>()));
-        }
-        if counted.people.iter().any(|person| person.cone_angle.is_none()) {
-            lines.push(
-                "-            the whole interval of this person's share is below 1/2, which no ψ explains".to_owned(),
-            );
-        }
+        lines.extend(counted.notes());
+        lines.extend(counted.table());
         lines.join("\n")
     }
 
     /// ψ with its interval. At a share of ½ or less it is 90°, and at 1 any angle up to 45° serves.
-    fn angle(&self, Counted { cone_angle_interval, interval: [lo, _], .. }: &Counted) -> String {
-        let angle = self.cone_angle.to_degrees();
-        let [least, most] = cone_angle_interval.map(f64::to_degrees);
-        match self.probability {
-            share if share <= 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
+    fn angle(&self, Counted { cone_angle_interval, mean_over_people, interval: [lo, _], .. }: &Counted) -> String {
+        let (Some(angle), Some(ends)) = (self.cone_angle, cone_angle_interval) else {
+            return "none: no wobble explains this, as the whole interval is below 1/2".to_owned();
+        };
+        let (angle, [least, most]) = (angle.to_degrees(), ends.map(f64::to_degrees));
+        match *mean_over_people {
+            share if share < 0.5 => format!("from {least:.2}° to {most:.2}°; none explains a share below 1/2"),
             share if share >= 1.0 => format!("any up to {angle:.2}°, and with the interval up to {most:.2}°"),
             _ if *lo <= 0.5 => format!("{angle:.2}°, from {least:.2}° to {most:.2}°, as a share of 1/2 is possible"),
             _ => format!("{angle:.2}°, from {least:.2}° to {most:.2}°"),
@@ -191,26 +180,87 @@ impl Rates {
     }
 }
 
+impl Counted {
+    /// The lines about the shares of these people, of all, and of a further one.
+    fn shares(&self) -> Vec<String> {
+        let Self { these_flips: [least, most], mean_over_people, interval: [lo, hi], interval_kind, people, .. } = self;
+        if people.is_empty() {
+            return vec![format!("interval     {lo:.6} to {hi:.6} ({interval_kind})")];
+        }
+        let number = people.len();
+        let spread = self.spread.as_ref().map_or_else(
+            || "not known, as all landings are the same".to_owned(),
+            |Differences { sd, interval: [lo, hi], p_value, .. }| {
+                let p_value = if *p_value < 1e-3 { format!("{p_value:.0e}") } else { format!("{p_value:.3}") };
+                format!("{sd:.4} between people, from {lo:.4} to {hi:.4} (95 %); if all are alike, p = {p_value}")
+            },
+        );
+        let mut lines = vec![
+            format!(
+                "these flips  {least:.6} to {most:.6} (clopper-pearson 95 %: the mean of these {number} people, by their flips)"
+            ),
+            format!(
+                "all people   {mean_over_people:.6}, from {lo:.6} to {hi:.6} (beta-binomial 95 %: the mean over people, of whom these \
+                 {number} are a sample)"
+            ),
+            format!("spread       {spread}"),
+        ];
+        lines.extend(self.next_person.map(|[lo, hi]| format!("next person  from {lo:.3} to {hi:.3} (95 %)")));
+        lines
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let number = self.people.len();
+        let few = format!("note         {number} people say little about others");
+        let (are, absent) = (if self.absent == 1 { "person is" } else { "people are" }, self.absent);
+        let absent = format!("note         {absent} {are} passed over, without a toss");
+        let said = [(self.absent > 0, absent), ((2..FEW_PEOPLE).contains(&number), few)];
+        said.into_iter().filter_map(|(is_so, note)| is_so.then_some(note)).collect()
+    }
+
+    /// Each of several people alone.
+    fn table(&self) -> Vec<String> {
+        if self.people.is_empty() {
+            return Vec::new();
+        }
+        let heading = row(["person", "same", "tosses", "share", "ψ/°", "from", "to"]);
+        let rows = std::iter::once(heading).chain(self.people.iter().map(Person::cells));
+        let mut lines = vec![table(&rows.collect::<Vec<_>>())];
+        if self.people.iter().any(|person| person.cone_angle.is_none()) {
+            lines.push(
+                "-            the whole interval of this person's share is below 1/2, which no ψ explains".to_owned(),
+            );
+        }
+        lines.push("from, to     95 % of this person alone; by chance, one row in 20 misses".to_owned());
+        lines
+    }
+}
+
+impl Differences {
+    fn new(Spread { sd, interval, chi2, p_value }: Spread) -> Self {
+        Self { sd, interval: ends(interval), chi2, p_value }
+    }
+}
+
 impl Person {
-    fn new(counts: &SameSide) -> Self {
-        let found = Wobble::of(&[*counts]).ok();
-        #[expect(clippy::cast_precision_loss, reason = "nobody tosses 2^53 coins")]
-        let probability = counts.same() as f64 / counts.tosses() as f64;
+    fn new(Named { name, counts }: &Named) -> Self {
+        let cone: Option<Cone> = Wobble::of(&[*counts]).ok().and_then(|found| found.cone);
         Self {
+            person: name.clone(),
             same: counts.same(),
             tosses: counts.tosses(),
-            probability,
-            cone_angle: found.as_ref().map(|found| found.angle),
-            cone_angle_interval: found.map(|found| found.angles),
+            probability: counts.share(),
+            cone_angle: cone.map(|cone| cone.angle),
+            cone_angle_interval: cone.map(|cone| cone.interval),
         }
     }
 
-    fn cells(&self, number: usize) -> Vec<String> {
+    fn cells(&self) -> Vec<String> {
         let degrees =
             |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), |angle| format!("{:.2}", angle.to_degrees()));
         let [least, most] = [0, 1].map(|end| degrees(self.cone_angle_interval.map(|angles| angles[end])));
         let (share, counts) =
             (format!("{:.6}", self.probability), [self.same, self.tosses].map(|count| count.to_string()));
-        row([&number.to_string(), &counts[0], &counts[1], &share, &degrees(self.cone_angle), &least, &most])
+        row([&self.person, &counts[0], &counts[1], &share, &degrees(self.cone_angle), &least, &most])
     }
 }

@@ -39,9 +39,28 @@ struct Line {
     cone_angle: f64,
     limit: f64,
     launches: u64,
-    share: f64,
+    share: Option<f64>,
     share_lo: Option<f64>,
     share_hi: Option<f64>,
+}
+
+/// A line in a series with undecided flights.
+#[derive(Serialize)]
+struct Undecided {
+    cone_angle: f64,
+    limit: f64,
+    launches: u64,
+    share: Option<f64>,
+    share_lo: Option<f64>,
+    share_hi: Option<f64>,
+    undecided: u64,
+}
+
+impl Line {
+    fn with(&self, undecided: u64) -> Undecided {
+        let Self { cone_angle, limit, launches, share, share_lo, share_hi } = *self;
+        Undecided { cone_angle, limit, launches, share, share_lo, share_hi, undecided }
+    }
 }
 
 impl Args {
@@ -58,11 +77,16 @@ impl Args {
             cone_angle: found.cone_angle,
             limit: found.limit,
             launches: found.estimate.points,
-            share: found.estimate.probability,
+            share: found.estimate.is_known().then_some(found.estimate.probability),
             share_lo: found.estimate.interval.map(|interval| interval.lo),
             share_hi: found.estimate.interval.map(|interval| interval.hi),
         };
         let lines: Vec<Line> = shares.iter().map(line).collect();
-        self.series.answer_lines(input, &lines, || Ok(chart::limit(&shares)?))
+        let draw = || Ok(chart::limit(&shares)?);
+        if shares.iter().all(|found| found.estimate.undecided() == 0) {
+            return self.series.answer_lines(input, &lines, draw);
+        }
+        let undecided = lines.iter().zip(&shares).map(|(line, found)| line.with(found.estimate.undecided()));
+        self.series.answer_lines(input, &undecided.collect::<Vec<_>>(), draw)
     }
 }

@@ -1,7 +1,7 @@
 //! `unfair-toss map` computes the probability of heads at the nodes of a grid over two coordinates of a space. The
 //! other coordinates are sampled at each node.
 
-use sampling::{Coordinate, Map, Method, Plan, Sampler, Space, map_nodes};
+use sampling::{Coordinate, Map, Method, Node, Plan, Sampler, Space, map_nodes};
 use serde::Serialize;
 use toss::{InputError, Registry};
 
@@ -71,12 +71,18 @@ fn launches_of(plan: Plan, space: &Space) -> Result<u64, InputError> {
     if let Plan::Enclosure { .. } = plan { Ok(USUAL) } else { plan.points(space) }
 }
 
-/// Formats the map as CSV with one line per node.
+/// Formats the map as CSV with one line per node. Undecided launches have a column if there are any, and a node where no
+/// launch is decided has no probability.
 fn csv(map: &Map) -> String {
     let ((across, columns), (up, rows)) = (&map.across, &map.up);
-    let heading = format!("{},{},probability\n", across.name(), up.name());
+    let is_undecided = map.nodes.iter().any(|node| node.undecided > 0);
+    let undecided = |what: &str| if is_undecided { format!(",{what}") } else { String::new() };
+    let heading = format!("{},{},probability{}\n", across.name(), up.name(), undecided("undecided"));
     let places = rows.iter().flat_map(|row| columns.iter().map(move |column| (column, row)));
-    let lines = places.zip(&map.nodes).map(|((column, row), probability)| format!("{column},{row},{probability}\n"));
+    let lines = places.zip(&map.nodes).map(|((column, row), node)| {
+        let probability = node.probability.map_or_else(String::new, |probability| probability.to_string());
+        format!("{column},{row},{probability}{}\n", undecided(&node.undecided.to_string()))
+    });
     std::iter::once(heading).chain(lines).collect()
 }
 
@@ -86,19 +92,29 @@ struct Nodes<'a> {
     up: &'static str,
     across_values: &'a [f64],
     up_values: &'a [f64],
-    /// A row for each value of `up`.
-    probability: Vec<Vec<f64>>,
+    /// A row for each value of `up`; `None` where no launch is decided.
+    probability: Vec<Vec<Option<f64>>>,
+    /// Likewise the numbers of undecided launches, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<Vec<Vec<u64>>>,
 }
 
 impl<'a> From<&'a Map> for Nodes<'a> {
     fn from(map: &'a Map) -> Self {
         let ((across, columns), (up, rows)) = (&map.across, &map.up);
+        let is_undecided = map.nodes.iter().any(|node| node.undecided > 0);
         Self {
             across: across.name(),
             up: up.name(),
             across_values: columns,
             up_values: rows,
-            probability: map.nodes.chunks(columns.len()).map(<[f64]>::to_vec).collect(),
+            probability: table(map, |node| node.probability),
+            undecided: is_undecided.then(|| table(map, |node| node.undecided)),
         }
     }
+}
+
+/// A value of each node, row by row.
+fn table<T>(map: &Map, value: impl Fn(&Node) -> T) -> Vec<Vec<T>> {
+    map.nodes.chunks(map.across.1.len()).map(|row| row.iter().map(&value).collect()).collect()
 }

@@ -3,10 +3,12 @@
 //! smaller spreads were looked at.
 
 use dynamics::quantity::Given;
-use sampling::{Coordinate, HAND, LARGEST_SPREAD, LargestSpread, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread};
+use sampling::{
+    Coordinate, HAND, LARGEST_SPREAD, LargestSpread, RESOLUTION, SMALLEST_SPREAD, Scrambled, Space, SufficientSpread,
+};
 use serde::Serialize;
 use toss::report::Precision;
-use toss::{Error, TimeOfFlight, Toss};
+use toss::{Error, Outcome, TimeOfFlight, Toss};
 
 use crate::failure::Failure;
 use crate::output::{FormatArgs, Input};
@@ -54,7 +56,7 @@ impl Args {
     pub(crate) fn run(&self, input: &Input) -> Result<String, Failure> {
         let space = self.space()?;
         let (together, alone) = self.threads.run(|| self.answers(&space))??;
-        Ok(self.format.print(input, &Spreads::new(&together, &alone), || text(&together, &alone)))
+        Ok(self.format.print(input, &Spreads::new(&together, &alone), || text(self.heads, &together, &alone)))
     }
 
     /// The space that consists of the toss alone.
@@ -86,7 +88,7 @@ impl Args {
 /// The spread with what is known of it, if there is one.
 fn sufficient(found: &LargestSpread) -> Option<&SufficientSpread> {
     match found {
-        LargestSpread::UpTo(found) | LargestSpread::Any(found) => Some(found),
+        LargestSpread::UpTo(found) | LargestSpread::AtLeast(found) | LargestSpread::Any(found) => Some(found),
         LargestSpread::TossIsNotHeads(_) | LargestSpread::BelowSmallest(_) => None,
     }
 }
@@ -104,16 +106,22 @@ impl Spreads {
     }
 }
 
-fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
+fn text(heads: f64, together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> String {
     let mut lines = vec![format!("spread       {}", in_words(together))];
     if let Some(SufficientSpread { estimate, looks, at_least, .. }) = sufficient(together) {
         lines.push(format!("P(heads)     {:.6} at this spread", estimate.probability));
         let interval = estimate.interval.map(|interval| format!("{:.6} to {:.6} ", interval.lo, interval.hi));
         lines.push(format!("interval     {}({})", interval.unwrap_or_default(), estimate.interval_kind));
-        let (at_least, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
-        lines.push(format!(
-            "looked at    {looks} spreads from {from:.0e} % on, with P(heads) >= {at_least:.6} in between"
-        ));
+        let (shown, from) = ((at_least * 1e6).floor() / 1e6, 100.0 * SMALLEST_SPREAD);
+        lines
+            .push(format!("looked at    {looks} spreads from {from:.0e} % on, with P(heads) >= {shown:.6} in between"));
+        let enough = heads - RESOLUTION.min(0.1 * (1.0 - heads));
+        if estimate.interval.is_some_and(|interval| interval.lo < enough) {
+            lines.push(
+                "note         the interval reaches lower: it takes more --points to show P(heads) so near to 1"
+                    .to_owned(),
+            );
+        }
         let each = alone.iter().zip(["ωx", "ωy", "ωz", "v0"]);
         let each: Vec<String> = each.map(|((_, found), name)| format!("{name} {}", in_short(found))).collect();
         lines.push(format!("each alone   {}", each.join(", ")));
@@ -126,7 +134,13 @@ fn text(together: &LargestSpread, alone: &[(Coordinate, LargestSpread)]) -> Stri
 fn in_words(found: &LargestSpread) -> String {
     match found {
         LargestSpread::UpTo(..) => format!("{} of each rate and of the speed", in_short(found)),
+        LargestSpread::AtLeast(_) => {
+            format!("{} of each rate and of the speed; the search ended there, by its budget", in_short(found))
+        }
         LargestSpread::Any(_) => format!("any up to {:.0} %, the largest that is tried", 100.0 * LARGEST_SPREAD),
+        LargestSpread::TossIsNotHeads(Outcome::Undecided) => {
+            "none is small enough: whether the toss itself lands heads is undecided".to_owned()
+        }
         LargestSpread::TossIsNotHeads(landing) => {
             format!("none is small enough: the toss itself lands {landing}, and P(heads) goes to 0 with the spread")
         }
@@ -140,11 +154,12 @@ fn in_words(found: &LargestSpread) -> String {
 fn in_short(found: &LargestSpread) -> String {
     match (found, sufficient(found)) {
         (LargestSpread::Any(_), _) => "any".to_owned(),
-        (_, Some(found)) => {
-            let percent = 100.0 * found.spread;
+        (_, Some(sufficient)) => {
+            let percent = 100.0 * sufficient.spread;
+            let at_least = if matches!(found, LargestSpread::AtLeast(_)) { "at least " } else { "" };
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 12")]
             let digits = (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize;
-            format!("{percent:.digits$} %")
+            format!("{at_least}{percent:.digits$} %")
         }
         _ => format!("below {:.0e} %", 100.0 * SMALLEST_SPREAD),
     }

@@ -45,14 +45,17 @@ fn a_wobble_explains_counts_of_one_hand_and_of_people() {
         (&found["same"], &found["tosses"], found["people"].as_array().unwrap().len()),
         (&137.into(), &300.into(), 3)
     );
-    assert!(found["people"][2]["cone_angle"].is_null() && found["interval_kind"] == "student 95 % of 3 people");
-    assert!(stdout(&run(&people)).contains("assumed      long flights from horizontal"));
+    assert!(found["people"][2]["cone_angle"].is_null() && found["interval_kind"] == "beta-binomial 95 % of 3 people");
+    assert_eq!((&found["people"][1]["person"], &found["absent"]), (&"B".into(), &0.into()));
+    assert!(stdout(&run(&people)).contains("assumed      independent flips; long flights from horizontal"));
     for (text, line, field, words) in [
         ("same,tosses\n3,4\n5,4\n", 3, "same", "same = 5.0 is outside its valid range: 0 to the number of tosses"),
-        ("same,tosses\n0,0\n", 2, "tosses", "tosses = 0.0 is outside its valid range: at least 1"),
+        ("same,tosses\n0,0\n", 1, "counts", "a person with a toss in a row"),
+        ("same,tosses\r\n\r\n1,0\r\n", 3, "same", "same = 1.0 is outside its valid range: 0 to the number of tosses"),
+        ("same,tosses,same\n1,4,1\n", 1, "same", "same = 'columns 1 and 3' can't be used: expected one column"),
         ("same,tosses\n-1,4\n", 2, "same", "same = '-1' can't be used: expected a whole number"),
         ("same,flips\n1,4\n", 1, "tosses", "tosses is missing: expected the columns same and tosses"),
-        ("same,tosses\n", 1, "counts", "a person in a row"),
+        ("same,tosses\n", 1, "counts", "a person with a toss in a row"),
         ("same,tosses\n1,2,3\n", 2, "counts", "a table of CSV"),
     ] {
         let command = counted(text);
@@ -61,4 +64,28 @@ fn a_wobble_explains_counts_of_one_hand_and_of_people() {
         let said = stderr(&run(&command));
         assert!(said.contains(&format!("people.csv, line {line}: ")) && said.contains(words), "{said}");
     }
+}
+
+#[test]
+fn an_interval_below_a_half_has_no_wobble_and_an_absent_person_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("people.csv");
+    let counts = format!("inverse --counts {}", path.display());
+    std::fs::write(&path, "person,same,tosses\nA,430,1000\nB,441,1000\nC,0,0\nD,425,1000\nA,7,10\n").unwrap();
+    let few = json(&counts, 0);
+    assert!(few["cone_angle"].is_null() && few["cone_angle_interval"].is_null() && few["rate_ratio"].is_null());
+    assert_eq!((&few["absent"], few["people"][0]["tosses"].as_u64()), (&1.into(), Some(1010)));
+    let text = stdout(&run(&counts));
+    for line in [
+        "ψ            none: no wobble explains this",
+        "note         1 person is passed over, without a toss",
+        "note         3 people say little about others",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+    assert!(json("inverse --counts 10/100", 0)["cone_angle"].is_null());
+    assert!(stdout(&run("inverse --counts 50/100")).contains("ψ            90.00°, from 60.73° to 90.00°"));
+    std::fs::write(&path, "same,tosses\n20,20\n20,20\n").unwrap();
+    let all = json(&counts, 0);
+    assert!(all["spread"].is_null() && all["next_person"].is_null() && all["interval"][1] == 1.0, "{all}");
 }

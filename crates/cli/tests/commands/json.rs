@@ -50,6 +50,7 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate-x 1:2 --rate-y x --rate-z 3 --speed 3:4 --gravity 9:10 --tilt 0.1 --method random --points 99 --seed 2",
             "--space tails --method random --points 9 --seed 18446744073709551615",
             "--turn 30 --wobble 1 --speed 3 --spread 0.05 --drop 0.5 --accuracy 1e-2",
+            "--rate-x 9 --rate-y 5 --rate-z 3 --speed 3:5 --method random --points 9 --solver quaternion --scheme rk4 --step 0.1",
         ],
     ),
     ("merge", &["PART-OF-RANDOM", "PART-OF-GRID", "PART-OF-EXACT-SPEED", "PART-OF-SOBOL"]),
@@ -69,12 +70,24 @@ const ANSWERS: &[(&str, &[&str])] = &[
             "--rate 1,1,9 --speed 3 --heads 0.9 --points 512",
         ],
     ),
-    ("convergence", &["--space tails --steps 3"]),
+    (
+        "convergence",
+        &[
+            "--space tails --steps 3",
+            "--rate-x 40 --rate-y 5 --rate-z 9:20:3 --speed 3:5:3 --solver quaternion --scheme rk4 --step 0.1 --steps 3",
+        ],
+    ),
     ("errors", &["--space paper-fig4 --up-to 8 --replicates 1 --reference 0.5"]),
-    ("map", &["--rate-x 0:9:2 --rate-y 0 --rate-z 1:9:2 --speed 3:5"]),
+    (
+        "map",
+        &[
+            "--rate-x 0:9:2 --rate-y 0 --rate-z 1:9:2 --speed 3:5",
+            "--rate-x 8:9:2 --rate-y 5 --rate-z 8:9:2 --speed 3:5 --method random --points 9 --solver quaternion --scheme rk4 --step 0.1",
+        ],
+    ),
     ("intervals", &["--rate 1,1,2 --speed 2:3", "--rate 2,2,0.5 --speed 3:5"]),
-    ("inverse", &["--probability 0.7", "--counts 50/100", "--counts PEOPLE"]),
-    ("limit", &["--points 9"]),
+    ("inverse", &["--probability 0.7", "--counts 50/100", "--counts 9/100", "--counts PEOPLE"]),
+    ("limit", &["--points 9", "--points 2 --solver quaternion --scheme rk4 --step 0.01"]),
     (
         "plan",
         &[

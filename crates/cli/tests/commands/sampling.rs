@@ -81,3 +81,41 @@ fn a_hand_spreads_what_has_a_single_value() {
     let by_axes = "probability --rate-x normal:20:1 --rate-y x --rate-z 0 --speed 3:4 --method random --points 999";
     assert_eq!(json(by_spread, 0)["heads"], json(by_axes, 0)["heads"]);
 }
+
+/// A step of 0.1 is too large for the scheme to decide any launch.
+const UNDECIDED: &str = "--solver quaternion --scheme rk4 --step 0.1";
+
+#[test]
+fn what_is_undecided_is_no_share_of_tails() {
+    let space =
+        format!("--rate-x 0:40:3 --rate-y 5 --rate-z 10:20:3 --speed 3:5 --method random --points 64 {UNDECIDED}");
+    let map = json(&format!("map {space}"), 0);
+    for row in 0..3 {
+        for column in 0..3 {
+            assert!(map["probability"][row][column].is_null() && map["undecided"][row][column] == 64, "{map}");
+        }
+    }
+    let csv = stdout(&run(&format!("map {space}")));
+    assert!(csv.starts_with("rate_x,rate_z,probability,undecided\n0,10,,64\n"), "{csv}");
+    assert!(stdout(&run(&format!("map {space} --svg -"))).contains("white: no launch is decided"));
+    let found = json(&format!("probability {space}").replace(":3 ", " "), 0);
+    assert!(found["probability"].is_null() && found["interval"] == serde_json::json!([0.0, 1.0]), "{found}");
+    let grid = space.replace(":40:3", ":40:9").replace("3:5 ", "3:5:4 ").replace("--method random --points 64", "");
+    let series = stdout(&run(&format!("convergence {grid} --steps 2")));
+    assert_eq!(series.lines().last(), Some("108,,,0.0,1.0,108,108"), "{series}");
+    let limit = json(&format!("limit --points 9 {UNDECIDED}").replace("0.1", "0.01"), 0);
+    assert!(limit["series"][0]["share"].is_null() && limit["series"][0]["undecided"] == 9, "{limit}");
+}
+
+#[test]
+fn a_search_for_a_spread_next_to_1_ends_and_says_how_far_it_came() {
+    for heads in ["0.9999999999", "99.9999999%"] {
+        let command = format!("spread --rate 1,1,2.5 --speed 3 --heads {heads}");
+        let found = json(&command, 0);
+        assert!(found["answer"] == "at_least" && found["looks"].as_u64() <= Some(256), "{found}");
+        assert!(found["at_least"].as_f64() > Some(0.999_999), "{found}");
+        let text = stdout(&run(&command));
+        assert!(text.starts_with("spread       at least ") && text.contains("the search ended there"), "{text}");
+        assert!(text.contains("note         the interval reaches lower"), "{text}");
+    }
+}

@@ -136,7 +136,9 @@ fn grid_counts(_: &Context) -> anyhow::Result<Vec<Measurement>> {
         difference += distance(of_each(&found), expected);
         let last = Sampler::exact().running_shares(&space, 1, 1)?.pop();
         let all: u64 = expected.iter().sum();
-        running += last.map_or(f64::INFINITY, |last| (last.grid * all as f64 - expected[0] as f64).abs());
+        running += last
+            .and_then(|last| last.grid)
+            .map_or(f64::INFINITY, |grid| (grid * all as f64 - expected[0] as f64).abs());
         launches += all;
         inputs.push(format!("{} of {} heads, expected {}", found.heads(), found.points(), expected[0]));
     }

@@ -94,6 +94,7 @@ fn published(_: &Context) -> anyhow::Result<Vec<Measurement>> {
 fn grid_in_random(context: &Context) -> anyhow::Result<Vec<Measurement>> {
     let &RunningStep { launches, grid, random, .. } =
         context.fig4.get(context)?.last().context("the series is empty")?;
+    let (grid, random) = grid.zip(random).context("no launch is decided")?;
     let heads = (random * launches as f64).round() as u64;
     let interval = clopper_pearson(heads, launches, 1.0 - 1e-6);
     let outside = (interval.lo - grid).max(grid - interval.hi).max(0.0);

@@ -61,7 +61,7 @@ pub(super) fn charts(report: &Report) -> Result<Vec<Chart>, ChartError> {
         charts.push(chart("long-flights.svg", errors::long_flights(flights, &palette)?));
     }
     if let Some(steps) = records.fig4.found() {
-        let columns: Vec<[f64; 5]> = steps.iter().map(RunningStep::columns).collect();
+        let columns: Vec<[f64; 5]> = steps.iter().filter_map(RunningStep::columns).collect();
         charts.push(chart("fig4.svg", chart::running("", &columns)?));
     }
     if let Some(all) = records.convergence.found().filter(|all| !all.is_empty()) {
