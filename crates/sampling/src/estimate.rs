@@ -152,7 +152,9 @@ impl Estimate {
         Self::of_share(share, cells, Some(interval), IntervalKind::Proven)
     }
 
-    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {
+    /// The estimate from the mean shares of scrambles with this many points in all. `unresolved` tells what the points do not
+    /// [resolve](crate::unresolved).
+    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64, unresolved: impl FnOnce() -> f64) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "a handful of scrambles")]
         let mean = |part: fn(&Share) -> f64| scrambles.iter().map(part).sum::<f64>() / scrambles.len() as f64;
         let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
@@ -166,8 +168,9 @@ impl Estimate {
         match from_scrambled_points(&means, largest_error, points, LEVEL) {
             None => Self::of_share(share, points, None, IntervalKind::OneScramble),
             Some((interval, is_wider)) => {
-                let kind = of_scrambles(means.len(), is_wider);
-                Self::of_share(share, points, Some(interval.widened(share.error)), kind)
+                let unresolved = unresolved();
+                let kind = of_scrambles(means.len(), is_wider || unresolved > 0.5 * interval.width());
+                Self::of_share(share, points, Some(interval.widened(share.error + unresolved)), kind)
             }
         }
     }
