@@ -50,7 +50,7 @@ pub mod spread;
 pub mod tally;
 #[cfg(feature = "serde")]
 mod tally_data;
-mod unresolved;
+pub mod unresolved;
 pub mod wobble;
 
 pub use axis::{Axis, Distribution};
