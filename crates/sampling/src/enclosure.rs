@@ -221,7 +221,8 @@ impl Passes {
         let is_in_vain = self.narrowest.is_some_and(|[_, at]| self.threshold < 1e-3 * at);
         // The cells grow roughly as the width falls.
         let is_too_far = cells > FIRST_PASS / LAST_PASS && now / self.goal * cells as f64 > self.most_cells as f64;
-        if now <= self.goal || is_in_vain || is_too_far || self.most_cells < LAST_PASS * cells {
+        let is_stuck = !is_narrower && cells > FIRST_PASS / LAST_PASS;
+        if now <= self.goal || is_in_vain || is_stuck || is_too_far || self.most_cells < LAST_PASS * cells {
             return false;
         }
         let wanted = 0.8 * (self.goal / now).powf(self.power);
