@@ -163,8 +163,65 @@ def four_coordinates():
     figure("box of four coordinates", mpf(fine), digits)
 
 
+def mean_over(density, share, edges, lo, hi):
+    """Mean of a share with kinks at the edges, by Gauss-Legendre between them."""
+    cuts = [lo, *sorted(edge for edge in edges if lo < edge < hi), hi]
+    pieces = [a + (b - a)*i/16 for a, b in zip(cuts, cuts[1:]) for i in range(16)] + [hi]
+    return quad(lambda x: density(x)*share(x), pieces)
+
+
+def normal_density(mean, deviation):
+    return lambda x: mp.npdf(x, mean, deviation)
+
+
+def rare_kinks():
+    """Smooth shares with a kink or a jump that few launches meet. With omega_x = omega_z = 0, cos theta is
+    cos(tilt) cos(phase), so that heads and tails change places where the tilt passes 90 degrees."""
+    first, last = 2*mpf(2)/GRAVITY, 2*mpf(3)/GRAVITY
+    edges = [(2*n + 1)*pi/2/time for n in range(12) for time in (first, last)]
+
+    def share(rate):
+        return share_of_phases(pi/2, rate*first, rate*last)
+
+    def beyond(tilt, deviation):
+        return mp.erfc(tilt/deviation/sqrt(mpf(2)))
+
+    even = mean_over(lambda rate: 100, share, edges, mpf("2.7"), mpf("2.71"))
+    jump = beyond(pi/2, mpf("0.34"))
+    figure("rare, tails of a tilt", even*(1 - jump) + (1 - even)*jump, 15)
+
+    def normal_speeds(rate):
+        mean, deviation = 2*rate*mpf("2.4")/GRAVITY, 2*rate*mpf("0.12")/GRAVITY
+        return sum(mp.ncdf(2*pi*n + pi/2, mean, deviation) - mp.ncdf(2*pi*n - pi/2, mean, deviation) for n in range(-1, 6))
+    even = mean_over(normal_density(10, mpf("0.5")), normal_speeds, [], mpf(5), mpf(15))
+    jump = beyond(pi/2, pi/9)
+    figure("rare, tails of a tilt and of speeds", even*(1 - jump) + (1 - even)*jump, 15)
+
+    one = mean_over(normal_density(10, mpf("0.35")), share, edges, mpf(6), mpf(14))
+    figure("rare, tails of a rate", one, 15)
+    # The distance from the origin of two normal numbers whose means are 8 and 6.
+    variance = mpf("0.37")**2
+    two = mean_over(lambda r: r/variance*mp.exp(-(r*r + 100)/(2*variance))*mp.besseli(0, 10*r/variance), share, edges,
+                    mpf(6), mpf(14))
+    figure("rare, tails of two rates", two, 15)
+
+    def grazing(across, spin, lo=2*mpf(3)/GRAVITY, hi=2*mpf(5)/GRAVITY):
+        rate, width = mp.hypot(across, spin/2), acos(-min(mpf(1), (spin/2/across)**2))
+        return share_of_phases(width, rate*lo, rate*hi)
+
+    def over_spins(across, hi):
+        """Spin = 2 across - s^2 takes the square root out of the share; beyond the cone of 45 degrees it is 1."""
+        kink = min(2*across, hi)
+        roots = [sqrt(2*across - kink), sqrt(2*across - 39)]
+        inside = mean_over(lambda s: 2*s, lambda s: grazing(across, 2*across - s*s), [], *roots)
+        return (inside + hi - kink)/(hi - 39)
+
+    figure("rare, a range beyond 45 degrees", over_spins(mpf(20), mpf("40.001")), 12)
+
+
 if __name__ == "__main__":
     shares()
     isotropic()
     averages()
+    rare_kinks()
     four_coordinates()

@@ -38,6 +38,10 @@ const FIRST_CELLS: usize = 256;
 /// The finest accuracy that can be asked for. The roundings of the closed form over the speeds are about half of it.
 const FINEST: f64 = 2e-14;
 
+/// A first pass that would take more cells than these is begun again with a higher threshold, so that there soon is a width from
+/// which the number of cells follows that an accuracy takes.
+const FIRST_PASS: u64 = 1 << 18;
+
 /// No pass follows one that took more than the fourth part of the cells that are allowed.
 const LAST_PASS: u64 = 4;
 
@@ -127,20 +131,15 @@ pub fn usual_accuracy(space: &Space) -> f64 {
 /// Where cells that are done, and narrower intervals, are reported.
 pub(crate) type Reports<'a> = (Progress<'a>, Narrowed<'a>);
 
-/// Encloses P(heads) of `space` to ± `accuracy`, with at most `most_cells` cells.
+/// Encloses P(heads) of `space` to ± `accuracy`, or as narrowly as `most_cells` cells allow.
 ///
 /// # Errors
-/// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` below 2e-14; [`Error::NotReached`] with the
-/// accuracy that was reached.
+/// As [`require_enclosable`]; [`InputError::OutOfRange`] for an `accuracy` below 2e-14.
 pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_cells: u64) -> Result<Estimate, Error> {
     require_accuracy(accuracy)?;
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
     let found = enclosed(reports, (space, coin), accuracy, most_cells);
-    let reached = 0.5 * found.interval.width();
-    if reached > accuracy {
-        return Err(Error::NotReached { number: found.cells, of: "cells", reached, accuracy });
-    }
     Ok(Estimate::of_enclosure(found.interval, found.cells))
 }
 
@@ -167,7 +166,13 @@ fn enclosed(
         narrowest: None,
     };
     loop {
-        let Some((sum, cells)) = work.pass(passes.threshold, most_cells) else {
+        let is_first = best.is_none() && passes.threshold < 1.0;
+        let found = work.pass(passes.threshold, if is_first { most_cells.min(FIRST_PASS) } else { most_cells });
+        if found.is_none() && is_first && FIRST_PASS < most_cells {
+            passes.threshold *= 16.0;
+            continue;
+        }
+        let Some((sum, cells)) = found else {
             let interval = best.map_or(Interval { lo: 0.0, hi: 1.0 }, |best| best.interval);
             return Enclosure { interval, cells: most_cells };
         };
@@ -214,7 +219,10 @@ impl Passes {
         // If far smaller cells add up to the same width, roundings make it, and no pass helps. Nor is another begun if it would
         // take too many cells.
         let is_in_vain = self.narrowest.is_some_and(|[_, at]| self.threshold < 1e-3 * at);
-        if now <= self.goal || is_in_vain || self.most_cells < LAST_PASS * cells {
+        // The cells grow roughly as the width falls.
+        let is_too_far = cells > FIRST_PASS / LAST_PASS && now / self.goal * cells as f64 > self.most_cells as f64;
+        let is_stuck = !is_narrower && cells > FIRST_PASS / LAST_PASS;
+        if now <= self.goal || is_in_vain || is_stuck || is_too_far || self.most_cells < LAST_PASS * cells {
             return false;
         }
         let wanted = 0.8 * (self.goal / now).powf(self.power);

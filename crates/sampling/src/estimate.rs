@@ -6,7 +6,7 @@
 //! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has a discretisation error |
 //! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Clopper and Pearson's |
 //! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles, and their resolution |
-//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles; a rounding error if only the speed varies |
+//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles, and what is too rare for their points; a rounding error if only the speed varies |
 //! | [`Plan::Enclosure`](crate::Plan::Enclosure) | all of them | proven: both ends are bounds |
 //!
 //! A and B are the paper's names of the methods.
@@ -16,6 +16,7 @@ use std::fmt;
 use crate::counts::Counts;
 use crate::exact_speed::Share;
 use crate::interval::{Interval, clopper_pearson, from_scrambled_points};
+use crate::plan::Plan;
 
 /// Confidence level of the intervals.
 pub const LEVEL: f64 = 0.95;
@@ -29,10 +30,12 @@ pub enum IntervalKind {
     OneScramble,
     /// Clopper and Pearson's interval for independent launches.
     ClopperPearson,
-    /// Student's interval from the means of this many independent scrambles.
+    /// Student's interval from the means of this many independent scrambles, extended by what is
+    /// [too rare](crate::unresolved) for their points.
     Scrambles(u64),
     /// Student's interval from the means of this many independent scrambles, extended as far as their points
-    /// [resolve](crate::interval#scrambles-that-agree): the scrambles agree too well for their spread to tell the error.
+    /// [resolve](crate::interval#scrambles-that-agree): the scrambles agree too well for their spread to tell the error, or most of
+    /// it is what is [too rare](crate::unresolved) for them.
     Resolution(u64),
     /// Clopper and Pearson's interval, as if the points were independent. All points of all scrambles have the same outcome,
     /// so the spread of the scrambles is 0 and gives no error.
@@ -96,6 +99,12 @@ impl Estimate {
     pub fn half_width(&self) -> Option<f64> {
         let Interval { lo, hi } = self.interval?;
         Some((self.probability - lo).max(hi - self.probability))
+    }
+
+    /// Whether this is of a `plan` by enclosure whose accuracy its number of cells did not reach. Its interval is proven all the
+    /// same.
+    pub fn is_wider_than_asked(&self, plan: Plan) -> bool {
+        matches!(plan, Plan::Enclosure { accuracy } if self.half_width().is_some_and(|reached| reached > accuracy))
     }
 
     /// Whether any launch is decided. If none is, nothing is known of the probability.
@@ -177,7 +186,9 @@ impl Estimate {
         Self::of_share(share, cells, Some(interval), IntervalKind::Proven)
     }
 
-    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64) -> Self {
+    /// The estimate from the mean shares of scrambles with this many points in all. `unresolved` tells what the points do not
+    /// [resolve](crate::unresolved).
+    pub(crate) fn of_scrambled_shares(scrambles: &[Share], points: u64, unresolved: impl FnOnce() -> f64) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "a handful of scrambles")]
         let mean = |part: fn(&Share) -> f64| scrambles.iter().map(part).sum::<f64>() / scrambles.len() as f64;
         let share = Share { probability: mean(|share| share.probability), error: mean(|share| share.error) };
@@ -191,8 +202,9 @@ impl Estimate {
         match from_scrambled_points(&means, largest_error, points, LEVEL) {
             None => Self::of_share(share, points, None, IntervalKind::OneScramble),
             Some((interval, is_wider)) => {
-                let kind = of_scrambles(means.len(), is_wider);
-                Self::of_share(share, points, Some(interval.widened(share.error)), kind)
+                let unresolved = unresolved();
+                let kind = of_scrambles(means.len(), is_wider || unresolved > 0.5 * interval.width());
+                Self::of_share(share, points, Some(interval.widened(share.error + unresolved)), kind)
             }
         }
     }

@@ -27,7 +27,7 @@
 //!
 //! For shares, which are not whole numbers, the resolution counts where two scrambles agree but for rounding, because such
 //! shares are 0 or 1 nearly everywhere, and where heads or tails are fewer than eight points for each scramble. Elsewhere the
-//! shares of all scrambles differ, and Student's interval serves alone.
+//! shares of all scrambles differ, and Student's interval serves, with what is [too rare](crate::unresolved) for their points.
 //!
 //! Sources: W. Hoeffding, Ann. Math. Stat. 27 (1956), 713 (theorem 5). The check `interval-coverage` measures how often the
 //! intervals contain the probability.

@@ -51,6 +51,7 @@ pub mod spread;
 pub mod tally;
 #[cfg(feature = "serde")]
 mod tally_data;
+pub mod unresolved;
 pub mod wobble;
 
 pub use axis::{Axis, Distribution};

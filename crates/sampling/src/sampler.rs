@@ -76,7 +76,8 @@ impl<'a> Sampler<'a> {
     /// # Errors
     /// [`Error`] of a launch that fails; if several fail, always of the first. [`InputError`] if the plan does not fit
     /// the space, and for [`Plan::ExactSpeed`] and [`Plan::Enclosure`] with a solver, because they use the exact motion.
-    /// [`Error::NotReached`] if an enclosure does not reach its accuracy.
+    ///
+    /// An enclosure that takes too many cells is answered as far as it was proven; [`Estimate::is_wider_than_asked`] tells.
     pub fn estimate(&self, space: &Space, plan: Plan) -> Result<Estimate, Error> {
         let Plan::Enclosure { accuracy } = plan else { return self.sampled(space, plan) };
         self.require_exact()?;

@@ -14,6 +14,7 @@ use crate::sampler::Sampler;
 use crate::sequences::Sequences;
 use crate::shares::{Shares, add_shares};
 use crate::space::Space;
+use crate::unresolved::unresolved;
 
 /// The result of some launches of a plan.
 ///
@@ -100,8 +101,8 @@ impl Sums {
                 let means: Vec<_> = shares.iter().map(Shares::mean).collect();
                 let only_the_speed_varies = cube_of_the_rest(space).dimensions() == 0;
                 match (plan, &means[..]) {
-                    (Plan::ExactSpeed(Rest::Sobol(_)), means) if !only_the_speed_varies => {
-                        Estimate::of_scrambled_shares(means, points)
+                    (Plan::ExactSpeed(Rest::Sobol(scrambled)), means) if !only_the_speed_varies => {
+                        Estimate::of_scrambled_shares(means, points, || unresolved(space, scrambled))
                     }
                     (_, means) => Estimate::of_grid_share(means[0], points, only_the_speed_varies),
                 }

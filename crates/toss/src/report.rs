@@ -402,7 +402,7 @@ impl Estimate {
             probability: found.is_known().then_some(found.probability),
             error_bound,
             interval: found.interval.map(|interval| [interval.lo, interval.hi]),
-            interval_kind: found.interval_kind.to_string(),
+            interval_kind: interval_kind(found, plan),
             proven: found.interval_kind == IntervalKind::Proven,
             certified: proven.is_some(),
             proven_by: by_stage,
@@ -419,6 +419,12 @@ impl Estimate {
         let by_kind = names.into_iter().zip(Integration::ALL.map(|kind| counts.by(kind))).collect();
         Self { certified: counts.undecided() == 0, integrated_by: Some(by_kind), ..self }
     }
+}
+
+/// What the interval of an estimate by `plan` means, in words, and whether it is wider than was asked for.
+fn interval_kind(found: &sampling::Estimate, plan: Plan) -> String {
+    let kind = &found.interval_kind;
+    if found.is_wider_than_asked(plan) { format!("{kind}, but wider than was asked for") } else { kind.to_string() }
 }
 
 /// The seed of `plan`; `None` if nothing in it is random.

@@ -4,7 +4,7 @@
 
 use dynamics::{Error, InputError};
 use sampling::plan::SCRAMBLES;
-use sampling::{Estimate, Found, Plan, Progress, Rest, Sampler, Scrambled, Space};
+use sampling::{Estimate, Found, IntervalKind, Plan, Progress, Rest, Sampler, Scrambled, Space};
 
 use crate::choice::{Candidate, Choice, How, Offer};
 use crate::model::{Fit, Kind, MODELS, Model, Of};
@@ -88,8 +88,10 @@ pub(crate) fn sampled(space: &Space, plan: Plan, accuracy: f64, progress: Progre
     let rounding_error = if let Found::Shares { rounding_error } = found.found { rounding_error } else { 0.0 };
     match (found.half_width(), refined(plan, accuracy)) {
         (Some(reached), Some(more)) if reached > accuracy => {
-            if found.points >= MOST_LAUNCHES || rounding_error > accuracy {
-                return Err(Error::NotReached { number: found.points, of: "launches", reached, accuracy });
+            let is_enclosed = found.interval_kind == IntervalKind::Proven;
+            if is_enclosed || found.points >= MOST_LAUNCHES || rounding_error > accuracy {
+                let of = if is_enclosed { "cells" } else { "launches" };
+                return Err(Error::NotReached { number: found.points, of, reached, accuracy });
             }
             sampled(space, more, accuracy, progress)
         }

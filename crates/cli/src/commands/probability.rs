@@ -68,7 +68,8 @@ impl Args {
         };
         let chosen = || format!("\nmethod       {}, chosen for an error of {:e}", plan.method(), self.accuracy(&space));
         Ok(self.format.print(input, &report::Estimate::new(&found, plan), || {
-            text(&found, backend.solver().name()) + &if self.method.is_none() { chosen() } else { String::new() }
+            let chosen = if self.method.is_none() { chosen() } else { String::new() };
+            text(&found, backend.solver().name()) + &chosen + &not_reached(&found, plan)
         }))
     }
 
@@ -146,6 +147,19 @@ impl Args {
     fn accuracy(&self, space: &Space) -> f64 {
         let default = if space.coin().is_some() { DEFAULT_ACCURACY } else { DEFAULT_ACCURACY_OF_BODIES };
         self.accuracy.unwrap_or(default)
+    }
+}
+
+/// A line that says so if an enclosure took too many cells for its accuracy.
+fn not_reached(found: &Estimate, plan: Plan) -> String {
+    match (plan, found.half_width()) {
+        (Plan::Enclosure { accuracy }, Some(reached)) if found.is_wider_than_asked(plan) => {
+            let cells = found.points;
+            format!(
+                "\naccuracy     {reached:.1e}, and not the {accuracy:e} that was asked for: more cells than {cells} are too many, or roundings forbid it"
+            )
+        }
+        _ => String::new(),
     }
 }
 

@@ -688,9 +688,11 @@ impl<const T: usize> Means<'_, '_, T> {
         let crest = self.crest();
         let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
         let mut found = self.of_half_width(Function { middle, whole: middle }, from_crest);
-        let scale = magnitude(self.motion.squared.middle.value());
-        for (by, room) in found.by.iter_mut().zip(self.motion.room.variation()) {
-            *by += room / scale;
+        // The half-width is not known because the sign of P - s² is not: each direction adds to it in proportion to what it adds to P - s².
+        let room = &self.motion.room;
+        let per_room = (hi - lo) / magnitude(room.values());
+        for (by, room) in found.by.iter_mut().zip(room.variation()) {
+            *by += per_room * room;
         }
         if found.by.iter().any(|by| !by.is_finite()) {
             self.of_shares([found.lo, found.hi], [f64::INFINITY; 3])
