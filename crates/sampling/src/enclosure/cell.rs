@@ -688,9 +688,10 @@ impl<const T: usize> Means<'_, '_, T> {
         let crest = self.crest();
         let from_crest = self.motion.phases.map(|phase| phase.minus(crest).narrowed());
         let mut found = self.of_half_width(Function { middle, whole: middle }, from_crest);
-        // The half-width is not known because the sign of P - s² is not: each direction adds to it in proportion to what it adds to P - s².
-        let room = &self.motion.room;
-        let per_room = (hi - lo) / magnitude(room.values());
+        // The half-width is that of (-A |L|, √(P - s²)): each direction adds to it what it adds to P - s², in parts of both squares.
+        let Motion { squared, room, mean, .. } = &self.motion;
+        let of_mean = magnitude(mean.values()).powi(2) / magnitude(squared.middle.value());
+        let per_room = (hi - lo) / (magnitude(room.values()) + of_mean);
         for (by, room) in found.by.iter_mut().zip(room.variation()) {
             *by += per_room * room;
         }
@@ -1263,9 +1264,9 @@ mod tests {
             let is_near = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12);
             assert!(is_near, "{by:?} {room} {mean}: {found:?}, not {expected:?}");
         }
-        // Of an unknown half-width, the change of the room counts, and that of each phase.
+        // Of an unknown half-width, the change of the room counts in parts of 3 + 4²/2, and that of each phase.
         for (room, phases, expected) in
-            [(3.0, [0.0, 0.0], 1.5), (0.0, [0.25, 0.5], 0.75), (f64::INFINITY, [0.0; 2], 0.5)]
+            [(3.0, [0.0, 0.0], PI * 3.0 / 11.0), (0.0, [0.25, 0.5], 0.75), (f64::INFINITY, [0.0; 2], 0.5)]
         {
             let [first, last] = phases;
             let motion = Motion { phases: [linear(1.0, first), linear(2.0, last)], ..with(room, 4.0) };
