@@ -164,17 +164,20 @@ impl GammaSystem {
         -sum * (beta_rate / d)
     }
 
-    /// |α'|, and the larger one of √(ωx² + ωy²) and |ωz|.
-    fn precession_and_rate(&self, y: &SVector<f64, 5>) -> [f64; 2] {
-        let Terms { d, u, .. } = self.terms(y);
-        [d.hypot(u), y[3].hypot(y[4]).max(self.rate_z.abs())]
+    /// |α'|, and the larger one of √(ωx² + ωy²) and |ωz|, in a state with these `terms`.
+    fn precession_and_rate(&self, terms: &Terms, y: &SVector<f64, 5>) -> [f64; 2] {
+        [terms.d.hypot(terms.u), y[3].hypot(y[4]).max(self.rate_z.abs())]
     }
 
     /// Whether |α'| is below [`SMALLEST_PRECESSION`] times the rates.
     fn precession_too_slow(&self, y: &SVector<f64, 5>) -> bool {
-        let [precession, rate] = self.precession_and_rate(y);
-        precession < SMALLEST_PRECESSION * rate
+        is_too_slow(self.precession_and_rate(&self.terms(y), y))
     }
+}
+
+/// Whether a precession is below [`SMALLEST_PRECESSION`] times the rates.
+fn is_too_slow([precession, rate]: [f64; 2]) -> bool {
+    precession < SMALLEST_PRECESSION * rate
 }
 
 impl OdeSystem<5> for GammaSystem {
@@ -191,14 +194,15 @@ impl OdeSystem<5> for GammaSystem {
     }
 
     fn singularity(&self, before: &SVector<f64, 5>, after: &SVector<f64, 5>) -> Option<Singularity> {
+        let (was, is) = (self.terms(before), self.terms(after));
+        let [at_first, at_last] = [(&was, before), (&is, after)].map(|(terms, y)| self.precession_and_rate(terms, y));
         self.passes.turned(after[2] - before[2]);
-        for [precession, rate] in [before, after].map(|y| self.precession_and_rate(y)) {
+        for [precession, rate] in [at_first, at_last] {
             self.passes.magnified(rate / precession);
         }
-        let (was, is) = (self.terms(before), self.terms(after));
         // D = 0 counts as no crossing, because a tiny transverse rate may underflow in the momentum frame.
         let crossed = was.d * is.d < 0.0;
-        let stopped = self.precession_too_slow(after) && !self.precession_too_slow(before);
+        let stopped = is_too_slow(at_last) && !is_too_slow(at_first);
         let turned_back = crossed && was.u * is.u < 0.0;
         if stopped || turned_back {
             return Some(Singularity::PrecessionTooSlow);
