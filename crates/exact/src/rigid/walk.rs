@@ -181,7 +181,7 @@ impl<B: Elementary> Stage<B> {
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let number = |value: f64, exponent: i32| time.like(value).times_power_of_two(exponent);
         let vary = |value: &mut TaylorModel<B>, width: B| {
-            *value = value.clone() + TaylorModel::variable(width.like(0.0), width)
+            *value = value.clone() + TaylorModel::variable(width.like(0.0), width);
         };
         let mut time = TaylorModel::constant(time.clone());
         match input {

@@ -268,7 +268,7 @@ fn on_hostile_flights(effort: Effort, entry: &SolverEntry, scheme: Scheme) -> an
     let landings: Vec<(Flight, Result<Judged, SolveError>)> = landings.into_iter().flatten().collect();
     let name = hostile::of_coin(entry, scheme, 0, most_steps)?.by.name;
     let number = |is: fn(&Result<Judged, SolveError>) -> bool| landings.iter().filter(|(_, part)| is(part)).count();
-    let refused = number(|part| part.is_err());
+    let refused = number(Result::is_err);
     let silent = number(|part| matches!(part, Ok(Judged::Silent)));
     let unjudged = number(|part| matches!(part, Ok(Judged::WithoutReference)));
     let judged = landings.iter().filter_map(|(flight, part)| match part {

@@ -130,7 +130,7 @@ fn bounds_of_family(family: &Family, solvers: &[QuaternionSolver], number: u64) 
     };
     let bounded: Vec<(usize, Toss, IntegratedCertificate)> = tosses.par_iter().enumerate().filter_map(fly).collect();
     let judged = |flown: &(usize, Toss, IntegratedCertificate)| {
-        Reference::of(&flown.1).ok().map(|reference| (flown.clone(), Ok(share(&flown.2, &reference))))
+        Reference::of(&flown.1).ok().map(|reference| (*flown, Ok(share(&flown.2, &reference))))
     };
     let number = bounded.len();
     let (bounded, shares): (Vec<_>, Vec<Deviation>) = bounded.par_iter().filter_map(judged).unzip();

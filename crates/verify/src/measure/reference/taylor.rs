@@ -257,7 +257,7 @@ fn product_of(a: &[Fixed], b: &[Fixed], are_same: bool) -> Fixed {
     let half = a.len() / 2;
     a[..half].iter().zip(b.iter().rev()).for_each(|(one, other)| sum.add(one, other));
     let twice = sum.rounded().twice();
-    if a.len() % 2 == 0 { twice } else { twice.plus(a[half].times(a[half])) }
+    if a.len().is_multiple_of(2) { twice } else { twice.plus(a[half].times(a[half])) }
 }
 
 /// The last coefficient of Q (0, ω).
