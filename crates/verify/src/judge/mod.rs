@@ -17,6 +17,8 @@ pub(crate) mod proposal;
 pub mod record;
 pub mod row;
 pub mod time;
+#[cfg(test)]
+mod wrong_reference;
 
 pub use row::{Judge, LeftOut, Row, Status, judge, require_distinct, unused_limits};
 
