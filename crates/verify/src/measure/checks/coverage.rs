@@ -84,7 +84,7 @@ impl Extent {
     fn of(effort: Effort) -> Self {
         const POINTS: [u64; 4] = [64, 1000, 4096, 65_536];
         match effort {
-            Effort::Quick => Self { spaces: 1, seeds: 25, points: &POINTS[..3], truth: 1 << 17 },
+            Effort::Quick => Self { spaces: 1, seeds: 12, points: &POINTS[..3], truth: 1 << 17 },
             Effort::Standard => Self { spaces: 1, seeds: 25, points: &POINTS, truth: 1 << 19 },
             Effort::Deep => Self { spaces: 6, seeds: 25, points: &POINTS, truth: 1 << 20 },
         }
