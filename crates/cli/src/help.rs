@@ -119,7 +119,7 @@ const TEXTS: &[Text] = &[
         example: "unfair-toss inverse --counts 178078/350757",
         meaning: "With --counts: of N coins, K landed on the side that had been up. The answer is the angle ψ between the normal and \
                   the angular momentum that explains this, with its 95 % interval, if all launches left flat, turned many times and \
-                  had the same ψ; 180° - ψ explains it as well. A file has one person per row, in the columns same and tosses.",
+                  had the same ψ; 180° - ψ explains it as well. A file has one person per row, in the columns same and tosses, or start and lands with flips as letters.",
     },
     Text {
         command: "limit",

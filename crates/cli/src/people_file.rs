@@ -4,7 +4,7 @@ use std::path::Path;
 
 use csv::StringRecord;
 use dynamics::quantity::read_count;
-use sampling::SameSide;
+use sampling::{NextStart, SameSide};
 use toss::InputError;
 
 use crate::failure::Failure;
@@ -17,12 +17,15 @@ pub(crate) struct Named {
     pub(crate) counts: SameSide,
 }
 
-/// The people in a CSV file, in order of their first rows. It has the columns `same` and `tosses`, and may have `person`: the
-/// rows of one name are added up. Other columns and rows without any text are passed over.
+/// The people in a CSV file, in order of their first rows. It has the columns `same` and `tosses`, or `start` and `lands` with
+/// flips as letters, and then may have `rule`. It may have `person`: the rows of one name are added up. Other columns and rows without any text are passed over.
 pub(crate) fn read(path: &Path) -> Result<Vec<Named>, Failure> {
     let text = output::read("counts", path)?;
     people(&text).map_err(|(line, source)| Failure::Row { path: path.display().to_string(), line, source })
 }
+
+/// The columns that a file needs.
+const COLUMNS: &str = "the columns same and tosses, or start and lands, in the heading";
 
 /// What is wrong, and in which line of the file.
 type Wrong = (u64, InputError);
@@ -33,7 +36,7 @@ fn people(text: &str) -> Result<Vec<Named>, Wrong> {
     let mut rows =
         reader.records().map(|record| Row::new(text, record)).filter(|row| !matches!(row, Ok(row) if row.is_blank()));
     let missing = |field, expected| InputError::Missing { field, expected };
-    let heading = rows.next().ok_or((1, missing("counts", "a heading with the columns same and tosses")))??;
+    let heading = rows.next().ok_or((1, missing("counts", COLUMNS)))??;
     let columns = Columns::new(&heading).map_err(|source| (heading.line, source))?;
     let mut people: Vec<Named> = Vec::new();
     for (number, row) in (1_u64..).zip(rows) {
@@ -93,9 +96,14 @@ fn line(text: &str, position: Option<&csv::Position>) -> u64 {
 /// Where the columns are, and how many there are.
 struct Columns {
     person: Option<usize>,
-    same: usize,
-    tosses: usize,
+    flips: Flips,
     number: usize,
+}
+
+/// The columns with the flips.
+enum Flips {
+    Counts { same: usize, tosses: usize },
+    Letters { start: usize, lands: usize, rule: Option<usize> },
 }
 
 impl Columns {
@@ -111,16 +119,13 @@ impl Columns {
                 (first, _) => Ok(first.map(|(place, _)| place)),
             }
         };
-        let needed = |field| {
-            let missing = InputError::Missing { field, expected: "the columns same and tosses in the heading" };
-            place(field)?.ok_or(missing)
+        let needed = |field| place(field)?.ok_or(InputError::Missing { field, expected: COLUMNS });
+        let flips = if place("lands")?.is_some() && place("same")?.is_none() {
+            Flips::Letters { start: needed("start")?, lands: needed("lands")?, rule: place("rule")? }
+        } else {
+            Flips::Counts { same: needed("same")?, tosses: needed("tosses")? }
         };
-        Ok(Self {
-            same: needed("same")?,
-            tosses: needed("tosses")?,
-            person: place("person")?,
-            number: heading.cells.len(),
-        })
+        Ok(Self { flips, person: place("person")?, number: heading.cells.len() })
     }
 
     /// The person of a row, who is called by its `number` if there are no names.
@@ -133,7 +138,13 @@ impl Columns {
             let cell = &row.cells[place];
             read_count(cell).ok_or_else(|| InputError::unreadable(field, cell, "a whole number, such as 1000"))
         };
-        let counts = SameSide::new(count("same", self.same)?, count("tosses", self.tosses)?)?;
+        let counts = match self.flips {
+            Flips::Counts { same, tosses } => SameSide::new(count("same", same)?, count("tosses", tosses)?)?,
+            Flips::Letters { start, lands, rule } => {
+                let rule = rule.map(|place| &row.cells[place]).filter(|text| !text.is_empty());
+                SameSide::of_sequence(&row.cells[start], &row.cells[lands], rule.map(NextStart::read).transpose()?)?
+            }
+        };
         let name = self.person.map_or_else(|| number.to_string(), |place| row.cells[place].to_owned());
         if name.is_empty() {
             return Err(InputError::Missing { field: "person", expected: "a name in each row" });
@@ -160,6 +171,17 @@ mod tests {
         assert_eq!(numbered, [("1".to_owned(), 3, 4), ("2".to_owned(), 1, 4)]);
     }
 
+    /// One row a person or a session, and one row a flip.
+    #[test]
+    fn flips_may_be_letters() {
+        let sessions =
+            "person,start,lands,rule\nAda,H,HHTHT TTHHT,last\nBen,H,\"H,T,H\",fixed\nAda,T,TTHH,last\nEve,HTT,HTH,\n";
+        let expected = [("Ada".to_owned(), 8, 14), ("Ben".to_owned(), 2, 3), ("Eve".to_owned(), 2, 3)];
+        assert_eq!(counts(sessions), expected);
+        let flips = "lands,start,person\nH,H,Ada\nT,H,Ada\nT,T,Ben\n";
+        assert_eq!(counts(flips), [("Ada".to_owned(), 1, 2), ("Ben".to_owned(), 1, 1)]);
+    }
+
     #[test]
     fn mistakes_are_found_in_the_line_that_an_editor_shows() {
         for end in ["\n", "\r\n", "\r"] {
@@ -175,6 +197,11 @@ mod tests {
                 ("|same,flips|1,2|", 2, "tosses"),
                 ("same,tosses,Same|1,2,1|", 1, "same"),
                 ("person,same,tosses,person|A,1,2,B|", 1, "person"),
+                ("start,lands,rule|H,HTH,last||H,HTX,last|", 4, "lands"),
+                ("start,lands|H,H||H,HT|", 4, "rule"),
+                ("start,lands,rule|H,HT,always|", 2, "rule"),
+                ("start,lands|HT,H|", 2, "start"),
+                ("lands,rule|HT,last|", 1, "start"),
                 ("same,tosses|0,0||0,0|", 1, "counts"),
                 ("same,tosses|", 1, "counts"),
                 ("", 1, "counts"),

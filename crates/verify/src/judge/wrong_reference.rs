@@ -46,9 +46,7 @@ fn with_a_wrong_reference_no_check_passes() {
         let passes = |row: &Row| row.status.passes();
         // Few of the tosses that are counted land near enough to an edge.
         if if counts { rows.iter().all(passes) } else { rows.iter().any(passes) } {
-            passing.extend(
-                rows.iter().filter(|row| passes(row)).map(|row| format!("{} / {}", row.check, row.subject)),
-            );
+            passing.extend(rows.iter().filter(|row| passes(row)).map(|row| format!("{} / {}", row.check, row.subject)));
         }
     }
     assert!(number > 20 && passing.is_empty(), "{number} checks; passing: {passing:#?}");
