@@ -242,9 +242,9 @@ mod tests {
             for step in -50..=50 {
                 let at = number(middle) + Ball::new(DoubleDouble::product(width, f64::from(step) / 50.0), 0.0);
                 let exact = formula(&at);
-                let off = (exact.clone() - range.clone()).to_f64().abs();
+                let off = (exact - range).to_f64().abs();
                 assert!(off <= range.error(), "{middle} {width} {step}: {off:e} {:e}", range.error());
-                most = most.max((exact - at_middle.clone()).to_f64().abs());
+                most = most.max((exact - at_middle).to_f64().abs());
             }
             assert!(range.error() < 1.5 * most + 5.0 * width.powi(2), "{middle} {width}: {:e} {most:e}", range.error());
         }
