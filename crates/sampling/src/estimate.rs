@@ -3,11 +3,11 @@
 //!
 //! | plan | launches | interval |
 //! |---|---|---|
-//! | [`Plan::Grid`](crate::Plan::Grid) (A) | a grid | none: a grid has a discretisation error |
-//! | [`Plan::Random`](crate::Plan::Random) (B) | independent | Clopper and Pearson's |
-//! | [`Plan::Sobol`](crate::Plan::Sobol) | scrambled Sobol points | from the spread of independent scrambles, and their resolution |
-//! | [`Plan::ExactSpeed`](crate::Plan::ExactSpeed) | all speeds in closed form | from the scrambles, and what is too rare for their points; a rounding error if only the speed varies |
-//! | [`Plan::Enclosure`](crate::Plan::Enclosure) | all of them | proven: both ends are bounds |
+//! | [`Plan::Grid`] (A) | a grid | none: a grid has a discretisation error |
+//! | [`Plan::Random`] (B) | independent | Clopper and Pearson's |
+//! | [`Plan::Sobol`] | scrambled Sobol points | from the spread of independent scrambles, and their resolution |
+//! | [`Plan::ExactSpeed`] | all speeds in closed form | from the scrambles, and what is too rare for their points; a rounding error if only the speed varies |
+//! | [`Plan::Enclosure`] | all of them | proven: both ends are bounds |
 //!
 //! A and B are the paper's names of the methods.
 

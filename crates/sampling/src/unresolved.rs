@@ -6,7 +6,7 @@
 //! the launches that are too rare for the points are sampled on their own, by probes with weights.
 //!
 //! Each coordinate is a function of a normal number z, so that a launch is a point of d normal numbers. A half-space that the
-//! points do not resolve, because fewer than [`RESOLVED`] of them are expected in it, begins farther from the origin than
+//! points do not resolve, because fewer than `RESOLVED` of them are expected in it, begins farther from the origin than
 //! R = -Φ⁻¹(8/n), in whichever direction it lies. So the probes are beyond the sphere of radius R:
 //!
 //! ```text

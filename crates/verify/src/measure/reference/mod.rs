@@ -2,16 +2,16 @@
 //! against it. It shares no code with the solvers, the proofs or the principal axes of a body: a test reads these files
 //! for the names of other crates.
 //!
-//! - [`taylor`] is the ground truth. It integrates the equations of motion of any body in [`fixed`] point, for up to
+//! - `taylor` is the ground truth. It integrates the equations of motion of any body in `fixed` point, for up to
 //!   1000 rad, and bounds its own error.
 //! - Closed forms in 256 bits are faster, and stand longer flights: that of a coin, which is here, and that of a body
-//!   which is given by its moments, in [`rigid`], away from equal moments, principal axes and the separatrix. The check
+//!   which is given by its moments, in `rigid`, away from equal moments, principal axes and the separatrix. The check
 //!   `reference-closed-forms` compares them with the ground truth in every run.
 //! - What neither of them solves is [not judged](NoReference), and rows say how many tosses that are.
 //!
 //! A coin's motion is `Q(t) = Q0 ⊗ exp(½ ωL t ŝ) ⊗ exp(-½ q t ẑ)`, with q = (k - 1) ωz, the inertia ratio k, ωL = |S|/I1,
 //! and ŝ the direction of the angular momentum S in the body frame (BF); ẑ is the coin's normal and Q the attitude.
-//! Tilts, cylinders and units are taken as they were given. [`outside`] has numbers from elsewhere, with which tests
+//! Tilts, cylinders and units are taken as they were given. `outside` has numbers from elsewhere, with which tests
 //! compare all of it.
 
 mod fixed;
@@ -79,10 +79,10 @@ impl From<NoReference> for SolveError {
 }
 
 impl Reference {
-    /// The toss of any body: in closed form where that holds, else by the [ground truth](Reference::flown).
+    /// The toss of any body: in closed form where that holds, else by the ground truth.
     ///
     /// # Errors
-    /// [`NoReference`] as [`Reference::flown`].
+    /// [`NoReference`] where neither holds.
     pub fn of(toss: &Toss) -> Result<Self, NoReference> {
         match Self::in_closed_form(toss) {
             Some(reference) => Ok(reference),
