@@ -66,7 +66,7 @@ use dynamics::time_of_flight::ExactTime;
 use dynamics::{AngleUnit, Attitude, SolveError, State, Toss, Vector3};
 use numerics::big::exactly;
 use numerics::scale::{mantissa_and_exponent, power_of_two_scale};
-use numerics::{Big, DoubleDouble, Elementary};
+use numerics::{DoubleDouble, Elementary, WideBall};
 
 pub use angles::RigidAngles;
 pub use certified::certify;
@@ -364,14 +364,19 @@ fn cos_tilt<N: Elementary>(turn: &Quaternion<N>, vertical: &[N; 3]) -> N {
     (x * up_x + y * up_y + z * up_z) / norm_squared(turn)
 }
 
+/// A number of many digits, exactly 0.
+fn in_many_digits() -> WideBall {
+    let zero = exactly(0.0).with_precision(MANY_DIGITS).value();
+    WideBall::new(zero.clone(), &zero)
+}
+
 /// The curve in double-double, from more digits if these are too few.
 fn curve_in_double_double(toss: &Toss, rate: Vector3<f64>) -> Curve<DoubleDouble> {
     let close =
         if components_are_close(&rate) { Curve::new(&toss.body, &scaled(&rate, &DoubleDouble::ZERO)) } else { None };
     close.unwrap_or_else(|| {
-        let like = exactly(0.0).with_precision(MANY_DIGITS).value();
-        let curve: Option<Curve<Big>> = Curve::new(&toss.body, &scaled(&rate, &like));
-        // With so many digits a launch has a regime: only numbers with an error bound may lack one.
+        let curve: Option<Curve<WideBall>> = Curve::new(&toss.body, &scaled(&rate, &in_many_digits()));
+        // With so many digits a launch has a regime: what decides it is exact.
         curve.map(|curve| curve.to_double_double()).unwrap_or_else(|| unreachable!("a regime"))
     })
 }
