@@ -11,7 +11,7 @@ use verify::clock;
 use verify::host::Host;
 use verify::measure::atlas::Atlas;
 use verify::measure::atlas::hazards::HAZARDS;
-use verify::measure::reference::ExactLanding;
+use verify::measure::reference::Reference;
 use verify::measure::run::{Answer, Run};
 use verify::measure::subject::{Subject, subjects, tight, usual};
 use verify::measure::survey::Survey;
@@ -189,7 +189,8 @@ impl Contest {
 impl Flown {
     fn new(subject: &Subject, survey: &Survey) -> Self {
         let launches = survey.tosses.iter().zip(&survey.exact);
-        let runs: Vec<Run> = launches.map(|(toss, exact)| Run::new(subject, toss, exact)).collect();
+        let run = |(toss, exact): (_, &Option<_>)| Some(Run::new(subject, toss, exact.as_ref()?));
+        let runs: Vec<Run> = launches.filter_map(run).collect();
         let largest = |of: fn(&Run) -> Option<f64>| runs.iter().filter_map(of).fold(0.0, f64::max);
         let count = |of: fn(&Run) -> bool| runs.iter().filter(|run| of(run)).count() as u64;
         let estimate = |toss: &Toss| subject.solver.tilt(toss).ok()?.error;
@@ -219,7 +220,7 @@ impl Contestant {
             let mut worst = Answer::Right;
             for toss in ordinary.iter().take(AT_EACH_SPEED) {
                 let toss = at_speed(toss, factor)?;
-                let run = Run::new(&with_step_over(subject, factor)?, &toss, &ExactLanding::new(&toss)?);
+                let run = Run::new(&with_step_over(subject, factor)?, &toss, &Reference::of(&toss)?);
                 worst = worst.max(run.answer);
             }
             self.speeds.push(worst);

@@ -75,11 +75,10 @@ use curve::Curve;
 pub use margin::{margin, speeds_of_heads};
 pub use regime::Regime;
 
-use crate::certificate::Stage;
 use crate::given::{components_are_close, scaled};
 use crate::motion::CoinMotion;
 use quaternion::{Quaternion, norm_squared};
-use tensor_toss::{Landed, Question, climb};
+use tensor_toss::{Landed, Question, climb_from_double_double};
 
 /// Digits of the constants of a launch where double-double has too few.
 const MANY_DIGITS: usize = 1536;
@@ -326,7 +325,7 @@ fn turn_and_rate(
     within: f64,
 ) -> Result<(Quaternion<DoubleDouble>, [f64; 3]), SolveError> {
     turned_at_launch(toss, time)?;
-    let found = climb(toss, Some(time), Stage::DoubleDouble, &TurnAndRate { within });
+    let found = climb_from_double_double(toss, Some(time), &TurnAndRate { within });
     let seconds = time.mantissa().times_power_of_two(time.exponent()).hi();
     found.map(|(answer, _)| answer).ok_or(SolveError::NotFinite { time: seconds })
 }

@@ -9,7 +9,7 @@
 use dynamics::{Error, Outcome, SolveError, Toss};
 use numerics::{Ball, Elementary, WideBall};
 
-use super::tensor_toss::{Landed, Question, climb};
+use super::tensor_toss::{Landed, Question, climb, climb_from_double_double};
 use super::{ExactMotion, TO_F64, cos_tilt};
 use crate::certificate::{Certificate, ProvenCounts, Stage};
 use crate::certified::{self, certify_coin};
@@ -63,7 +63,7 @@ fn certify_tensor(toss: &Toss) -> Result<Certificate, SolveError> {
     if let Some(sign) = sign_at_rest(toss) {
         return Ok(Certificate::new(Outcome::of(sign, 0.0), Stage::Multiprecision));
     }
-    let found = climb(toss, None, Stage::F64, &Sign);
+    let found = climb(toss, &Sign);
     Ok(found.map_or_else(Certificate::without_proof, |(outcome, stage)| Certificate::new(outcome, stage)))
 }
 
@@ -124,7 +124,7 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
         if sign_at_rest(toss) == Some(0.0) {
             return Ok((0.0, 0.0));
         }
-        let found = climb(toss, None, Stage::DoubleDouble, &Rounded);
+        let found = climb_from_double_double(toss, None, &Rounded);
         return Ok(found.map_or((0.0, COS_TILT_ERROR), |(cos_tilt, _)| rounded(cos_tilt)));
     }
     let (cos_tilt, phase) = (motion.cos_tilt(time)?, motion.phase(time)?);

@@ -141,18 +141,32 @@ impl Given<WideBall> {
 
 impl<N: Elementary> Given<N> {
     /// The body after its flight; `None` if the numbers have too few digits.
-    fn landed(self, special: Option<Special>) -> Option<Landed<N>> {
+    fn landed(self) -> Option<Landed<N>> {
         let is_exactly_0 = |part: &N| part.sign() == 0.0 && part.error() == 0.0;
-        if special == Some(Special::Spin) || self.rate.iter().all(is_exactly_0) {
-            let turn = turned(&self.rate, &self.time);
+        if self.rate.iter().all(is_exactly_0) {
+            let turn = [1.0, 0.0, 0.0, 0.0].map(|part| self.time.like(part));
             return Some(Landed { given: self, turn, curve: None });
         }
         let curve = Curve::new(self.tensor.clone(), self.rate.clone());
-        let turn = match special {
-            Some(Special::Separatrix) => curve.turn_on_separatrix(&self.time),
-            _ => curve.turn(&self.time)?,
-        };
+        let turn = curve.turn(&self.time)?;
         Some(Landed { given: self, turn, curve: Some(curve) })
+    }
+}
+
+impl Given<WideBall> {
+    /// The body after a flight of a `special` motion.
+    fn landed_specially(self, special: Special) -> Landed<WideBall> {
+        match special {
+            Special::Spin => {
+                let turn = turned(&self.rate, &self.time);
+                Landed { given: self, turn, curve: None }
+            }
+            Special::Separatrix => {
+                let curve = Curve::new(self.tensor.clone(), self.rate.clone());
+                let turn = curve.turn_on_separatrix(&self.time);
+                Landed { given: self, turn, curve: Some(curve) }
+            }
+        }
     }
 }
 
@@ -163,38 +177,42 @@ impl<N: Elementary> Landed<N> {
     }
 }
 
-/// The turn at a fixed `rate`.
+/// The turn at a fixed `rate`, which is not 0.
 fn turned<N: Elementary>(rate: &[N; 3], time: &N) -> Quaternion<N> {
     let size = dot(rate, rate).sqrt();
-    if size.sign() == 0.0 {
-        return [1.0, 0.0, 0.0, 0.0].map(|part| time.like(part));
-    }
     let [sin, cos] = (size.clone() * time.halved()).sine_and_cosine();
     let [x, y, z] = rate.clone().map(|part| part * sin.clone() / size.clone());
     [cos, x, y, z]
 }
 
-/// The answer to a question about a toss of a body that was given by a tensor, after `time` or else at its landing, from
-/// `first` on; `None` if the last stage has too few digits.
-pub(super) fn climb<Q: Question>(
+/// The answer to a question about the landing of a toss of a body that was given by a tensor; `None` if the last stage has
+/// too few digits.
+pub(super) fn climb<Q: Question>(toss: &Toss, question: &Q) -> Option<(Q::Answer, Stage)> {
+    let rough = Given::in_double_double(toss, None).rounded().landed();
+    match rough.and_then(|landed| question.answer(&landed)) {
+        Some(answer) => Some((answer, Stage::F64)),
+        None => climb_from_double_double(toss, None, question),
+    }
+}
+
+/// The same from double-double on, after `time` or else at the landing.
+pub(super) fn climb_from_double_double<Q: Question>(
     toss: &Toss,
     time: Option<ExactTime>,
-    first: Stage,
     question: &Q,
 ) -> Option<(Q::Answer, Stage)> {
-    let fine = Given::in_double_double(toss, time);
-    if first == Stage::F64
-        && let Some(answer) = fine.rounded().landed(None).and_then(|landed| question.answer(&landed))
-    {
-        return Some((answer, Stage::F64));
-    }
-    if let Some(answer) = fine.landed(None).and_then(|landed| question.answer(&landed)) {
+    let fine = Given::in_double_double(toss, time).landed();
+    if let Some(answer) = fine.and_then(|landed| question.answer(&landed)) {
         return Some((answer, Stage::DoubleDouble));
     }
     let special = special(toss);
     let digits = std::iter::successors(Some(DIGITS[0]), |digits| Some(2 * digits));
     let found = digits.take_while(|digits| *digits <= DIGITS[1]).find_map(|digits| {
-        let landed = Given::in_digits(toss, time, digits).landed(special)?;
+        let given = Given::in_digits(toss, time, digits);
+        let landed = match special {
+            Some(special) => given.landed_specially(special),
+            None => given.landed()?,
+        };
         question.answer(&landed)
     });
     found.map(|answer| (answer, Stage::Multiprecision))

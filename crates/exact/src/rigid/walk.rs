@@ -81,13 +81,18 @@ impl<'a> Line<'a> {
     /// The sign of cos θ at all changes within `radius` of `change`, in a stage: 0 if it is not proven.
     fn sign_in(&self, stage: usize, change: f64, radius: f64) -> f64 {
         let (toss, input) = (self.toss, self.input);
+        let is_tensor = toss.body.moments().is_none();
         match stage {
+            0 if is_tensor => self.rough.sign_by_model(toss, input, change, radius),
+            // More digits tell the outcome of a toss; over an interval of tosses, f64 has enough.
+            _ if is_tensor && radius > 0.0 => 0.0,
+            1 if is_tensor => self.fine.sign_of_toss(toss, input, change),
             0 => self.rough.sign(toss, input, change, radius),
             1 => self.fine.sign(toss, input, change, radius),
             _ => {
                 let stage = stage - 2;
                 let many = self.many[stage].get_or_init(|| Stage::in_digits(toss, input, DIGITS[stage]));
-                many.sign(toss, input, change, radius)
+                if is_tensor { many.sign_of_toss(toss, input, change) } else { many.sign(toss, input, change, radius) }
             }
         }
     }
@@ -144,7 +149,14 @@ impl<B: Elementary> Stage<B> {
 
     /// The sign of cos θ at all changes within `radius` of `change`: 0 if it is not proven.
     fn sign(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> f64 {
-        self.height(toss, input, [change, radius]).filter(B::has_known_sign).map_or(0.0, |height| height.sign())
+        sign_of(self.height(toss, input, [change, radius]))
+    }
+
+    /// The same of a body that was given by a tensor: by a Taylor model, because doubling forgets how a ball depends on the
+    /// change.
+    fn sign_by_model(&self, toss: &Toss, input: Input, change: f64, radius: f64) -> f64 {
+        let model = self.doubled(toss, input, [change, radius], TaylorModel::variable);
+        sign_of(model.map(|model| model.range()))
     }
 
     /// The motion for a ball of changes.
@@ -173,34 +185,39 @@ impl<B: Elementary> Stage<B> {
         rates
     }
 
-    /// cos θ for all changes within `radius` of `change`, of a body that was given by a tensor: by a Taylor model, because
-    /// doubling forgets how a ball depends on the change.
-    fn height_by_doubling(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
+    /// The same of a single toss.
+    fn sign_of_toss(&self, toss: &Toss, input: Input, change: f64) -> f64 {
+        sign_of(self.doubled(toss, input, [change, 0.0], |part, _| part))
+    }
+
+    /// cos θ by doubling, in numbers that `number` makes of a value and of how far the change takes it.
+    fn doubled<N: Elementary>(
+        &self,
+        toss: &Toss,
+        input: Input,
+        [change, radius]: [f64; 2],
+        number: fn(B, B) -> N,
+    ) -> Option<N> {
         let exponent = unit_exponent(toss, input, change);
-        let mut rates = self.rates(toss, input, change, 0.0).map(TaylorModel::constant);
-        let time = self.mantissa.times_power_of_two(self.exponent + exponent);
-        let number = |value: f64, exponent: i32| time.like(value).times_power_of_two(exponent);
-        let vary = |value: &mut TaylorModel<B>, width: B| {
-            *value = value.clone() + TaylorModel::variable(width.like(0.0), width);
-        };
-        let mut time = TaylorModel::constant(time.clone());
+        let part = |value: f64, exponent: i32| self.mantissa.like(value).times_power_of_two(exponent);
+        let fixed = |value: B| number(value.clone(), value.like(0.0));
+        let mut rates = self.rates(toss, input, change, 0.0).map(fixed);
+        let mut time = self.mantissa.times_power_of_two(self.exponent + exponent);
+        let mut width = part(0.0, 0);
         match input {
-            Input::Rate(axis) => vary(&mut rates[axis], number(radius, -exponent)),
-            Input::Time => {
-                time = time.clone() + TaylorModel::constant(number(change, exponent));
-                vary(&mut time, number(radius, exponent));
+            Input::Rate(axis) => {
+                let value = self.rates(toss, input, change, 0.0)[axis].clone();
+                rates[axis] = number(value, part(radius, -exponent));
             }
+            Input::Time => (time, width) = (time + part(change, exponent), part(radius, exponent)),
         }
-        let vertical = self.vertical.clone().map(TaylorModel::constant);
+        let (time, vertical) = (number(time, width), self.vertical.clone().map(fixed));
         let turn = doubling::Curve::new(tensor(toss, &time), rates).turn(&time)?;
-        Some(cos_tilt(&turn, &vertical).range())
+        Some(cos_tilt(&turn, &vertical))
     }
 
     /// cos θ for all changes within `radius` of `change`.
     fn height(&self, toss: &Toss, input: Input, [change, radius]: [f64; 2]) -> Option<B> {
-        if toss.body.moments().is_none() {
-            return self.height_by_doubling(toss, input, [change, radius]);
-        }
         let exponent = unit_exponent(toss, input, change);
         let time = self.mantissa.times_power_of_two(self.exponent + exponent);
         let turn = if input == Input::Time {
@@ -217,6 +234,11 @@ impl Stage<WideBall> {
     fn in_digits(toss: &Toss, input: Input, digits: usize) -> Self {
         Self::new(toss, input, vertical_in_digits(&toss.launch, digits), time_in_digits(&toss.launch, digits), 0)
     }
+}
+
+/// The sign of cos θ; 0 if it is not known.
+fn sign_of<N: Elementary>(cos_tilt: Option<N>) -> f64 {
+    cos_tilt.filter(N::has_known_sign).map_or(0.0, |cos_tilt| cos_tilt.sign())
 }
 
 /// Exponent of the unit of the rates, a power of two near the largest.

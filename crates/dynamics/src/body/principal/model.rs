@@ -6,7 +6,7 @@
 //! there, too, or where there is none, the model has two equal moments: any axes across the third one are then principal
 //! axes of the model, and the body differs from it by the gap.
 
-use numerics::{Ball, Big, DoubleDouble, Elementary};
+use numerics::{Ball, Big, DoubleDouble, Elementary, WideBall};
 
 use super::{PrincipalAxes, gap, left_off_diagonal};
 
@@ -45,11 +45,11 @@ impl ModelBody {
     /// Axes that are almost principal ones are made perpendicular in balls, which contain exact axes A then. In these axes
     /// the tensor is diagonal but for what is `left`, whatever the gaps.
     pub(in crate::body) fn of_close_moments(tensor: [[f64; 3]; 3]) -> Self {
-        let like = Big::ZERO.with_precision(DIGITS).value();
-        let (found, _) = PrincipalAxes::diagonalised(tensor.map(|row| row.map(|element| like.like(element))));
-        let like = Ball::new(like, 0.0);
-        let axes = perpendicular(found.axes.map(|axis| axis.map(|part| Ball::new(part, 0.0))));
+        let zero = Big::ZERO.with_precision(DIGITS).value();
+        let like = WideBall::new(zero.clone(), &zero);
         let tensor = tensor.map(|row| row.map(|element| like.like(element)));
+        let (found, _) = PrincipalAxes::diagonalised(tensor.clone());
+        let axes = perpendicular(found.axes.map(|axis| axis.map(|part| WideBall::new(part.midpoint().clone(), &zero))));
         let turned = axes.each_ref().map(|axis| tensor.each_ref().map(|row| dot(row, axis)));
         let diagonal = turned.map(|row| axes.each_ref().map(|axis| dot(axis, &row)));
         let left = left_off_diagonal(&diagonal);
@@ -74,7 +74,7 @@ impl ModelBody {
         let vanish = [equal[1], equal[0] && equal[1], equal[0]];
         let couplings = [0, 1, 2].map(|index: usize| if vanish[index] { none } else { couplings[index] });
         let apart: f64 = (0..2).filter(|index| equal[*index]).map(|index: usize| gaps[index]).sum();
-        let radii: f64 = moments.iter().map(Ball::radius).sum();
+        let radii: f64 = moments.iter().map(WideBall::error).sum();
         let principal = rounded(PrincipalAxes { moments, axes: found.axes });
         Self { principal, couplings, off: 1.001 * (left + apart + 2.0 * radii) }
     }
@@ -110,7 +110,7 @@ fn perpendicular<N: Elementary>([first, second, _]: [[N; 3]; 3]) -> [[N; 3]; 3] 
     [first, second, third]
 }
 
-fn rounded(principal: PrincipalAxes<Ball<Big>>) -> PrincipalAxes<Ball<DoubleDouble>> {
+fn rounded(principal: PrincipalAxes<WideBall>) -> PrincipalAxes<Ball<DoubleDouble>> {
     let PrincipalAxes { moments, axes } = principal;
     PrincipalAxes {
         moments: moments.each_ref().map(in_double_double),
@@ -119,7 +119,7 @@ fn rounded(principal: PrincipalAxes<Ball<Big>>) -> PrincipalAxes<Ball<DoubleDoub
 }
 
 /// A ball of double-double that contains this one.
-fn in_double_double(ball: &Ball<Big>) -> Ball<DoubleDouble> {
+fn in_double_double(ball: &WideBall) -> Ball<DoubleDouble> {
     let like = Ball::new(DoubleDouble::ZERO, 0.0);
-    like.like_big(&ball.to_big()).widened(ball.radius())
+    like.like_big(&ball.to_big()).widened(ball.error())
 }
