@@ -189,8 +189,8 @@ impl Contest {
 impl Flown {
     fn new(subject: &Subject, survey: &Survey) -> Self {
         let launches = survey.tosses.iter().zip(&survey.exact);
-        let run = |(toss, exact): (_, &Option<_>)| Some(Run::new(subject, toss, exact.as_ref()?));
-        let runs: Vec<Run> = launches.filter_map(run).collect();
+        let runs: Vec<Run> =
+            launches.filter_map(|(toss, exact)| Some(Run::new(subject, toss, exact.as_ref()?))).collect();
         let largest = |of: fn(&Run) -> Option<f64>| runs.iter().filter_map(of).fold(0.0, f64::max);
         let count = |of: fn(&Run) -> bool| runs.iter().filter(|run| of(run)).count() as u64;
         let estimate = |toss: &Toss| subject.solver.tilt(toss).ok()?.error;
