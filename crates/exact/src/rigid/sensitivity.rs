@@ -17,6 +17,7 @@
 
 use dynamics::{Launch, SolveError, Toss};
 use nalgebra::{Matrix3x4, Vector3, Vector4};
+use numerics::big::exactly;
 use numerics::{DoubleDouble, Elementary, Jet};
 
 use super::curve::Curve;
@@ -24,7 +25,7 @@ use super::quaternion::{Quaternion, conjugate, norm_squared, product};
 use super::regime::{Regime, along};
 use super::tensor::Symmetric;
 use super::tensor_toss::Given;
-use super::{ExactMotion, cos_tilt, doubling, in_many_digits};
+use super::{ExactMotion, MANY_DIGITS, cos_tilt, doubling};
 use crate::given::{components_are_close, in_digits, right_to_25_u2, scaled, vertical_in_double_double};
 use crate::sensitivity::Sensitivity;
 
@@ -115,10 +116,12 @@ fn without_vanishing(toss: &Toss) -> Option<Toss> {
 /// The changes of the landing with each component of the rate, in the unit of the curve: by as many digits as it takes.
 fn changes(toss: &Toss, motion: &ExactMotion) -> Option<[Change<f64>; 3]> {
     let (rate, _) = toss.launch.given_rate();
-    // Beside a motion that has a form of its own, whatever the error bounds are.
+    // Without an error bound, beside a motion that has a form of its own.
     let without_bound = |aside: f64| {
         let (time, _) = motion.time_and_unit(toss.launch.time_of_flight().into()).ok()?;
-        let time = in_many_digits().like_big(&time.to_big());
+        // Not in balls, of which the elliptic functions next to the separatrix leave no digit.
+        let like = exactly(0.0).with_precision(MANY_DIGITS).value();
+        let time = like.like_big(&time.to_big());
         let vertical = toss.launch.attitude().exact_vertical().map(|part| time.like_big(&part.to_big()));
         let mut moved = scaled(&rate, &time);
         for (part, direction) in moved.iter_mut().zip([1.0, -0.7, 0.6]) {
