@@ -84,9 +84,9 @@ impl<'a> Line<'a> {
         let is_tensor = toss.body.moments().is_none();
         match stage {
             0 if is_tensor => self.rough.sign_by_model(toss, input, change, radius),
-            // More digits tell the outcome of a toss; over an interval of tosses, f64 has enough.
+            1 if is_tensor => self.fine.sign_by_model(toss, input, change, radius),
+            // More digits tell the outcome of a toss; over an interval of tosses, double-double has enough.
             _ if is_tensor && radius > 0.0 => 0.0,
-            1 if is_tensor => self.fine.sign_of_toss(toss, input, change),
             0 => self.rough.sign(toss, input, change, radius),
             1 => self.fine.sign(toss, input, change, radius),
             _ => {
