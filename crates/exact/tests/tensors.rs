@@ -178,6 +178,14 @@ fn a_body_at_rest_is_decided_and_a_tie_is_proven() {
     }
 }
 
+/// 1e-300 of the rate beside the middle axis takes more digits than there are after some thousand radians.
+#[test]
+fn a_flight_beyond_the_digits_is_an_error_and_no_small_cos_tilt() {
+    let toss = toss(INTEGRATED[8].0, [4.0, -3.0, 1e-300], 0.3, 1e4);
+    assert!(!certify(&toss).unwrap().is_proven());
+    assert_eq!(ExactSolver.tilt(&toss).unwrap_err().kind(), "not_finite");
+}
+
 /// A rate in degrees is not one of f64 in radians.
 #[test]
 fn rates_in_degrees_are_decided_as_they_were_given() {

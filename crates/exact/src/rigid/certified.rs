@@ -104,12 +104,23 @@ impl Question for Rounded {
     }
 }
 
+/// That |cos θ| is at most [`COS_TILT_ERROR`].
+struct Near0;
+
+impl Question for Near0 {
+    type Answer = ();
+
+    fn answer<N: Elementary>(&self, landed: &Landed<N>) -> Option<()> {
+        (cos_tilt_of(landed).bound() <= COS_TILT_ERROR).then_some(())
+    }
+}
+
 /// cos θ at landing and a bound of its error. cos θ has the sign of the proven outcome, and where an outcome is proven the
 /// bound is smaller than |cos θ|: near 0, where f64 would lose the leading digits, cos θ is rounded from more digits. A body
 /// of which the last number of digits does not give 58 bits of cos θ has 0.
 ///
 /// # Errors
-/// As [`certify`].
+/// As [`certify`]; [`SolveError::NotFinite`] for a tensor of whose cos θ the last number of digits tells nothing.
 pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
     let rounded = |cos_tilt: f64| (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()));
     if let Some(toss) = toss.coin() {
@@ -124,8 +135,12 @@ pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError>
         if sign_at_rest(toss) == Some(0.0) {
             return Ok((0.0, 0.0));
         }
-        let found = climb_from_double_double(toss, None, &Rounded);
-        return Ok(found.map_or((0.0, COS_TILT_ERROR), |(cos_tilt, _)| rounded(cos_tilt)));
+        if let Some((cos_tilt, _)) = climb_from_double_double(toss, None, &Rounded) {
+            return Ok(rounded(cos_tilt));
+        }
+        // That the digits ran out says nothing of the size of cos θ, but a ball about 0 does.
+        let is_near_0 = climb_from_double_double(toss, None, &Near0).is_some();
+        return if is_near_0 { Ok((0.0, COS_TILT_ERROR)) } else { Err(SolveError::NotFinite { time: time.seconds() }) };
     }
     let (cos_tilt, phase) = (motion.cos_tilt(time)?, motion.phase(time)?);
     let error = if phase <= LARGEST_PHASE_IN_DOUBLE_DOUBLE { COS_TILT_ERROR } else { ERROR_AT_LARGE_PHASES };
