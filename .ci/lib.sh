@@ -27,6 +27,13 @@ leave_out() {
     exit 0
 }
 
+# Fetches the dependencies of a package outside the workspace, whose lock file has to be complete as committed.
+fetch_or_leave_out() {
+    if cargo fetch --locked --manifest-path "$1" 2>/dev/null; then return; fi
+    ! cargo fetch --manifest-path "$1" 2>/dev/null || fail "${1%.toml}.lock is not complete; it was, now"
+    leave_out "crates.io can't be reached, which has the dependencies of $1"
+}
+
 # Seconds of CPU of the programs that this shell has waited for, in milliseconds.
 cpu() {
     local line

@@ -4,6 +4,7 @@
 //!
 //! Exit codes are those of the task; 2 for bad usage, 4 if the task could not be built or started.
 
+mod affected;
 mod contest;
 mod figures;
 mod fuzz;
@@ -42,6 +43,8 @@ enum Task {
     Contest(contest::Contest),
     Mutants(mutants::Mutants),
     Web(web::Web),
+    #[command(hide = true)]
+    Affected(affected::Affected),
 }
 
 fn main() -> ExitCode {
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Ok(Task::Contest(task)) => task.run(),
         Ok(Task::Mutants(task)) => task.run(),
         Ok(Task::Web(task)) => task.run(),
+        Ok(Task::Affected(_)) => affected::Affected::run(),
         Err(asked) if !asked.use_stderr() => output::printed(asked.print()).map(|()| ExitCode::SUCCESS),
         // Without a standard error there is nobody to say it to.
         Err(error) => {

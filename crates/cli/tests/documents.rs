@@ -19,8 +19,8 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("README.md", "sh", 1, "", "it would install the program"),
     ("README.md", "rust", 1, "xtask/tests/downstream.rs", "runs it in a crate outside the workspace"),
     ("README.md", "python", 1, "bindings/python/tests/test_package.py", "runs it"),
-    ("docs/ci.md", "sh", 1, "crates/verify/tests/pages.rs", "runs them in their order"),
-    ("docs/ci.md", "yaml", 1, "crates/verify/tests/pages.rs", "runs the options of the workflow"),
+    ("docs/ci.md", "sh", 1, "crates/verify/tests/all/pages.rs", "runs them in their order"),
+    ("docs/ci.md", "yaml", 1, "crates/verify/tests/all/pages.rs", "runs the options of the workflow"),
     ("docs/ci.md", "yaml", 1, "", "it needs GitLab; its options are among those of the workflow"),
     ("docs/more-machines.md", "python", 1, "bindings/python/tests/test_more_machines.py", "runs it, with less to do"),
     ("docs/more-machines.md", "python notest", 2, "", "test_dask.py has the lines for Dask; no test has Ray"),
@@ -31,11 +31,17 @@ const ELSEWHERE: &[(&str, &str, usize, &str, &str)] = &[
     ("docs/guide/python.md", "python", 4, "bindings/python/tests/test_package.py", "runs them"),
     ("docs/guide/python.md", "sh", 1, ".ci/python", "builds and installs the package"),
     ("docs/your-solver.md", "text", 1, "crates/verify/tests/process.rs", "compares the columns"),
-    ("docs/your-solver.md", "sh program", 1, "crates/verify/tests/pages.rs", "runs it with the program of the page"),
-    ("docs/your-solver.md", "text program", 1, "crates/verify/tests/pages.rs", "compares the report"),
+    (
+        "docs/your-solver.md",
+        "sh program",
+        1,
+        "crates/verify/tests/all/pages.rs",
+        "runs it with the program of the page",
+    ),
+    ("docs/your-solver.md", "text program", 1, "crates/verify/tests/all/pages.rs", "compares the report"),
     ("docs/your-solver.md", "rust", 1, "tests/lib.rs", "compiles it"),
-    ("docs/your-solver.md", "sh crate", 1, "crates/verify/tests/pages.rs", "runs it with the crate of the page"),
-    ("docs/your-solver.md", "text crate", 1, "crates/verify/tests/pages.rs", "compares the report"),
+    ("docs/your-solver.md", "sh crate", 1, "crates/verify/tests/all/pages.rs", "runs it with the crate of the page"),
+    ("docs/your-solver.md", "text crate", 1, "crates/verify/tests/all/pages.rs", "compares the report"),
 ];
 
 /// A fenced block: what stands behind its opening fence, and its lines.

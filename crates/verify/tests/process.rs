@@ -2,6 +2,7 @@
 //! becomes an error that says so, in bounded time and without a process left behind.
 #![cfg(target_os = "linux")]
 
+#[path = "all/programs.rs"]
 mod programs;
 
 use std::time::{Duration, Instant};

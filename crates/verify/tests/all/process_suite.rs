@@ -1,11 +1,8 @@
 //! Whole runs of the suite over a program: they end in bounded time, with a row that says what it did.
-#![cfg(target_os = "linux")]
-
-mod programs;
 
 use std::time::{Duration, Instant};
 
-use programs::{answering, example, has_python};
+use crate::programs::{answering, example, has_python};
 
 /// What `verify run` with a program prints and its exit code.
 fn verified(arguments: &[&str]) -> (String, Option<i32>) {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-const README: &str = include_str!("../../../README.md");
+const README: &str = include_str!("../../../../README.md");
 
 #[test]
 fn the_readmes_table_of_accuracy_is_that_of_the_newest_record() {

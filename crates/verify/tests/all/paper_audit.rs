@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const AUDIT: &str = include_str!("../../../docs/paper-audit.md");
+const AUDIT: &str = include_str!("../../../../docs/paper-audit.md");
 
 /// The commands of the document that begin with `prefix`, with the prefix removed.
 fn commands(prefix: &str) -> Vec<&'static str> {

@@ -9,7 +9,7 @@ use verify::judge::baseline;
 use verify::judge::limits::Limits;
 use verify::{CHECKS, Effort, Judges, Report, Row, Status, Suite, Verdict};
 
-#[path = "../examples/own_solver.rs"]
+#[path = "../../examples/own_solver.rs"]
 #[expect(dead_code, reason = "its main function is tested as a program")]
 mod own_solver;
 

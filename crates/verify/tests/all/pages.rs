@@ -1,17 +1,13 @@
 //! These tests follow docs/your-solver.md and docs/ci.md to the letter: they run the programs that the pages show, whole,
 //! by the commands that the pages show, in their order, and compare the reports.
-#![cfg(target_os = "linux")]
-
-#[expect(dead_code, reason = "other tests use the rest")]
-mod programs;
 
 use std::path::Path;
 use std::process::{Command, Output};
 
-use programs::{example, has_python};
+use crate::programs::{example, has_python};
 
-const SOLVER: &str = include_str!("../../../docs/your-solver.md");
-const CI: &str = include_str!("../../../docs/ci.md");
+const SOLVER: &str = include_str!("../../../../docs/your-solver.md");
+const CI: &str = include_str!("../../../../docs/ci.md");
 
 /// The block of `page` behind the fence that says `kind`.
 fn block<'a>(page: &'a str, kind: &str) -> &'a str {
@@ -46,7 +42,7 @@ fn assert_printed(kind: &str, program: &Path, folder: &Path) {
 
 /// The program of the crate that the page shows, which is the example `own_solver`.
 fn own_solver() -> std::path::PathBuf {
-    let example = include_str!("../examples/own_solver.rs");
+    let example = include_str!("../../examples/own_solver.rs");
     assert_eq!(block(SOLVER, "rust,no_run src/main.rs"), example, "the page shows the whole program");
     let test = std::env::current_exe().expect("a test knows where it is");
     let profile = test.ancestors().nth(2).expect("target/PROFILE/deps/TEST");
