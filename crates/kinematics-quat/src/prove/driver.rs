@@ -263,8 +263,6 @@ fn of_attitude(launched: Attitude) -> f64 {
 }
 
 #[cfg(test)]
-mod close_moments_tests;
-#[cfg(test)]
 mod outcomes_tests;
 #[cfg(test)]
 mod rigid_tests;

@@ -2,11 +2,8 @@
 
 use dynamics::{Attitude, Body, Coin, Formulation, Launch, Scheme, Stepping, Tilt, TimeOfFlight};
 
+use super::tests::solver;
 use super::*;
-
-fn solver(tolerance: f64) -> QuaternionSolver {
-    QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
-}
 
 /// Tosses of about this phase; every second one lands about as near to the edge as coarse flights are off.
 fn tosses(phase: f64) -> Vec<Toss> {
