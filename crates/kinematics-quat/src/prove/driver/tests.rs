@@ -154,7 +154,8 @@ fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
             approx::assert_relative_eq!(bounds[0], 20.0, max_relative = 1e-12);
             approx::assert_relative_eq!(bounds[1], 24.0 + tilt, max_relative = 1e-12);
             // The error of a turn moves the normal by twice as much.
-            let flown = Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(2.0)).unwrap().with_attitude(launch.attitude());
+            let flown =
+                Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(2.0)).unwrap().with_attitude(launch.attitude());
             let found = solver(1e-9).enclose(&Toss { body, launch: flown }).unwrap();
             let [normal, turn] = [found.error_bound(), found.attitude_error_bound()];
             let roundings = bounds.map(|bound| bound * UNIT_ROUNDOFF);
