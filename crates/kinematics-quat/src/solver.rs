@@ -56,7 +56,8 @@ impl QuaternionSolver {
     /// other.
     pub fn land_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Landing, SolveError>> {
         let Some(taylor) = &self.taylor else { return tosses.iter().map(|toss| self.land(toss)).collect() };
-        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        // A clone of an error for each would take longer.
+        let mut landings: Vec<_> = tosses.iter().map(|_| Err(SolveError::NotFinite { time: 0.0 })).collect();
         self.fly(taylor, tosses, level, |index, landing| landings[index] = landing);
         landings
     }
@@ -71,23 +72,17 @@ impl QuaternionSolver {
         mut land: impl FnMut(usize, Result<Landing, SolveError>),
     ) {
         fly::<Coins>(&taylor.coins, tosses.iter().enumerate(), level, |index, landed| {
-            land(index, self.by_series(taylor.tolerance, &tosses[index], landed));
+            land(index, landed.and_then(|landed| self.by_series(taylor.tolerance, &tosses[index], &landed)));
         });
         fly::<Bodies>(&taylor.bodies, tosses.iter().enumerate(), level, |index, landed| {
-            land(index, self.by_series(taylor.tolerance, &tosses[index], landed));
+            land(index, landed.and_then(|landed| self.by_series(taylor.tolerance, &tosses[index], &landed)));
         });
     }
 
     /// The landing of `toss` by Taylor series of this tolerance, with its error estimate.
-    fn by_series<B>(
-        &self,
-        tolerance: f64,
-        toss: &Toss,
-        landed: Result<Landed<B>, SolveError>,
-    ) -> Result<Landing, SolveError> {
-        let landed = landed?;
+    fn by_series<B>(&self, tolerance: f64, toss: &Toss, landed: &Landed<B>) -> Result<Landing, SolveError> {
         let estimate = of_series(tolerance, toss, &landed.flight)?;
-        Ok(self.landing(toss.launch.attitude(), &landed)?.with_error(estimate))
+        self.landing(toss.launch.attitude(), landed).map(|landing| landing.with_error(estimate))
     }
 
     /// The landing by a Runge-Kutta scheme, without its error estimate.

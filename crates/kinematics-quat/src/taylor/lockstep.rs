@@ -48,6 +48,9 @@ pub(crate) trait Motion: Default {
     fn bound(&self, lane: usize, steps: u64) -> Self::Bound;
 }
 
+/// The end of a flight.
+type End<M> = Result<Landed<<M as Motion>::Bound>, SolveError>;
+
 /// The time that is left in each lane.
 #[derive(Default)]
 pub(crate) struct Clock {
@@ -75,7 +78,7 @@ pub(crate) fn fly<'a, M: Motion>(
     plans: &StepPlans,
     tosses: impl Iterator<Item = (usize, &'a Toss)> + Clone,
     level: SimdLevel,
-    mut land: impl FnMut(usize, Result<Landed<M::Bound>, SolveError>),
+    mut land: impl FnMut(usize, End<M>),
 ) {
     let tosses = tosses.filter_map(|(index, toss)| Some((index, M::body(&toss.body)?, toss)));
     if tosses.clone().next().is_none() {
@@ -98,7 +101,7 @@ struct Queue<'a, 'toss, M: Motion> {
     skipped: bool,
     /// The tosses to come, each with its number and its body.
     tosses: &'a mut dyn Iterator<Item = (usize, &'toss M::Body, &'toss Toss)>,
-    land: &'a mut dyn FnMut(usize, Result<Landed<M::Bound>, SolveError>),
+    land: &'a mut dyn FnMut(usize, End<M>),
 }
 
 /// The flight in each lane.
@@ -138,7 +141,7 @@ impl<M: Motion> WithSimd for Queue<'_, '_, M> {
 impl<M: Motion> Queue<'_, '_, M> {
     /// Puts the next flight of this pass into `lane`. A flight of no duration or without rotation lands at once.
     fn start(&mut self, lanes: &mut Lanes<M>, lane: usize) {
-        while let Some((index, body, toss)) = self.tosses.next() {
+        for (index, body, toss) in &mut *self.tosses {
             match Flight::new(toss) {
                 Ok(flight) if flight.is_long() == self.long => {
                     lanes.launch(lane, self.plan, (body, toss), &flight);
@@ -173,7 +176,7 @@ impl<M: Motion> Lanes<M> {
     /// Counts the step of `lane`. If the flight has landed or has reached the limit of steps, returns the number of its
     /// toss and its end, and leaves the lane idle.
     #[inline(always)]
-    fn landed(&mut self, lane: usize, plan: &StepPlan) -> Option<(usize, Result<Landed<M::Bound>, SolveError>)> {
+    fn landed(&mut self, lane: usize, plan: &StepPlan) -> Option<(usize, End<M>)> {
         let (index, flight) = self.flying[lane].as_ref()?;
         let index = *index;
         self.steps[lane] += 1;
