@@ -1,7 +1,7 @@
 //! Functions that the tests across crates share: random tosses, the solvers of the registry, and the errors that are
 //! allowed. Solvers and schemes come from the registry, so that a new solver is tested by every test.
 
-use dynamics::RigidPhase;
+use dynamics::Phases;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use toss::{
@@ -49,13 +49,8 @@ pub fn name(solver: &dyn Solver) -> String {
 /// toss can change. θ is the angle between the normal and the vertical. It is infinite where a solver estimates no error,
 /// which is allowed next to an unstable turn of a body with I1 ≠ I2 alone.
 pub fn tilt_error(solver: &dyn Solver, toss: &Toss) -> f64 {
-    let (turned, growth) = match toss.body {
-        Body::Coin(_) => (phase(toss), 1.0),
-        Body::Rigid(_) => {
-            let RigidPhase { angle, growth } = RigidPhase::new(toss).expect("the tosses of the tests are short");
-            (angle, growth)
-        }
-    };
+    let Phases { largest, growth } = Phases::new(toss).expect("the tosses of the tests are short");
+    let turned = if toss.coin().is_some() { phase(toss) } else { largest };
     let estimate = solver.land(toss).expect("the solver lands it").error;
     assert!(estimate.is_some() || toss.coin().is_none(), "{} has no error estimate for a coin", name(solver));
     estimate.unwrap_or(f64::INFINITY) + 4.0 * f64::EPSILON * (2.0 + turned) * growth

@@ -10,7 +10,7 @@ use crate::attitude::Attitude;
 use crate::body_rate::rate_by_momentum;
 use crate::entry::SolverEntry;
 use crate::error::{Reason, SolveError};
-use crate::phase::RoughPhases;
+use crate::phase::Phases;
 use crate::solver::{Landing, Solver, Work};
 use crate::state::State;
 use crate::toss::{CoinToss, Toss};
@@ -82,11 +82,11 @@ where
     }
 
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
-        let toss = toss.of_coin(&self.name, COINS_ALONE)?;
-        RoughPhases::new(&toss).largest()?;
-        let attitude = (self.attitude)(&toss).map_err(|error| failed(&self.name, error))?;
-        let state = State { attitude, rate: rate_by_momentum(&toss, &attitude) };
-        Ok(Landing::new(state, Work::default()).with_error((self.error_estimate)(&toss)))
+        let coin = toss.of_coin(&self.name, COINS_ALONE)?;
+        Phases::new(toss)?;
+        let attitude = (self.attitude)(&coin).map_err(|error| failed(&self.name, error))?;
+        let state = State { attitude, rate: rate_by_momentum(&coin, &attitude) };
+        Ok(Landing::new(state, Work::default()).with_error((self.error_estimate)(&coin)))
     }
 }
 

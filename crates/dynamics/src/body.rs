@@ -302,7 +302,7 @@ impl RigidBody {
     /// How many times as large as at launch |ω| can become: at most √2, and √3 for a plate as thin as rounding.
     ///
     /// |ω|² - pr ω2², with p and r the first and the last of the [couplings](RigidBody::couplings), does not change: see
-    /// [`RigidPhase`](crate::RigidPhase).
+    /// [`phase`](crate::phase).
     pub fn largest_growth_of_rate(&self) -> f64 {
         let [p, _, r] = self.couplings;
         (1.0 + (p * r).abs().max(1.0)).sqrt()

@@ -23,7 +23,7 @@ use crate::flight::Flight;
 use crate::solver::{Landing, Work};
 use crate::state::State;
 use crate::stepping::{StepControl, Stepping, step_count};
-use crate::toss::CoinToss;
+use crate::toss::{CoinToss, Toss};
 
 /// The rotation of a toss from launch to landing. See [this module](self) for its state and its units.
 ///
@@ -67,7 +67,7 @@ impl FreeRotation {
     /// [`SolveError::PhaseTooLarge`] if the coin turns by more than 2^53 rad.
     pub fn new(toss: &CoinToss) -> Result<Self, SolveError> {
         Ok(Self {
-            flight: Flight::new(toss)?,
+            flight: Flight::new(&Toss::from(*toss))?,
             launched: toss.launch.attitude(),
             inertia_ratio: toss.coin.inertia_ratio(),
             seconds: toss.launch.flight_time(),
@@ -121,11 +121,7 @@ impl FreeRotation {
             return Err(self.flight.not_finite());
         }
         let turn = Attitude::from_components([w, x, y, z]).map_err(|_| self.flight.not_finite())?;
-        // A spin below the range of f64 in units of σ keeps its digits if the stepper left it as it was.
-        let mut rate = self.flight.rate_at(rate_x, rate_y);
-        if rate_z != self.flight.rate.z {
-            rate.z = self.flight.rate_at(rate_z, 0.0).x;
-        }
+        let rate = self.flight.rate_at([rate_x, rate_y, rate_z]);
         let norm = Vector4::new(w, x, y, z).norm();
         let state = State { attitude: self.launched * turn, rate };
         Ok(Landing::new(state, work).with_norm_error((norm - 1.0).abs()))

@@ -8,10 +8,10 @@ use std::f64::consts::SQRT_2;
 use std::fmt;
 use std::str::FromStr;
 
+use crate::body::Body;
 use crate::error::{InputError, SolveError, require};
-use crate::phase::RoughPhases;
+use crate::phase::Phases;
 use crate::quantity::Dimension;
-use crate::rigid_phase::RigidPhase;
 use crate::scheme::Scheme;
 use crate::toss::Toss;
 
@@ -146,7 +146,7 @@ impl Stepping {
     }
 
     /// Estimate of the error of cos θ at the landing of `toss`, (τ + 4 ε (1 + n)) × (1 + φ) for a flight with the
-    /// [phase](RoughPhases::largest) φ (rad) in n steps.
+    /// [phase](Phases::largest) φ (rad) in n steps.
     ///
     /// The first term is truncation. With a tolerance τ is 100 × tolerance. With fixed steps of h (s) it is
     /// (|ω| h)^order × (1 + |ω| h φ/100), that of a regular motion; nothing is measured during such a flight, so that the
@@ -160,20 +160,17 @@ impl Stepping {
     /// steps is known. With a tolerance it is taken as ¼ (1 + φ) × tolerance^(-1/order), with the
     /// [tightened](crate::Flight::tightened) tolerance and the root rounded up to a power of two.
     ///
-    /// For a body that is not a coin, φ is the angle through which it turns at most, and the estimate is multiplied by the
-    /// [growth](RigidPhase::growth) of a disturbance. It is `None` from 1 on: it then says nothing about a cosine.
+    /// For a body that is not a coin, the estimate is multiplied by the [growth](Phases::growth) of a disturbance. It is `None` from 1 on: it then says nothing about a cosine.
     ///
     /// # Errors
     /// [`SolveError::PhaseTooLarge`] if φ exceeds 2^53.
     pub fn error_estimate(&self, toss: &Toss) -> Result<Option<f64>, SolveError> {
-        if let Some(toss) = toss.coin() {
-            let phase = RoughPhases::new(&toss).largest()?;
-            return Ok(Some(self.estimate(phase, toss.launch.turn_rate(), toss.launch.flight_time())));
-        }
-        let phase = RigidPhase::new(toss)?;
-        let fastest = SQRT_2 * toss.launch.turn_rate();
-        let estimate = phase.growth * self.estimate(phase.angle, fastest, toss.launch.flight_time());
-        Ok(Some(estimate).filter(|estimate| *estimate < 1.0))
+        let Phases { largest, growth } = Phases::new(toss)?;
+        let estimate = |turn_rate| growth * self.estimate(largest, turn_rate, toss.launch.flight_time());
+        Ok(match toss.body {
+            Body::Coin(_) => Some(estimate(toss.launch.turn_rate())),
+            Body::Rigid(_) => Some(estimate(SQRT_2 * toss.launch.turn_rate())).filter(|estimate| *estimate < 1.0),
+        })
     }
 
     /// The estimate for a flight of `time` (s) that turns by `phase` (rad), at most at the rate `turn_rate` (rad/s).

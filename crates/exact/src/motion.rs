@@ -212,7 +212,8 @@ fn unit_momentum([x, y, z]: [DoubleDouble; 3], k: DoubleDouble) -> ([DoubleDoubl
     let unit = power_of_two_scale(x.hi().abs().max(y.hi().abs()).max(spin.hi().abs()));
     let (_, unit_exponent) = mantissa_and_exponent(unit);
     let momentum = [x, y, spin].map(|part| part.in_unit(unit));
-    let norm = momentum.iter().fold(DoubleDouble::ZERO, |sum, part| sum + *part * *part).sqrt();
+    let [x_squared, y_squared, z_squared] = momentum.map(|part| part * part);
+    let norm = (x_squared + y_squared + z_squared).sqrt();
     let direction =
         if norm.hi() > 0.0 { momentum.map(|part| part / norm) } else { [0.0, 0.0, 1.0].map(DoubleDouble::from) };
     (direction, norm.times_power_of_two(unit_exponent))

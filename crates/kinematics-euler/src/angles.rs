@@ -82,7 +82,7 @@ impl Solver for EulerAnglesSolver {
 
 impl EulerAnglesSolver {
     fn land_coin(&self, toss: &CoinToss) -> Result<(Landing, Passes), SolveError> {
-        let flight = Flight::new(toss)?;
+        let flight = Flight::new(&Toss::from(*toss))?;
         let start = InitialConditions::new(toss, &flight.rate, self.formulation);
         let (k, rate_z) = (toss.coin.inertia_ratio(), flight.rate.z);
         let EulerAngles { alpha, beta, gamma } = start.angles;

@@ -82,7 +82,7 @@ impl Solver for GammaSolver {
 
 impl GammaSolver {
     fn land_coin(&self, toss: &CoinToss) -> Result<(Landing, Passes), SolveError> {
-        let flight = Flight::new(toss)?;
+        let flight = Flight::new(&Toss::from(*toss))?;
         let rate = flight.rate;
         let start = InitialConditions::new(toss, &rate, self.formulation);
         let k = toss.coin.inertia_ratio();

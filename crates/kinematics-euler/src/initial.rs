@@ -60,7 +60,8 @@ impl InitialConditions {
         if !angles.beta.is_finite() {
             return Err(flight.not_finite());
         }
-        let state = State { attitude: self.frame * angles.attitude(), rate: flight.rate_at(rate_x, rate_y) };
+        let state =
+            State { attitude: self.frame * angles.attitude(), rate: flight.rate_at([rate_x, rate_y, flight.rate.z]) };
         Ok(Landing::new(state, work))
     }
 

@@ -28,8 +28,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use dynamics::body::principal_acceleration;
 use dynamics::integrate::OdeSystem;
 use dynamics::{
-    Attitude, EulerAngles, Formulation, Frame, Landing, RigidFlight, Singularity, SolveError, State, Stepping, Toss,
-    Vector3,
+    Attitude, EulerAngles, Flight, Formulation, Frame, Landing, Singularity, SolveError, State, Stepping, Toss, Vector3,
 };
 use nalgebra::SVector;
 
@@ -50,16 +49,16 @@ pub(crate) fn land(
     stepping: &Stepping,
     formulation: Formulation,
 ) -> Result<(Landing, Passes), SolveError> {
-    let flight = RigidFlight::new(toss)?;
+    let flight = Flight::new(toss)?;
     let launched = toss.launch.attitude();
     let start = match formulation.frame() {
         Frame::Momentum => Start::along_momentum(toss, &flight),
-        Frame::Vertical => Start::vertical(&launched, &flight)?,
+        Frame::Vertical => Start::vertical(toss, &flight)?,
     };
     let EulerAngles { alpha, beta, gamma } = start.angles;
-    let [first, second, third] = flight.rates;
+    let [first, second, third] = flight.rate.into();
     let first = SVector::from([alpha, beta, gamma, first, second, third]);
-    let (end, work) = flight.timing().integrate(&start.system, first, stepping)?;
+    let (end, work) = flight.integrate(&start.system, first, stepping)?;
     let attitude = EulerAngles { alpha: end[0], beta: end[1], gamma: end[2] }.attitude();
     let attitude = match formulation.frame() {
         Frame::Vertical => attitude,
@@ -67,7 +66,7 @@ pub(crate) fn land(
             let [w, x, y, z] = (start.angles.attitude().inverse() * attitude).components();
             let [x, y, z] = start.system.about_principal_axes([x, y, z]);
             let turn = Attitude::from_components(flight.turn_in_body([w, x, y, z]));
-            launched * turn.map_err(|_| flight.timing().not_finite())?
+            launched * turn.map_err(|_| flight.not_finite())?
         }
     };
     let state = State { attitude, rate: flight.rate_at([end[3], end[4], end[5]]) };
@@ -82,11 +81,12 @@ struct Start {
 
 impl Start {
     /// Angles of a principal axis from the angular momentum.
-    fn along_momentum(toss: &Toss, flight: &RigidFlight) -> Self {
+    fn along_momentum(toss: &Toss, flight: &Flight) -> Self {
         let [i1, i2, i3] = toss.body.principal_moments();
         let (i1, i2) = (i1 / i3, i2 / i3);
-        let [a, b, c] = flight.couplings.map(|coupling| coupling.abs().sqrt());
-        let [first, second, third] = flight.rates;
+        let couplings = toss.body.rigid().couplings();
+        let [a, b, c] = couplings.map(|coupling| coupling.abs().sqrt());
+        let [first, second, third] = flight.rate.into();
         // √P3 and √P1, but for a common factor.
         let (near_first, near_third) = (i1 * (b * first).hypot(a * second), (c * second).hypot(b * third));
         let order = if near_third >= near_first { [1, 2, 0] } else { [0, 1, 2] };
@@ -96,25 +96,26 @@ impl Start {
         let beta = if momentum == [0.0; 3] { FRAC_PI_2 } else { x.hypot(y).atan2(z) };
         let angles = EulerAngles { alpha: 0.0, beta, gamma: x.atan2(y) };
         let axes = order.map(|axis| [0, 1, 2].map(|column| if column == axis { 1.0 } else { 0.0 }));
-        Self { angles, system: RigidAngles::new(axes, flight, 0.5 * third_of(&axes, flight)) }
+        Self { angles, system: RigidAngles::new(axes, couplings, 0.5 * third_of(&axes, flight)) }
     }
 
     /// Angles of n from the vertical.
     ///
     /// # Errors
     /// [`SolveError::Singular`] if n is along the vertical, and so is ω for a moment.
-    fn vertical(launched: &Attitude, flight: &RigidFlight) -> Result<Self, SolveError> {
-        let angles = EulerAngles::principal(launched);
+    fn vertical(toss: &Toss, flight: &Flight) -> Result<Self, SolveError> {
+        let (launched, couplings) = (toss.launch.attitude(), toss.body.rigid().couplings());
+        let angles = EulerAngles::principal(&launched);
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| flight.in_body(axis));
         let axes = [0, 1, 2].map(|row: usize| columns.map(|column| column[row]));
-        let system = |limit_of_u| RigidAngles::new(axes, flight, limit_of_u);
+        let system = |limit_of_u| RigidAngles::new(axes, couplings, limit_of_u);
         let [w, x, y, z] = launched.components();
         let (sin_half_beta, cos_half_beta) = (x.hypot(y), w.hypot(z));
         if sin_half_beta.min(cos_half_beta) > VERTICAL {
             return Ok(Self { angles, system: system(0.0) });
         }
-        let rate = flight.timing().rate;
-        let change = flight.in_body(principal_acceleration(flight.couplings, flight.rates));
+        let rate = flight.in_units(&toss.launch.rate());
+        let change = flight.in_body(principal_acceleration(couplings, flight.rate.into()));
         let (across, change_across) = (rate.x.hypot(rate.y), change.x.hypot(change.y));
         if change_across > FASTEST_START * across {
             return Err(SolveError::Singular { point: Singularity::NormalAlongAxis, time: 0.0 });
@@ -140,8 +141,8 @@ fn regular_start(rate: &Vector3<f64>, change: &Vector3<f64>, across: f64) -> (f6
 }
 
 /// The rate at launch about the third of these axes.
-fn third_of(axes: &[[f64; 3]; 3], flight: &RigidFlight) -> f64 {
-    Vector3::from(axes[2]).dot(&Vector3::from(flight.rates))
+fn third_of(axes: &[[f64; 3]; 3], flight: &Flight) -> f64 {
+    Vector3::from(axes[2]).dot(&flight.rate)
 }
 
 /// The system over the state (α, β, γ, ω1, ω2, ω3), with the rates about the principal axes.
@@ -156,8 +157,8 @@ struct RigidAngles {
 }
 
 impl RigidAngles {
-    fn new(axes: [[f64; 3]; 3], flight: &RigidFlight, limit_of_u: f64) -> Self {
-        Self { axes, couplings: flight.couplings, limit_of_u, passes: Passes::none() }
+    fn new(axes: [[f64; 3]; 3], couplings: [f64; 3], limit_of_u: f64) -> Self {
+        Self { axes, couplings, limit_of_u, passes: Passes::none() }
     }
 
     /// The components along the principal axes of a vector along the axes of the angles.

@@ -6,7 +6,7 @@
 //! are [flown](crate::integrators) for that.
 
 use dynamics::error::require;
-use dynamics::{Body, Error, InputError, RoughPhases, Toss};
+use dynamics::{Body, Error, InputError, Phases, Toss};
 use exact::{ExactMotion, certify};
 use sampling::Progress;
 
@@ -145,7 +145,7 @@ impl Scene {
     fn first_closed_form(&self, toss: &Toss) -> Result<Decision, Error> {
         // No model has an answer beyond a phase of 2^53 rad; this returns the error.
         match toss.coin() {
-            Some(toss) => _ = RoughPhases::new(&toss).largest()?,
+            Some(_) => _ = Phases::new(toss)?,
             None => _ = ExactMotion::new(toss).phase(toss.launch.time_of_flight())?,
         }
         let of = Of::body(&toss.body);

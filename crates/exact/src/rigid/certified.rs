@@ -123,8 +123,9 @@ impl Question for Near0 {
 /// As [`certify`]; [`SolveError::NotFinite`] for a tensor of whose cos θ the last number of digits tells nothing.
 pub(crate) fn cos_tilt_with_error(toss: &Toss) -> Result<(f64, f64), SolveError> {
     let rounded = |cos_tilt: f64| (cos_tilt, COS_TILT_ERROR.min(f64::EPSILON * cos_tilt.abs()));
-    if let Some(toss) = toss.coin() {
-        return certified::cos_tilt(&toss).map(|cos_tilt| match cos_tilt.abs() > COS_TILT_ERROR {
+    // By reference: moved out, the toss would be copied twice.
+    if let Some(toss) = &toss.coin() {
+        return certified::cos_tilt(toss).map(|cos_tilt| match cos_tilt.abs() > COS_TILT_ERROR {
             true => (cos_tilt, COS_TILT_ERROR),
             false => rounded(cos_tilt),
         });

@@ -81,7 +81,7 @@ fn a_turn_about_one_axis_is_as_accurate_as_the_tolerance_asks() {
 #[test]
 fn along_the_momentum_the_angle_stays_away_from_both_poles() {
     for toss in tosses(20.0) {
-        let flight = RigidFlight::new(&toss).unwrap();
+        let flight = Flight::new(&toss).unwrap();
         let start = Start::along_momentum(&toss, &flight);
         let motion = ExactMotion::new(&toss);
         let momentum = |time: f64| {

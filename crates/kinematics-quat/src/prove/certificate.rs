@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use dynamics::{Landing, Outcome, Work};
+use dynamics::{Landing, Outcome, Tilt, Work};
 use numerics::UNIT_ROUNDOFF;
 
 /// A landing by integration with proven bounds of its errors, for exactly the numbers that the toss was made from.
@@ -70,9 +70,18 @@ impl IntegratedCertificate {
         self.landing.work
     }
 
-    /// The same landing, with the work of all flights that it took.
-    pub(super) fn with_work(mut self, work: Work) -> Self {
-        self.landing.work = work;
+    /// cos θ with the bound of its error, from which counting code decides; 0 if the outcome is undecided.
+    pub(super) fn tilt(&self) -> Tilt {
+        let (cos_tilt, error) = match self.outcome {
+            Outcome::Undecided => (0.0, 2.0),
+            _ => (self.cos_tilt(), self.error_bound),
+        };
+        Tilt { cos_tilt, error: Some(error) }
+    }
+
+    /// The same landing, with the work of the flight `before` it, too.
+    pub(super) fn after(mut self, before: &Self) -> Self {
+        self.landing.work = before.landing.work + self.landing.work;
         self
     }
 }

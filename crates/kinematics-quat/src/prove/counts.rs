@@ -6,9 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use dynamics::{Error, Landing, Outcome, SolveError, Solver, Stepping, Tilt, Toss};
 use numerics::lanes::SimdLevel;
 
-use crate::QuaternionSolver;
-use crate::prove::certificate::Integration;
-use crate::prove::outcomes::Decided;
+use crate::prove::certificate::{IntegratedCertificate, Integration};
+use crate::solver::QuaternionSolver;
 
 /// Numbers of outcomes that were proven by integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,14 +69,14 @@ impl Proving {
     }
 
     /// Counts an outcome that was proven, and gives its cos θ.
-    fn counted(&self, found: &Decided) -> Tilt {
-        let outcome = match found.outcome {
+    fn counted(&self, found: &IntegratedCertificate) -> Tilt {
+        let outcome = match found.outcome() {
             Outcome::Heads => 0,
             Outcome::Tails => 1,
             Outcome::Undecided => 2,
         };
         self.outcomes[outcome].fetch_add(1, Ordering::Relaxed);
-        self.by[found.integration as usize].fetch_add(1, Ordering::Relaxed);
+        self.by[found.integration() as usize].fetch_add(1, Ordering::Relaxed);
         found.tilt()
     }
 }
@@ -97,8 +96,8 @@ impl Solver for Proving {
     }
 
     fn tilt(&self, toss: &Toss) -> Result<Tilt, SolveError> {
-        let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).pop();
-        Ok(self.counted(&found.unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))?))
+        let found = self.solver.decide(std::slice::from_ref(toss), SimdLevel::for_one_lane()).remove(0);
+        Ok(self.counted(&found?))
     }
 
     fn tilts(&self, tosses: &[Toss], out: &mut [Tilt]) -> Result<(), Error> {

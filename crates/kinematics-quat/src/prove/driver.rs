@@ -10,23 +10,27 @@ use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, State, Toss, Wo
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::SimdLevel;
 
+use crate::landed::Landed;
 use crate::prove::certificate::{IntegratedCertificate, Integration};
-use crate::prove::coin_step::{StepBound, bounds};
+use crate::prove::coin_step::bounds;
 use crate::prove::digits::{self, in_digits, in_double_double};
 use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
-use crate::prove::rigid_lanes::Enclosed;
-use crate::taylor::coin::Coins;
-use crate::taylor::lockstep::{Motion, by_kind, fly_all};
-use crate::taylor::plan::StepPlans;
-use crate::{Landed, QuaternionSolver, Taylor};
+use crate::prove::rigid_lanes::{Bound, Enclosed};
+use crate::solver::QuaternionSolver;
+use crate::taylor::coin::{Coins, Record};
+use crate::taylor::lockstep::{Motion, fly};
+use crate::taylor::plan::{StepPlans, Taylor};
 
 /// Roundings, in units of u, between the proven turn and cos θ: the vertical (4.2), the normal (4), their product (3) and
 /// its division by the norm (4).
-pub(crate) const OF_COS_TILT: f64 = 20.0 * UNIT_ROUNDOFF;
+const OF_COS_TILT: f64 = 20.0 * UNIT_ROUNDOFF;
 
 /// Roundings of the attitude at landing: the launch (8), a division by the norm (2), the product (8) and another division
 /// (2).
 const OF_ATTITUDE: f64 = 24.0 * UNIT_ROUNDOFF;
+
+/// The tolerance of the coarse flights.
+const COARSE: f64 = 1e-3;
 
 /// The digits of the last stage. Bounds end at 2^-1022, below which they do not count underflow.
 const DIGITS: [usize; 3] = [192, 384, 768];
@@ -38,61 +42,56 @@ type Certified = Result<IntegratedCertificate, SolveError>;
 
 /// Flights that bound their error.
 trait Bounded: Motion {
-    /// The plans of a solver for such flights.
-    fn plans(taylor: &Taylor) -> &StepPlans;
+    /// The plans of the flights of this kind, if a solver with these plans takes such flights.
+    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans>;
 
-    /// The plans of the finest tolerance.
-    fn finest() -> StepPlans;
-
-    /// The landings by these `plans` with their bounds.
-    fn enclosed(
-        solver: &QuaternionSolver,
-        flown: (&[Self::Toss], &StepPlans),
+    /// Bounds of the attitudes of flights by these `plans`, which are those of the `tosses` with these numbers; infinite for
+    /// a flight without one.
+    fn bounds(
+        tosses: &[Toss],
+        landed: &[(usize, Landed<Self::Bound>)],
+        plans: &StepPlans,
         level: SimdLevel,
-        by: Integration,
-    ) -> Vec<Certified>;
+    ) -> Vec<f64>;
 
-    /// What is stated of a toss that the finest tolerance leaves undecided, as `found`.
-    ///
-    /// # Errors
-    /// [`SolveError`] if nothing is.
-    fn undecided(toss: &Self::Toss, found: IntegratedCertificate) -> Certified;
+    /// What flights in more digits find of a toss that the finest tolerance leaves undecided, as `found`.
+    fn in_digits(_: &Toss, found: IntegratedCertificate) -> Certified {
+        Ok(found)
+    }
 }
 
 impl Bounded for Coins {
-    fn plans(taylor: &Taylor) -> &StepPlans {
-        &taylor.coins
+    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans> {
+        match by {
+            Integration::Coarse if taylor.tolerance < COARSE => Some(StepPlans::of_coarse_coins(COARSE)),
+            Integration::AsConfigured => Some(taylor.coins),
+            Integration::Finest if !taylor.is_finest() => Some(StepPlans::of_coins(f64::EPSILON)),
+            _ => None,
+        }
     }
 
-    fn finest() -> StepPlans {
-        StepPlans::of_coins(f64::EPSILON)
+    fn bounds(tosses: &[Toss], landed: &[(usize, Landed<Record>)], plans: &StepPlans, level: SimdLevel) -> Vec<f64> {
+        let mut found = vec![f64::INFINITY; landed.len()];
+        for long in [false, true] {
+            let places = landed.iter().zip(&mut found).filter(|((_, landed), _)| landed.flight.is_long() == long);
+            let flown = places.filter_map(|((index, landed), bound)| Some((tosses[*index].coin()?, landed, bound)));
+            let flown: Vec<_> = flown.collect();
+            let steps: Vec<_> =
+                flown.iter().map(|(toss, landed, _)| steps(toss, &landed.flight, &landed.bound)).collect();
+            for ((toss, landed, bound), step) in flown.into_iter().zip(bounds(plans.of(long), level, &steps)) {
+                *bound = attitude_bound(&toss, &landed.flight, &landed.bound, &step);
+            }
+        }
+        found
     }
 
-    fn enclosed(
-        solver: &QuaternionSolver,
-        (tosses, plans): (&[CoinToss], &StepPlans),
-        level: SimdLevel,
-        by: Integration,
-    ) -> Vec<Certified> {
-        let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        fly_all::<Self>(plans, tosses, level, |index, landed| landings[index] = landed);
-        let bounds = step_bounds(tosses, plans, level, &landings);
-        let stated = |((toss, landed), step): ((&CoinToss, Result<Landed, SolveError>), StepBound)| {
-            let landed = landed?;
-            let record = landed.record.as_ref().ok_or_else(|| landed.flight.not_finite())?;
-            solver.stated(toss.launch.attitude(), &landed, attitude_bound(toss, &landed.flight, record, &step), by)
-        };
-        tosses.iter().zip(landings).zip(bounds).map(stated).collect()
-    }
-
-    /// Decides by more and more digits.
-    fn undecided(toss: &CoinToss, mut found: IntegratedCertificate) -> Certified {
-        let double_double = || by_digits(toss, in_double_double(toss)?, Integration::DoubleDouble);
-        let more = |digits| by_digits(toss, in_digits(toss, digits)?, Integration::MoreDigits);
+    fn in_digits(toss: &Toss, mut found: IntegratedCertificate) -> Certified {
+        let Some(toss) = toss.coin() else { return Ok(found) };
+        let double_double = || by_digits(&toss, in_double_double(&toss)?, Integration::DoubleDouble);
+        let more = |digits| by_digits(&toss, in_digits(&toss, digits)?, Integration::MoreDigits);
         for stage in [None].into_iter().chain(DIGITS.map(Some)) {
             if found.outcome == Outcome::Undecided {
-                let finer = stage.map_or_else(double_double, more)?;
-                found = finer.with_work(found.work() + finer.work());
+                found = stage.map_or_else(double_double, more)?.after(&found);
             }
         }
         Ok(found)
@@ -100,34 +99,21 @@ impl Bounded for Coins {
 }
 
 impl Bounded for Enclosed {
-    fn plans(taylor: &Taylor) -> &StepPlans {
-        &taylor.bodies
+    /// There are no coarse flights: next to a turn about the middle axis, where flights take longest, those have no bound.
+    fn plans(taylor: &Taylor, by: Integration) -> Option<StepPlans> {
+        match by {
+            Integration::AsConfigured => Some(taylor.bodies),
+            Integration::Finest if !taylor.is_finest() => Some(StepPlans::of_bodies(f64::EPSILON)),
+            _ => None,
+        }
     }
 
-    fn finest() -> StepPlans {
-        StepPlans::of_bodies(f64::EPSILON)
-    }
-
-    fn enclosed(
-        solver: &QuaternionSolver,
-        (tosses, plans): (&[Toss], &StepPlans),
-        level: SimdLevel,
-        by: Integration,
-    ) -> Vec<Certified> {
-        let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
-        fly_all::<Self>(plans, tosses, level, |index, landed| {
-            found[index] = landed.and_then(|landed| {
-                let (launch, enclosed) = (&tosses[index].launch, landed.enclosed.as_ref());
-                let of = |bound| attitude_bound_of_body(launch, &landed.flight, bound);
-                solver.stated(launch.attitude(), &landed, enclosed.map_or(f64::INFINITY, of), by)
-            });
-        });
-        found
-    }
-
-    fn undecided(_: &Toss, found: IntegratedCertificate) -> Certified {
-        let refused = SolveError::NotProven { solver: QuaternionSolver::NAME.to_owned(), why: NO_BOUND };
-        if found.error_bound < 2.0 { Ok(found) } else { Err(refused) }
+    fn bounds(tosses: &[Toss], landed: &[(usize, Landed<Option<Bound>>)], _: &StepPlans, _: SimdLevel) -> Vec<f64> {
+        let bound = |(index, landed): &(usize, Landed<Option<Bound>>)| {
+            let bound = landed.bound.as_ref();
+            bound.map_or(f64::INFINITY, |bound| attitude_bound_of_body(&tosses[*index].launch, &landed.flight, bound))
+        };
+        landed.iter().map(bound).collect()
     }
 }
 
@@ -140,23 +126,30 @@ impl QuaternionSolver {
     /// formulation that proves nothing, and for a flight whose errors have no bound; else as
     /// [`Solver::land`](dynamics::Solver::land).
     pub fn certify(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        only(self.certify_all(std::slice::from_ref(toss), SimdLevel::for_one_lane()))
+        self.certify_all(std::slice::from_ref(toss), SimdLevel::for_one_lane()).remove(0)
     }
 
     /// [`QuaternionSolver::certify`] of each of `tosses`, in their order and with the same bits. As many flights are
     /// computed at once as a register at the SIMD `level` has lanes.
     pub fn certify_all(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<IntegratedCertificate, SolveError>> {
-        by_kind(tosses, |coins| self.certify_coins(coins, level), |bodies| self.certify_bodies(bodies, level))
+        let bounded = |found: IntegratedCertificate| {
+            let refused = || SolveError::NotProven { solver: Self::NAME.to_owned(), why: NO_BOUND };
+            (found.error_bound < 2.0).then_some(found).ok_or_else(refused)
+        };
+        let found = self.proven(tosses, level, &Integration::ALL[1..]);
+        found.into_iter().map(|found| found.and_then(bounded)).collect()
     }
 
-    /// [`QuaternionSolver::certify_all`] of coins.
-    pub(crate) fn certify_coins(&self, coins: &[CoinToss], level: SimdLevel) -> Vec<Certified> {
-        self.decided_all::<Coins>(coins, level)
+    /// The outcomes that [`QuaternionSolver::certify_all`] proves, without their landings. Coins are first flown with a coarse
+    /// tolerance, whose bounds decide nearly all; the others are flown again. It takes about as long as the landings without
+    /// a proof. A flight without a bound is undecided.
+    pub fn prove_outcomes(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Result<Outcome, SolveError>> {
+        self.decide(tosses, level).into_iter().map(|found| found.map(|found| found.outcome)).collect()
     }
 
-    /// [`QuaternionSolver::certify_all`] of other bodies.
-    pub(crate) fn certify_bodies(&self, bodies: &[Toss], level: SimdLevel) -> Vec<Certified> {
-        self.decided_all::<Enclosed>(bodies, level)
+    /// The certificates of the flights that decide [`QuaternionSolver::prove_outcomes`].
+    pub(crate) fn decide(&self, tosses: &[Toss], level: SimdLevel) -> Vec<Certified> {
+        self.proven(tosses, level, &Integration::ALL)
     }
 
     /// The landing of `toss` with the bounds of its error at the solver's own tolerance, whether or not they decide the
@@ -165,7 +158,8 @@ impl QuaternionSolver {
     /// # Errors
     /// As [`QuaternionSolver::certify`].
     pub fn enclose(&self, toss: &Toss) -> Result<IntegratedCertificate, SolveError> {
-        toss.coin().map_or_else(|| self.enclosed::<Enclosed>(toss), |toss| self.enclosed::<Coins>(&toss))
+        let stage = [Integration::AsConfigured];
+        self.proven(std::slice::from_ref(toss), SimdLevel::for_one_lane(), &stage).remove(0)
     }
 
     /// The plans of a solver that proves, which is one by Taylor series with guards.
@@ -177,45 +171,52 @@ impl QuaternionSolver {
         self.taylor.as_ref().ok_or_else(|| refused("only the scheme taylor bounds the error of its steps"))
     }
 
-    /// Whether the solver's own tolerance is the finest one, so that another flight is no finer.
-    pub(crate) fn is_finest(&self) -> bool {
-        self.taylor.is_some_and(|taylor| taylor.tolerance == f64::EPSILON)
-    }
-
-    /// The landing at the solver's own tolerance with its bounds.
-    fn enclosed<B: Bounded>(&self, toss: &B::Toss) -> Certified {
-        let flown = (std::slice::from_ref(toss), B::plans(self.require_proofs()?));
-        only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::AsConfigured))
-    }
-
-    /// The certificates of `tosses`.
-    fn decided_all<B: Bounded>(&self, tosses: &[B::Toss], level: SimdLevel) -> Vec<Certified> {
-        let plans = match self.require_proofs() {
-            Ok(taylor) => B::plans(taylor),
+    /// What flights at these `stages` state of `tosses`, in their order. Each stage flies what the one before it leaves
+    /// undecided.
+    fn proven(&self, tosses: &[Toss], level: SimdLevel, stages: &[Integration]) -> Vec<Certified> {
+        let taylor = match self.require_proofs() {
+            Ok(taylor) => taylor,
             Err(error) => return vec![Err(error); tosses.len()],
         };
-        let first = B::enclosed(self, (tosses, plans), level, Integration::AsConfigured);
-        tosses.iter().zip(first).map(|(toss, first)| self.decided::<B>(toss, first?)).collect()
+        let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
+        self.prove::<Coins>(taylor, tosses, level, stages, &mut found);
+        self.prove::<Enclosed>(taylor, tosses, level, stages, &mut found);
+        found
     }
 
-    /// The certificate of the finest tolerance or of what follows it, if `found` does not decide.
-    fn decided<B: Bounded>(&self, toss: &B::Toss, mut found: IntegratedCertificate) -> Certified {
-        if found.outcome == Outcome::Undecided && !self.is_finest() {
-            let flown = (std::slice::from_ref(toss), &B::finest());
-            let finer = only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::Finest))?;
-            found = finer.with_work(found.work() + finer.work());
+    /// [`proven`](Self::proven) of the tosses of one kind of body, into their places in `found`.
+    fn prove<B: Bounded>(
+        &self,
+        taylor: &Taylor,
+        tosses: &[Toss],
+        level: SimdLevel,
+        stages: &[Integration],
+        found: &mut [Certified],
+    ) {
+        let of_kind = |index: &usize| B::body(&tosses[*index].body).is_some();
+        let mut open: Vec<usize> = (0..tosses.len()).filter(of_kind).collect();
+        for by in stages {
+            let Some(plans) = B::plans(taylor, *by) else { continue };
+            let mut landed = Vec::with_capacity(open.len());
+            fly::<B>(&plans, open.iter().map(|index| (*index, &tosses[*index])), level, |index, end| match end {
+                Ok(end) => landed.push((index, end)),
+                Err(error) => found[index] = Err(error),
+            });
+            for ((index, landed), bound) in landed.iter().zip(B::bounds(tosses, &landed, &plans, level)) {
+                let stated = self.stated(tosses[*index].launch.attitude(), landed, bound, *by);
+                found[*index] = stated.map(|stated| found[*index].iter().fold(stated, IntegratedCertificate::after));
+            }
+            open.retain(|index| found[*index].as_ref().is_ok_and(|found| found.outcome == Outcome::Undecided));
         }
-        if found.outcome == Outcome::Undecided { B::undecided(toss, found) } else { Ok(found) }
+        if stages.contains(&Integration::MoreDigits) {
+            for index in open {
+                found[index] = found[index].clone().and_then(|found| B::in_digits(&tosses[index], found));
+            }
+        }
     }
 
     /// The landing of a launch with the attitude `launched`, whose turn is off by at most `bound`.
-    fn stated(
-        &self,
-        launched: Attitude,
-        landed: &Landed,
-        bound: f64,
-        integration: Integration,
-    ) -> Result<IntegratedCertificate, SolveError> {
+    fn stated<B>(&self, launched: Attitude, landed: &Landed<B>, bound: f64, integration: Integration) -> Certified {
         let cos_tilt = cos_tilt(launched, landed.turn);
         let error_bound = (2.0 * bound + OF_COS_TILT).min(2.0);
         Ok(IntegratedCertificate {
@@ -228,39 +229,8 @@ impl QuaternionSolver {
     }
 }
 
-/// The only one of these.
-fn only(found: Vec<Certified>) -> Certified {
-    found.into_iter().next().unwrap_or(Err(SolveError::NotFinite { time: 0.0 }))
-}
-
-/// The bounds of the steps of each flight that has landed.
-fn step_bounds(
-    tosses: &[CoinToss],
-    plans: &StepPlans,
-    level: SimdLevel,
-    landings: &[Result<Landed, SolveError>],
-) -> Vec<StepBound> {
-    let mut found = vec![StepBound::default(); tosses.len()];
-    for long in [false, true] {
-        let of_plan = |index: &usize| landings[*index].as_ref().is_ok_and(|landed| landed.flight.is_long() == long);
-        let indices: Vec<usize> = (0..tosses.len()).filter(of_plan).collect();
-        let flown = |index: &usize| {
-            let landed = landings[*index].as_ref().ok()?;
-            Some(steps(&tosses[*index], &landed.flight, landed.record.as_ref()?))
-        };
-        let steps: Vec<_> = indices.iter().filter_map(flown).collect();
-        let bounds = bounds(plans.of(long), level, &steps);
-        indices.into_iter().zip(bounds).for_each(|(index, bound)| found[index] = bound);
-    }
-    found
-}
-
 /// A landing in more digits than f64.
-fn by_digits(
-    toss: &CoinToss,
-    landing: digits::Landing,
-    integration: Integration,
-) -> Result<IntegratedCertificate, SolveError> {
+fn by_digits(toss: &CoinToss, landing: digits::Landing, integration: Integration) -> Certified {
     let not_finite = |_| SolveError::NotFinite { time: toss.launch.flight_time() };
     let turn = Attitude::from_components(landing.turn).map_err(not_finite)?;
     let attitude = toss.launch.attitude() * turn;
@@ -278,7 +248,7 @@ fn by_digits(
 }
 
 /// cos θ after the turn P of any norm.
-pub(crate) fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
+fn cos_tilt(launched: Attitude, [w, x, y, z]: [f64; 4]) -> f64 {
     let ([a, b, c], size) = launched.vertical();
     let (upright, inverted) = (w * w + z * z, x * x + y * y);
     let across = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x)];
@@ -293,7 +263,7 @@ fn of_attitude(launched: Attitude) -> f64 {
 }
 
 #[cfg(test)]
-mod close_moments_tests;
+mod outcomes_tests;
 #[cfg(test)]
 mod rigid_tests;
 #[cfg(test)]

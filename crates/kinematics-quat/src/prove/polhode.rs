@@ -5,7 +5,7 @@
 mod errors;
 
 use dynamics::body::PrincipalAxes;
-use dynamics::{AngleUnit, ModelBody, RigidFlight, Toss};
+use dynamics::{AngleUnit, Flight, ModelBody, Toss};
 use numerics::{Ball, DoubleDouble, Elementary, UNIT_ROUNDOFF};
 
 pub(super) use self::errors::{Errors, Step};
@@ -57,10 +57,10 @@ const INVERSE_ROOT_3: f64 = 0.5774;
 impl Polhode {
     /// That of the `model` of a toss with this `flight`. `None` if the numbers of the toss do not tell it: if they are too
     /// far from those of the flight, or underflow.
-    pub(super) fn new(toss: &Toss, model: &ModelBody, flight: &RigidFlight) -> Option<Self> {
+    pub(super) fn new(toss: &Toss, model: &ModelBody, flight: &Flight) -> Option<Self> {
         let PrincipalAxes { moments, axes } = model.principal;
         let [a, b, c] = model.couplings;
-        if !are_told(model, flight) {
+        if !are_told(model, toss.body.rigid().couplings()) {
             return None;
         }
         let rates = ideal_rates(toss, &axes, flight)?;
@@ -84,8 +84,8 @@ impl Polhode {
             across: across(&moments, &rates, widest * above(&(b * (invariants[0] * invariants[1]).sqrt())))
                 .min(fastest),
             growth: still * above(&(a + c)) * fastest * INVERSE_ROOT_3,
-            launched: distance(&rates, flight.rates),
-            axes: axes_error(&axes) + off_model(model, fastest * flight.timing().span()),
+            launched: distance(&rates, flight.rate.into()),
+            axes: axes_error(&axes) + off_model(model, fastest * flight.span()),
             about_axis,
             is_symmetric: vanishes(&a) || vanishes(&c),
         };
@@ -152,9 +152,9 @@ fn above(ball: &Ball<DoubleDouble>) -> f64 {
     (ball.to_f64().abs() + ball.radius()) * (1.0 + 1e-15)
 }
 
-/// Whether the couplings of the `model` are those of the flight but for their rounding, and nothing underflows.
-fn are_told(model: &ModelBody, flight: &RigidFlight) -> bool {
-    let off = model.couplings.iter().zip(flight.couplings).map(|(exact, rounded)| {
+/// Whether the couplings of the `model` are the `computed` ones but for their rounding, and nothing underflows.
+fn are_told(model: &ModelBody, computed: [f64; 3]) -> bool {
+    let off = model.couplings.iter().zip(computed).map(|(exact, rounded)| {
         let rounded = Ball::new(DoubleDouble::exactly(rounded.abs()), 0.0);
         above(&(*exact - rounded))
     });
@@ -188,11 +188,7 @@ fn exp_above(x: f64) -> f64 {
 }
 
 /// The ideal rates at launch about the principal axes, in the unit of the flight. `None` if they may have lost digits.
-fn ideal_rates(
-    toss: &Toss,
-    axes: &[[Ball<DoubleDouble>; 3]; 3],
-    flight: &RigidFlight,
-) -> Option<[Ball<DoubleDouble>; 3]> {
+fn ideal_rates(toss: &Toss, axes: &[[Ball<DoubleDouble>; 3]; 3], flight: &Flight) -> Option<[Ball<DoubleDouble>; 3]> {
     let exactly = |value: f64| Ball::new(DoubleDouble::exactly(value), 0.0);
     let largest = toss.launch.rate().amax();
     let scale = numerics::scale::power_of_two_scale(largest);
@@ -201,7 +197,7 @@ fn ideal_rates(
     let lost = if parts.iter().any(|part| *part != 0.0 && (part / scale).abs() < TINY) { TINY * TINY } else { 0.0 };
     let in_radians = unit == AngleUnit::RADIAN;
     if in_radians && are_exact(axes) {
-        return Some(flight.rates.map(|rate| exactly(rate).widened(lost)));
+        return Some(<[f64; 3]>::from(flight.rate).map(|rate| exactly(rate).widened(lost)));
     }
     if !in_radians && (largest < SMALLEST || given.amax() > 1.0 / SMALLEST) {
         return None;

@@ -1,10 +1,9 @@
 //! The flights of bodies in the lanes of a vector, each with a bound of its error: the same steps with the same bits, and
 //! what they add to the bound.
 
-use dynamics::{Flight, ModelBody, RigidBody, RigidFlight, SolveError, Toss, Work};
+use dynamics::{Body, Flight, ModelBody, RigidBody, Toss};
 use numerics::lanes::{Real, Simd};
 
-use crate::Landed;
 use crate::prove::polhode::{Errors, Polhode, Step};
 use crate::taylor::lockstep::{Clock, MOST_LANES, Motion, PerLane, store};
 use crate::taylor::plan::StepPlan;
@@ -31,17 +30,13 @@ pub(crate) struct Bound {
 }
 
 impl Motion for Enclosed {
-    type Toss = Toss;
-    type Flight = RigidFlight;
+    type Body = RigidBody;
+    /// `None` for a flight without a bound.
+    type Bound = Option<Bound>;
     type Series<S: Simd> = RigidSeries<S>;
 
-    fn flight(toss: &Toss) -> Result<RigidFlight, SolveError> {
-        Bodies::flight(toss)
-    }
-
-    #[inline(always)]
-    fn timing(flight: &RigidFlight) -> &Flight {
-        flight.timing()
+    fn body(body: &Body) -> Option<&RigidBody> {
+        Bodies::body(body)
     }
 
     #[inline(always)]
@@ -49,15 +44,15 @@ impl Motion for Enclosed {
         Bodies::series(simd)
     }
 
-    fn launch(&mut self, lane: usize, toss: &Toss, flight: &RigidFlight) {
-        self.bodies.launch(lane, toss, flight);
-        let body = toss.body.rigid();
+    fn launch(&mut self, lane: usize, body: &RigidBody, toss: &Toss, flight: &Flight) {
+        self.bodies.launch(lane, body, toss, flight);
         let model = match self.model {
-            Some((known, model)) if known == body => model,
+            Some((known, model)) if known == *body => model,
             _ => body.model(),
         };
-        self.model = Some((body, model));
-        self.errors[lane] = Polhode::new(toss, &model, flight).map(|polhode| Errors::at_launch(polhode, flight.rates));
+        self.model = Some((*body, model));
+        let polhode = Polhode::new(toss, &model, flight);
+        self.errors[lane] = polhode.map(|polhode| Errors::at_launch(polhode, flight.rate.into()));
     }
 
     #[inline(always)]
@@ -72,9 +67,12 @@ impl Motion for Enclosed {
         }
     }
 
-    fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let stated = |errors: &Errors| Bound { turn: errors.bound(), fastest: errors.fastest() };
-        Landed { enclosed: self.errors[lane].as_ref().map(stated), ..self.bodies.landing(lane, flight, work) }
+    fn state(&self, lane: usize, flight: &Flight) -> ([f64; 4], [f64; 3]) {
+        self.bodies.state(lane, flight)
+    }
+
+    fn bound(&self, lane: usize, _: u64) -> Option<Bound> {
+        self.errors[lane].as_ref().map(|errors| Bound { turn: errors.bound(), fastest: errors.fastest() })
     }
 }
 

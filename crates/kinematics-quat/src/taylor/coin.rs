@@ -26,13 +26,13 @@
 //! Two convolutions replace the eight products of quaternion components. The closed form of the motion is not used:
 //! each step starts from the attitude and the rates that the step before it computed.
 
-use dynamics::{CoinToss, Flight, SolveError, Work};
+use dynamics::body_rate::body_precession_rate;
+use dynamics::{Body, Coin, Flight, Toss};
 use numerics::lanes::{Complex, Double, Real, Simd, compensated_product, complex_product, inverse, polar, sum, times};
 
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
 use crate::taylor::plan::{LARGEST_ORDER, StepPlan};
 use crate::taylor::product::turned;
-use crate::{Landed, QuaternionSystem};
 
 /// Number of coefficients of η, from the first on, that have twice as many digits if η is compensated. Later terms are
 /// so small that their rounding does not matter.
@@ -202,7 +202,7 @@ fn horner<S: Simd>(coefficients: &[Real<S>], y: Real<S>) -> [Real<S>; 2] {
 #[derive(Default)]
 #[repr(align(64))]
 pub(crate) struct Coins {
-    /// P = (w, x, y, z), as in [`Landed`].
+    /// P = (w, x, y, z).
     attitude: [PerLane; 4],
     /// η = ½ (ωx + i ωy).
     eta: [PerLane; 2],
@@ -218,17 +218,12 @@ pub(crate) struct Coins {
 }
 
 impl Motion for Coins {
-    type Toss = CoinToss;
-    type Flight = Flight;
+    type Body = Coin;
+    type Bound = Record;
     type Series<S: Simd> = Series<S>;
 
-    fn flight(toss: &CoinToss) -> Result<Flight, SolveError> {
-        Flight::new(toss)
-    }
-
-    #[inline(always)]
-    fn timing(flight: &Flight) -> &Flight {
-        flight
+    fn body(body: &Body) -> Option<&Coin> {
+        if let Body::Coin(coin) = body { Some(coin) } else { None }
     }
 
     #[inline(always)]
@@ -236,12 +231,12 @@ impl Motion for Coins {
         Series::new(simd)
     }
 
-    fn launch(&mut self, lane: usize, toss: &CoinToss, flight: &Flight) {
-        let QuaternionSystem { rate_z, q } = QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z);
+    fn launch(&mut self, lane: usize, coin: &Coin, _: &Toss, flight: &Flight) {
         for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
             part[lane] = value;
         }
-        let [x, y, z] = [flight.rate.x, flight.rate.y, rate_z].map(|rate| 0.5 * rate);
+        let [x, y, z] = <[f64; 3]>::from(flight.rate).map(|rate| 0.5 * rate);
+        let q = body_precession_rate(coin.inertia_ratio(), flight.rate.z);
         (self.eta[0][lane], self.eta[1][lane], self.half_z[lane], self.q[lane]) = (x, y, z, q);
         (self.eta_low[0][lane], self.eta_low[1][lane]) = (0.0, 0.0);
         (self.moduli[0][lane], self.moduli[1][lane], self.longest[lane]) = (f64::INFINITY, 0.0, 0.0);
@@ -277,13 +272,13 @@ impl Motion for Coins {
         store(lost, &mut self.eta_low);
     }
 
-    fn landing(&self, lane: usize, flight: &Flight, work: Work) -> Landed {
+    fn state(&self, lane: usize, flight: &Flight) -> ([f64; 4], [f64; 3]) {
         let [x, y] = self.eta.each_ref().map(|part| 2.0 * part[lane]);
-        let turn = self.attitude.each_ref().map(|part| part[lane]);
-        let moduli = self.moduli.each_ref().map(|part| part[lane]);
-        let steps = work.accepted_steps;
-        let record = Some(Record { steps, moduli, longest: self.longest[lane] });
-        Landed { flight: *flight, turn, rate: flight.rate_at(x, y), work, record, enclosed: None }
+        (self.attitude.each_ref().map(|part| part[lane]), [x, y, flight.rate.z])
+    }
+
+    fn bound(&self, lane: usize, steps: u64) -> Record {
+        Record { steps, moduli: self.moduli.each_ref().map(|part| part[lane]), longest: self.longest[lane] }
     }
 }
 

@@ -8,10 +8,10 @@
 //! Coins and other bodies fly in the same way: what their steps compute is a [`Motion`].
 
 use dynamics::integrate::STEP_LIMIT;
-use dynamics::{Body, CoinToss, Flight, SolveError, Toss, Work};
+use dynamics::{Body, Flight, SolveError, Toss, Work};
 use numerics::lanes::{Real, Simd, SimdLevel, WithSimd};
 
-use crate::Landed;
+use crate::landed::Landed;
 use crate::taylor::plan::{StepPlan, StepPlans};
 
 /// The number of lanes of the widest vectors.
@@ -22,34 +22,34 @@ pub(crate) type PerLane = [f64; MOST_LANES];
 
 /// The states of the flights of one kind of body, one in each lane, in the unit of their [`Flight`].
 pub(crate) trait Motion: Default {
-    /// What is solved.
-    type Toss: Copy;
-    /// Its dimensionless form.
-    type Flight: Copy;
+    /// The kind of body.
+    type Body: 'static;
+    /// What a bound of the error has to know of the steps of a flight.
+    type Bound;
     /// The coefficients of a step.
     type Series<S: Simd>;
 
-    /// The dimensionless form of `toss`.
-    ///
-    /// # Errors
-    /// [`SolveError::PhaseTooLarge`].
-    fn flight(toss: &Self::Toss) -> Result<Self::Flight, SolveError>;
-
-    /// Times and tolerances of a flight.
-    fn timing(flight: &Self::Flight) -> &Flight;
+    /// The body, if it is of this kind.
+    fn body(body: &Body) -> Option<&Self::Body>;
 
     /// A series whose coefficients have not been computed yet.
     fn series<S: Simd>(simd: S) -> Self::Series<S>;
 
-    /// Sets `lane` to the launch of `toss`.
-    fn launch(&mut self, lane: usize, toss: &Self::Toss, flight: &Self::Flight);
+    /// Sets `lane` to the launch of `toss`, whose body this is.
+    fn launch(&mut self, lane: usize, body: &Self::Body, toss: &Toss, flight: &Flight);
 
     /// Takes one step in each lane, of the length that `clock` chooses.
     fn advance<S: Simd>(&mut self, simd: S, plan: &StepPlan, series: &mut Self::Series<S>, clock: &mut Clock);
 
-    /// The end state of the flight in `lane`.
-    fn landing(&self, lane: usize, flight: &Self::Flight, work: Work) -> Landed;
+    /// The turn P and the rates of the `flight` in `lane`, along its axes and in its unit.
+    fn state(&self, lane: usize, flight: &Flight) -> ([f64; 4], [f64; 3]);
+
+    /// What a bound has to know of the flight in `lane`, which took so many `steps`.
+    fn bound(&self, lane: usize, steps: u64) -> Self::Bound;
 }
+
+/// The end of a flight.
+type End<M> = Result<Landed<<M as Motion>::Bound>, SolveError>;
 
 /// The time that is left in each lane.
 #[derive(Default)]
@@ -71,49 +71,37 @@ impl Clock {
     }
 }
 
-/// Solves the tosses that `toss` has for the indices below `len`, first the short flights and then the long ones, and calls
-/// `land` with the index and the landing of each. Lanes without a toss cost time, too, so that nothing is done if there is
-/// none.
-pub(crate) fn fly<M: Motion>(
+/// Solves those of the numbered `tosses` whose bodies are of this kind, first the short flights and then the long ones, and
+/// calls `land` with the number and the landing of each. Lanes without a toss cost time, too, so that nothing is done if
+/// there is none.
+pub(crate) fn fly<'a, M: Motion>(
     plans: &StepPlans,
-    (len, toss): (usize, impl Fn(usize) -> Option<M::Toss>),
+    tosses: impl Iterator<Item = (usize, &'a Toss)> + Clone,
     level: SimdLevel,
-    mut land: impl FnMut(usize, Result<Landed, SolveError>),
+    mut land: impl FnMut(usize, End<M>),
 ) {
-    if !(0..len).any(|index| toss(index).is_some()) {
+    let tosses = tosses.filter_map(|(index, toss)| Some((index, M::body(&toss.body)?, toss)));
+    if tosses.clone().next().is_none() {
         return;
     }
     let mut run =
-        |plan, long| level.run(Queue::<M> { plan, long, toss: &toss, len, next: 0, skipped: false, land: &mut land });
+        |plan, long| level.run(Queue::<M> { plan, long, tosses: &mut tosses.clone(), skipped: false, land: &mut land });
     let skipped = run(&plans.short, false);
     if skipped {
         run(&plans.long, true);
     }
 }
 
-/// As [`fly`], all `tosses` of a slice.
-pub(crate) fn fly_all<M: Motion>(
-    plans: &StepPlans,
-    tosses: &[M::Toss],
-    level: SimdLevel,
-    land: impl FnMut(usize, Result<Landed, SolveError>),
-) {
-    fly::<M>(plans, (tosses.len(), |index: usize| Some(tosses[index])), level, land);
-}
-
 /// One pass through the tosses, for either the long flights or the short ones.
-struct Queue<'a, M: Motion> {
+struct Queue<'a, 'toss, M: Motion> {
     plan: &'a StepPlan,
     /// Whether this pass solves the long flights, and skips the short ones, or the other way round.
     long: bool,
     /// Whether a toss was skipped.
     skipped: bool,
-    /// The toss of an index below `len`, if there is one.
-    toss: &'a dyn Fn(usize) -> Option<M::Toss>,
-    len: usize,
-    /// The index of the next toss.
-    next: usize,
-    land: &'a mut dyn FnMut(usize, Result<Landed, SolveError>),
+    /// The tosses to come, each with its number and its body.
+    tosses: &'a mut dyn Iterator<Item = (usize, &'toss M::Body, &'toss Toss)>,
+    land: &'a mut dyn FnMut(usize, End<M>),
 }
 
 /// The flight in each lane.
@@ -122,11 +110,11 @@ struct Lanes<M: Motion> {
     clock: Clock,
     /// The number of steps so far.
     steps: [u32; MOST_LANES],
-    /// The index of the toss in this lane and its flight; `None` for an idle lane.
-    flying: [Option<(usize, M::Flight)>; MOST_LANES],
+    /// The number of the toss in this lane and its flight; `None` for an idle lane.
+    flying: [Option<(usize, Flight)>; MOST_LANES],
 }
 
-impl<M: Motion> WithSimd for Queue<'_, M> {
+impl<M: Motion> WithSimd for Queue<'_, '_, M> {
     /// Whether a toss was skipped.
     type Output = bool;
 
@@ -150,17 +138,14 @@ impl<M: Motion> WithSimd for Queue<'_, M> {
     }
 }
 
-impl<M: Motion> Queue<'_, M> {
+impl<M: Motion> Queue<'_, '_, M> {
     /// Puts the next flight of this pass into `lane`. A flight of no duration or without rotation lands at once.
     fn start(&mut self, lanes: &mut Lanes<M>, lane: usize) {
-        while self.next < self.len {
-            let index = self.next;
-            self.next += 1;
-            let Some(toss) = (self.toss)(index) else { continue };
-            match M::flight(&toss) {
-                Ok(flight) if M::timing(&flight).is_long() == self.long => {
-                    lanes.launch(lane, self.plan, &toss, &flight);
-                    if lanes.clock.left[lane] > 0.0 && M::timing(&flight).rate.amax() > 0.0 {
+        for (index, body, toss) in &mut *self.tosses {
+            match Flight::new(toss) {
+                Ok(flight) if flight.is_long() == self.long => {
+                    lanes.launch(lane, self.plan, (body, toss), &flight);
+                    if lanes.clock.left[lane] > 0.0 && flight.rate.amax() > 0.0 {
                         lanes.flying[lane] = Some((index, flight));
                         return;
                     }
@@ -182,30 +167,30 @@ impl<M: Motion> Default for Lanes<M> {
 
 impl<M: Motion> Lanes<M> {
     /// Sets `lane` to the launch of `toss`.
-    fn launch(&mut self, lane: usize, plan: &StepPlan, toss: &M::Toss, flight: &M::Flight) {
-        self.motion.launch(lane, toss, flight);
-        let timing = M::timing(flight);
-        (self.clock.left[lane], self.steps[lane]) = (timing.span(), 0);
-        self.clock.inverse_tolerance[lane] = 1.0 / timing.tightened(plan.tolerance);
+    fn launch(&mut self, lane: usize, plan: &StepPlan, (body, toss): (&M::Body, &Toss), flight: &Flight) {
+        self.motion.launch(lane, body, toss, flight);
+        (self.clock.left[lane], self.steps[lane]) = (flight.span(), 0);
+        self.clock.inverse_tolerance[lane] = 1.0 / flight.tightened(plan.tolerance);
     }
 
-    /// Counts the step of `lane`. If the flight has landed or has reached the limit of steps, returns the index of its
+    /// Counts the step of `lane`. If the flight has landed or has reached the limit of steps, returns the number of its
     /// toss and its end, and leaves the lane idle.
     #[inline(always)]
-    fn landed(&mut self, lane: usize, plan: &StepPlan) -> Option<(usize, Result<Landed, SolveError>)> {
-        let (index, flight) = self.flying[lane]?;
+    fn landed(&mut self, lane: usize, plan: &StepPlan) -> Option<(usize, End<M>)> {
+        let (index, flight) = self.flying[lane].as_ref()?;
+        let index = *index;
         self.steps[lane] += 1;
-        if self.clock.left[lane] > 0.0 {
-            let timing = M::timing(&flight);
-            let time = timing.in_seconds(timing.span() - self.clock.left[lane]);
-            let too_many = self.steps[lane] >= STEP_LIMIT;
-            return too_many.then(|| {
-                self.stop(lane);
-                (index, Err(SolveError::StepLimit { time, limit: STEP_LIMIT }))
-            });
-        }
+        let landed = if self.clock.left[lane] > 0.0 {
+            if self.steps[lane] < STEP_LIMIT {
+                return None;
+            }
+            let time = flight.in_seconds(flight.span() - self.clock.left[lane]);
+            Err(SolveError::StepLimit { time, limit: STEP_LIMIT })
+        } else {
+            Ok(self.landing(lane, flight, plan))
+        };
         self.stop(lane);
-        Some((index, Ok(self.landing(lane, &flight, plan))))
+        Some((index, landed))
     }
 
     /// Makes `lane` idle. Its steps have length 0 from now on, and change nothing.
@@ -213,31 +198,12 @@ impl<M: Motion> Lanes<M> {
         (self.flying[lane], self.clock.left[lane]) = (None, 0.0);
     }
 
-    /// The end state of the flight in `lane`.
-    fn landing(&self, lane: usize, flight: &M::Flight, plan: &StepPlan) -> Landed {
+    /// The end of the flight in `lane`.
+    fn landing(&self, lane: usize, flight: &Flight, plan: &StepPlan) -> Landed<M::Bound> {
         let steps = u64::from(self.steps[lane]);
         let work = Work { rhs_calls: steps * plan.order as u64, accepted_steps: steps, rejected_steps: 0 };
-        self.motion.landing(lane, flight, work)
+        Landed::new(flight, self.motion.state(lane, flight), work, self.motion.bound(lane, steps))
     }
-}
-
-/// The results of `coins` for the tosses of coins and of `bodies` for the others, in the order of `tosses`.
-pub(crate) fn by_kind<T>(
-    tosses: &[Toss],
-    coins: impl FnOnce(&[CoinToss]) -> Vec<T>,
-    bodies: impl FnOnce(&[Toss]) -> Vec<T>,
-) -> Vec<T> {
-    let of_coins: Vec<CoinToss> = tosses.iter().filter_map(Toss::coin).collect();
-    if of_coins.len() == tosses.len() {
-        return coins(&of_coins);
-    }
-    if of_coins.is_empty() {
-        return bodies(tosses);
-    }
-    let is_coin = |toss: &&Toss| matches!(toss.body, Body::Coin(_));
-    let others: Vec<Toss> = tosses.iter().filter(|toss| !is_coin(toss)).copied().collect();
-    let (mut coins, mut bodies) = (coins(&of_coins).into_iter(), bodies(&others).into_iter());
-    tosses.iter().filter_map(|toss| if is_coin(&toss) { coins.next() } else { bodies.next() }).collect()
 }
 
 #[inline(always)]

@@ -106,7 +106,28 @@ fn order(tolerance: f64) -> usize {
     (2 * half as usize).min(LARGEST_ORDER)
 }
 
-/// The plans of a solver with a given tolerance, for short and for long flights.
+/// The plans of a solver with a given tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Taylor {
+    pub(crate) tolerance: f64,
+    pub(crate) coins: StepPlans,
+    /// Those of other bodies.
+    pub(crate) bodies: StepPlans,
+}
+
+impl Taylor {
+    /// Those for local errors of `tolerance`.
+    pub(crate) fn new(tolerance: f64) -> Self {
+        Self { tolerance, coins: StepPlans::of_coins(tolerance), bodies: StepPlans::of_bodies(tolerance) }
+    }
+
+    /// Whether the tolerance is the finest one, so that another flight is no finer.
+    pub(crate) fn is_finest(&self) -> bool {
+        self.tolerance == f64::EPSILON
+    }
+}
+
+/// The plans of one kind of body with a given tolerance, for short and for long flights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct StepPlans {
     pub(crate) short: StepPlan,

@@ -1,5 +1,5 @@
-//! The flights of any rigid body: the right-hand side for Runge-Kutta schemes, and the flights in the lanes of a vector
-//! by Taylor series. Both are written in principal axes (see [`RigidFlight`]), with three rates.
+//! The flights of rigid bodies that are no coins by Taylor series, one in each lane of a SIMD vector, in principal axes
+//! (see [`Flight`]), with three rates.
 //!
 //! Let (w, x, y, z) be the quaternion, (a, b, c) = ½ ω and p, q, r the couplings of Euler's equations, with which
 //! ω1' = p ω2 ω3. The system is
@@ -12,51 +12,13 @@
 //! All right-hand sides are sums of products, so that the coefficient of tᵏ⁺¹ of each is a sum of products of those
 //! before it. A step computes the turn that leads from the attitude at its start to that at its end, as for coins.
 
-use dynamics::body::principal_acceleration;
-use dynamics::integrate::OdeSystem;
-use dynamics::{Flight, RigidFlight, SolveError, Stepping, Toss, Work};
-use nalgebra::SVector;
+use dynamics::{Body, Flight, RigidBody, Toss};
 use numerics::lanes::{Real, Simd};
 
 use crate::taylor::coin::INVERSES;
 use crate::taylor::lockstep::{Clock, Motion, PerLane, store};
 use crate::taylor::plan::{LARGEST_ORDER, StepPlan};
 use crate::taylor::product::turned;
-use crate::{Landed, half_product};
-
-/// The system over the state (w, x, y, z, ω1, ω2, ω3) in principal axes. Rates may be in any unit; its inverse is the
-/// unit of time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigidSystem {
-    /// The [couplings](dynamics::RigidBody::couplings) of Euler's equations.
-    couplings: [f64; 3],
-}
-
-impl RigidSystem {
-    /// The system for a body with these [couplings](dynamics::RigidBody::couplings).
-    pub fn new(couplings: [f64; 3]) -> Self {
-        Self { couplings }
-    }
-}
-
-impl RigidSystem {
-    /// The end state of a flight by a Runge-Kutta scheme, and the work.
-    pub(crate) fn integrated(flight: &RigidFlight, stepping: &Stepping) -> Result<(SVector<f64, 7>, Work), SolveError> {
-        let [first, second, third] = flight.rates;
-        let start = SVector::from([1.0, 0.0, 0.0, 0.0, first, second, third]);
-        flight.timing().integrate(&Self::new(flight.couplings), start, stepping)
-    }
-}
-
-impl OdeSystem<7> for RigidSystem {
-    fn derivative(&self, y: &SVector<f64, 7>) -> SVector<f64, 7> {
-        let &[w, x, y, z, first, second, third] = &y.data.0[0];
-        let rates = [first, second, third];
-        let [w, x, y, z] = half_product([w, x, y, z], rates);
-        let [first, second, third] = principal_acceleration(self.couplings, rates);
-        SVector::from([w, x, y, z, first, second, third])
-    }
-}
 
 /// The coefficients of w, x, y, z, a, b, c at one power of the time.
 pub(crate) type Term<S> = [Real<S>; 7];
@@ -132,17 +94,12 @@ pub(crate) struct Bodies {
 }
 
 impl Motion for Bodies {
-    type Toss = Toss;
-    type Flight = RigidFlight;
+    type Body = RigidBody;
+    type Bound = ();
     type Series<S: Simd> = RigidSeries<S>;
 
-    fn flight(toss: &Toss) -> Result<RigidFlight, SolveError> {
-        RigidFlight::new(toss)
-    }
-
-    #[inline(always)]
-    fn timing(flight: &RigidFlight) -> &Flight {
-        flight.timing()
+    fn body(body: &Body) -> Option<&RigidBody> {
+        if let Body::Rigid(body) = body { Some(body) } else { None }
     }
 
     #[inline(always)]
@@ -150,13 +107,13 @@ impl Motion for Bodies {
         RigidSeries([[Real::splat(simd, 0.0); 7]; LARGEST_ORDER + 1])
     }
 
-    fn launch(&mut self, lane: usize, _: &Toss, flight: &RigidFlight) {
+    fn launch(&mut self, lane: usize, body: &RigidBody, _: &Toss, flight: &Flight) {
         for (part, value) in self.attitude.iter_mut().zip([1.0, 0.0, 0.0, 0.0]) {
             part[lane] = value;
         }
-        for axis in 0..3 {
-            self.half[axis][lane] = 0.5 * flight.rates[axis];
-            self.twice[axis][lane] = 2.0 * flight.couplings[axis];
+        for (axis, coupling) in body.couplings().into_iter().enumerate() {
+            self.half[axis][lane] = 0.5 * flight.rate[axis];
+            self.twice[axis][lane] = 2.0 * coupling;
         }
     }
 
@@ -165,18 +122,14 @@ impl Motion for Bodies {
         self.step(simd, plan, series, clock);
     }
 
-    fn landing(&self, lane: usize, flight: &RigidFlight, work: Work) -> Landed {
-        let (turn, rate) = (flight.turn_in_body(self.turn(lane)), flight.rate_at(self.rates(lane)));
-        Landed { flight: *flight.timing(), turn, rate, work, record: None, enclosed: None }
+    fn state(&self, lane: usize, _: &Flight) -> ([f64; 4], [f64; 3]) {
+        (self.attitude.each_ref().map(|part| part[lane]), self.rates(lane))
     }
+
+    fn bound(&self, _: usize, _: u64) {}
 }
 
 impl Bodies {
-    /// The turn since launch of the body in `lane`.
-    fn turn(&self, lane: usize) -> [f64; 4] {
-        self.attitude.each_ref().map(|part| part[lane])
-    }
-
     /// The rates of the body in `lane`.
     pub(crate) fn rates(&self, lane: usize) -> [f64; 3] {
         self.half.each_ref().map(|part| 2.0 * part[lane])

@@ -1,8 +1,7 @@
 //! A subject is what the suite verifies: a solver of the registry with one of its schemes, its tolerance or step, and a
 //! formulation. Its name is the key of its limits and of its baseline, so every combination is judged on its own.
 
-use dynamics::phase::RoughPhases;
-use dynamics::{RigidPhase, Toss};
+use dynamics::{Phases, Toss};
 use toss::{
     ExactSolver, Formulation, InputError, Landing, Launch, QuaternionSolver, Scheme, Settings, SolveError, Solver,
     SolverEntry, StepControl, Stepping,
@@ -60,11 +59,7 @@ impl Subject {
     /// Whether its settings promise an accurate landing of `toss`: a closed form, a tolerance of at most 1e-8 or steps
     /// of at most 0.02/|ω|, and a phase of at most 1000 rad.
     pub fn is_tight(&self, toss: &Toss) -> bool {
-        let phase = match toss.coin() {
-            Some(toss) => RoughPhases::new(&toss).largest(),
-            None => RigidPhase::new(toss).map(|phase| phase.angle),
-        };
-        self.is_fine(&toss.launch) && phase.is_ok_and(|phase| phase <= 1e3)
+        self.is_fine(&toss.launch) && Phases::new(toss).is_ok_and(|phases| phases.largest <= 1e3)
     }
 
     fn is_fine(&self, launch: &Launch) -> bool {

@@ -108,7 +108,7 @@ struct ByProgram {
 
 impl ByProgram {
     fn ask(&self, toss: &CoinToss) -> Result<Landed, SolveError> {
-        let flight = Flight::new(toss)?;
+        let flight = Flight::new(&Toss::from(*toss))?;
         let tolerance = match (self.claim, self.stepping.control()) {
             (Some(claim), _) => claim,
             (None, StepControl::Tolerance(tolerance)) => flight.tightened(tolerance),

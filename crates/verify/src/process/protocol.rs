@@ -89,7 +89,7 @@ mod tests {
             let rate = Vector3::new(0.1, -2e-30, 1.5) * size;
             let launch = Launch::new(rate, TimeOfFlight::Given(unit / 3.0)).unwrap();
             let toss = CoinToss { coin: Coin::from_moments(5e-7, 2.5e-7).unwrap(), launch };
-            let line = question(&toss, &Flight::new(&toss).unwrap(), 1e-9);
+            let line = question(&toss, &Flight::new(&toss.into()).unwrap(), 1e-9);
             assert_eq!(line, "1.0,0.5,0.1,-2e-30,1.5,1.0,0.0,0.0,0.0,0.3333333333333333,1e-9");
             assert_eq!(line.split(',').count() + 1, HEADER.split(',').count());
         }

@@ -100,13 +100,14 @@ impl Solver for ChangedSolver {
     }
     fn land(&self, toss: &Toss) -> Result<Landing, SolveError> {
         let error = self.0.error_estimate(toss)?;
+        let flight = Flight::new(toss)?;
         let toss = toss.of_coin(self.name(), "it is made for coins")?;
-        let flight = Flight::new(&toss)?;
         let system = Changed(QuaternionSystem::new(toss.coin.inertia_ratio(), flight.rate.z), self.1);
         let start = SVector::from([1.0, 0.0, 0.0, 0.0, flight.rate.x, flight.rate.y]);
         let (end, work) = flight.integrate(&system, start, &self.0)?;
         let turn = toss::Attitude::from_components([end[0], end[1], end[2], end[3]]).expect("a finite state");
-        let state = State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at(end[4], end[5]) };
+        let state =
+            State { attitude: toss.launch.attitude() * turn, rate: flight.rate_at([end[4], end[5], flight.rate.z]) };
         Ok(Landing::new(state, work).with_error(error))
     }
 }

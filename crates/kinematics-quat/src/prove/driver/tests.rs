@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 
 use super::rigid_tests::shares;
 use super::*;
-use crate::taylor::coin::Record;
 
 pub(super) fn solver(tolerance: f64) -> QuaternionSolver {
     QuaternionSolver::new(Stepping::adaptive(Scheme::TAYLOR, tolerance).unwrap(), Formulation::default())
@@ -78,6 +77,14 @@ fn from_any_attitude_the_height_is_that_of_the_exact_motion_in_every_arithmetic(
     }
 }
 
+fn flown(plans: &StepPlans, toss: &CoinToss) -> (Landed<Record>, Record) {
+    let mut landed = None;
+    let toss = Toss::from(*toss);
+    fly::<Coins>(plans, [(0, &toss)].into_iter(), SimdLevel::for_one_lane(), |_, found| landed = found.ok());
+    let landed = landed.unwrap();
+    (landed, landed.bound)
+}
+
 /// The defect of the attitude alone does not bound its error: the rates are integrated too.
 #[test]
 fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
@@ -86,10 +93,7 @@ fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
         let toss = CoinToss { coin, launch: Launch::new([x, 0.0, 1.0], time).unwrap() };
         // |ω| h = 0.1, at order 4.
         let plans = StepPlans::fixed(4, 0.1 / x.hypot(1.0));
-        let mut landed = None;
-        fly_all::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
-        let landed = landed.unwrap();
-        let record = landed.record.unwrap();
+        let (landed, record) = flown(&plans, &toss);
         let step = steps(&toss, &landed.flight, &record);
         let step = bounds(plans.of(false), SimdLevel::for_one_lane(), &[step])[0];
         let landing = Attitude::from_components(landed.turn).unwrap();
@@ -104,10 +108,7 @@ fn a_bound_without_the_errors_of_the_rates_is_broken_by_a_rod() {
 #[test]
 fn the_bound_grows_with_each_fault_of_a_step() {
     let (toss, plans) = (random(&mut Numbers(3), 30.0).coin().unwrap(), StepPlans::of_coins(1e-10));
-    let mut landed = None;
-    fly_all::<Coins>(&plans, &[toss], SimdLevel::for_one_lane(), |_, found| landed = found.ok());
-    let Landed { flight, record, .. } = landed.unwrap();
-    let record = record.unwrap();
+    let (Landed { flight, .. }, record) = flown(&plans, &toss);
     let bound = |record: Record, longer: f64| {
         let mut step = steps(&toss, &flight, &record);
         step.longest *= longer;
@@ -152,6 +153,14 @@ fn a_flight_of_no_time_has_the_roundings_of_its_launch_alone() {
             let bounds = [found.error_bound(), found.attitude_error_bound()].map(|bound| bound / UNIT_ROUNDOFF);
             approx::assert_relative_eq!(bounds[0], 20.0, max_relative = 1e-12);
             approx::assert_relative_eq!(bounds[1], 24.0 + tilt, max_relative = 1e-12);
+            // The error of a turn moves the normal by twice as much.
+            let flown =
+                Launch::new([1.0, 2.0, 3.0], TimeOfFlight::Given(2.0)).unwrap().with_attitude(launch.attitude());
+            let found = solver(1e-9).enclose(&Toss { body, launch: flown }).unwrap();
+            let [normal, turn] = [found.error_bound(), found.attitude_error_bound()];
+            let roundings = bounds.map(|bound| bound * UNIT_ROUNDOFF);
+            let of_turn = 2.0 * (turn - roundings[1]);
+            approx::assert_relative_eq!(normal - roundings[0], of_turn, epsilon = 0.0, max_relative = 1e-6);
         }
     }
 }

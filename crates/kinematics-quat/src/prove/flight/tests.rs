@@ -1,6 +1,6 @@
 //! Tests of each part of the sum against the formulas (4) and (20) of the proof, where no other part is as large.
 
-use dynamics::{AngleUnit, Body, Coin, RigidFlight, TimeOfFlight, Toss, Unit};
+use dynamics::{AngleUnit, Body, Coin, Flight, TimeOfFlight, Toss, Unit};
 
 use super::*;
 
@@ -9,7 +9,7 @@ const STEP: StepBound = StepBound { turn: 2e-9, rates: 3e-9, eta: 5e-9 };
 /// A toss whose k, η, q and time are exact in f64.
 fn toss(launch: Launch) -> (CoinToss, Flight) {
     let toss = CoinToss { coin: Coin::from_moments(1.0, 1.5).unwrap(), launch };
-    (toss, Flight::new(&toss).unwrap())
+    (toss, Flight::new(&toss.into()).unwrap())
 }
 
 fn in_radians(rate: [f64; 3]) -> (CoinToss, Flight) {
@@ -75,7 +75,7 @@ fn a_ratio_of_moments_and_a_time_that_are_no_f64_are_off_by_what_they_lose() {
     let coin = Coin::from_moments(3.0, 4.0).unwrap();
     let time = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
     let toss = CoinToss { coin, launch: Launch::new([40.0, 0.0, 33.0], time).unwrap() };
-    let flight = Flight::new(&toss).unwrap();
+    let flight = Flight::new(&toss.into()).unwrap();
     let launched = Launched::new(&toss, &flight);
     let exactly = |value: f64| DoubleDouble::from(value);
     // The unit of the flight is 32 rad/s, a power of two.
@@ -95,11 +95,11 @@ fn a_body_has_the_errors_of_its_turn_and_of_its_time() {
     let bound = Bound { turn: 1e-16, fastest: 3.0 };
     let time = TimeOfFlight::Ballistic { speed: 3.0, gravity: 9.81 };
     let toss = Toss { body, launch: Launch::new([40.0, -4.0, 33.0], time).unwrap() };
-    let flight = RigidFlight::new(&toss).unwrap();
-    let of_time = time_error(&toss.launch, flight.timing());
+    let flight = Flight::new(&toss).unwrap();
+    let of_time = time_error(&toss.launch, &flight);
     assert!(of_time > 1e-17);
     let expected = of_sum(1e-16 + 1.5 * of_time);
-    assert_close(attitude_bound_of_body(&toss.launch, flight.timing(), &bound), expected);
+    assert_close(attitude_bound_of_body(&toss.launch, &flight, &bound), expected);
 }
 
 #[test]

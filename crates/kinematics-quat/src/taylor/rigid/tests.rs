@@ -1,11 +1,14 @@
 //! Tests of one step and of the right-hand side, against the exact motion and central differences.
 
+use dynamics::integrate::OdeSystem;
 use dynamics::{Attitude, Body, Launch, TimeOfFlight, Vector3};
 use exact::ExactMotion;
+use nalgebra::SVector;
 use numerics::lanes::{SimdLevel, WithSimd};
 use numerics::{DoubleDouble, UNIT_ROUNDOFF};
 
 use super::*;
+use crate::RigidSystem;
 
 fn toss(moments: [f64; 3], rate: [f64; 3], time: f64) -> Toss {
     let launch = Launch::new(rate, TimeOfFlight::Given(time)).unwrap();

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::phase::RoughPhases;
+use dynamics::Phases;
 use toss::{CoinMotion, CoinToss, Formulation, Launch, State, TimeOfFlight, Toss};
 
 use crate::measure::case::is_horizontal;
@@ -142,7 +142,7 @@ fn claims_of_class(
     for &index in class {
         let toss = &survey.tosses[index];
         // Launches that fail are counted by other checks.
-        let (Ok(landing), Some(coin)) = (&landings[index], toss.coin()) else { continue };
+        let (Ok(landing), Some(_)) = (&landings[index], toss.coin()) else { continue };
         if toss.launch.turn_rate() < SLOW {
             continue;
         }
@@ -151,7 +151,7 @@ fn claims_of_class(
         let Some(claim) = landing.error else {
             return figure(f64::NAN, 0, "it claims no error".to_owned()).claiming(None);
         };
-        match RoughPhases::new(&coin).largest() {
+        match Phases::new(toss).map(|phases| phases.largest) {
             Ok(phase) => {
                 claims.push(claim);
                 phases.push(phase);

@@ -4,8 +4,7 @@
 //! each of which is hard for a method of its own. Next to a turn about the middle axis some flights have no bound; they are
 //! no cases.
 
-use dynamics::Toss;
-use dynamics::phase::RoughPhases;
+use dynamics::{Phases, Toss};
 use rayon::prelude::*;
 use toss::{CoinToss, IntegratedCertificate, Outcome, QuaternionSolver, SolveError, Stepping};
 
@@ -74,7 +73,7 @@ fn usual() -> Result<QuaternionSolver, SolveError> {
 
 /// Refuses flights of more than the phase 1e5 rad, which would take minutes and are in none of the sets.
 fn require_short(toss: &CoinToss) -> Result<(), SolveError> {
-    let phase = RoughPhases::new(toss).largest()?;
+    let phase = Phases::new(&(*toss).into())?.largest;
     let error =
         || SolveError::failed(QuaternionSolver::NAME, std::io::Error::other("flights above 1e5 rad are not flown"));
     (phase <= 1e5).then_some(()).ok_or_else(error)
@@ -90,7 +89,7 @@ fn bounds() -> Vec<Set> {
         Set::of_tries(name, tosses, share)
     }
     fn is_short(toss: &CoinToss) -> bool {
-        RoughPhases::new(toss).largest().is_ok_and(|phase| phase <= LONGEST)
+        Phases::new(&(*toss).into()).is_ok_and(|phases| phases.largest <= LONGEST)
     }
     vec![
         set("phases to 1e2", Stepping::DEFAULT_TOLERANCE, |tries| random(tries, 1e2, 31)),
