@@ -1,8 +1,8 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, Drawn, HAND, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, Drawn, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::report::{Estimate, Precision};
+use toss::report::Estimate;
 use toss::{Error, InputError, Outcome, certify};
 
 use crate::thrown::{Thrown, malformed};
@@ -48,10 +48,9 @@ pub(crate) fn throws(thrown: &Thrown, spread: &str, number: u64, seed: u64) -> R
 }
 
 /// The largest spread with which P(heads) is at least `heads`.
-pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<Precision, Error> {
+pub(crate) fn precision(thrown: &Thrown, heads: &str) -> Result<LargestSpread, Error> {
     let scrambled = Scrambled::new(POINTS_OF_SEARCH, SEED);
-    let found = Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)?;
-    Ok(Precision::from(&found))
+    Sampler::exact().largest_spread(&thrown.space()?, &HAND, part("heads", heads)?, scrambled)
 }
 
 /// The most accurate plan for a space that spreads.

@@ -7,7 +7,7 @@ use dynamics::{
 };
 use exact::{ExactSolver, Sensitivity, Stage};
 use kinematics_quat::{IntegratedCounts, Integration, QuaternionSolver};
-use sampling::{Counts, Found, IntervalKind, LargestSpread, Plan, Rest, Scrambled, SufficientSpread};
+use sampling::{Counts, Found, IntervalKind, Plan, Rest, Scrambled};
 use serde::{Serialize, Serializer};
 
 use crate::choice::{Candidate, Choice, Decision, How};
@@ -495,40 +495,6 @@ impl Planned {
             certified: scene.by.as_ref().is_some_and(|by| by.prove),
             expected_cost_ns: *expected_cost_ns,
             passed_over: decision.passed_over.iter().map(other).collect(),
-        }
-    }
-}
-
-/// How precise a hand must be.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Precision {
-    /// `up_to`, `any`, `toss_is_not_heads` or `below_smallest`.
-    pub answer: &'static str,
-    /// The largest relative spread; the largest one that was tried where any will do.
-    pub spread: Option<f64>,
-    /// P(heads) at this spread.
-    pub probability: Option<f64>,
-    /// At how many spreads P(heads) was estimated.
-    pub looks: Option<u32>,
-    /// P(heads) at all smaller spreads from the smallest that is tried, as far as the estimates are right.
-    pub at_least: Option<f64>,
-}
-
-impl From<&LargestSpread> for Precision {
-    fn from(found: &LargestSpread) -> Self {
-        let (answer, found): (_, Option<&SufficientSpread>) = match found {
-            LargestSpread::UpTo(found) => ("up_to", Some(found)),
-            LargestSpread::AtLeast(found) => ("at_least", Some(found)),
-            LargestSpread::Any(found) => ("any", Some(found)),
-            LargestSpread::TossIsNotHeads(_) => ("toss_is_not_heads", None),
-            LargestSpread::BelowSmallest(_) => ("below_smallest", None),
-        };
-        Self {
-            answer,
-            spread: found.map(|found| found.spread),
-            probability: found.map(|found| found.estimate.probability),
-            looks: found.map(|found| found.looks),
-            at_least: found.map(|found| found.at_least),
         }
     }
 }
