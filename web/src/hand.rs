@@ -1,8 +1,7 @@
 //! P(heads) for a hand whose launches vary around the given one, and how precise a hand must be.
 
-use sampling::{Coordinate, Drawn, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
+use sampling::{Coordinate, Drawn, Estimate, HAND, LargestSpread, Plan, Rest, Sampler, Scrambled, Space};
 use serde::Serialize;
-use toss::report::Estimate;
 use toss::{Error, InputError, Outcome, certify};
 
 use crate::thrown::{Thrown, malformed};
@@ -26,7 +25,7 @@ pub(crate) struct Throws {
 pub(crate) fn probability(thrown: &Thrown, spread: &str) -> Result<Estimate, Error> {
     let space = thrown.space()?.with_spread(part("spread", spread)?, &HAND)?;
     let plan = plan(&space);
-    Ok(Estimate::new(&Sampler::exact().sampled(&space, plan)?, plan))
+    Sampler::exact().sampled(&space, plan)
 }
 
 /// How `number` random throws land, with the spread of [`probability`].

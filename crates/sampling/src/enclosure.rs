@@ -140,7 +140,7 @@ pub(crate) fn estimate(reports: Reports<'_>, space: &Space, accuracy: f64, most_
     require_enclosable(space)?;
     let coin = space.coin().ok_or_else(|| refused("method", "enclosure takes coins"))?;
     let found = enclosed(reports, (space, coin), accuracy, most_cells);
-    Ok(Estimate::of_enclosure(found.interval, found.cells))
+    Ok(Estimate::of_enclosure(accuracy, found.interval, found.cells))
 }
 
 /// The narrowest enclosure that `most_cells` cells give, or the first that is right to ± `accuracy`.

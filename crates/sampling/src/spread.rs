@@ -382,7 +382,7 @@ mod tests {
                     let spread = 0.01 * 1.06f64.powi(start);
                     let look = |spread: f64| {
                         let share = crate::exact_speed::Share::new(exact(spread), 0.0);
-                        Look { spread, estimate: Estimate::of_grid_share(share, 1, false) }
+                        Look { spread, estimate: Estimate::of_grid_share(Plan::Grid, share, 1, false) }
                     };
                     let (here, next) = (look(spread), look(spread * factor));
                     let bound = here.least_up_to(&next, 1);
