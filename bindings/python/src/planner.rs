@@ -1,6 +1,6 @@
 //! The planner: which model answers a question at the least cost.
 
-use ::toss::report::Planned;
+use ::toss::planner::Decision;
 use ::toss::{Scene, Want};
 use pyo3::prelude::*;
 
@@ -46,12 +46,18 @@ pub(crate) fn plan(
         (None, Some(scheme)) => return Err(malformed("scheme", scheme, "a solver with it")),
         (None, None) => {}
     }
-    let asked = scene.clone();
-    let decision = threads::aside(py, move |_| Ok(asked.plan()?))?;
-    let planned = Planned::new(&scene, &decision);
-    let Planned { model, solver, scheme, method, tolerance, points, expected_error, expected_cost_ns, .. } = planned;
-    let passed_over = planned.passed_over.into_iter().map(|other| (other.model, other.why)).collect();
-    Ok(Choice { model, solver, scheme, method, tolerance, points, expected_error, expected_cost_ns, passed_over })
+    let Decision { choice, passed_over } = threads::aside(py, move |_| Ok(scene.plan()?))?;
+    Ok(Choice {
+        model: choice.model.name,
+        solver: choice.solver().to_owned(),
+        scheme: choice.scheme(),
+        method: choice.method(),
+        tolerance: choice.tolerance(),
+        points: choice.points,
+        expected_error: choice.expected_error,
+        expected_cost_ns: choice.expected_cost_ns,
+        passed_over: passed_over.iter().map(|(other, why)| (other.to_string(), why.to_string())).collect(),
+    })
 }
 
 /// What may be wanted.

@@ -2,8 +2,7 @@
 //! in the browser, and yours. A report only reads what was computed, and nothing is read back from it.
 
 use dynamics::{
-    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, StepControl, Toss,
-    Work,
+    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, Toss, Work,
 };
 use exact::{ExactSolver, Margin, Sensitivity, Stage, margin};
 use kinematics_quat::{IntegratedCounts, Integration, QuaternionSolver};
@@ -11,11 +10,8 @@ use sampling::{Counts, Found, IntervalKind};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use crate::choice::{Candidate, Choice, Decision, How};
-use crate::reason::Reason;
 use crate::registry::{Backend, Registry};
 use crate::rounding::Rounding;
-use crate::scene::{Scene, Want};
 
 /// The moments of a body (kg m²).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -348,69 +344,6 @@ struct Named(Vec<(&'static str, u64)>);
 impl Serialize for Named {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().copied())
-    }
-}
-
-/// The model that a plan takes, and the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Planned {
-    /// Name of the model.
-    pub model: &'static str,
-    /// Name of the solver.
-    pub solver: String,
-    /// The scheme of an integrator.
-    pub scheme: Option<&'static str>,
-    /// The method by which a sample chooses its launches.
-    pub method: Option<&'static str>,
-    /// The tolerance of an integrator.
-    pub tolerance: Option<f64>,
-    /// The number of launches of a sample. The cells of an enclosure are not numbered before.
-    pub points: Option<u64>,
-    /// The error to expect.
-    pub expected_error: f64,
-    /// Whether no error is larger than that.
-    pub certified: bool,
-    /// The cost to expect (ns).
-    pub expected_cost_ns: f64,
-    /// The other models.
-    pub passed_over: Vec<PassedOver>,
-}
-
-/// A model that a plan does not take.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct PassedOver {
-    /// Name of the model, or `solver/scheme`.
-    pub model: String,
-    /// The reason in words.
-    pub why: String,
-}
-
-impl Planned {
-    /// The `decision` on the plan of `scene`.
-    pub fn new(scene: &Scene, decision: &Decision) -> Self {
-        let Choice { model, how, expected_error, expected_cost_ns } = &decision.choice;
-        let (integrator, plan) = match how {
-            How::ClosedForm => (None, None),
-            How::Integrator(entry, stepping) => (Some((entry, *stepping)), None),
-            How::Sampling(plan) => (None, Some(*plan)),
-        };
-        let space = if let Want::Probability(space) = &scene.want { Some(space) } else { None };
-        let other = |(model, why): &(Candidate, Reason)| PassedOver { model: model.to_string(), why: why.to_string() };
-        Self {
-            model: model.name,
-            solver: integrator.map_or(ExactSolver::NAME, |(entry, _)| entry.name()).to_owned(),
-            scheme: integrator.map(|(_, stepping)| stepping.scheme().name()),
-            method: plan.map(|plan| plan.method().name()),
-            tolerance: integrator.and_then(|(_, stepping)| match stepping.control() {
-                StepControl::Tolerance(tolerance) => Some(tolerance),
-                StepControl::Step(_) => None,
-            }),
-            points: plan.zip(space).and_then(|(plan, space)| plan.points(space).ok()),
-            expected_error: *expected_error,
-            certified: scene.by.as_ref().is_some_and(|by| by.prove),
-            expected_cost_ns: *expected_cost_ns,
-            passed_over: decision.passed_over.iter().map(other).collect(),
-        }
     }
 }
 
