@@ -1,7 +1,8 @@
 //! Estimates of probabilities.
 
 use ::toss::sampling::{self, Counts, Found, Space};
-use ::toss::{Answer, Backend, InputError, Registry, Scene, Stage, Want};
+use ::toss::{Answer, Backend, InputError, Registry, Scene, Want};
+use exact::STAGES;
 use pyo3::prelude::*;
 
 use crate::errors::Failure;
@@ -38,7 +39,7 @@ impl From<&sampling::Estimate> for Estimate {
     fn from(found: &sampling::Estimate) -> Self {
         let counts = if let Found::Counts(counts) = found.found { Some(counts) } else { None };
         let proven = counts.filter(Counts::are_certified).map(|counts| counts.proven());
-        let by_stage = proven.map(|counts| Stage::ALL.map(|stage| counts.by(stage)));
+        let by_stage = proven.map(|counts| STAGES.map(|stage| counts.by(stage)));
         let stages = |[f64, double_double, multiprecision]: [u64; 3]| Stages { f64, double_double, multiprecision };
         Self {
             probability: found.is_known().then_some(found.probability),

@@ -7,10 +7,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use ::toss::{
-    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, Stage, TimeOfFlight,
-    Toss, Tosses, Verdict, certify,
+    Attitude, Backend, Body, Error, ExactSolver, InputError, Launch, Outcome, SolveError, Solver, TimeOfFlight, Toss,
+    Tosses, Verdict, certify,
 };
 use dynamics::error::require;
+use exact::STAGES;
 use pyo3::PyResult;
 
 use crate::errors::{Failure, malformed};
@@ -23,7 +24,7 @@ const BLOCK: usize = 512;
 const COMPARED: usize = 64;
 
 /// Counts of outcomes: heads, tails, undecided, of these all without a proof, and by the stage of the proof.
-pub(crate) type Counts = [u64; 4 + Stage::ALL.len()];
+pub(crate) type Counts = [u64; 4 + STAGES.len()];
 
 /// The sum of counts.
 pub(crate) fn added(one: Counts, two: Counts) -> Counts {
@@ -259,7 +260,7 @@ impl Launches<'_> {
                 let verdict = self.of.verdict(toss)?;
                 let is = |face| u64::from(verdict.outcome() == face);
                 let by = |stage| u64::from(verdict.stage() == Some(stage));
-                let [f64, double_double, more] = Stage::ALL.map(by);
+                let [f64, double_double, more] = STAGES.map(by);
                 let [heads, tails, undecided] = [Outcome::Heads, Outcome::Tails, Outcome::Undecided].map(is);
                 let without_proof = u64::from(!verdict.is_proven());
                 sum = added(sum, [heads, tails, undecided, without_proof, f64, double_double, more]);
@@ -273,9 +274,8 @@ impl Launches<'_> {
             None => ::toss::Batch::new(self.tosses(self.of.body, range)?).count(),
         };
         let counts = counts.map_err(|error| self.failed(start, error))?;
-        let [f64, double_double, more] = Stage::ALL.map(|stage| counts.by(stage));
-        let [heads, tails, ties] = [counts.heads(), counts.tails(), counts.ties()];
-        Ok([heads, tails, ties, counts.without_proof(), f64, double_double, more])
+        let [f64, double_double, more] = STAGES.map(|stage| counts.by(stage));
+        Ok([counts.heads, counts.tails, counts.undecided, counts.without_proof, f64, double_double, more])
     }
 }
 

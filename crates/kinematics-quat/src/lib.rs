@@ -26,7 +26,6 @@ use nalgebra::SVector;
 use numerics::lanes::SimdLevel;
 
 pub use crate::prove::certificate::IntegratedCertificate;
-pub use crate::prove::certificate::Integration;
 pub use crate::prove::counts::{IntegratedCounts, Proving};
 use crate::prove::rigid_lanes::Bound;
 pub use crate::system::QuaternionSystem;

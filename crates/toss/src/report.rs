@@ -2,10 +2,10 @@
 //! in the browser, and yours. A report only reads what was computed, and nothing is read back from it.
 
 use dynamics::{
-    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, Toss, Work,
+    Body, Formulation, InputError, Landing as Landed, Outcome, SolveError, Solver, SolverConfig, Stage, Toss, Work,
 };
-use exact::{ExactSolver, Margin, Sensitivity, Stage, margin};
-use kinematics_quat::{IntegratedCounts, Integration, QuaternionSolver};
+use exact::{ExactSolver, Margin, STAGES, Sensitivity, margin};
+use kinematics_quat::{IntegratedCounts, QuaternionSolver};
 use sampling::{Counts, Found, IntervalKind};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -112,7 +112,7 @@ impl Landing {
         report.error_bound = Some(certificate.error_bound());
         report.attitude_error_bound = Some(certificate.attitude_error_bound());
         if certificate.outcome() != Outcome::Undecided {
-            report.prove("integrated", format!(", proven by integration in {}", certificate.integration()));
+            report.prove("integrated", format!(", proven by integration in {}", certificate.stage()));
         }
         Ok(report)
     }
@@ -317,16 +317,14 @@ impl Serialize for Estimate<'_> {
         map.serialize_entry("interval", &found.interval)?;
         map.serialize_entry("interval_kind", &found.interval_in_words())?;
         map.serialize_entry("proven", &(found.interval_kind == IntervalKind::Proven))?;
-        map.serialize_entry("certified", &integrated.map_or(proven.is_some(), |counts| counts.undecided() == 0))?;
+        map.serialize_entry("certified", &integrated.map_or(proven.is_some(), |counts| counts.undecided == 0))?;
         if let Some(proven) = proven {
             let names = ["f64", "double_double", "multiprecision"];
-            let by_stage = Stage::ALL.map(|stage| proven.by(stage));
-            map.serialize_entry("proven_by", &Named(names.into_iter().zip(by_stage).collect()))?;
+            map.serialize_entry("proven_by", &ByStage(names.into_iter().zip(STAGES).collect(), &proven))?;
         }
         if let Some(counts) = integrated {
             let names = ["coarse", "f64", "finest_tolerance", "double_double", "more_digits"];
-            let by_kind = Integration::ALL.map(|kind| counts.by(kind));
-            map.serialize_entry("integrated_by", &Named(names.into_iter().zip(by_kind).collect()))?;
+            map.serialize_entry("integrated_by", &ByStage(names.into_iter().zip(Stage::ALL).collect(), counts))?;
         }
         // A seed above 2^53 is a text, because readers that take numbers for f64, as JavaScript does, would round it.
         match found.plan.seed() {
@@ -338,12 +336,12 @@ impl Serialize for Estimate<'_> {
     }
 }
 
-/// Numbers by their names.
-struct Named(Vec<(&'static str, u64)>);
+/// The numbers of outcomes by these stages, each with its name.
+struct ByStage<'a>(Vec<(&'static str, Stage)>, &'a dynamics::Counts);
 
-impl Serialize for Named {
+impl Serialize for ByStage<'_> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(self.0.iter().copied())
+        to.collect_map(self.0.iter().map(|(name, stage)| (name, self.1.by(*stage))))
     }
 }
 

@@ -2,8 +2,8 @@
 //! interval of the estimate with it, as far as the method has one.
 
 use sampling::{Estimate, Interval, Method, Plan, Sampler, Space};
-use toss::solvers::{Integration, Proving};
-use toss::{Answer, Backend, Registry, Scene, Solver, Want, report};
+use toss::solvers::Proving;
+use toss::{Answer, Backend, Registry, Scene, Solver, Stage, Want, report};
 
 use crate::commands::parts::ShardArgs;
 use crate::estimate::text;
@@ -88,8 +88,8 @@ impl Args {
         let found = self.threads.ask(Sampler::by(&proving), (plan.points(space)?, "launches"), ask)?;
         let counts = proving.counts();
         Ok(self.format.print(input, &report::Estimate { found: &found, integrated: Some(&counts) }, || {
-            let kinds = Integration::ALL.map(|kind| format!("{kind} {}", counts.by(kind)));
-            format!("{}\nproven by    integration: {}", text(&found, proving.name()), kinds.join(", "))
+            let stages = Stage::ALL.map(|stage| format!("{stage} {}", counts.by(stage)));
+            format!("{}\nproven by    integration: {}", text(&found, proving.name()), stages.join(", "))
         }))
     }
 

@@ -6,11 +6,11 @@
 //! A body with three different moments that passes next to a turn about the middle axis multiplies its errors; if the bound
 //! then decides nothing even at the finest tolerance, the outcome stays undecided, or nothing is stated.
 
-use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, State, Toss, Work};
+use dynamics::{Attitude, CoinToss, Landing, Outcome, SolveError, Stage, State, Toss, Work};
 use numerics::UNIT_ROUNDOFF;
 use numerics::lanes::SimdLevel;
 
-use crate::prove::certificate::{IntegratedCertificate, Integration};
+use crate::prove::certificate::IntegratedCertificate;
 use crate::prove::coin_step::{StepBound, bounds};
 use crate::prove::digits::{self, in_digits, in_double_double};
 use crate::prove::flight::{attitude_bound, attitude_bound_of_body, steps};
@@ -49,7 +49,7 @@ trait Bounded: Motion {
         solver: &QuaternionSolver,
         flown: (&[Self::Toss], &StepPlans),
         level: SimdLevel,
-        by: Integration,
+        by: Stage,
     ) -> Vec<Certified>;
 
     /// What is stated of a toss that the finest tolerance leaves undecided, as `found`.
@@ -72,7 +72,7 @@ impl Bounded for Coins {
         solver: &QuaternionSolver,
         (tosses, plans): (&[CoinToss], &StepPlans),
         level: SimdLevel,
-        by: Integration,
+        by: Stage,
     ) -> Vec<Certified> {
         let mut landings = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
         fly_all::<Self>(plans, tosses, level, |index, landed| landings[index] = landed);
@@ -87,8 +87,8 @@ impl Bounded for Coins {
 
     /// Decides by more and more digits.
     fn undecided(toss: &CoinToss, mut found: IntegratedCertificate) -> Certified {
-        let double_double = || by_digits(toss, in_double_double(toss)?, Integration::DoubleDouble);
-        let more = |digits| by_digits(toss, in_digits(toss, digits)?, Integration::MoreDigits);
+        let double_double = || by_digits(toss, in_double_double(toss)?, Stage::DoubleDouble);
+        let more = |digits| by_digits(toss, in_digits(toss, digits)?, Stage::MoreDigits);
         for stage in [None].into_iter().chain(DIGITS.map(Some)) {
             if found.outcome == Outcome::Undecided {
                 let finer = stage.map_or_else(double_double, more)?;
@@ -112,7 +112,7 @@ impl Bounded for Enclosed {
         solver: &QuaternionSolver,
         (tosses, plans): (&[Toss], &StepPlans),
         level: SimdLevel,
-        by: Integration,
+        by: Stage,
     ) -> Vec<Certified> {
         let mut found = vec![Err(SolveError::NotFinite { time: 0.0 }); tosses.len()];
         fly_all::<Self>(plans, tosses, level, |index, landed| {
@@ -185,7 +185,7 @@ impl QuaternionSolver {
     /// The landing at the solver's own tolerance with its bounds.
     fn enclosed<B: Bounded>(&self, toss: &B::Toss) -> Certified {
         let flown = (std::slice::from_ref(toss), B::plans(self.require_proofs()?));
-        only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::AsConfigured))
+        only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Stage::F64))
     }
 
     /// The certificates of `tosses`.
@@ -194,7 +194,7 @@ impl QuaternionSolver {
             Ok(taylor) => B::plans(taylor),
             Err(error) => return vec![Err(error); tosses.len()],
         };
-        let first = B::enclosed(self, (tosses, plans), level, Integration::AsConfigured);
+        let first = B::enclosed(self, (tosses, plans), level, Stage::F64);
         tosses.iter().zip(first).map(|(toss, first)| self.decided::<B>(toss, first?)).collect()
     }
 
@@ -202,7 +202,7 @@ impl QuaternionSolver {
     fn decided<B: Bounded>(&self, toss: &B::Toss, mut found: IntegratedCertificate) -> Certified {
         if found.outcome == Outcome::Undecided && !self.is_finest() {
             let flown = (std::slice::from_ref(toss), &B::finest());
-            let finer = only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Integration::Finest))?;
+            let finer = only(B::enclosed(self, flown, SimdLevel::for_one_lane(), Stage::Finest))?;
             found = finer.with_work(found.work() + finer.work());
         }
         if found.outcome == Outcome::Undecided { B::undecided(toss, found) } else { Ok(found) }
@@ -214,7 +214,7 @@ impl QuaternionSolver {
         launched: Attitude,
         landed: &Landed,
         bound: f64,
-        integration: Integration,
+        stage: Stage,
     ) -> Result<IntegratedCertificate, SolveError> {
         let cos_tilt = cos_tilt(launched, landed.turn);
         let error_bound = (2.0 * bound + OF_COS_TILT).min(2.0);
@@ -223,7 +223,7 @@ impl QuaternionSolver {
             landing: self.landing(launched, landed)?.with_cos_tilt(cos_tilt),
             error_bound,
             attitude_error_bound: (bound + of_attitude(launched)).min(2.0),
-            integration,
+            stage,
         })
     }
 }
@@ -256,11 +256,7 @@ fn step_bounds(
 }
 
 /// A landing in more digits than f64.
-fn by_digits(
-    toss: &CoinToss,
-    landing: digits::Landing,
-    integration: Integration,
-) -> Result<IntegratedCertificate, SolveError> {
+fn by_digits(toss: &CoinToss, landing: digits::Landing, stage: Stage) -> Result<IntegratedCertificate, SolveError> {
     let not_finite = |_| SolveError::NotFinite { time: toss.launch.flight_time() };
     let turn = Attitude::from_components(landing.turn).map_err(not_finite)?;
     let attitude = toss.launch.attitude() * turn;
@@ -273,7 +269,7 @@ fn by_digits(
         landing: Landing::new(state, work).with_cos_tilt(landing.cos_tilt),
         error_bound: landing.cos_bound,
         attitude_error_bound: (landing.attitude_bound + of_attitude(toss.launch.attitude())).min(2.0),
-        integration,
+        stage,
     })
 }
 

@@ -1,11 +1,10 @@
 //! Proven outcomes of many tosses and nothing else. A coarse flight of a coin takes less time than a fine one, and has a
 //! bound, too. An outcome is undecided by it only where cos θ is as small as that bound.
 
-use dynamics::{CoinToss, Outcome, SolveError, Tilt, Toss};
+use dynamics::{CoinToss, Counts, Outcome, SolveError, Stage, Tilt, Toss};
 use numerics::lanes::SimdLevel;
 
 use crate::prove::certificate::IntegratedCertificate;
-use crate::prove::certificate::Integration;
 use crate::prove::coin_step::bounds;
 use crate::prove::driver::{OF_COS_TILT, cos_tilt};
 use crate::prove::flight::{attitude_bound, steps};
@@ -24,27 +23,33 @@ pub(crate) struct Decided {
     pub(crate) cos_tilt: f64,
     /// The bound of its error, which is proven.
     pub(crate) bound: f64,
-    pub(crate) integration: Integration,
+    pub(crate) stage: Stage,
 }
 
 impl Decided {
-    fn undecided(integration: Integration) -> Self {
-        Self { outcome: Outcome::Undecided, cos_tilt: 0.0, bound: 2.0, integration }
+    fn undecided(stage: Stage) -> Self {
+        Self { outcome: Outcome::Undecided, cos_tilt: 0.0, bound: 2.0, stage }
     }
 
     fn by(certificate: &IntegratedCertificate) -> Self {
-        let (outcome, integration) = (certificate.outcome(), certificate.integration());
+        let (outcome, stage) = (certificate.outcome(), certificate.stage());
         match outcome {
-            Outcome::Undecided => Self::undecided(integration),
+            Outcome::Undecided => Self::undecided(stage),
             _ => {
                 let (cos_tilt, bound) = (certificate.cos_tilt(), certificate.error_bound());
-                Self { outcome, cos_tilt, bound, integration }
+                Self { outcome, cos_tilt, bound, stage }
             }
         }
     }
-}
 
-impl Decided {
+    /// The outcome as counts.
+    pub(crate) fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        counts.add(self.outcome);
+        counts.add_by(self.stage, 1);
+        counts
+    }
+
     /// cos θ with the bound of its error.
     pub(crate) fn tilt(&self) -> Tilt {
         Tilt { cos_tilt: self.cos_tilt, error: Some(self.bound) }
@@ -67,7 +72,7 @@ impl QuaternionSolver {
 
     fn decide_coins(&self, tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
         let is_finer = self.require_proofs().is_ok() && self.taylor.is_some_and(|taylor| taylor.tolerance < COARSE);
-        let undecided = || vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
+        let undecided = || vec![Ok(Decided::undecided(Stage::Coarse)); tosses.len()];
         let mut found = if is_finer { coarse(tosses, level) } else { undecided() };
         let is_open = |index: &usize| matches!(&found[*index], Ok(found) if found.outcome == Outcome::Undecided);
         let open: Vec<usize> = (0..found.len()).filter(is_open).collect();
@@ -82,7 +87,7 @@ impl QuaternionSolver {
         if let Err(refused) = self.require_proofs() {
             return vec![Err(refused); tosses.len()];
         }
-        let last = if self.is_finest() { Integration::AsConfigured } else { Integration::Finest };
+        let last = if self.is_finest() { Stage::F64 } else { Stage::Finest };
         let decided = |found: Result<IntegratedCertificate, SolveError>| match found {
             Err(SolveError::NotProven { .. }) => Ok(Decided::undecided(last)),
             found => found.map(|certificate| Decided::by(&certificate)),
@@ -94,7 +99,7 @@ impl QuaternionSolver {
 /// The outcomes that coarse flights prove; the others are undecided.
 fn coarse(tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveError>> {
     let plans = StepPlans::of_coarse_coins(COARSE);
-    let mut found = vec![Ok(Decided::undecided(Integration::Coarse)); tosses.len()];
+    let mut found = vec![Ok(Decided::undecided(Stage::Coarse)); tosses.len()];
     let mut flown = Vec::with_capacity(tosses.len());
     fly_all::<Coins>(&plans, tosses, level, |index, landed| match landed {
         Ok(Landed { flight, turn, record: Some(record), .. }) => {
@@ -109,7 +114,7 @@ fn coarse(tosses: &[CoinToss], level: SimdLevel) -> Vec<Result<Decided, SolveErr
         let bound = 2.0 * bound + OF_COS_TILT;
         let outcome = Outcome::of(cos_tilt, bound);
         if outcome != Outcome::Undecided {
-            found[index] = Ok(Decided { outcome, cos_tilt, bound, integration: Integration::Coarse });
+            found[index] = Ok(Decided { outcome, cos_tilt, bound, stage: Stage::Coarse });
         }
     }
     found
@@ -190,7 +195,7 @@ mod tests {
         let heads = Toss::new(Coin::DISC, Launch::new([0.5, 0.25, 9.0], TimeOfFlight::Given(1.0)).unwrap());
         // A solver that is as coarse as a coarse flight needs no other one.
         let decided = solver(COARSE).decide(&[heads], SimdLevel::widest()).remove(0).unwrap();
-        assert_eq!((decided.outcome, decided.integration), (Outcome::Heads, Integration::AsConfigured));
+        assert_eq!((decided.outcome, decided.stage), (Outcome::Heads, Stage::F64));
         // A solver that proves nothing has no outcome of a coarse flight either.
         let taylor = Stepping::adaptive(Scheme::TAYLOR, 1e-9).unwrap();
         assert_eq!(solver(1e-9).prove_outcomes(&[heads], SimdLevel::widest()), [Ok(Outcome::Heads)]);

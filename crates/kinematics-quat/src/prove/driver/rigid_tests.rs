@@ -194,7 +194,7 @@ fn outcomes_are_those_of_the_exact_motion_or_undecided_within_the_bound() {
                     let within = found.cos_tilt().abs() <= found.error_bound();
                     let expected = if within { Outcome::Undecided } else { exact };
                     assert_eq!(found.outcome(), expected, "{toss:?}");
-                    finest += u32::from(found.integration() == Integration::Finest);
+                    finest += u32::from(found.stage() == Stage::Finest);
                 }
                 Err(error) => {
                     assert!(matches!(error, SolveError::NotProven { .. }), "{error}");
