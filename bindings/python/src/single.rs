@@ -7,7 +7,7 @@ use ::toss::sampling::{Cone, Interval, SameSide, Spread, Wobble, long_flight_con
 use ::toss::trace::trace_every;
 use ::toss::{
     Backend, ExactMotion, Launch, Margin, SolveError, Solver, Stage, State, StepControl, Stepping, TAYLOR,
-    TimeOfFlight, Toss, TracePoint, Work, margin, speeds_of_heads,
+    TimeOfFlight, Toss, Work, margin, speeds_of_heads,
 };
 use exact::motion::COS_TILT_ERROR;
 use numpy::{PyArray2, PyReadonlyArray1};
@@ -280,7 +280,7 @@ pub(crate) fn trace<'py>(
             (None, dt) => Ok(trace_every(&solver, &toss, dt.unwrap_or(toss.launch.flight_time()))?),
         }
     })?;
-    let rows: Vec<Vec<f64>> = flight.iter().map(row).collect();
+    let rows: Vec<Vec<f64>> = flight.iter().map(|point| point.numbers().into()).collect();
     Ok(PyArray2::from_vec2(py, &rows)?)
 }
 
@@ -303,17 +303,6 @@ impl Solver for Stopping<'_> {
         self.stop.here();
         self.solver.land(toss)
     }
-}
-
-/// The numbers of a point, without signs of 0, as the program prints them.
-fn row(point: &TracePoint) -> Vec<f64> {
-    let TracePoint { time, attitude, angles, normal, face, cos_tilt } = point;
-    let mut row = vec![*time];
-    row.extend(attitude.components());
-    row.extend([angles.alpha, angles.beta, angles.gamma]);
-    row.extend(normal.iter().chain(face.iter()));
-    row.push(*cos_tilt);
-    row.into_iter().map(|number| number + 0.0).collect()
 }
 
 /// Attitude and rate at each time as a column of 7, the cost, and the error estimate at landing.
