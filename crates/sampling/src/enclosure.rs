@@ -10,6 +10,8 @@
 
 mod cell;
 mod directions;
+mod function;
+mod means;
 mod roots;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -26,8 +28,10 @@ use crate::estimate::Estimate;
 use crate::fold::{Narrowed, Progress};
 use crate::interval::Interval;
 use crate::space::Space;
-use cell::{Bounds, Cell, MOST_DIRECTIONS, Problem};
+use cell::{Cell, MOST_DIRECTIONS};
 use directions::{Direction, directions_of};
+use function::Bounds;
+use means::Problem;
 
 /// The largest number of cells of one sum, unless another is given.
 pub const MOST_CELLS: u64 = 1 << 24;
