@@ -200,14 +200,8 @@ fn is_outside(space: &Space, accuracies: [f64; MOST_DIRECTIONS], points: u64) ->
 
 #[test]
 fn sampled_probabilities_meet_the_proven_ones() {
-    let outside = spaces().filter(|space| is_outside(space, [1e-8, 1e-5, 5e-3], 1 << 13)).count();
+    let outside = spaces().filter(|space| is_outside(space, [1e-6, 1e-3, 3e-2], 1 << 10)).count();
     assert!(spaces().count() == 120 && outside < 12, "{outside}");
-}
-
-#[test]
-fn a_few_sampled_probabilities_meet_the_proven_ones() {
-    let outside = spaces().step_by(11).filter(|space| is_outside(space, [1e-6, 1e-3, 3e-2], 1 << 10)).count();
-    assert!(outside < 3, "{outside}");
 }
 
 /// With a single speed, the share of heads is counted launch by launch.
@@ -314,18 +308,18 @@ fn a_computation_stops_at_its_number_of_cells() {
     let space =
         Space::builder(Coin::PAPER).rate_x(0.0).rate_y(1.0..=60.0).rate_z(1.0..=60.0).speed(3.0..=5.0).build().unwrap();
     let coin = space.coin().unwrap();
-    let all = enclosed(SILENT, (&space, coin), 1e-5, MOST_CELLS);
-    let few = enclosed(SILENT, (&space, coin), 1e-5, all.cells - 1);
+    let all = enclosed(SILENT, (&space, coin), 1e-4, MOST_CELLS);
+    let few = enclosed(SILENT, (&space, coin), 1e-4, all.cells - 1);
     assert!(few.cells < all.cells && few.interval.lo <= all.interval.hi && all.interval.lo <= few.interval.hi);
     // What was proven is the answer, and says that it is not what was asked for.
-    let found = estimate(SILENT, &space, 1e-5, all.cells - 1).unwrap();
+    let found = estimate(SILENT, &space, 1e-4, all.cells - 1).unwrap();
     assert_eq!((found.interval, found.points), (Some(few.interval), few.cells));
-    assert!(found.half_width().unwrap() > 1e-5 && found.is_wider_than_asked());
-    assert!(!estimate(SILENT, &space, 1e-5, MOST_CELLS).unwrap().is_wider_than_asked());
+    assert!(found.half_width().unwrap() > 1e-4 && found.is_wider_than_asked());
+    assert!(!estimate(SILENT, &space, 1e-4, MOST_CELLS).unwrap().is_wider_than_asked());
     #[cfg(feature = "rayon")]
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(pool.install(|| enclosed(SILENT, (&space, coin), 1e-5, MOST_CELLS)), all);
+        assert_eq!(pool.install(|| enclosed(SILENT, (&space, coin), 1e-4, MOST_CELLS)), all);
     }
 }
 

@@ -112,29 +112,29 @@ fn bodies() -> Vec<Body> {
     moments.map(|moments| Body::from_moments(moments).unwrap()).into_iter().chain(turned).collect()
 }
 
-/// Launches of all bodies at speeds up to `speed` (m/s) have errors within their bounds, of which the part `least` would not
-/// do.
-fn check_errors(speed: f64, least: f64) {
+/// So many launches of all bodies at speeds up to `speed` (m/s) have errors within their bounds, of which the part `least`
+/// would not do.
+fn check_errors(number: usize, speed: f64, least: f64) {
     for body in bodies() {
-        let launches = Columns::new(1500, 60.0, speed);
+        let launches = Columns::new(number, 60.0, speed);
         let (largest, tried) = largest_ratio(launches.tosses(body, Attitude::about_x(0.3)), 0.0..f64::MAX);
-        assert!(tried > 1490 && largest > least, "{body:?}: {largest:e} of {tried}");
+        assert!(tried + 10 > number && largest > least, "{body:?}: {largest:e} of {tried}");
     }
 }
 
 #[test]
 fn errors_of_short_flights_are_within_their_bounds() {
-    check_errors(0.02, 0.03);
+    check_errors(1500, 0.02, 0.03);
 }
 
 #[test]
 fn errors_are_within_their_bounds_of_which_a_tenth_would_not_do() {
-    check_errors(5.0, 0.1);
+    check_errors(1500, 5.0, 0.1);
 }
 
 #[test]
 fn errors_of_long_flights_are_within_their_bounds() {
-    check_errors(5e5, 0.01);
+    check_errors(400, 5e5, 0.01);
 }
 
 /// There the rounding of E counts, and the series end too early.
